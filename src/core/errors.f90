@@ -1,0 +1,46 @@
+module lagrangia_errors
+    !! Errors are values: the last argument of whatever can fail; allocated means failed.
+    implicit none (type, external)
+    private
+    public :: error_t, fail
+    public :: status_ok, status_not_held, status_usage, status_numbers, status_library, &
+              status_file, status_interrupted, status_terminated
+
+    integer, parameter :: status_ok = 0            !! all is well
+    integer, parameter :: status_not_held = 1      !! a check or a scene's tolerance did not hold
+    integer, parameter :: status_usage = 2         !! usage, scene or parameter error
+    integer, parameter :: status_numbers = 3       !! overflow, NaN, no convergence
+    integer, parameter :: status_library = 4       !! LAPACK or GSL refused
+    integer, parameter :: status_file = 5          !! a file could not be read or written
+    integer, parameter :: status_interrupted = 130 !! SIGINT
+    integer, parameter :: status_terminated = 143  !! SIGTERM
+
+    type :: error_t
+        !! What went wrong: one line for the user, and the exit status that belongs to it.
+        character(:), allocatable :: message
+        integer :: status = status_usage
+    contains
+        procedure :: add_context
+    end type error_t
+
+contains
+
+    pure subroutine fail(error, message, status)
+        !! Make `error` say `message`; the status is that of a usage error unless given.
+        type(error_t), allocatable, intent(out) :: error
+        character(*), intent(in) :: message
+        integer, intent(in), optional :: status
+
+        allocate (error)
+        error%message = message
+        if (present(status)) error%status = status
+    end subroutine fail
+
+    pure subroutine add_context(self, context)
+        !! Put `context: ` before the message.
+        class(error_t), intent(inout) :: self
+        character(*), intent(in) :: context
+
+        self%message = context//": "//self%message
+    end subroutine add_context
+end module lagrangia_errors

@@ -1,0 +1,10 @@
+module lagrangia_kinds
+    !! The number kinds of the toolkit.
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    implicit none (type, external)
+    private
+    public :: dp, i8
+
+    integer, parameter :: dp = real64  !! working precision
+    integer, parameter :: i8 = int64   !! step and evaluation counters
+end module lagrangia_kinds
