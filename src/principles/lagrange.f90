@@ -1,0 +1,123 @@
+module lagrangia_lagrange
+    !! Equations of motion from a Lagrangian alone: the oracle of every hand-derived equation.
+    !!
+    !! Lagrange's equations written out are
+    !! $$ M\,\ddot q = \frac{\partial L}{\partial q} - \frac{\partial^2 L}{\partial\dot q\,\partial q}
+    !!    \dot q - \frac{\partial^2 L}{\partial\dot q\,\partial t} + A^\top\lambda,\qquad
+    !!    M = \frac{\partial^2 L}{\partial\dot q\,\partial\dot q}, $$
+    !! with \(A\ddot q = -\dot A\dot q - \dot b\) where there are constraints \(A\dot q + b = 0\)
+    !! (Lagrange-d'Alembert: the constraint is *not* put into \(L\)). All derivatives are exact:
+    !! `L` is evaluated on hyper-dual numbers.
+    use lagrangia_errors, only: error_t
+    use lagrangia_hyperdual, only: hyperdual_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_lapack, only: solve_linear
+    use lagrangia_system, only: system_t
+    implicit none (type, external)
+    private
+    public :: euler_lagrange_t, expand_lagrangian, accelerations_from_lagrangian
+    public :: energy_from_lagrangian
+
+    type :: euler_lagrange_t
+        !! The Lagrangian's derivatives at one state.
+        real(dp) :: l = 0.0_dp
+        real(dp) :: dl_dt = 0.0_dp
+        real(dp), allocatable :: dl_dq(:), dl_dv(:)        !! generalised force and momentum
+        real(dp), allocatable :: mass(:, :)                !! \(\partial^2L/\partial v\partial v\)
+        real(dp), allocatable :: force(:)                  !! right-hand side of \(M\ddot q\)
+    end type euler_lagrange_t
+
+contains
+
+    pure subroutine expand_lagrangian(system, t, q, v, terms)
+        !! All first derivatives of `L` and the second ones that the equations of motion need.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        type(euler_lagrange_t), intent(out) :: terms
+        type(hyperdual_t) :: tt, qq(system%ndof), vv(system%ndof), l
+        integer :: i, j, n
+
+        n = system%ndof
+        allocate (terms%dl_dq(n), terms%dl_dv(n), terms%mass(n, n), terms%force(n))
+        tt%re = t
+        qq%re = q
+        vv%re = v
+        do i = 1, n
+            vv(i)%d1 = 1.0_dp
+            do j = i, n
+                vv(j)%d2 = 1.0_dp
+                l = system%lagrangian(tt, qq, vv)
+                terms%mass(i, j) = l%d12
+                terms%mass(j, i) = l%d12
+                vv(j)%d2 = 0.0_dp
+            end do
+            terms%dl_dv(i) = l%d1
+            ! along the motion (q_dot = v, t_dot = 1): d/dt of dL/dv at constant v
+            qq%d2 = v
+            tt%d2 = 1.0_dp
+            l = system%lagrangian(tt, qq, vv)
+            terms%force(i) = -l%d12
+            qq%d2 = 0.0_dp
+            tt%d2 = 0.0_dp
+            vv(i)%d1 = 0.0_dp
+            qq(i)%d1 = 1.0_dp
+            l = system%lagrangian(tt, qq, vv)
+            terms%dl_dq(i) = l%d1
+            qq(i)%d1 = 0.0_dp
+        end do
+        tt%d1 = 1.0_dp
+        l = system%lagrangian(tt, qq, vv)
+        terms%l = l%re
+        terms%dl_dt = l%d1
+        terms%force = terms%force + terms%dl_dq
+    end subroutine expand_lagrangian
+
+    subroutine accelerations_from_lagrangian(system, t, q, v, a, multipliers, error)
+        !! Accelerations, and the multipliers \(\lambda\) of the non-holonomic constraints.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        real(dp), intent(out) :: a(system%ndof), multipliers(system%constraints)
+        type(error_t), allocatable, intent(out) :: error
+        type(euler_lagrange_t) :: terms
+        type(hyperdual_t) :: tt, qq(system%ndof)
+        type(hyperdual_t) :: rows(system%constraints, system%ndof), drift(system%constraints)
+        real(dp), dimension(system%ndof + system%constraints, &
+                            system%ndof + system%constraints) :: matrix
+        real(dp), dimension(system%ndof + system%constraints) :: right, solution
+        integer :: n, k
+
+        n = system%ndof
+        k = system%constraints
+        a = 0.0_dp
+        multipliers = 0.0_dp
+        call expand_lagrangian(system, t, q, v, terms)
+        matrix = 0.0_dp
+        matrix(:n, :n) = terms%mass
+        right(:n) = terms%force
+        if (k > 0) then
+            tt%re = t
+            tt%d1 = 1.0_dp
+            qq%re = q
+            qq%d1 = v
+            call system%constraint_rows(tt, qq, rows, drift)
+            matrix(n + 1:, :n) = rows%re
+            matrix(:n, n + 1:) = -transpose(rows%re)
+            right(n + 1:) = -matmul(rows%d1, v) - drift%d1
+        end if
+        call solve_linear(matrix, right, solution, error)
+        if (allocated(error)) return
+        a = solution(:n)
+        multipliers = solution(n + 1:)
+    end subroutine accelerations_from_lagrangian
+
+    pure function energy_from_lagrangian(system, t, q, v) result(energy)
+        !! \(\dot q\,\partial L/\partial\dot q - L\).
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        real(dp) :: energy
+        type(euler_lagrange_t) :: terms
+
+        call expand_lagrangian(system, t, q, v, terms)
+        energy = dot_product(v, terms%dl_dv) - terms%l
+    end function energy_from_lagrangian
+end module lagrangia_lagrange

@@ -1,0 +1,167 @@
+module lagrangia_cart_pendulum
+    !! A pendulum that hangs from a cart which rolls freely along a horizontal line.
+    !!
+    !! Source: the lecture of 1 September 2011, cart-pendulum. The notes write
+    !! \(-m_2 g\ell\sin\theta\) in the \(\theta\)-equation, against their own Lagrangian and
+    !! their own frequency; the sign below is the one that follows from \(L\).
+    use lagrangia_description, only: conserved, coordinate, description_t, point, positive, &
+                                     nonnegative, quantity
+    use lagrangia_errors, only: error_t
+    use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
+                                   operator(-), sin
+    use lagrangia_kinds, only: dp
+    use lagrangia_system, only: check_parameters, system_t
+    implicit none (type, external)
+    private
+    public :: cart_pendulum_t
+
+    type, extends(system_t) :: cart_pendulum_t
+        !! Coordinates: \(x\), m, of the cart; \(\theta\), rad, from the downward vertical.
+        real(dp) :: m1 = 1.0_dp  !! cart, kg
+        real(dp) :: m2 = 1.0_dp  !! bob, kg
+        real(dp) :: l = 1.0_dp   !! rod, m
+        real(dp) :: g = 9.81_dp  !! m s^-2
+    contains
+        procedure :: describe
+        procedure :: configure
+        procedure :: accelerations
+        procedure :: lagrangian
+        procedure :: energy
+        procedure :: quantity => momentum_or_force
+        procedure :: positions
+    end type cart_pendulum_t
+
+contains
+
+    pure subroutine describe(self, d)
+        !! See `system_t`.
+        class(cart_pendulum_t), intent(in) :: self
+        type(description_t), intent(out) :: d
+
+        d%name = "cart_pendulum"
+        d%title = "a pendulum hanging from a cart that rolls freely"
+        d%coordinates = [coordinate("x", "m", "position of the cart"), &
+                         coordinate("theta", "rad", "angle of the rod from the downward vertical")]
+        d%parameters = [positive("m1", "kg", "mass of the cart", self%m1), &
+                        positive("m2", "kg", "mass of the bob", self%m2), &
+                        positive("l", "m", "length of the rod", self%l), &
+                        nonnegative("g", "m/s^2", "gravity", self%g)]
+        associate (m => self%m1 + self%m2)
+            d%energy_scale = self%m2*self%g*self%l
+            d%quantities = [ &
+                conserved("p_x", "kg m/s", "(m1 + m2) x_dot + m2 l theta_dot cos(theta): "// &
+                          "momentum along x, which is cyclic", m*sqrt(self%g*self%l)), &
+                conserved("x_com", "m", "x + m2/(m1 + m2) l sin(theta) - p_x t/(m1 + m2): "// &
+                          "start of the centre of mass", self%l), &
+                quantity("tension", "N", "m1 m2 (l theta_dot^2 + g cos(theta))/"// &
+                         "(m1 + m2 sin(theta)^2): force along the rod")]
+        end associate
+        d%points = [point("cart", self%m1), point("bob", self%m2)]
+        d%lagrangian = [character(len(d%title)) :: &
+            "(m1 + m2)/2 x_dot^2 + m2/2 l^2 theta_dot^2 + m2 l x_dot theta_dot cos(theta)", &
+            "+ m2 g l cos(theta)"]
+        d%energy = "(m1 + m2)/2 x_dot^2 + m2/2 l^2 theta_dot^2 + m2 l x_dot theta_dot cos(theta)"// &
+                   " - m2 g l cos(theta)"
+        d%equations = [character(len(d%title)) :: &
+            "(m1 + m2) x_ddot + m2 l theta_ddot cos(theta) - m2 l theta_dot^2 sin(theta) = 0", &
+            "l theta_ddot + x_ddot cos(theta) + g sin(theta) = 0"]
+        d%constraint = "holonomic, scleronomic: (x_bob - x)^2 + y_bob^2 = l^2"
+        d%notes = [character(len(d%title)) :: &
+            "The notes have - m2 g l sin(theta): a slip, see their own L and frequency.", &
+            "Small oscillations: omega^2 = (m1 + m2) g/(m1 l), exact for the linearised system.", &
+            "With p_x = 0 the bob moves on an ellipse of semi-axes m1 l/(m1 + m2) and l."]
+        d%source = "Phys 601, 1 September 2011: cart-pendulum"
+    end subroutine describe
+
+    pure subroutine configure(self, values, error)
+        !! Parameters: m1, m2, l, g.
+        class(cart_pendulum_t), intent(inout) :: self
+        real(dp), intent(in) :: values(:)
+        type(error_t), allocatable, intent(out) :: error
+
+        call check_parameters(self, values, error)
+        if (allocated(error)) return
+        self%ndof = 2
+        self%cyclic = 1
+        self%m1 = values(1)
+        self%m2 = values(2)
+        self%l = values(3)
+        self%g = values(4)
+    end subroutine configure
+
+    pure subroutine accelerations(self, t, q, v, a)
+        !! $$ \ddot x = \frac{m_2\sin\theta\,(\ell\dot\theta^2 + g\cos\theta)}{D},\quad
+        !!    \ddot\theta = -\frac{\sin\theta\,[(m_1+m_2)g + m_2\ell\dot\theta^2\cos\theta]}{\ell D}
+        !! $$ with \(D = m_1 + m_2\sin^2\theta \ge m_1 > 0\).
+        class(cart_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: a(self%ndof)
+        real(dp) :: s, c, d
+
+        associate (m1 => self%m1, m2 => self%m2, l => self%l, g => self%g, theta_dot => v(2))
+            s = sin(q(2))
+            c = cos(q(2))
+            d = m1 + m2*s**2
+            a(1) = m2*s*(l*theta_dot**2 + g*c)/d
+            a(2) = -s*((m1 + m2)*g + m2*l*theta_dot**2*c)/(l*d)
+        end associate
+    end subroutine accelerations
+
+    pure function lagrangian(self, t, q, v) result(l)
+        !! $$ L = \tfrac12(m_1+m_2)\dot x^2 + \tfrac12 m_2\ell^2\dot\theta^2
+        !!      + m_2\ell\dot x\dot\theta\cos\theta + m_2 g\ell\cos\theta $$
+        class(cart_pendulum_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t) :: l
+
+        associate (m1 => self%m1, m2 => self%m2, r => self%l, g => self%g)
+            l = 0.5_dp*(m1 + m2)*v(1)**2 + 0.5_dp*m2*r**2*v(2)**2 &
+                + m2*r*v(1)*v(2)*cos(q(2)) + m2*g*r*cos(q(2))
+        end associate
+    end function lagrangian
+
+    pure function energy(self, t, q, v) result(e)
+        !! $$ E = \tfrac12(m_1+m_2)\dot x^2 + \tfrac12 m_2\ell^2\dot\theta^2
+        !!      + m_2\ell\dot x\dot\theta\cos\theta - m_2 g\ell\cos\theta $$
+        class(cart_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: e
+
+        associate (m1 => self%m1, m2 => self%m2, l => self%l, g => self%g)
+            e = 0.5_dp*(m1 + m2)*v(1)**2 + 0.5_dp*m2*l**2*v(2)**2 &
+                + m2*l*v(1)*v(2)*cos(q(2)) - m2*g*l*cos(q(2))
+        end associate
+    end function energy
+
+    pure function momentum_or_force(self, i, t, q, v) result(value)
+        !! 1: \(p_x\). 2: where the centre of mass was at \(t = 0\). 3: the rod's tension.
+        class(cart_pendulum_t), intent(in) :: self
+        integer, intent(in) :: i
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: value, p
+
+        associate (m1 => self%m1, m2 => self%m2, l => self%l, g => self%g)
+            p = (m1 + m2)*v(1) + m2*l*v(2)*cos(q(2))
+            select case (i)
+            case (1)
+                value = p
+            case (2)
+                value = q(1) + m2/(m1 + m2)*l*sin(q(2)) - p*t/(m1 + m2)
+            case default
+                value = m1*m2*(l*v(2)**2 + g*cos(q(2)))/(m1 + m2*sin(q(2))**2)
+            end select
+        end associate
+    end function momentum_or_force
+
+    pure subroutine positions(self, t, q, r)
+        !! Cart \((x, 0)\), bob \((x + \ell\sin\theta, -\ell\cos\theta)\).
+        class(cart_pendulum_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof)
+        type(hyperdual_t), intent(out) :: r(:, :)
+
+        r = hyperdual_t()
+        r(1, 1) = q(1)
+        r(1, 2) = q(1) + self%l*sin(q(2))
+        r(2, 2) = -self%l*cos(q(2))
+    end subroutine positions
+end module lagrangia_cart_pendulum

@@ -1,0 +1,162 @@
+module lagrangia_description
+    !! What a system says of itself: plain data, read by `describe`, scenes, columns and tests.
+    use lagrangia_kinds, only: dp
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: description_t, quantity_t, parameter_t, point_t
+    public :: coordinate, conserved, quantity, positive, nonnegative, number, vector, point
+    public :: name_length, line_length
+
+    integer, parameter :: name_length = 32   !! of a name
+    integer, parameter :: line_length = 120  !! of a line of text
+
+    type :: quantity_t
+        !! A coordinate, or a function of the state.
+        character(name_length) :: name = ""
+        character(16) :: unit = "1"
+        character(line_length) :: meaning = ""
+        logical :: conserved = .false.
+        real(dp) :: scale = 0.0_dp  !! what a drift is compared with where the start value is small
+    end type quantity_t
+
+    type :: parameter_t
+        !! One parameter: a number, or a vector of up to three, and what is allowed.
+        character(name_length) :: name = ""
+        character(16) :: unit = "1"
+        character(line_length) :: meaning = ""
+        integer :: count = 1
+        real(dp) :: value(3) = 0.0_dp
+        real(dp) :: lower = -huge(1.0_dp)
+        real(dp) :: upper = huge(1.0_dp)
+        logical :: open_lower = .false.          !! `lower` itself is not allowed
+        character(name_length) :: computed = ""  !! the formula of a default that others determine
+    contains
+        procedure :: domain
+    end type parameter_t
+
+    type :: point_t
+        !! A mass point (or a body's centre) whose Cartesian position is known.
+        character(name_length) :: name = ""
+        real(dp) :: mass = 0.0_dp  !! kg
+    end type point_t
+
+    type :: description_t
+        character(name_length) :: name = ""
+        character(line_length) :: title = ""          !! a few words for a list
+        type(quantity_t), allocatable :: coordinates(:)
+        type(parameter_t), allocatable :: parameters(:)
+        type(quantity_t), allocatable :: quantities(:)   !! beside the energy
+        type(point_t), allocatable :: points(:)
+        integer :: dimensions = 2                     !! of the space that the points move in
+        real(dp) :: energy_scale = 0.0_dp             !! J
+        character(line_length) :: energy = ""         !! its formula
+        character(line_length), allocatable :: lagrangian(:)
+        character(line_length), allocatable :: equations(:)
+        character(line_length) :: constraint = ""     !! class and equation of its constraints
+        character(line_length), allocatable :: notes(:)  !! slips corrected, limits, remarks
+        character(line_length) :: source = ""         !! where in the lecture notes
+    end type description_t
+
+contains
+
+    pure function coordinate(name, unit, meaning) result(item)
+        !! A generalised coordinate.
+        character(*), intent(in) :: name, unit, meaning
+        type(quantity_t) :: item
+
+        item = quantity(name, unit, meaning)
+    end function coordinate
+
+    pure function quantity(name, unit, meaning) result(item)
+        !! A function of the state that may change.
+        character(*), intent(in) :: name, unit, meaning
+        type(quantity_t) :: item
+
+        item%name = name
+        item%unit = unit
+        item%meaning = meaning
+    end function quantity
+
+    pure function conserved(name, unit, meaning, scale) result(item)
+        !! A function of the state that the motion conserves.
+        character(*), intent(in) :: name, unit, meaning
+        real(dp), intent(in) :: scale  !! a natural size, from the parameters
+        type(quantity_t) :: item
+
+        item = quantity(name, unit, meaning)
+        item%conserved = .true.
+        item%scale = scale
+    end function conserved
+
+    pure function number(name, unit, meaning, value) result(item)
+        !! A parameter that may be any finite number.
+        character(*), intent(in) :: name, unit, meaning
+        real(dp), intent(in) :: value
+        type(parameter_t) :: item
+
+        item%name = name
+        item%unit = unit
+        item%meaning = meaning
+        item%value(1) = value
+    end function number
+
+    pure function positive(name, unit, meaning, value, computed) result(item)
+        !! A parameter that must be greater than zero.
+        character(*), intent(in) :: name, unit, meaning
+        real(dp), intent(in) :: value
+        character(*), intent(in), optional :: computed
+        type(parameter_t) :: item
+
+        item = nonnegative(name, unit, meaning, value, computed)
+        item%open_lower = .true.
+    end function positive
+
+    pure function nonnegative(name, unit, meaning, value, computed) result(item)
+        !! A parameter that must not be negative.
+        character(*), intent(in) :: name, unit, meaning
+        real(dp), intent(in) :: value
+        character(*), intent(in), optional :: computed
+        type(parameter_t) :: item
+
+        item = number(name, unit, meaning, value)
+        item%lower = 0.0_dp
+        if (present(computed)) item%computed = computed
+    end function nonnegative
+
+    pure function vector(name, unit, meaning, value) result(item)
+        !! A parameter of three components.
+        character(*), intent(in) :: name, unit, meaning
+        real(dp), intent(in) :: value(3)
+        type(parameter_t) :: item
+
+        item = number(name, unit, meaning, 0.0_dp)
+        item%count = 3
+        item%value = value
+    end function vector
+
+    pure function point(name, mass) result(item)
+        !! A point of mass `mass`, kg.
+        character(*), intent(in) :: name
+        real(dp), intent(in) :: mass
+        type(point_t) :: item
+
+        item%name = name
+        item%mass = mass
+    end function point
+
+    pure function domain(self) result(text)
+        !! What is allowed, in words.
+        class(parameter_t), intent(in) :: self
+        character(:), allocatable :: text
+
+        text = "any finite number"
+        if (self%lower > -huge(1.0_dp) .and. self%upper < huge(1.0_dp)) then
+            text = "from "//to_text(self%lower)//" to "//to_text(self%upper)
+            if (self%open_lower) text = text//", above "//to_text(self%lower)
+        else if (self%lower > -huge(1.0_dp)) then
+            text = merge("greater than ", "at least     ", self%open_lower)
+            text = trim(text)//" "//to_text(self%lower)
+        end if
+    end function domain
+end module lagrangia_description

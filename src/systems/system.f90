@@ -1,0 +1,200 @@
+module lagrangia_system
+    !! The contract of a lecture system: what a file in `src/systems` says, and others may ask.
+    !!
+    !! The state is the pair \((q, v)\), \(v = \dot q\). A system says what it is (`describe`),
+    !! takes its parameters (`configure`), and gives its equations of motion twice: as the page
+    !! has them (`accelerations`), and as the Lagrangian that they were derived from.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
+    use lagrangia_description, only: description_t, name_length, parameter_t
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_hyperdual, only: hyperdual_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: system_t, system_box_t
+    public :: check_parameter, check_parameters, default_values
+
+    type, abstract :: system_t
+        integer :: ndof = 0                  !! number of coordinates
+        logical :: velocity_forces = .true.  !! accelerations depend on the velocities
+        logical :: time_dependent = .false.  !! the Lagrangian contains the time
+        integer :: constraints = 0           !! rows of non-holonomic constraints
+        integer :: cyclic = 0                !! index of a cyclic coordinate, 0 if none
+    contains
+        procedure(describe_i), deferred :: describe
+        procedure(configure_i), deferred :: configure
+        procedure(accelerations_i), deferred :: accelerations
+        procedure(lagrangian_i), deferred :: lagrangian
+        procedure(energy_i), deferred :: energy
+        procedure :: quantity => no_quantity
+        procedure :: positions => no_positions
+        procedure :: constraint_rows => no_constraint_rows
+        procedure :: complete_velocities
+    end type system_t
+
+    type :: system_box_t
+        !! A place for one system of any kind.
+        class(system_t), allocatable :: item
+    end type system_box_t
+
+    abstract interface
+        pure subroutine describe_i(self, d)
+            !! Say what the system is. Of a fresh object the parameters are the defaults.
+            import :: system_t, description_t
+            implicit none (type, external)
+            class(system_t), intent(in) :: self
+            type(description_t), intent(out) :: d
+        end subroutine describe_i
+
+        pure subroutine configure_i(self, values, error)
+            !! Take all parameters, in the order of `describe`; fails where one is not allowed.
+            !! NaN stands for "not given" where the default follows from the other parameters.
+            import :: system_t, dp, error_t
+            implicit none (type, external)
+            class(system_t), intent(inout) :: self
+            real(dp), intent(in) :: values(:)
+            type(error_t), allocatable, intent(out) :: error
+        end subroutine configure_i
+
+        pure subroutine accelerations_i(self, t, q, v, a)
+            !! Solve the equations of motion for \(\ddot q\).
+            import :: system_t, dp
+            implicit none (type, external)
+            class(system_t), intent(in) :: self
+            real(dp), intent(in) :: t              !! time, s
+            real(dp), intent(in) :: q(self%ndof)   !! coordinates
+            real(dp), intent(in) :: v(self%ndof)   !! velocities
+            real(dp), intent(out) :: a(self%ndof)  !! accelerations
+        end subroutine accelerations_i
+
+        pure function lagrangian_i(self, t, q, v) result(l)
+            !! \(L(t, q, \dot q)\), J, on hyper-dual numbers: exact first and second derivatives.
+            import :: system_t, hyperdual_t
+            implicit none (type, external)
+            class(system_t), intent(in) :: self
+            type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+            type(hyperdual_t) :: l
+        end function lagrangian_i
+
+        pure function energy_i(self, t, q, v) result(e)
+            !! The energy function \(\dot q\,\partial L/\partial\dot q - L\), J. It is conserved
+            !! unless `time_dependent`, and is \(T + V\) unless the coordinates move by themselves.
+            import :: system_t, dp
+            implicit none (type, external)
+            class(system_t), intent(in) :: self
+            real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+            real(dp) :: e
+        end function energy_i
+    end interface
+
+contains
+
+    pure function no_quantity(self, i, t, q, v) result(value)
+        !! Entry `i` of the quantities in the description: here there are none.
+        class(system_t), intent(in) :: self
+        integer, intent(in) :: i
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: value
+
+        value = 0.0_dp
+    end function no_quantity
+
+    pure subroutine no_positions(self, t, q, r)
+        !! Cartesian positions, m, of the points in the description, `r(3, points)`: here none.
+        class(system_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof)
+        type(hyperdual_t), intent(out) :: r(:, :)
+
+        r = hyperdual_t()
+    end subroutine no_positions
+
+    pure subroutine no_constraint_rows(self, t, q, rows, drift)
+        !! The non-holonomic constraints \(A(t,q)\,\dot q + b(t,q) = 0\), `rows(constraints, ndof)`
+        !! and `drift(constraints)`: here there are none.
+        class(system_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof)
+        type(hyperdual_t), intent(out) :: rows(:, :), drift(:)
+
+        rows = hyperdual_t()
+        drift = hyperdual_t()
+    end subroutine no_constraint_rows
+
+    pure subroutine complete_velocities(self, t, q, given, v, error)
+        !! All velocities from those that a scene gives: here every one must be given.
+        class(system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), given(:)
+        real(dp), intent(out) :: v(self%ndof)
+        type(error_t), allocatable, intent(out) :: error
+
+        v = 0.0_dp
+        if (size(given) /= self%ndof) then
+            call fail(error, "v takes "//to_text(self%ndof)//" values, not "//to_text(size(given)))
+            return
+        end if
+        v = given
+    end subroutine complete_velocities
+
+    pure subroutine check_parameter(p, error)
+        !! Refuse a parameter whose value is outside its domain or not finite.
+        type(parameter_t), intent(in) :: p
+        type(error_t), allocatable, intent(out) :: error
+        logical :: good
+        integer :: i
+
+        do i = 1, p%count
+            if (len_trim(p%computed) > 0 .and. ieee_is_nan(p%value(i))) cycle
+            good = ieee_is_finite(p%value(i)) .and. p%value(i) <= p%upper
+            if (p%open_lower) then
+                good = good .and. p%value(i) > p%lower
+            else
+                good = good .and. p%value(i) >= p%lower
+            end if
+            if (.not. good) then
+                call fail(error, trim(p%name)//" = "//to_text(p%value(i))// &
+                          " is not allowed: "//p%domain())
+                return
+            end if
+        end do
+    end subroutine check_parameter
+
+    pure subroutine check_parameters(self, values, error)
+        !! Refuse `values` that are too many, too few or outside their domains.
+        class(system_t), intent(in) :: self
+        real(dp), intent(in) :: values(:)
+        type(error_t), allocatable, intent(out) :: error
+        type(description_t) :: d
+        integer :: i, first
+
+        call self%describe(d)
+        if (size(values) /= sum(d%parameters%count)) then
+            call fail(error, trim(d%name)//": takes "//to_text(sum(d%parameters%count))// &
+                      " parameter values, not "//to_text(size(values)))
+            return
+        end if
+        first = 1
+        do i = 1, size(d%parameters)
+            associate (p => d%parameters(i))
+                p%value(:p%count) = values(first:first + p%count - 1)
+                first = first + p%count
+            end associate
+            call check_parameter(d%parameters(i), error)
+            if (allocated(error)) then
+                call error%add_context(trim(d%name))
+                return
+            end if
+        end do
+    end subroutine check_parameters
+
+    pure function default_values(d) result(values)
+        !! The parameters of a description as the flat list that `configure` takes.
+        type(description_t), intent(in) :: d
+        real(dp), allocatable :: values(:)
+        integer :: i
+
+        allocate (values(0))
+        do i = 1, size(d%parameters)
+            values = [values, d%parameters(i)%value(:d%parameters(i)%count)]
+        end do
+    end function default_values
+end module lagrangia_system
