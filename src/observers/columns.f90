@@ -5,7 +5,7 @@ module lagrangia_columns
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: join, nearest
+    use lagrangia_text, only: join, nearest_name
     implicit none (type, external)
     private
     public :: columns_t, new_columns, column_names
@@ -59,6 +59,12 @@ contains
             end do
             if (j > size(all)) then
                 call refuse(trim(names(i)), d, all, error)
+            else if (any(names(:i - 1) == names(i))) then
+                call fail(error, "the column is there already")
+            end if
+            if (allocated(error)) then
+                error%key = "columns"
+                error%element = i
                 return
             end if
             self%items(i) = all(j)
@@ -144,7 +150,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
         character(:), allocatable :: near
 
-        near = nearest(name, all%name)
+        near = nearest_name(name, all%name)
         if (name == "error") then
             call fail(error, "column 'error': "//trim(d%name)//" has no closed form from this "// &
                       "start; with expect_error it is estimated")

@@ -18,11 +18,13 @@ module lagrangia_record
         class(table_t), allocatable :: table              !! absent: nothing is written
         class(reference_t), allocatable :: reference      !! a closed form,
         type(shadow_t), allocatable :: shadow             !! or the run at half the step
+        real(dp) :: time = 0.0_dp                         !! of the latest sample, s
         real(dp), allocatable :: row(:)                   !! the latest sample
-        real(dp), allocatable :: worst(:)                 !! largest magnitude of each column
+        real(dp), allocatable :: low(:), high(:)          !! range of each column so far
         integer(i8) :: rows = 0
     contains
         procedure :: observe
+        procedure :: worst
     end type record_t
 
 contains
@@ -44,11 +46,23 @@ contains
         end if
         if (.not. allocated(self%row)) then
             allocate (self%row(size(self%columns%items)))
-            allocate (self%worst(size(self%columns%items)), source=0.0_dp)
+            allocate (self%low(size(self%row)), source=huge(t))
+            allocate (self%high(size(self%row)), source=-huge(t))
         end if
         call self%columns%evaluate(system, t, q, v, deviation, self%row)
-        self%worst = max(self%worst, abs(self%row))
+        self%low = min(self%low, self%row)
+        self%high = max(self%high, self%row)
         if (allocated(self%table)) call self%table%row(self%row(:self%shown))
+        self%time = t
         self%rows = self%rows + 1
     end subroutine observe
+
+    pure function worst(self, i) result(value)
+        !! The largest magnitude of column `i` so far.
+        class(record_t), intent(in) :: self
+        integer, intent(in) :: i
+        real(dp) :: value
+
+        value = max(abs(self%low(i)), abs(self%high(i)))
+    end function worst
 end module lagrangia_record

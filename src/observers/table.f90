@@ -13,6 +13,7 @@ module lagrangia_table
         procedure(begin_i), deferred :: begin  !! the header; `names` and `units` a column
         procedure(row_i), deferred :: row      !! one sample; failures are seen by `finish`
         procedure(finish_i), deferred :: finish
+        procedure(reading_i), deferred :: reading
     end type table_t
 
     abstract interface
@@ -38,5 +39,13 @@ module lagrangia_table
             character(*), intent(in) :: counts           !! the line that is known only now
             type(error_t), allocatable, intent(out) :: error
         end subroutine finish_i
+
+        pure function reading_i(self) result(words)
+            !! What gnuplot needs behind the file's name to read it, with a blank at the end.
+            import :: table_t
+            implicit none (type, external)
+            class(table_t), intent(in) :: self
+            character(:), allocatable :: words
+        end function reading_i
     end interface
 end module lagrangia_table

@@ -26,27 +26,30 @@ module lagrangia_run
 
 contains
 
-    pure subroutine new_plan(plan, t0, dt, duration, error)
+    pure subroutine new_plan(plan, t0, dt, duration, every, error)
         !! Count the steps; fails where they cannot be counted or do not move the time.
         type(plan_t), intent(out) :: plan
         real(dp), intent(in) :: t0, dt, duration
+        integer(i8), intent(in) :: every  !! steps between samples
         type(error_t), allocatable, intent(out) :: error
         real(dp) :: count
         integer(i8) :: whole
 
         count = duration/dt
         if (count > 1e15_dp) then
-            call fail(error, "duration/dt = "//to_text(count)//" steps are too many to count")
+            call fail(error, "duration/dt = "//to_text(count)//" steps are too many to count", &
+                      key="dt")
             return
         end if
         if (abs(t0) + duration + dt <= abs(t0) + duration) then
-            call fail(error, "dt = "//to_text(dt)//" is too small to move the time at the end, t = "// &
-                      to_text(t0 + duration))
+            call fail(error, "is too small to move the time near t = "//to_text(t0 + duration), &
+                      key="dt")
             return
         end if
         plan%t0 = t0
         plan%dt = dt
         plan%duration = duration
+        plan%every = every
         whole = nint(count, i8)
         if (abs(count - whole) <= 8.0_dp*epsilon(count)*max(1.0_dp, count)) then
             plan%steps = whole
