@@ -1,0 +1,21 @@
+program main
+    !! Run every suite. A new suite takes two lines here: one `use`, one `addTest`.
+    use funit, only: TestSuite, finalize, initialize, run, stub
+    use test_errors, only: errors_suite
+    implicit none (type, external)
+    logical :: ok
+
+    call initialize(stub)
+    ok = run(load_tests)
+    call finalize(stub, ok)
+
+contains
+
+    function load_tests() result(suite)
+        !! All suites, in the order they run.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("lagrangia")
+        call suite%addTest(errors_suite())
+    end function load_tests
+end program main
