@@ -5,7 +5,8 @@ module lagrangia_description
     implicit none (type, external)
     private
     public :: description_t, quantity_t, parameter_t, point_t
-    public :: coordinate, conserved, quantity, positive, nonnegative, number, vector, point
+    public :: coordinate, conserved, quantity, positive, nonnegative, between, number, &
+              vector, point
     public :: name_length, line_length
 
     integer, parameter :: name_length = 32   !! of a name
@@ -123,6 +124,17 @@ contains
         item%lower = 0.0_dp
         if (present(computed)) item%computed = computed
     end function nonnegative
+
+    pure function between(name, unit, meaning, value, lower, upper) result(item)
+        !! A parameter from `lower` to `upper`, both allowed.
+        character(*), intent(in) :: name, unit, meaning
+        real(dp), intent(in) :: value, lower, upper
+        type(parameter_t) :: item
+
+        item = number(name, unit, meaning, value)
+        item%lower = lower
+        item%upper = upper
+    end function between
 
     pure function vector(name, unit, meaning, value) result(item)
         !! A parameter of three components.

@@ -1,0 +1,205 @@
+module lagrangia_atwood
+    !! Atwood's machine: two masses on a string over a pulley, whose support may accelerate.
+    !!
+    !! Source: Hamilton's Principle, case I. The notes write \((m_1+m_2)\,d\dot x^2/dt^2\) for
+    !! \((m_1+m_2)\,\ddot x\). The pulley's inertia \(I\) and the support's upward acceleration
+    !! \(a_s\), both zero on the page, are added: \(a_s\) makes the constraint rheonomic.
+    use lagrangia_description, only: conserved, coordinate, description_t, nonnegative, number, &
+                                     point, positive, quantity
+    use lagrangia_errors, only: error_t
+    use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(+), operator(-)
+    use lagrangia_kinds, only: dp
+    use lagrangia_system, only: check_parameters, system_t
+    implicit none (type, external)
+    private
+    public :: atwood_t
+
+    type, extends(system_t) :: atwood_t
+        !! Coordinate: \(x\), m, of \(m_1\) downwards from the pulley; zero where both are level.
+        real(dp) :: m1 = 3.0_dp                    !! kg
+        real(dp) :: m2 = 2.0_dp                    !! kg
+        real(dp) :: g = 9.81_dp                    !! m s^-2
+        real(dp) :: pulley_inertia = 0.0_dp        !! kg m^2
+        real(dp) :: radius = 0.1_dp                !! of the pulley, m
+        real(dp) :: support_acceleration = 0.0_dp  !! upwards, m s^-2
+    contains
+        procedure :: describe
+        procedure :: configure
+        procedure :: accelerations
+        procedure :: lagrangian
+        procedure :: energy
+        procedure :: quantity => energy_or_force
+        procedure :: positions
+    end type atwood_t
+
+contains
+
+    pure subroutine describe(self, d)
+        !! See `system_t`.
+        class(atwood_t), intent(in) :: self
+        type(description_t), intent(out) :: d
+
+        d%name = "atwood"
+        d%title = "two masses on a string over a pulley"
+        d%coordinates = [coordinate("x", "m", "position of m1 downwards, 0 where m2 is level")]
+        d%parameters = [ &
+            positive("m1", "kg", "mass that goes down with x", self%m1), &
+            positive("m2", "kg", "mass that goes up with x", self%m2), &
+            nonnegative("g", "m/s^2", "gravity", self%g), &
+            nonnegative("pulley_inertia", "kg m^2", "moment of inertia of the pulley, I", &
+                        self%pulley_inertia), &
+            positive("radius", "m", "radius of the pulley, R", self%radius), &
+            number("support_acceleration", "m/s^2", "upward acceleration of the support, a_s", &
+                   self%support_acceleration)]
+        d%quantities = [ &
+            conserved("energy_support", "J", "(m1 + m2 + I/R^2)/2 x_dot^2 - (m1 - m2)(g + a_s) x"// &
+                      ": energy in the support's frame", 0.0_dp), &
+            quantity("p_x", "kg m/s", "(m1 + m2 + I/R^2) x_dot - (m1 - m2) a_s t: momentum of x"), &
+            quantity("total_energy", "J", "T + V in the inertial frame, to which the support "// &
+                     "does work"), &
+            quantity("tension1", "N", "m1 (g + a_s)(2 m2 + I/R^2)/(m1 + m2 + I/R^2): string "// &
+                     "at m1"), &
+            quantity("tension2", "N", "m2 (g + a_s)(2 m1 + I/R^2)/(m1 + m2 + I/R^2): string "// &
+                     "at m2")]
+        if (free(self)) d%quantities(2) = &
+            conserved("p_x", "kg m/s", "(m1 + m2 + I/R^2) x_dot - (m1 - m2) a_s t: momentum "// &
+                      "of x, cyclic if (m1 - m2) g = 0", 0.0_dp)
+        d%points = [point("m1", self%m1), point("m2", self%m2)]
+        d%equations = [character(len(d%title)) :: &
+            "(m1 + m2 + I/R^2) x_ddot = (m1 - m2)(g + a_s)"]
+        if (self%time_dependent) then
+            d%lagrangian = [character(len(d%title)) :: &
+                "m1/2 (a_s t - x_dot)^2 + m2/2 (a_s t + x_dot)^2 + I/(2 R^2) x_dot^2", &
+                "+ m1 g (x - a_s t^2/2) - m2 g (x + a_s t^2/2)"]
+            d%energy = "(m1 + m2 + I/R^2)/2 x_dot^2 - (m1 + m2)/2 (a_s t)^2 - (m1 - m2) g x "// &
+                       "+ (m1 + m2) g a_s t^2/2"
+            d%constraint = "holonomic, rheonomic: y1 + y2 = a_s t^2 (heights), in the support's "// &
+                           "frame x + y + pi R = l"
+        else
+            d%lagrangian = [character(len(d%title)) :: &
+                "(m1 + m2 + I/R^2)/2 x_dot^2 + (m1 - m2) g x"]
+            d%energy = "(m1 + m2 + I/R^2)/2 x_dot^2 - (m1 - m2) g x"
+            d%constraint = "holonomic, scleronomic: x + y + pi R = l"
+        end if
+        d%notes = [character(len(d%title)) :: &
+            "The notes have (m1 + m2) d(x_dot^2)/dt^2: a slip, it is (m1 + m2) x_ddot.", &
+            "With a_s, the effective gravity is g + a_s; the energy function is then not T + V.", &
+            "L differs from that with gravity g + a_s by dF/dt, F = -(m1 - m2) a_s t x + f(t).", &
+            "A string only pulls: for a_s < -g it goes slack, and this is no longer the machine.", &
+            "A slow way to measure g: choose m1 close to m2."]
+        d%source = "Hamilton's Principle: case I, Atwood's machine"
+    end subroutine describe
+
+    pure subroutine configure(self, values, error)
+        !! Parameters: m1, m2, g, pulley_inertia, radius, support_acceleration.
+        class(atwood_t), intent(inout) :: self
+        real(dp), intent(in) :: values(:)
+        type(error_t), allocatable, intent(out) :: error
+
+        call check_parameters(self, values, error)
+        if (allocated(error)) return
+        self%ndof = 1
+        self%velocity_forces = .false.
+        self%m1 = values(1)
+        self%m2 = values(2)
+        self%g = values(3)
+        self%pulley_inertia = values(4)
+        self%radius = values(5)
+        self%support_acceleration = values(6)
+        self%time_dependent = abs(self%support_acceleration) > 0.0_dp
+        self%cyclic = merge(1, 0, free(self))
+    end subroutine configure
+
+    pure function free(self)
+        !! Gravity does not move the machine: \(x\) is cyclic.
+        class(atwood_t), intent(in) :: self
+        logical :: free
+
+        free = abs(self%m1 - self%m2)*self%g <= 0.0_dp
+    end function free
+
+    pure function inertia(self) result(m)
+        !! \(m_1 + m_2 + I/R^2 > 0\), kg.
+        class(atwood_t), intent(in) :: self
+        real(dp) :: m
+
+        m = self%m1 + self%m2 + self%pulley_inertia/self%radius**2
+    end function inertia
+
+    pure subroutine accelerations(self, t, q, v, a)
+        !! $$ \ddot x = \frac{m_1 - m_2}{m_1 + m_2 + I/R^2}\,(g + a_s) $$
+        class(atwood_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: a(self%ndof)
+
+        a(1) = (self%m1 - self%m2)*(self%g + self%support_acceleration)/inertia(self)
+    end subroutine accelerations
+
+    pure function lagrangian(self, t, q, v) result(l)
+        !! In the inertial frame, where the pulley has risen \(\tfrac12 a_s t^2\) since \(t = 0\):
+        !! $$ L = \tfrac12 m_1(a_s t - \dot x)^2 + \tfrac12 m_2(a_s t + \dot x)^2
+        !!      + \tfrac12\frac{I}{R^2}\dot x^2 + m_1 g(x - \tfrac12 a_s t^2)
+        !!      - m_2 g(x + \tfrac12 a_s t^2) $$
+        class(atwood_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t) :: l
+
+        associate (m1 => self%m1, m2 => self%m2, g => self%g, as => self%support_acceleration)
+            l = 0.5_dp*m1*(as*t - v(1))**2 + 0.5_dp*m2*(as*t + v(1))**2 &
+                + 0.5_dp*self%pulley_inertia/self%radius**2*v(1)**2 &
+                + m1*g*(q(1) - 0.5_dp*as*t**2) - m2*g*(q(1) + 0.5_dp*as*t**2)
+        end associate
+    end function lagrangian
+
+    pure function energy(self, t, q, v) result(e)
+        !! $$ h = \tfrac12\Bigl(m_1+m_2+\frac{I}{R^2}\Bigr)\dot x^2 - (m_1-m_2)gx
+        !!      - \tfrac12(m_1+m_2)(a_s t)^2 + \tfrac12(m_1+m_2)g a_s t^2 $$
+        class(atwood_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: e
+
+        associate (m1 => self%m1, m2 => self%m2, g => self%g, as => self%support_acceleration)
+            e = 0.5_dp*inertia(self)*v(1)**2 - (m1 - m2)*g*q(1) &
+                + 0.5_dp*(m1 + m2)*(g - as)*as*t**2
+        end associate
+    end function energy
+
+    pure function energy_or_force(self, i, t, q, v) result(value)
+        !! 1: energy in the support's frame. 2: momentum of \(x\). 3: \(T + V\) in the inertial
+        !! frame. 4, 5: tension of the string at \(m_1\) and at \(m_2\), equal if \(I = 0\).
+        class(atwood_t), intent(in) :: self
+        integer, intent(in) :: i
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: value, rim
+
+        associate (m1 => self%m1, m2 => self%m2, g => self%g, as => self%support_acceleration)
+            rim = self%pulley_inertia/self%radius**2
+            select case (i)
+            case (1)
+                value = 0.5_dp*inertia(self)*v(1)**2 - (m1 - m2)*(g + as)*q(1)
+            case (2)
+                value = inertia(self)*v(1) - (m1 - m2)*as*t
+            case (3)
+                value = 0.5_dp*m1*(as*t - v(1))**2 + 0.5_dp*m2*(as*t + v(1))**2 &
+                        + 0.5_dp*rim*v(1)**2 - (m1 - m2)*g*q(1) + 0.5_dp*(m1 + m2)*g*as*t**2
+            case (4)
+                value = m1*(g + as)*(2.0_dp*m2 + rim)/inertia(self)
+            case default
+                value = m2*(g + as)*(2.0_dp*m1 + rim)/inertia(self)
+            end select
+        end associate
+    end function energy_or_force
+
+    pure subroutine positions(self, t, q, r)
+        !! \(m_1\) at \((-R, \tfrac12 a_s t^2 - x)\), \(m_2\) at \((R, \tfrac12 a_s t^2 + x)\).
+        class(atwood_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof)
+        type(hyperdual_t), intent(out) :: r(:, :)
+
+        r = hyperdual_t()
+        r(1, 1)%re = -self%radius
+        r(2, 1) = 0.5_dp*self%support_acceleration*t**2 - q(1)
+        r(1, 2)%re = self%radius
+        r(2, 2) = 0.5_dp*self%support_acceleration*t**2 + q(1)
+    end subroutine positions
+end module lagrangia_atwood

@@ -1,0 +1,191 @@
+module lagrangia_double_pendulum
+    !! Two bobs on two rigid rods, the second hanging from the first, in a plane.
+    !!
+    !! The notes write both constraints as \(f_i = x_i^2 + y_i^2 = \ell_i^2\); this is true for
+    !! the first rod only. The second is \((x_2-x_1)^2 + (y_2-y_1)^2 = \ell_2^2\).
+    use lagrangia_description, only: conserved, coordinate, description_t, nonnegative, point, &
+                                     positive, quantity
+    use lagrangia_errors, only: error_t
+    use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
+                                   operator(-), sin
+    use lagrangia_kinds, only: dp
+    use lagrangia_system, only: check_parameters, system_t
+    implicit none (type, external)
+    private
+    public :: double_pendulum_t
+
+    type, extends(system_t) :: double_pendulum_t
+        !! Coordinates: \(\theta_1, \theta_2\), rad, both from the downward vertical.
+        real(dp) :: m1 = 1.0_dp  !! upper bob, kg
+        real(dp) :: m2 = 1.0_dp  !! lower bob, kg
+        real(dp) :: l1 = 1.0_dp  !! upper rod, m
+        real(dp) :: l2 = 1.0_dp  !! lower rod, m
+        real(dp) :: g = 9.81_dp  !! m s^-2
+    contains
+        procedure :: describe
+        procedure :: configure
+        procedure :: accelerations
+        procedure :: lagrangian
+        procedure :: energy
+        procedure :: quantity => momentum_or_tension
+        procedure :: positions
+    end type double_pendulum_t
+
+contains
+
+    pure subroutine describe(self, d)
+        !! See `system_t`.
+        class(double_pendulum_t), intent(in) :: self
+        type(description_t), intent(out) :: d
+
+        d%name = "double_pendulum"
+        d%title = "two rods and two bobs in a plane, chaotic at large amplitude"
+        d%coordinates = [ &
+            coordinate("theta1", "rad", "angle of the upper rod from the downward vertical"), &
+            coordinate("theta2", "rad", "angle of the lower rod from the downward vertical")]
+        d%parameters = [positive("m1", "kg", "mass of the upper bob", self%m1), &
+                        positive("m2", "kg", "mass of the lower bob", self%m2), &
+                        positive("l1", "m", "length of the upper rod", self%l1), &
+                        positive("l2", "m", "length of the lower rod", self%l2), &
+                        nonnegative("g", "m/s^2", "gravity", self%g)]
+        d%energy_scale = self%g*((self%m1 + self%m2)*self%l1 + self%m2*self%l2)
+        d%quantities = [ &
+            quantity("L_z", "kg m^2/s", "p_theta1 + p_theta2: angular momentum about the pivot"), &
+            quantity("tension1", "N", "m1 (l1 theta1_dot^2 + g cos(theta1)) "// &
+                     "+ tension2 cos(theta1 - theta2): force along rod 1"), &
+            quantity("tension2", "N", "m1 m2 (l1 theta1_dot^2 cos(D) + l2 theta2_dot^2 "// &
+                     "+ g cos(theta1) cos(D))/(m1 + m2 sin(D)^2): rod 2")]
+        if (self%g <= 0.0_dp) d%quantities(1) = &
+            conserved("L_z", "kg m^2/s", "p_theta1 + p_theta2: angular momentum about the "// &
+                      "pivot, conserved without gravity", 0.0_dp)
+        d%points = [point("bob1", self%m1), point("bob2", self%m2)]
+        d%lagrangian = [character(len(d%title)) :: &
+            "(m1 + m2)/2 l1^2 theta1_dot^2 + m2/2 l2^2 theta2_dot^2", &
+            "+ m2 l1 l2 theta1_dot theta2_dot cos(D) + (m1 + m2) g l1 cos(theta1)", &
+            "+ m2 g l2 cos(theta2),  D = theta1 - theta2"]
+        d%energy = "(m1 + m2)/2 l1^2 theta1_dot^2 + m2/2 l2^2 theta2_dot^2 + m2 l1 l2 "// &
+                   "theta1_dot theta2_dot cos(D) + V"
+        d%equations = [character(len(d%title)) :: &
+            "(m1 + m2) l1 theta1_ddot + m2 l2 theta2_ddot cos(D) + m2 l2 theta2_dot^2 sin(D)", &
+            "    + (m1 + m2) g sin(theta1) = 0", &
+            "l2 theta2_ddot + l1 theta1_ddot cos(D) - l1 theta1_dot^2 sin(D)", &
+            "    + g sin(theta2) = 0,  D = theta1 - theta2"]
+        d%constraint = "holonomic, scleronomic: x1^2 + y1^2 = l1^2, "// &
+                       "(x2 - x1)^2 + (y2 - y1)^2 = l2^2"
+        d%notes = [character(len(d%title)) :: &
+            "V = -(m1 + m2) g l1 cos(theta1) - m2 g l2 cos(theta2).", &
+            "The notes have x2^2 + y2^2 = l2^2: a slip, the second rod starts at the first bob.", &
+            "dx2 = l1 cos(theta1) dtheta1 + l2 cos(theta2) dtheta2, and the same for delta x2.", &
+            "omega^2 = g/(2 m1 l1 l2) ((m1 + m2)(l1 + l2) +- sqrt(...)); all equal: (2 +- "// &
+            "sqrt(2)) g/l."]
+        d%source = "Phys 601, 1 September 2011: double planar pendulum"
+    end subroutine describe
+
+    pure subroutine configure(self, values, error)
+        !! Parameters: m1, m2, l1, l2, g.
+        class(double_pendulum_t), intent(inout) :: self
+        real(dp), intent(in) :: values(:)
+        type(error_t), allocatable, intent(out) :: error
+
+        call check_parameters(self, values, error)
+        if (allocated(error)) return
+        self%ndof = 2
+        self%m1 = values(1)
+        self%m2 = values(2)
+        self%l1 = values(3)
+        self%l2 = values(4)
+        self%g = values(5)
+    end subroutine configure
+
+    pure subroutine accelerations(self, t, q, v, a)
+        !! With \(\Delta = \theta_1 - \theta_2\) and \(D = m_1 + m_2\sin^2\Delta \ge m_1 > 0\):
+        !! $$ \ell_1 D\,\ddot\theta_1 = -m_2\sin\Delta\,(\ell_1\dot\theta_1^2\cos\Delta
+        !!    + \ell_2\dot\theta_2^2) - (m_1+m_2)g\sin\theta_1 + m_2 g\sin\theta_2\cos\Delta $$
+        !! $$ \ell_2 D\,\ddot\theta_2 = (m_1+m_2)\ell_1\dot\theta_1^2\sin\Delta
+        !!    + m_2\ell_2\dot\theta_2^2\sin\Delta\cos\Delta
+        !!    + (m_1+m_2)g(\sin\theta_1\cos\Delta - \sin\theta_2) $$
+        class(double_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: a(self%ndof)
+        real(dp) :: s, c, s1, s2, d
+
+        associate (m1 => self%m1, m2 => self%m2, m => self%m1 + self%m2, &
+                   l1 => self%l1, l2 => self%l2, g => self%g)
+            s = sin(q(1) - q(2))
+            c = cos(q(1) - q(2))
+            s1 = sin(q(1))
+            s2 = sin(q(2))
+            d = m1 + m2*s**2
+            a(1) = (-m2*s*(l1*v(1)**2*c + l2*v(2)**2) - m*g*s1 + m2*g*s2*c)/(l1*d)
+            a(2) = (m*l1*v(1)**2*s + m2*l2*v(2)**2*s*c + m*g*(s1*c - s2))/(l2*d)
+        end associate
+    end subroutine accelerations
+
+    pure function lagrangian(self, t, q, v) result(l)
+        !! $$ L = \tfrac12(m_1+m_2)\ell_1^2\dot\theta_1^2 + \tfrac12 m_2\ell_2^2\dot\theta_2^2
+        !!      + m_2\ell_1\ell_2\dot\theta_1\dot\theta_2\cos(\theta_1-\theta_2)
+        !!      + (m_1+m_2)g\ell_1\cos\theta_1 + m_2 g\ell_2\cos\theta_2 $$
+        class(double_pendulum_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t) :: l
+
+        associate (m => self%m1 + self%m2, m2 => self%m2, l1 => self%l1, l2 => self%l2, &
+                   g => self%g)
+            l = 0.5_dp*m*l1**2*v(1)**2 + 0.5_dp*m2*l2**2*v(2)**2 &
+                + m2*l1*l2*v(1)*v(2)*cos(q(1) - q(2)) &
+                + m*g*l1*cos(q(1)) + m2*g*l2*cos(q(2))
+        end associate
+    end function lagrangian
+
+    pure function energy(self, t, q, v) result(e)
+        !! $$ E = \tfrac12(m_1+m_2)\ell_1^2\dot\theta_1^2 + \tfrac12 m_2\ell_2^2\dot\theta_2^2
+        !!      + m_2\ell_1\ell_2\dot\theta_1\dot\theta_2\cos(\theta_1-\theta_2)
+        !!      - (m_1+m_2)g\ell_1\cos\theta_1 - m_2 g\ell_2\cos\theta_2 $$
+        class(double_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: e
+
+        associate (m => self%m1 + self%m2, m2 => self%m2, l1 => self%l1, l2 => self%l2, &
+                   g => self%g)
+            e = 0.5_dp*m*l1**2*v(1)**2 + 0.5_dp*m2*l2**2*v(2)**2 &
+                + m2*l1*l2*v(1)*v(2)*cos(q(1) - q(2)) &
+                - m*g*l1*cos(q(1)) - m2*g*l2*cos(q(2))
+        end associate
+    end function energy
+
+    pure function momentum_or_tension(self, i, t, q, v) result(value)
+        !! 1: angular momentum about the pivot. 2, 3: tension of the upper and the lower rod, from
+        !! Newton's law for each bob along its rod and the accelerations above.
+        class(double_pendulum_t), intent(in) :: self
+        integer, intent(in) :: i
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: value, c, lower
+
+        associate (m1 => self%m1, m2 => self%m2, l1 => self%l1, l2 => self%l2, g => self%g)
+            c = cos(q(1) - q(2))
+            lower = m1*m2*(l1*v(1)**2*c + l2*v(2)**2 + g*cos(q(1))*c) &
+                    /(m1 + m2*sin(q(1) - q(2))**2)
+            select case (i)
+            case (1)
+                value = (m1 + m2)*l1**2*v(1) + m2*l2**2*v(2) + m2*l1*l2*(v(1) + v(2))*c
+            case (2)
+                value = m1*(l1*v(1)**2 + g*cos(q(1))) + lower*c
+            case default
+                value = lower
+            end select
+        end associate
+    end function momentum_or_tension
+
+    pure subroutine positions(self, t, q, r)
+        !! Upper bob \((\ell_1\sin\theta_1, -\ell_1\cos\theta_1)\); the lower one hangs from it.
+        class(double_pendulum_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof)
+        type(hyperdual_t), intent(out) :: r(:, :)
+
+        r = hyperdual_t()
+        r(1, 1) = self%l1*sin(q(1))
+        r(2, 1) = -self%l1*cos(q(1))
+        r(1, 2) = r(1, 1) + self%l2*sin(q(2))
+        r(2, 2) = r(2, 1) - self%l2*cos(q(2))
+    end subroutine positions
+end module lagrangia_double_pendulum

@@ -1,0 +1,126 @@
+module lagrangia_oscillator
+    !! A mass on a spring: the example of the page on Hamilton's principle ("HSM").
+    !!
+    !! The notes write \(\partial L/\partial\dot x = m\,d\dot x/dt\), one derivative too many:
+    !! the momentum is \(m\dot x\), and only its time derivative is \(m\ddot x\).
+    use lagrangia_description, only: conserved, coordinate, description_t, nonnegative, point, &
+                                     positive, quantity
+    use lagrangia_errors, only: error_t
+    use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(-)
+    use lagrangia_kinds, only: dp
+    use lagrangia_system, only: check_parameters, system_t
+    implicit none (type, external)
+    private
+    public :: oscillator_t
+
+    type, extends(system_t) :: oscillator_t
+        !! Coordinate: \(x\), m, from where the spring is relaxed.
+        real(dp) :: m = 1.0_dp  !! kg
+        real(dp) :: k = 1.0_dp  !! N/m
+    contains
+        procedure :: describe
+        procedure :: configure
+        procedure :: accelerations
+        procedure :: lagrangian
+        procedure :: energy
+        procedure :: quantity => force_or_momentum
+        procedure :: positions
+    end type oscillator_t
+
+contains
+
+    pure subroutine describe(self, d)
+        !! See `system_t`.
+        class(oscillator_t), intent(in) :: self
+        type(description_t), intent(out) :: d
+
+        d%name = "oscillator"
+        d%title = "a mass on a spring, the simple harmonic motion"
+        d%dimensions = 1
+        d%coordinates = [coordinate("x", "m", "displacement from where the spring is relaxed")]
+        d%parameters = [positive("m", "kg", "mass", self%m), &
+                        nonnegative("k", "N/m", "stiffness of the spring", self%k)]
+        d%quantities = [ &
+            quantity("force", "N", "-k x: force of the spring"), &
+            quantity("p_x", "kg m/s", "m x_dot: momentum")]
+        if (self%k <= 0.0_dp) d%quantities(2) = &
+            conserved("p_x", "kg m/s", "m x_dot: momentum, x is cyclic without a spring", 0.0_dp)
+        d%points = [point("mass", self%m)]
+        d%lagrangian = [character(len(d%title)) :: "m/2 x_dot^2 - k/2 x^2"]
+        d%energy = "m/2 x_dot^2 + k/2 x^2"
+        d%equations = [character(len(d%title)) :: "m x_ddot + k x = 0"]
+        d%constraint = "none"
+        d%notes = [character(len(d%title)) :: &
+            "The notes have dL/dx_dot = m d(x_dot)/dt: a slip, the momentum is m x_dot.", &
+            "omega^2 = k/m at any amplitude; x = x0 cos(omega t) + v0/omega sin(omega t).", &
+            "The actual path makes the action stationary; it is a minimum only for t < pi/omega."]
+        d%source = "Hamilton's Principle: example HSM"
+    end subroutine describe
+
+    pure subroutine configure(self, values, error)
+        !! Parameters: m, k.
+        class(oscillator_t), intent(inout) :: self
+        real(dp), intent(in) :: values(:)
+        type(error_t), allocatable, intent(out) :: error
+
+        call check_parameters(self, values, error)
+        if (allocated(error)) return
+        self%ndof = 1
+        self%velocity_forces = .false.
+        self%m = values(1)
+        self%k = values(2)
+        self%cyclic = merge(0, 1, self%k > 0.0_dp)
+    end subroutine configure
+
+    pure subroutine accelerations(self, t, q, v, a)
+        !! $$ \ddot x = -\frac km x $$
+        class(oscillator_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: a(self%ndof)
+
+        a(1) = -self%k/self%m*q(1)
+    end subroutine accelerations
+
+    pure function lagrangian(self, t, q, v) result(l)
+        !! $$ L = \tfrac12 m\dot x^2 - \tfrac12 k x^2 $$
+        class(oscillator_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t) :: l
+
+        l = 0.5_dp*self%m*v(1)**2 - 0.5_dp*self%k*q(1)**2
+    end function lagrangian
+
+    pure function energy(self, t, q, v) result(e)
+        !! $$ E = \tfrac12 m\dot x^2 + \tfrac12 k x^2 $$
+        class(oscillator_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: e
+
+        e = 0.5_dp*self%m*v(1)**2 + 0.5_dp*self%k*q(1)**2
+    end function energy
+
+    pure function force_or_momentum(self, i, t, q, v) result(value)
+        !! 1: force of the spring. 2: momentum.
+        class(oscillator_t), intent(in) :: self
+        integer, intent(in) :: i
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: value
+
+        select case (i)
+        case (1)
+            value = -self%k*q(1)
+        case default
+            value = self%m*v(1)
+        end select
+    end function force_or_momentum
+
+    pure subroutine positions(self, t, q, r)
+        !! The mass at \((x, 0)\).
+        class(oscillator_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof)
+        type(hyperdual_t), intent(out) :: r(:, :)
+
+        r = hyperdual_t()
+        r(1, 1) = q(1)
+    end subroutine positions
+end module lagrangia_oscillator

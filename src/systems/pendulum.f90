@@ -1,0 +1,132 @@
+module lagrangia_pendulum
+    !! A bob on a rigid rod: the example of the notes for the uniqueness of the Lagrangian.
+    !!
+    !! The notes give \(L = \tfrac12 m\ell^2\dot\theta^2 + mg\ell\cos\theta - \mathrm{const}\),
+    !! where the constant is free; here it is zero, so \(E = -mg\ell\) at rest at the bottom.
+    use lagrangia_description, only: conserved, coordinate, description_t, nonnegative, point, &
+                                     positive, quantity
+    use lagrangia_errors, only: error_t
+    use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
+                                   operator(-), sin
+    use lagrangia_kinds, only: dp
+    use lagrangia_system, only: check_parameters, system_t
+    implicit none (type, external)
+    private
+    public :: pendulum_t
+
+    type, extends(system_t) :: pendulum_t
+        !! Coordinate: \(\theta\), rad, from the downward vertical.
+        real(dp) :: m = 1.0_dp   !! bob, kg
+        real(dp) :: l = 1.0_dp   !! rod, m
+        real(dp) :: g = 9.81_dp  !! m s^-2
+    contains
+        procedure :: describe
+        procedure :: configure
+        procedure :: accelerations
+        procedure :: lagrangian
+        procedure :: energy
+        procedure :: quantity => momentum_or_tension
+        procedure :: positions
+    end type pendulum_t
+
+contains
+
+    pure subroutine describe(self, d)
+        !! See `system_t`.
+        class(pendulum_t), intent(in) :: self
+        type(description_t), intent(out) :: d
+
+        d%name = "pendulum"
+        d%title = "a bob on a rigid rod, at any amplitude"
+        d%coordinates = [coordinate("theta", "rad", "angle of the rod from the downward vertical")]
+        d%parameters = [positive("m", "kg", "mass of the bob", self%m), &
+                        positive("l", "m", "length of the rod", self%l), &
+                        nonnegative("g", "m/s^2", "gravity", self%g)]
+        d%energy_scale = self%m*self%g*self%l
+        d%quantities = [ &
+            quantity("L_z", "kg m^2/s", "m l^2 theta_dot: angular momentum about the pivot"), &
+            quantity("tension", "N", "m (l theta_dot^2 + g cos(theta)): force along the rod")]
+        if (self%g <= 0.0_dp) d%quantities(1) = &
+            conserved("L_z", "kg m^2/s", "m l^2 theta_dot: angular momentum, theta is cyclic "// &
+                      "without gravity", 0.0_dp)
+        d%points = [point("bob", self%m)]
+        d%lagrangian = [character(len(d%title)) :: "m/2 l^2 theta_dot^2 + m g l cos(theta)"]
+        d%energy = "m/2 l^2 theta_dot^2 - m g l cos(theta)"
+        d%equations = [character(len(d%title)) :: "l theta_ddot + g sin(theta) = 0"]
+        d%constraint = "holonomic, scleronomic: x_bob^2 + y_bob^2 = l^2"
+        d%notes = [character(len(d%title)) :: &
+            "A constant, or a total time derivative, may be added to L: the equation stays.", &
+            "Period 2 pi sqrt(l/g)/agm(1, cos(theta0/2)), agm the arithmetic-geometric mean.", &
+            "A rod can push: where the tension is negative, a string would go slack."]
+        d%source = "Phys 601, 1 September 2011: uniqueness of the Lagrangian"
+    end subroutine describe
+
+    pure subroutine configure(self, values, error)
+        !! Parameters: m, l, g.
+        class(pendulum_t), intent(inout) :: self
+        real(dp), intent(in) :: values(:)
+        type(error_t), allocatable, intent(out) :: error
+
+        call check_parameters(self, values, error)
+        if (allocated(error)) return
+        self%ndof = 1
+        self%velocity_forces = .false.
+        self%m = values(1)
+        self%l = values(2)
+        self%g = values(3)
+        self%cyclic = merge(0, 1, self%g > 0.0_dp)
+    end subroutine configure
+
+    pure subroutine accelerations(self, t, q, v, a)
+        !! $$ \ddot\theta = -\frac g\ell\sin\theta $$
+        class(pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: a(self%ndof)
+
+        a(1) = -self%g/self%l*sin(q(1))
+    end subroutine accelerations
+
+    pure function lagrangian(self, t, q, v) result(l)
+        !! $$ L = \tfrac12 m\ell^2\dot\theta^2 + m g\ell\cos\theta $$
+        class(pendulum_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t) :: l
+
+        l = 0.5_dp*self%m*self%l**2*v(1)**2 + self%m*self%g*self%l*cos(q(1))
+    end function lagrangian
+
+    pure function energy(self, t, q, v) result(e)
+        !! $$ E = \tfrac12 m\ell^2\dot\theta^2 - m g\ell\cos\theta $$
+        class(pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: e
+
+        e = 0.5_dp*self%m*self%l**2*v(1)**2 - self%m*self%g*self%l*cos(q(1))
+    end function energy
+
+    pure function momentum_or_tension(self, i, t, q, v) result(value)
+        !! 1: angular momentum. 2: the rod's tension.
+        class(pendulum_t), intent(in) :: self
+        integer, intent(in) :: i
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: value
+
+        select case (i)
+        case (1)
+            value = self%m*self%l**2*v(1)
+        case default
+            value = self%m*(self%l*v(1)**2 + self%g*cos(q(1)))
+        end select
+    end function momentum_or_tension
+
+    pure subroutine positions(self, t, q, r)
+        !! Bob \((\ell\sin\theta, -\ell\cos\theta)\).
+        class(pendulum_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof)
+        type(hyperdual_t), intent(out) :: r(:, :)
+
+        r = hyperdual_t()
+        r(1, 1) = self%l*sin(q(1))
+        r(2, 1) = -self%l*cos(q(1))
+    end subroutine positions
+end module lagrangia_pendulum

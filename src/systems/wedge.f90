@@ -1,0 +1,188 @@
+module lagrangia_wedge
+    !! A block that slides without friction down a wedge, which slides on a horizontal plane.
+    !!
+    !! Source: Hamilton's Principle, case II. The notes end with \(mg\sin\alpha =
+    !! M(\ddot q_1 + \ddot q_2\cos\alpha)\), where it must be the mass of the block, \(m\): with
+    !! \(M\) the acceleration is off by \(m/M\) and contradicts the \(\ddot q_1\) they state.
+    use lagrangia_description, only: between, conserved, coordinate, description_t, nonnegative, &
+                                     point, positive, quantity
+    use lagrangia_errors, only: error_t
+    use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(+), operator(-)
+    use lagrangia_kinds, only: dp
+    use lagrangia_system, only: check_parameters, system_t
+    implicit none (type, external)
+    private
+    public :: wedge_t
+
+    real(dp), parameter :: right_angle = acos(0.0_dp)  !! rad
+
+    type, extends(system_t) :: wedge_t
+        !! Coordinates: \(q_1\), m, of the block down the incline; \(q_2\), m, of the wedge.
+        real(dp) :: m_block = 1.0_dp             !! kg
+        real(dp) :: m_wedge = 2.0_dp             !! kg
+        real(dp) :: alpha = right_angle/3.0_dp   !! of the incline to the horizontal, rad
+        real(dp) :: g = 9.81_dp                  !! m s^-2
+    contains
+        procedure :: describe
+        procedure :: configure
+        procedure :: accelerations
+        procedure :: lagrangian
+        procedure :: energy
+        procedure :: quantity => momentum_or_force
+        procedure :: positions
+    end type wedge_t
+
+contains
+
+    pure subroutine describe(self, d)
+        !! See `system_t`.
+        class(wedge_t), intent(in) :: self
+        type(description_t), intent(out) :: d
+
+        d%name = "wedge"
+        d%title = "a block sliding down a wedge that slides on a plane"
+        d%coordinates = [coordinate("q1", "m", "position of the block, down the incline"), &
+                         coordinate("q2", "m", "position of the wedge, horizontal")]
+        d%parameters = [positive("m_block", "kg", "mass of the block, m", self%m_block), &
+                        positive("m_wedge", "kg", "mass of the wedge, M", self%m_wedge), &
+                        between("alpha", "rad", "angle of the incline", self%alpha, &
+                                0.0_dp, right_angle), &
+                        nonnegative("g", "m/s^2", "gravity", self%g)]
+        d%quantities = [ &
+            conserved("p_q2", "kg m/s", "M q2_dot + m (q2_dot + q1_dot cos(alpha)): horizontal "// &
+                      "momentum, q2 is cyclic", 0.0_dp), &
+            conserved("x_com", "m", "q2 + m/(M + m) q1 cos(alpha) - p_q2 t/(M + m): start of "// &
+                      "the centre of mass", 0.0_dp), &
+            quantity("p_q1", "kg m/s", "m (q1_dot + q2_dot cos(alpha)): momentum along the "// &
+                     "incline"), &
+            quantity("normal_force", "N", "m M g cos(alpha)/(M + m sin(alpha)^2): of the wedge "// &
+                     "on the block")]
+        if (level(self)) d%quantities(3) = &
+            conserved("p_q1", "kg m/s", "m (q1_dot + q2_dot cos(alpha)): momentum along the "// &
+                      "incline, q1 is cyclic if g sin(alpha) = 0", 0.0_dp)
+        d%points = [point("block", self%m_block), point("wedge", self%m_wedge)]
+        d%lagrangian = [character(len(d%title)) :: &
+            "(M + m)/2 q2_dot^2 + m/2 (q1_dot^2 + 2 q1_dot q2_dot cos(alpha)) + m g q1 sin(alpha)"]
+        d%energy = "(M + m)/2 q2_dot^2 + m/2 (q1_dot^2 + 2 q1_dot q2_dot cos(alpha)) "// &
+                   "- m g q1 sin(alpha)"
+        d%equations = [character(len(d%title)) :: &
+            "m (q1_ddot + q2_ddot cos(alpha)) = m g sin(alpha)", &
+            "(M + m) q2_ddot + m q1_ddot cos(alpha) = 0"]
+        d%constraint = "holonomic, scleronomic: (x_block - q2) sin(alpha) + y_block cos(alpha) "// &
+                       "= 0, y_wedge = 0"
+        d%notes = [character(len(d%title)) :: &
+            "m = m_block, M = m_wedge: Fortran does not tell m from M.", &
+            "The notes end with m g sin(alpha) = M (q1_ddot + q2_ddot cos(alpha)): a slip, the "// &
+            "mass is m.", &
+            "q1_ddot = g sin(alpha)/(1 - m cos(alpha)^2/(M + m)), constant: K = 0, no oscillation.", &
+            "M -> infinity: g sin(alpha); alpha = pi/2: free fall beside a wedge that stays."]
+        d%source = "Hamilton's Principle: case II, a block sliding on a wedge"
+    end subroutine describe
+
+    pure subroutine configure(self, values, error)
+        !! Parameters: m_block, m_wedge, alpha, g.
+        class(wedge_t), intent(inout) :: self
+        real(dp), intent(in) :: values(:)
+        type(error_t), allocatable, intent(out) :: error
+
+        call check_parameters(self, values, error)
+        if (allocated(error)) return
+        self%ndof = 2
+        self%velocity_forces = .false.
+        self%cyclic = 2
+        self%m_block = values(1)
+        self%m_wedge = values(2)
+        self%alpha = values(3)
+        self%g = values(4)
+    end subroutine configure
+
+    pure function level(self)
+        !! Gravity has no part along the incline.
+        class(wedge_t), intent(in) :: self
+        logical :: level
+
+        level = min(self%g, self%alpha) <= 0.0_dp
+    end function level
+
+    pure subroutine accelerations(self, t, q, v, a)
+        !! $$ \ddot q_1 = \frac{(M+m)\,g\sin\alpha}{M + m\sin^2\alpha},\quad
+        !!    \ddot q_2 = -\frac{m g\sin\alpha\cos\alpha}{M + m\sin^2\alpha} $$
+        !! where the denominator is at least \(M > 0\).
+        class(wedge_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: a(self%ndof)
+        real(dp) :: s, c, d
+
+        associate (m => self%m_block, big => self%m_wedge, g => self%g)
+            s = sin(self%alpha)
+            c = cos(self%alpha)
+            d = big + m*s**2
+            a(1) = (big + m)*g*s/d
+            a(2) = -m*g*s*c/d
+        end associate
+    end subroutine accelerations
+
+    pure function lagrangian(self, t, q, v) result(l)
+        !! $$ L = \tfrac12(M+m)\dot q_2^2
+        !!      + \tfrac12 m(\dot q_1^2 + 2\dot q_1\dot q_2\cos\alpha) + m g q_1\sin\alpha $$
+        class(wedge_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t) :: l
+
+        associate (m => self%m_block, big => self%m_wedge, g => self%g)
+            l = 0.5_dp*(big + m)*v(2)**2 &
+                + 0.5_dp*m*(v(1)**2 + 2.0_dp*cos(self%alpha)*v(1)*v(2)) &
+                + m*g*sin(self%alpha)*q(1)
+        end associate
+    end function lagrangian
+
+    pure function energy(self, t, q, v) result(e)
+        !! $$ E = \tfrac12(M+m)\dot q_2^2
+        !!      + \tfrac12 m(\dot q_1^2 + 2\dot q_1\dot q_2\cos\alpha) - m g q_1\sin\alpha $$
+        class(wedge_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: e
+
+        associate (m => self%m_block, big => self%m_wedge, g => self%g)
+            e = 0.5_dp*(big + m)*v(2)**2 &
+                + 0.5_dp*m*(v(1)**2 + 2.0_dp*v(1)*v(2)*cos(self%alpha)) &
+                - m*g*q(1)*sin(self%alpha)
+        end associate
+    end function energy
+
+    pure function momentum_or_force(self, i, t, q, v) result(value)
+        !! 1: horizontal momentum. 2: where the centre of mass was at \(t = 0\). 3: momentum along
+        !! the incline. 4: the force between wedge and block, from \(M\ddot q_2 = -N\sin\alpha\).
+        class(wedge_t), intent(in) :: self
+        integer, intent(in) :: i
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: value, p, c
+
+        associate (m => self%m_block, big => self%m_wedge, g => self%g)
+            c = cos(self%alpha)
+            p = big*v(2) + m*(v(2) + v(1)*c)
+            select case (i)
+            case (1)
+                value = p
+            case (2)
+                value = q(2) + m/(big + m)*q(1)*c - p*t/(big + m)
+            case (3)
+                value = m*(v(1) + v(2)*c)
+            case default
+                value = m*big*g*c/(big + m*sin(self%alpha)**2)
+            end select
+        end associate
+    end function momentum_or_force
+
+    pure subroutine positions(self, t, q, r)
+        !! Block \((q_2 + q_1\cos\alpha, -q_1\sin\alpha)\), wedge \((q_2, 0)\).
+        class(wedge_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof)
+        type(hyperdual_t), intent(out) :: r(:, :)
+
+        r = hyperdual_t()
+        r(1, 1) = q(2) + cos(self%alpha)*q(1)
+        r(2, 1) = -sin(self%alpha)*q(1)
+        r(1, 2) = q(2)
+    end subroutine positions
+end module lagrangia_wedge
