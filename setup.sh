@@ -157,6 +157,11 @@ link_tool() { # link_tool NAME: put the tool where shells look, but never over s
         "${as_owner[@]}" ln -sfn "$tools/bin/$1" "$link"
 }
 
+pip_install() {
+    "${as_owner[@]}" "$tools/bin/python3" -m pip install --quiet --disable-pip-version-check \
+        --retries 2 "$@" </dev/null >>"$trial/pip.log" 2>&1
+}
+
 install_tools() {
     local python wheels=() tool
     python=$(find_python)
@@ -187,9 +192,10 @@ install_tools() {
             return
         }
     fi
-    "${as_owner[@]}" "$tools/bin/python3" -m pip install --quiet --disable-pip-version-check \
-        "${wheels[@]}" </dev/null || {
-        complain "pip could not install ${wheels[*]} (no network, or no wheel for this machine)"
+    # pip brings its own certificates; behind a proxy the system's may be the right ones
+    pip_install "${wheels[@]}" || pip_install --cert /etc/ssl/certs/ca-certificates.crt "${wheels[@]}" || {
+        tail -n 6 "$trial/pip.log" >&2
+        complain "pip could not install ${wheels[*]}: no network, or no wheel for this machine?"
         return
     }
     for tool in "${missing_tools[@]}"; do
