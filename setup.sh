@@ -224,13 +224,9 @@ report() {
     done
     for tool in ${missing_tools[@]+"${missing_tools[@]}"}; do
         if [ -n "${tools:-}" ] && [ -x "$tools/bin/$tool" ]; then
-            case :$PATH: in
-                *":$link_directory:"*)
-                    complain "another $tool comes first on PATH: $(command -v "$tool")" ;;
-                *)
-                    complain "$tool is installed, but not on the PATH of this shell; type" \
-                        "'export PATH=\"$link_directory:\$PATH\"', then ./setup.sh again" ;;
-            esac
+            found=$(command -v "$tool")
+            complain "$tool is in $link_directory, but this shell finds ${found:-none};" \
+                "type 'export PATH=\"$link_directory:\$PATH\"', then ./setup.sh again"
         elif [ "$tool" = fpm ]; then
             complain "missing: fpm 0.12 or newer, the Fortran package manager"
         else
