@@ -20,6 +20,7 @@ build_house() {
     rm -rf "$house"
     mkdir -p "$house/app" "$house/test"
     module core kinds "use, intrinsic :: iso_fortran_env, only: real64"
+    module core console "use, intrinsic :: iso_fortran_env, only: output_unit"
     module numerics roots "use lagrangia_kinds, only: dp"
     module systems system "use lagrangia_roots, only: root"
     module systems pendulum "use lagrangia_system, only: system_t" \
@@ -34,7 +35,7 @@ build_house() {
         'call fail("don'"'"'t stop; print *, write(*, *)")'
     module scenes catalogue "use lagrangia_rk4, only: rk4_t" "use lagrangia_table, only: table_t"
     module ensembles sweep "use :: lagrangia_catalogue"
-    module commands list "use lagrangia_sweep" "print *, 1" "write (*, *) 1" "stop 1"
+    module commands list "use lagrangia_sweep" "use lagrangia_console" "print *, 1" "write (*, *) 1" "stop 1"
     printf '%s\n' "module lagrangia" "use lagrangia_sweep" "end module" >"$house/src/lagrangia.f90"
     printf '%s\n' "program main" "use lagrangia" "use lagrangia_list" "print *, 1" >"$house/app/main.f90"
     printf '%s\n' "module test_all" "use lagrangia_list" "use funit" >"$house/test/test_all.f90"
@@ -76,6 +77,7 @@ module core kinds "write(*, *) x";                                  refuses "onl
 module core kinds "if (f(x) > 1) write (unit = *, fmt=*) x";        refuses "only app/ and src/commands/ print"
 module core kinds "use, intrinsic :: iso_fortran_env, only: output_unit"
 refuses "only app/ and src/commands/ print"
+module scenes catalogue "use lagrangia_console, only: put";         refuses "only app/ and src/commands/ print"
 module core kinds "STOP";                                           refuses "only app/ and src/commands/ stop"
 module core kinds "if (x) error stop 'now'";                        refuses "only app/ and src/commands/ stop"
 module core kinds "stop 3, quiet=.true.";                           refuses "only app/ and src/commands/ stop"
