@@ -1,0 +1,20 @@
+module funit
+    !! The part of pFUnit 4's public API that the tests use, under pFUnit's own module name.
+    !!
+    !! Where pFUnit is installed the same tests run against it instead; see `test/pfunit`.
+    !! Names, arguments, verdicts and messages are pFUnit's; what is missing here does not compile.
+    use funit_claims, only: assertExceptionRaised, assertFail, assertFalse, assertIsFinite, &
+                            assertSameShape, assertTrue
+    use funit_equal, only: assertEqual, assertRelativelyEqual
+    use funit_exceptions, only: anyExceptions
+    use funit_order, only: assertGreaterThan, assertGreaterThanOrEqual, assertLessThan, &
+                           assertLessThanOrEqual
+    use funit_runner, only: finalize, initialize, run, stub
+    use funit_suites, only: TestMethod, TestSuite
+    implicit none (type, external)
+    private
+    public :: TestMethod, TestSuite, finalize, initialize, run, stub
+    public :: anyExceptions, assertEqual, assertExceptionRaised, assertFail, assertFalse, &
+              assertGreaterThan, assertGreaterThanOrEqual, assertIsFinite, assertLessThan, &
+              assertLessThanOrEqual, assertRelativelyEqual, assertSameShape, assertTrue
+end module funit
