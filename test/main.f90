@@ -3,6 +3,7 @@ module suites
     use funit, only: TestSuite
     use test_errors, only: errors_suite
     use test_harness, only: harness_suite
+    use test_hyperdual, only: hyperdual_suite
     implicit none (type, external)
     private
     public :: load_tests
@@ -16,6 +17,7 @@ contains
         suite = TestSuite("lagrangia")
         call suite%addTest(harness_suite())
         call suite%addTest(errors_suite())
+        call suite%addTest(hyperdual_suite())
     end function load_tests
 end module suites
 
