@@ -2,6 +2,7 @@ program main
     !! Run every suite. A new suite takes two lines here: one `use`, one `addTest`.
     use funit, only: TestSuite, finalize, initialize, run, stub
     use test_errors, only: errors_suite
+    use test_systems, only: systems_suite
     implicit none (type, external)
     logical :: ok
 
@@ -17,5 +18,6 @@ contains
 
         suite = TestSuite("lagrangia")
         call suite%addTest(errors_suite())
+        call suite%addTest(systems_suite())
     end function load_tests
 end program main
