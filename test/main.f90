@@ -2,6 +2,7 @@ module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
     use test_errors, only: errors_suite
+    use test_systems, only: systems_suite
     use test_harness, only: harness_suite
     use test_harness_order, only: harness_order_suite
     use test_hyperdual, only: hyperdual_suite
@@ -20,6 +21,7 @@ contains
         call suite%addTest(harness_order_suite())
         call suite%addTest(errors_suite())
         call suite%addTest(hyperdual_suite())
+        call suite%addTest(systems_suite())
     end function load_tests
 end module suites
 
