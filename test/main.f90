@@ -3,6 +3,11 @@ module suites
     use funit, only: TestSuite
     use test_errors, only: errors_suite
     use test_harness, only: harness_suite
+    use test_namelist, only: namelist_suite
+    use test_namelist_file, only: namelist_file_suite
+    use test_namelist_refusals, only: namelist_refusals_suite
+    use test_namelist_values, only: namelist_values_suite
+    use test_text, only: text_suite
     implicit none (type, external)
     private
     public :: load_tests
@@ -16,6 +21,11 @@ contains
         suite = TestSuite("lagrangia")
         call suite%addTest(harness_suite())
         call suite%addTest(errors_suite())
+        call suite%addTest(text_suite())
+        call suite%addTest(namelist_suite())
+        call suite%addTest(namelist_values_suite())
+        call suite%addTest(namelist_refusals_suite())
+        call suite%addTest(namelist_file_suite())
     end function load_tests
 end module suites
 
