@@ -5,6 +5,7 @@ module suites
     use test_harness, only: harness_suite
     use test_namelist, only: namelist_suite
     use test_namelist_file, only: namelist_file_suite
+    use test_namelist_limits, only: namelist_limits_suite
     use test_namelist_refusals, only: namelist_refusals_suite
     use test_namelist_values, only: namelist_values_suite
     use test_text, only: text_suite
@@ -25,6 +26,7 @@ contains
         call suite%addTest(namelist_suite())
         call suite%addTest(namelist_values_suite())
         call suite%addTest(namelist_refusals_suite())
+        call suite%addTest(namelist_limits_suite())
         call suite%addTest(namelist_file_suite())
     end function load_tests
 end module suites

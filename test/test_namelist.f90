@@ -23,10 +23,10 @@ contains
         call suite%addTest(TestMethod("layout_does_not_matter", layout_does_not_matter))
         call suite%addTest(TestMethod("comments_hold_any_bytes", comments_hold_any_bytes))
         call suite%addTest(TestMethod("words_before_equals_are_keys", words_before_equals_are_keys))
+        call suite%addTest(TestMethod("strings_come_whole", strings_come_whole))
         call suite%addTest(TestMethod("gfortran_reads_the_same", gfortran_reads_the_same))
         call suite%addTest(TestMethod("absent_keys_leave_defaults", absent_keys_leave_defaults))
         call suite%addTest(TestMethod("overrides_replace_and_add", overrides_replace_and_add))
-        call suite%addTest(TestMethod("a_large_file_is_read", a_large_file_is_read))
     end function namelist_suite
 
     subroutine read_text(text, tree)
@@ -153,6 +153,35 @@ contains
         call assertEqual([4.0_dp], f)
     end subroutine words_before_equals_are_keys
 
+    subroutine strings_come_whole()
+        !! Doubled quotes, the other quote, slashes and ampersands; blanks; never cut.
+        type(namelist_t) :: tree
+        type(error_t), allocatable :: error
+        character(12), allocatable :: s(:)
+        character(4) :: short
+        integer :: i
+        character(12), parameter :: expected(9) = [character(12) :: &
+                                                   "it's", 'say "x"', "a/b & c=1", &
+                                                   "", "'", "K"//char(195)//char(182)//"ln", &
+                                                   "two  blanks", "rep", "rep"]
+
+        call read_text("&a s = 'it''s' ""say """"x"""""", 'a/b & c=1','','''','K"//char(195)// &
+                       char(182)//"ln' 'two  blanks' 2*'rep' c='rk4  ' d='abcde' /", tree)
+        if (anyExceptions()) return
+        call get_strings(tree, "a", "s", 9, 9, s, error)
+        call check(error)
+        if (anyExceptions()) return
+        do i = 1, 9
+            call assertEqual(expected(i), s(i))
+        end do
+        call get_string(tree, "a", "c", short, error)
+        call check(error)
+        call assertEqual("rk4", short)
+        call get_string(tree, "a", "d", short, error)
+        call assertTrue(allocated(error))
+        call assertEqual("rk4", short, message="a refused value changes nothing")
+    end subroutine strings_come_whole
+
     subroutine gfortran_reads_the_same()
         !! Where libgfortran reads a namelist rightly, so do we, and the other way round.
         character(60) :: lines(5)
@@ -265,17 +294,4 @@ contains
         call get_logical(tree, "scene", "flag", flag, error)
         call assertTrue(flag)
     end subroutine overrides_replace_and_add
-
-    subroutine a_large_file_is_read()
-        !! A megabyte of comments and blanks, and as many values as there may be.
-        type(namelist_t) :: tree
-        type(error_t), allocatable :: error
-        real(dp), allocatable :: x(:)
-
-        call read_text(repeat("! "//repeat("c", 97)//lf, 5000)//"&a x ="//repeat(" 1.25,", 9998)// &
-                       repeat(" "//tab//lf, 200000)//" 2*2.5 /", tree)
-        call get_reals(tree, "a", "x", 10000, 10000, x, error)
-        call check(error)
-        call assertEqual(9998*1.25_dp + 5.0_dp, sum(x))
-    end subroutine a_large_file_is_read
 end module test_namelist

@@ -1,11 +1,8 @@
 module test_namelist_refusals
     !! What a scene file must not say, and the line that tells the user so.
-    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertLessThanOrEqual, &
-                     assertTrue
+    use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
     use lagrangia_errors, only: error_t, status_usage
-    use lagrangia_kinds, only: dp
-    use lagrangia_namelist, only: apply_override, get_real, namelist_t, parse_namelist, &
-                                  refuse_unknown_groups, refuse_unknown_keys
+    use lagrangia_namelist, only: apply_override, namelist_t, parse_namelist
     implicit none (type, external)
     private
     public :: namelist_refusals_suite
@@ -30,10 +27,8 @@ contains
         call suite%addTest(TestMethod("twins", twins))
         call suite%addTest(TestMethod("names_and_indices", names_and_indices))
         call suite%addTest(TestMethod("stray_bytes", stray_bytes))
-        call suite%addTest(TestMethod("too_much", too_much))
         call suite%addTest(TestMethod("numbers", numbers))
         call suite%addTest(TestMethod("overrides", overrides))
-        call suite%addTest(TestMethod("messages_are_bounded", messages_are_bounded))
     end function namelist_refusals_suite
 
     subroutine refused(text, expected)
@@ -67,21 +62,6 @@ contains
         call apply_override(tree, text, error)
         call failed(error, trim("--set "//text)//": "//expected)
     end subroutine override
-
-    subroutine plain(error)
-        !! The message is one short line of plain text, and not cut in the middle.
-        type(error_t), allocatable, intent(in) :: error
-        integer :: i
-
-        call assertTrue(allocated(error))
-        if (.not. allocated(error)) return
-        call assertLessThanOrEqual(len(error%message), 300)
-        do i = 1, len(error%message)
-            if (iachar(error%message(i:i)) >= 32 .and. iachar(error%message(i:i)) < 127) cycle
-            call assertEqual("plain text", error%message)
-            return
-        end do
-    end subroutine plain
 
     subroutine slashes()
         !! A `/` ends a group, silently elsewhere; here not where it looks like something else.
@@ -207,37 +187,6 @@ contains
         call refused("&a x==1 /", "1:6: &a: x: unexpected '='")
     end subroutine stray_bytes
 
-    subroutine too_much()
-        !! Nothing a file says makes the program ask for much memory.
-        character(*), parameter :: keys = "abcdefghij"
-        character(:), allocatable :: text
-        integer :: i, j, k, l
-
-        call refused("&a q=999999999*0 /", &
-                     "1:6: &a: q: the repeat count '999999999' must be from 1 to 10000")
-        call refused("&a q=0*1 /", "1:6: &a: q: the repeat count '0' must be from 1 to 10000")
-        call refused("&a q=10000*0 r=1 /", "1:16: more than 10000 values (repeats counted)")
-        call refused("&a q=10000*0, 1 /", "1:15: more than 10000 values (repeats counted)")
-        text = "&a"
-        do l = 1, 2
-            do i = 1, 10
-                do j = 1, 10
-                    do k = 1, 10
-                        text = text//lf//keys(l:l)//keys(i:i)//keys(j:j)//keys(k:k)//"=1"
-                    end do
-                end do
-            end do
-        end do
-        call refused(text//"/", "1002:1: more than 1000 keys")
-        text = ""
-        do i = 1, 10
-            do j = 1, 10
-                text = text//"&"//keys(i:i)//keys(j:j)//"/"//lf
-            end do
-        end do
-        call refused(text//"&kk/", "101:1: more than 100 groups")
-    end subroutine too_much
-
     subroutine numbers()
         !! Read by libgfortran without a word, most of them.
         call refused("&a x=1.5-3 /", "1:6: &a: x: '1.5-3' lacks the letter of its exponent "// &
@@ -287,35 +236,4 @@ contains
         call override("scene%a%b=1", "&scene: a: components (a%b) are not read here; "// &
                       "write key = value inside &group")
     end subroutine overrides
-
-    subroutine messages_are_bounded()
-        !! At most 300 plain characters, whatever the name of the file and its bytes.
-        type(namelist_t) :: tree
-        type(error_t), allocatable :: error
-        character(60), parameter :: name = repeat("k", 60)
-        character(300) :: bytes
-        integer :: i
-        real(dp) :: x
-
-        do i = 1, 300
-            bytes(i:i) = char(merge(64, mod(i, 256), any(mod(i, 256) == [9, 10, 13, 32, 33, 34])))
-        end do
-        call parse_namelist("&"//name//" "//name//" = '"//bytes(127:255)//"' /", &
-                            repeat("/path", 60)//bytes//"/a.nml", tree, error)
-        call assertTrue(allocated(error), message="DEL in a text")
-        call plain(error)
-        call parse_namelist("&"//name//" "//name//" = '"//bytes(128:255)//"' /", &
-                            repeat("/path", 60)//lf//"/a.nml", tree, error)
-        call assertFalse(allocated(error))
-        call get_real(tree, name, name, x, error)
-        call plain(error)
-        call refuse_unknown_keys(tree, "x", [repeat("l", 60)], error)
-        call assertFalse(allocated(error), message="a group that is not there")
-        call refuse_unknown_groups(tree, [(repeat("l", 60), i=1, 50)], error)
-        call assertFalse(allocated(error), message="a used group")
-        call parse_namelist(bytes, "a.nml", tree, error)
-        call plain(error)
-        call apply_override(tree, bytes(65:90)//"%"//bytes, error)
-        call plain(error)
-    end subroutine messages_are_bounded
 end module test_namelist_refusals

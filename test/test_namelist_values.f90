@@ -19,7 +19,6 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("namelist values")
-        call suite%addTest(TestMethod("strings_come_whole", strings_come_whole))
         call suite%addTest(TestMethod("numbers_are_rounded_correctly", &
                                       numbers_are_rounded_correctly))
         call suite%addTest(TestMethod("integers_are_exact", integers_are_exact))
@@ -60,35 +59,6 @@ contains
         call assertEqual(expected, error%message)
         call assertEqual(status_usage, error%status)
     end subroutine failed
-
-    subroutine strings_come_whole()
-        !! Doubled quotes, the other quote, slashes and ampersands; blanks; never cut.
-        type(namelist_t) :: tree
-        type(error_t), allocatable :: error
-        character(12), allocatable :: s(:)
-        character(4) :: short
-        integer :: i
-        character(12), parameter :: expected(9) = [character(12) :: &
-                                                   "it's", 'say "x"', "a/b & c=1", &
-                                                   "", "'", "K"//char(195)//char(182)//"ln", &
-                                                   "two  blanks", "rep", "rep"]
-
-        call read_text("&a s = 'it''s' ""say """"x"""""", 'a/b & c=1','','''','K"//char(195)// &
-                       char(182)//"ln' 'two  blanks' 2*'rep' c='rk4  ' d='abcde' /", tree)
-        if (anyExceptions()) return
-        call get_strings(tree, "a", "s", 9, 9, s, error)
-        call check(error)
-        if (anyExceptions()) return
-        do i = 1, 9
-            call assertEqual(expected(i), s(i))
-        end do
-        call get_string(tree, "a", "c", short, error)
-        call check(error)
-        call assertEqual("rk4", short)
-        call get_string(tree, "a", "d", short, error)
-        call assertTrue(allocated(error))
-        call assertEqual("rk4", short, message="a refused value changes nothing")
-    end subroutine strings_come_whole
 
     subroutine numbers_are_rounded_correctly()
         !! Every form of a number, halfway cases, the ends of the range.
