@@ -9,6 +9,7 @@ module suites
     use test_namelist_refusals, only: namelist_refusals_suite
     use test_namelist_values, only: namelist_values_suite
     use test_text, only: text_suite
+    use test_harness_order, only: harness_order_suite
     implicit none (type, external)
     private
     public :: load_tests
@@ -21,6 +22,7 @@ contains
 
         suite = TestSuite("lagrangia")
         call suite%addTest(harness_suite())
+        call suite%addTest(harness_order_suite())
         call suite%addTest(errors_suite())
         call suite%addTest(text_suite())
         call suite%addTest(namelist_suite())
