@@ -1,9 +1,13 @@
 module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
+    use test_elliptic, only: elliptic_suite
     use test_errors, only: errors_suite
+    use test_gsl, only: gsl_suite
     use test_harness, only: harness_suite
     use test_hyperdual, only: hyperdual_suite
+    use test_lapack, only: lapack_suite
+    use test_quadrature, only: quadrature_suite
     implicit none (type, external)
     private
     public :: load_tests
@@ -18,6 +22,10 @@ contains
         call suite%addTest(harness_suite())
         call suite%addTest(errors_suite())
         call suite%addTest(hyperdual_suite())
+        call suite%addTest(lapack_suite())
+        call suite%addTest(elliptic_suite())
+        call suite%addTest(gsl_suite())
+        call suite%addTest(quadrature_suite())
     end function load_tests
 end module suites
 
