@@ -8,6 +8,7 @@ module suites
     use test_hyperdual, only: hyperdual_suite
     use test_lapack, only: lapack_suite
     use test_quadrature, only: quadrature_suite
+    use test_harness_order, only: harness_order_suite
     implicit none (type, external)
     private
     public :: load_tests
@@ -20,6 +21,7 @@ contains
 
         suite = TestSuite("lagrangia")
         call suite%addTest(harness_suite())
+        call suite%addTest(harness_order_suite())
         call suite%addTest(errors_suite())
         call suite%addTest(hyperdual_suite())
         call suite%addTest(lapack_suite())
