@@ -1,13 +1,11 @@
-program main
-    !! Run every suite. A new suite takes two lines here: one `use`, one `addTest`.
-    use funit, only: TestSuite, finalize, initialize, run, stub
+module suites
+    !! Every suite. A new one takes two lines: one `use`, one `addTest`.
+    use funit, only: TestSuite
     use test_errors, only: errors_suite
+    use test_harness, only: harness_suite
     implicit none (type, external)
-    logical :: ok
-
-    call initialize(stub)
-    ok = run(load_tests)
-    call finalize(stub, ok)
+    private
+    public :: load_tests
 
 contains
 
@@ -16,6 +14,19 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("lagrangia")
+        call suite%addTest(harness_suite())
         call suite%addTest(errors_suite())
     end function load_tests
+end module suites
+
+program main
+    !! Run every suite; stop with status 2 if a test fails.
+    use funit, only: finalize, initialize, run, stub
+    use suites, only: load_tests
+    implicit none (type, external)
+    logical :: ok
+
+    call initialize(stub)
+    ok = run(load_tests)
+    call finalize(stub, ok)
 end program main

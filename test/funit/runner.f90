@@ -62,14 +62,15 @@ contains
             call mark(".", column)
             ran = ran + 1
             call suite%tests(i)%method()
-            if (.not. anyExceptions()) cycle
-            call mark("F", column)
-            failed = failed + 1
-            call describe(suite%tests(i)%name, report)
+            if (anyExceptions()) then
+                call mark("F", column)
+                failed = failed + 1
+                call describe(suite%tests(i)%name, report)
+            end if
             call clear_exceptions()
         end do
         call system_clock(finish, rate)
-        write (output_unit, "(/, 'Time: ', 1x, f12.3, 1x, 'seconds', /, 2x)") &
+        write (output_unit, "(/, 'Time: ', 1x, f12.3, 1x, 'seconds', /, '  ')") &
             real(finish - start)/real(rate)
         write (output_unit, "(a)", advance="no") report
         call summarize(ran, failed)
@@ -77,22 +78,16 @@ contains
     end function run
 
     subroutine read_options(pattern)
-        !! Read the command line: `-f text` or `--filter text`, and nothing else.
+        !! Read the command line: nothing, `-f text` or `--filter text`.
         character(:), allocatable, intent(out) :: pattern
-        integer :: i
 
-        pattern = ""
-        i = 1
-        do while (i <= command_argument_count())
-            select case (argument(i))
-            case ("-f", "--filter")
-                pattern = argument(i + 1)
-                i = i + 2
-            case default
-                write (error_unit, "(a)") "funit: unknown option "//argument(i)
-                stop 2, quiet=.true.
-            end select
-        end do
+        pattern = argument(2)
+        if (command_argument_count() == 0) return
+        if (command_argument_count() == 2) then
+            if (any(argument(1) == [character(8) :: "-f", "--filter"])) return
+        end if
+        write (error_unit, "(a)") "funit: the only option is --filter text"
+        stop 2, quiet=.true.
     end subroutine read_options
 
     function argument(i) result(value)
@@ -139,8 +134,8 @@ contains
 
         if (failed > 0) then
             write (output_unit, "(a)") " FAILURES!!!"
-            write (output_unit, "(3(a, i0), a)") "Tests run: ", ran, ", Failures: ", failed, &
-                ", Errors: ", 0, ", Disabled: 0"
+            write (output_unit, "(2(a, i0), a, /, a)") "Tests run: ", ran, ", Failures: ", failed, &
+                ", Errors: 0", ", Disabled: 0"
         else
             write (output_unit, "(a)") " OK"
             write (output_unit, "(a, i0, 3a)") " (", ran, " test", repeat("s", min(1, ran/2)), ")"
