@@ -157,6 +157,27 @@ link_tool() { # link_tool NAME: put the tool where shells look, but never over s
         "${as_owner[@]}" ln -sfn "$tools/bin/$1" "$link"
 }
 
+pip_install() {
+    "${as_owner[@]}" "$tools/bin/python3" -m pip install --quiet --disable-pip-version-check \
+        --retries 2 "$@" </dev/null >>"$trial/pip.log" 2>&1
+}
+
+install_wheels() { # install_wheels WHEEL...: into the virtual environment, which is made if need be
+    say "installing with pip into $tools: $*"
+    if ! "$tools/bin/python3" -m pip --version >/dev/null 2>&1; then
+        "${as_owner[@]}" "$python" -m venv --clear "$tools" || {
+            complain "$python could not make a virtual environment in $tools"
+            return 1
+        }
+    fi
+    # pip brings its own certificates; behind a proxy the system's may be the right ones
+    pip_install "$@" || pip_install --cert /etc/ssl/certs/ca-certificates.crt "$@" || {
+        tail -n 4 "$trial/pip.log" >&2
+        complain "pip could not install $*: no network, or no wheel for this machine?"
+        return 1
+    }
+}
+
 install_tools() {
     local python wheels=() tool
     python=$(find_python)
@@ -174,24 +195,16 @@ install_tools() {
         as_owner=(as_root)
     fi
     for tool in "${missing_tools[@]}"; do
+        [ -x "$tools/bin/$tool" ] && PATH=$tools/bin:$PATH tool_is_fine "$tool" && continue
         case $tool in
             fpm) wheels+=("$fpm_wheel") ;;
             fortitude) wheels+=("${lint_wheels[0]}") ;;
             findent) wheels+=("${lint_wheels[1]}") ;;
         esac
     done
-    say "installing with pip into $tools: ${wheels[*]}"
-    if ! "$tools/bin/python3" -m pip --version >/dev/null 2>&1; then
-        "${as_owner[@]}" "$python" -m venv --clear "$tools" || {
-            complain "$python could not make a virtual environment in $tools"
-            return
-        }
+    if [ ${#wheels[@]} -gt 0 ]; then
+        install_wheels "${wheels[@]}" || return
     fi
-    "${as_owner[@]}" "$tools/bin/python3" -m pip install --quiet --disable-pip-version-check \
-        "${wheels[@]}" </dev/null || {
-        complain "pip could not install ${wheels[*]} (no network, or no wheel for this machine)"
-        return
-    }
     for tool in "${missing_tools[@]}"; do
         link_tool "$tool"
     done
@@ -211,13 +224,9 @@ report() {
     done
     for tool in ${missing_tools[@]+"${missing_tools[@]}"}; do
         if [ -n "${tools:-}" ] && [ -x "$tools/bin/$tool" ]; then
-            case :$PATH: in
-                *":$link_directory:"*)
-                    complain "another $tool comes first on PATH: $(command -v "$tool")" ;;
-                *)
-                    complain "$tool is installed, but not on the PATH of this shell; type" \
-                        "'export PATH=\"$link_directory:\$PATH\"', then ./setup.sh again" ;;
-            esac
+            found=$(command -v "$tool")
+            complain "$tool is in $link_directory, but this shell finds ${found:-none};" \
+                "type 'export PATH=\"$link_directory:\$PATH\"', then ./setup.sh again"
         elif [ "$tool" = fpm ]; then
             complain "missing: fpm 0.12 or newer, the Fortran package manager"
         else

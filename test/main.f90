@@ -2,7 +2,10 @@ module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
     use test_errors, only: errors_suite
+    use test_systems, only: systems_suite
     use test_harness, only: harness_suite
+    use test_harness_order, only: harness_order_suite
+    use test_hyperdual, only: hyperdual_suite
     implicit none (type, external)
     private
     public :: load_tests
@@ -15,7 +18,10 @@ contains
 
         suite = TestSuite("lagrangia")
         call suite%addTest(harness_suite())
+        call suite%addTest(harness_order_suite())
         call suite%addTest(errors_suite())
+        call suite%addTest(hyperdual_suite())
+        call suite%addTest(systems_suite())
     end function load_tests
 end module suites
 

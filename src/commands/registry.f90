@@ -43,6 +43,7 @@ contains
         integer, intent(out) :: which
         type(error_t), allocatable, intent(out) :: error
         character(:), allocatable :: near
+        type(command_t) :: command
         integer :: i
 
         do which = 1, size(commands)
@@ -59,22 +60,21 @@ contains
             return
         end if
         if (line%has("help") .or. line%has("version")) return
-        associate (command => commands(which))
-            do i = 1, size(line%names)
-                if (index(" "//command%accepts, " "//line%names(i)%text//" ") == 0) then
-                    call fail(error, "option '--"//line%names(i)%text//"' does not go with '"// &
-                              trim("lagrangia "//command%name)//"'")
-                    return
-                end if
-            end do
-            if (command%most >= 0 .and. size(line%arguments) > command%most) then
-                call fail(error, "'"//trim("lagrangia "//command%name)//"' does not take "// &
-                          quoted(line%arguments(command%most + 1)%text))
+        command = commands(which)
+        do i = 1, size(line%names)
+            if (index(" "//command%accepts, " "//line%names(i)%text//" ") == 0) then
+                call fail(error, "option '--"//line%names(i)%text//"' does not go with '"// &
+                          trim("lagrangia "//command%name)//"'")
+                return
             end if
-        end associate
+        end do
+        if (command%most >= 0 .and. size(line%arguments) > command%most) then
+            call fail(error, "'"//trim("lagrangia "//command%name)//"' does not take "// &
+                      quoted(line%arguments(command%most + 1)%text))
+        end if
     end subroutine check_line
 
-    pure function help_text(which) result(text)
+    function help_text(which) result(text)
         !! Help for one command (`which` > 1) or for all.
         integer, intent(in) :: which
         character(:), allocatable :: text
@@ -109,7 +109,7 @@ contains
         call add("exit status: 0 all is well, 1 a check or tolerance did not hold, 2 usage or scene error,")
         call add("  3 the numbers failed, 4 LAPACK or GSL refused, 5 file error, 130 interrupted")
     contains
-        pure subroutine add(line)
+        subroutine add(line)
             character(*), intent(in) :: line
 
             text = text//trim(line)//new_line("a")

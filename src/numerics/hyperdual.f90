@@ -2,7 +2,8 @@ module lagrangia_hyperdual
     !! Hyper-dual numbers: exact first and mixed second derivatives of what is computed with them.
     !!
     !! `f = sin(hyperdual_t(x, d1=1.0_dp, d2=1.0_dp))` holds \(f, f', f', f''\). Where a
-    !! function has no derivative (`sqrt` at 0, say) the derivatives are infinite or NaN, also those of a constant.
+    !! function has no derivative (`sqrt` at 0, say) the derivatives are infinite or NaN, also
+    !! those of a constant.
     !!
     !! Source: Fike & Alonso, AIAA paper 2011-886, sec. III.
     use lagrangia_hyperdual_algebra, only: assignment(=), hyperdual, hyperdual_t, &

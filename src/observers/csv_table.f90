@@ -2,7 +2,7 @@ module lagrangia_csv_table
     !! The data file as comma-separated values (RFC 4180): one header row, then numbers.
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
-    use lagrangia_number_text, only: csv_row
+    use lagrangia_number_text, only: field_width, write_csv_row
     use lagrangia_table, only: table_t
     implicit none (type, external)
     private
@@ -36,8 +36,11 @@ contains
         !! One sample.
         class(csv_table_t), intent(inout) :: self
         real(dp), intent(in) :: values(:)
+        character((field_width + 1)*size(values)) :: line
+        integer :: length
 
-        call self%file%write(csv_row(values))
+        call write_csv_row(values, line, length)
+        call self%file%write(line(:length))
     end subroutine row
 
     subroutine finish(self, counts, error)

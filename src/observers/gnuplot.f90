@@ -28,7 +28,7 @@ module lagrangia_gnuplot
 
 contains
 
-    pure subroutine new_panels(specs, names, units, panels, error)
+    subroutine new_panels(specs, names, units, panels, error)
         !! Panels as a scene's `plot` wants them: `'theta'`, `'x:y'`, `'t:theta1+theta2'`; with no
         !! specs, one panel for each unit over the first column, drifts and errors apart.
         character(*), intent(in) :: specs(:), names(:), units(:)
@@ -67,7 +67,7 @@ contains
         small = index(name, "_drift") > 0 .or. name == "error"
     end function is_small
 
-    pure subroutine read_panel(spec, names, panel, error)
+    subroutine read_panel(spec, names, panel, error)
         !! `[X:]Y1[+Y2...]`, all of them names of columns.
         character(*), intent(in) :: spec, names(:)
         type(panel_t), intent(inout) :: panel
@@ -89,7 +89,7 @@ contains
             if (last >= len(spec)) exit
         end do
     contains
-        pure subroutine find(name, column)
+        subroutine find(name, column)
             character(*), intent(in) :: name
             integer, intent(out) :: column
             character(:), allocatable :: near
@@ -103,7 +103,7 @@ contains
         end subroutine find
     end subroutine read_panel
 
-    pure function gnuplot_script(file, reading, title, names, units, low, high, panels) result(text)
+    function gnuplot_script(file, reading, title, names, units, low, high, panels) result(text)
         !! The script for `file`, a bare name beside the script; its pictures are `NAME.png`, ...
         character(*), intent(in) :: file       !! data file
         character(*), intent(in) :: reading    !! how gnuplot reads it: words behind the file name
@@ -138,7 +138,7 @@ contains
         call script%add("if (kind eq 'dumb') { set terminal dumb noenhanced size 100,"// &
                         to_text(30*size(panels))//" }")
         if (index(reading, "skip") == 1) call script%add("set datafile separator comma")
-        call script%add("set grid lc rgb '#cccccc'")
+        call script%add("set grid lc rgb '#bbbbbb' lw 0.8 lt 1")
         call script%add("set key above right")
         call script%add("set format y '%g'")
         call script%add("set lmargin 14; set rmargin 4")
@@ -150,7 +150,7 @@ contains
         call script%add("unset multiplot")
         text = script%text
     contains
-        pure subroutine draw(panel)
+        subroutine draw(panel)
             type(panel_t), intent(in) :: panel
             character(:), allocatable :: line
             real(dp) :: width, rise
@@ -159,7 +159,7 @@ contains
             y = panel%y(1)
             width = high(panel%x) - low(panel%x)
             rise = high(y) - low(y)
-            line = "unset size"
+            line = "set size noratio"
             if (units(panel%x) == "m" .and. units(y) == "m" .and. panel%x > 1) then
                 if (width < 5.0_dp*rise .and. rise < 5.0_dp*width) line = "set size ratio -1"
             end if
@@ -168,13 +168,16 @@ contains
             if (panel%curves == 1) then
                 call script%add("set ylabel '"//label(names(y), units(y))//"'; unset key")
             else
-                call script%add("set ylabel '["//trim(units(y))//"]'; set key above right")
+                line = "["//trim(units(y))//"]"
+                if (any(units(panel%y(:panel%curves)) /= units(y))) line = ""
+                call script%add("set ylabel '"//line//"'; set key above right")
             end if
             line = "plot data "
             do k = 1, panel%curves
                 if (k > 1) line = line//", data "
                 line = line//reading//"using "//to_text(panel%x)//":"//to_text(panel%y(k))// &
-                       " with lines lw 1.5 title '"//trim(names(panel%y(k)))//"'"
+                       " with lines lw 1.5 title '"// &
+                       label(names(panel%y(k)), units(panel%y(k)))//"'"
             end do
             call script%add(line)
         end subroutine draw

@@ -2,7 +2,7 @@ module lagrangia_text_table
     !! The data file as text: a `#` header, then one row a sample; for gnuplot and numpy.loadtxt.
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
-    use lagrangia_number_text, only: text_row
+    use lagrangia_number_text, only: field_width, write_row
     use lagrangia_table, only: table_t
     implicit none (type, external)
     private
@@ -44,8 +44,11 @@ contains
         !! One sample.
         class(text_table_t), intent(inout) :: self
         real(dp), intent(in) :: values(:)
+        character((field_width + 1)*size(values)) :: line
+        integer :: length
 
-        call self%file%write(text_row(values))
+        call write_row(values, line, length)
+        call self%file%write(line(:length))
     end subroutine row
 
     subroutine finish(self, counts, error)

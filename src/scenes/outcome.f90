@@ -3,6 +3,7 @@ module lagrangia_outcome
     use lagrangia_description, only: name_length
     use lagrangia_json, only: json_list, json_number, json_string
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: outcome_t, measure_t
@@ -69,7 +70,7 @@ contains
         end do
     end function error
 
-    pure function verdict(self) result(text)
+    function verdict(self) result(text)
         !! `holds`, `not judged`, or what did not hold.
         class(outcome_t), intent(in) :: self
         character(:), allocatable :: text
@@ -91,7 +92,7 @@ contains
         if (text == "") text = merge("holds     ", "not judged", judged)
         text = trim(text)
     contains
-        pure subroutine judge(measure)
+        subroutine judge(measure)
             type(measure_t), intent(in) :: measure
 
             judged = judged .or. measure%judged
@@ -112,7 +113,7 @@ contains
         text = trim(adjustl(buffer))
     end function short
 
-    pure function outcome_json(self) result(json)
+    function outcome_json(self) result(json)
         !! One object, as `--json` prints it.
         type(outcome_t), intent(in) :: self
         character(:), allocatable :: json
@@ -165,20 +166,20 @@ contains
         end do
     end function find
 
-    pure function scorecard_head() result(line)
+    function scorecard_head() result(line)
         !! The titles over the rows.
         character(:), allocatable :: line
 
-        line = "scene                     system            method     steps   evaluations"// &
-               "  worst drift            error            period error  seconds  verdict"
+        line = cells("scene", "system", "method", "steps", "evaluations", "worst drift", "error", &
+                     "period error", "seconds", "verdict")
     end function scorecard_head
 
-    pure function scorecard_row(self) result(line)
+    function scorecard_row(self) result(line)
         !! One line a scene.
         type(outcome_t), intent(in) :: self
         character(:), allocatable :: line
-        character(160) :: buffer
-        character(24) :: drift, error_text, period_text
+        character(:), allocatable :: drift, error_text, period_text
+        character(12) :: seconds
         integer :: i, k
 
         drift = "-"
@@ -193,11 +194,43 @@ contains
         if (self%error_from == from_half_step) error_text = short(self%error())//" estimate"
         period_text = "-"
         do i = 1, size(self%others)
-            if (self%others(i)%name == "period") period_text = short(self%others(i)%worst)
+            if (index(self%others(i)%name, "period") > 0 .and. &
+                (self%others(i)%judged .or. period_text == "-")) &
+                period_text = short(self%others(i)%worst)
         end do
-        write (buffer, "(a24, 2x, a16, 2x, a7, i9, i14, 2x, a21, 2x, a15, 2x, a12, f9.4, 2x)") &
-            self%scene, self%system, self%method, self%steps, self%evaluations, drift, &
-            error_text, period_text, self%seconds
-        line = trim(buffer)//"  "//self%verdict()
+        write (seconds, "(f12.4)") self%seconds
+        line = cells(self%scene, self%system, self%method, to_text(self%steps), &
+                     to_text(self%evaluations), drift, error_text, period_text, &
+                     trim(adjustl(seconds)), self%verdict())
     end function scorecard_row
+
+    pure function cells(scene, system, method, steps, evaluations, drift, error, period, seconds, &
+                        verdict) result(line)
+        !! The row's columns: words to the left, counts to the right.
+        character(*), intent(in) :: scene, system, method, steps, evaluations, drift, error, &
+                                    period, seconds, verdict
+        character(:), allocatable :: line
+
+        line = left(scene, 26)//left(system, 17)//left(method, 8)//right(steps, 8)// &
+               right(evaluations, 12)//"  "//left(drift, 18)//left(error, 18)//left(period, 14)// &
+               right(seconds, 8)//"  "//verdict
+    end function cells
+
+    pure function left(text, width) result(cell)
+        !! At least one blank behind it.
+        character(*), intent(in) :: text
+        integer, intent(in) :: width
+        character(:), allocatable :: cell
+
+        cell = text//repeat(" ", max(1, width - len(text)))
+    end function left
+
+    pure function right(text, width) result(cell)
+        !! At least one blank before it.
+        character(*), intent(in) :: text
+        integer, intent(in) :: width
+        character(:), allocatable :: cell
+
+        cell = repeat(" ", max(1, width - len(text)))//text
+    end function right
 end module lagrangia_outcome

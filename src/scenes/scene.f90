@@ -33,7 +33,7 @@ module lagrangia_scene
 
 contains
 
-    pure function scene_lines(scene, d) result(lines)
+    function scene_lines(scene, d) result(lines)
         !! The effective scene, all defaults filled in, as namelist text.
         type(scene_t), intent(in) :: scene
         type(description_t), intent(in) :: d
@@ -82,7 +82,7 @@ contains
         end do
         call add("/")
     contains
-        pure subroutine add(line)
+        subroutine add(line)
             character(*), intent(in) :: line
             character(scene_line_length) :: wide
 

@@ -52,8 +52,8 @@ contains
             number("support_acceleration", "m/s^2", "upward acceleration of the support, a_s", &
                    self%support_acceleration)]
         d%quantities = [ &
-            conserved("energy_support", "J", "(m1 + m2 + I/R^2)/2 x_dot^2 - (m1 - m2)(g + a_s) x"// &
-                      ": energy in the support's frame", 0.0_dp), &
+            conserved("energy_support", "J", "(m1 + m2 + I/R^2)/2 x_dot^2 - (m1 - m2)(g + a_s)"// &
+                      " x: energy in the support's frame", 0.0_dp), &
             quantity("p_x", "kg m/s", "(m1 + m2 + I/R^2) x_dot - (m1 - m2) a_s t: momentum of x"), &
             quantity("total_energy", "J", "T + V in the inertial frame, to which the support "// &
                      "does work"), &
@@ -73,8 +73,8 @@ contains
                 "+ m1 g (x - a_s t^2/2) - m2 g (x + a_s t^2/2)"]
             d%energy = "(m1 + m2 + I/R^2)/2 x_dot^2 - (m1 + m2)/2 (a_s t)^2 - (m1 - m2) g x "// &
                        "+ (m1 + m2) g a_s t^2/2"
-            d%constraint = "holonomic, rheonomic: y1 + y2 = a_s t^2 (heights), in the support's "// &
-                           "frame x + y + pi R = l"
+            d%constraint = "holonomic, rheonomic: y1 + y2 = a_s t^2 for the heights; in the "// &
+                           "support's frame x + y + pi R = l"
         else
             d%lagrangian = [character(len(d%title)) :: &
                 "(m1 + m2 + I/R^2)/2 x_dot^2 + (m1 - m2) g x"]

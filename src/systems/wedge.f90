@@ -74,7 +74,8 @@ contains
             "m = m_block, M = m_wedge: Fortran does not tell m from M.", &
             "The notes end with m g sin(alpha) = M (q1_ddot + q2_ddot cos(alpha)): a slip, the "// &
             "mass is m.", &
-            "q1_ddot = g sin(alpha)/(1 - m cos(alpha)^2/(M + m)), constant: K = 0, no oscillation.", &
+            "q1_ddot = g sin(alpha)/(1 - m cos(alpha)^2/(M + m)) is constant: K = 0, no "// &
+            "oscillation.", &
             "M -> infinity: g sin(alpha); alpha = pi/2: free fall beside a wedge that stays."]
         d%source = "Hamilton's Principle: case II, a block sliding on a wedge"
     end subroutine describe
