@@ -5,9 +5,11 @@ module lagrangia_catalogue
     use lagrangia_cart_pendulum, only: cart_pendulum_t
     use lagrangia_cart_pendulum_reference, only: cart_pendulum_reference_t, &
         new_cart_pendulum_reference
+    use lagrangia_charged_particle, only: charged_particle_t
     use lagrangia_composition, only: composition_t, new_verlet
     use lagrangia_description, only: description_t, name_length
     use lagrangia_double_pendulum, only: double_pendulum_t
+    use lagrangia_driven_pendulum, only: driven_pendulum_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp
@@ -18,6 +20,9 @@ module lagrangia_catalogue
     use lagrangia_pendulum_reference, only: pendulum_reference_t, new_pendulum_reference
     use lagrangia_reference, only: reference_t
     use lagrangia_rk4, only: new_rk4, rk4_t
+    use lagrangia_rolling_disk, only: rolling_disk_t
+    use lagrangia_rotating_hoop, only: rotating_hoop_t
+    use lagrangia_rotating_wire, only: rotating_wire_t
     use lagrangia_system, only: default_values, system_t
     use lagrangia_text, only: join, nearest_name, quoted
     use lagrangia_wedge, only: wedge_t
@@ -44,6 +49,11 @@ contains
         case (4); allocate (cart_pendulum_t :: system)
         case (5); allocate (atwood_t :: system)
         case (6); allocate (wedge_t :: system)
+        case (7); allocate (rolling_disk_t :: system)
+        case (8); allocate (charged_particle_t :: system)
+        case (9); allocate (rotating_wire_t :: system)
+        case (10); allocate (rotating_hoop_t :: system)
+        case (11); allocate (driven_pendulum_t :: system)
         case default; return
         end select
         call system%describe(d)
