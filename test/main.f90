@@ -14,10 +14,10 @@ module suites
     use test_harness_order, only: harness_order_suite
     use test_gsl, only: gsl_suite
     use test_harness, only: harness_suite
+    use test_harness_order, only: harness_order_suite
     use test_hyperdual, only: hyperdual_suite
     use test_lapack, only: lapack_suite
     use test_quadrature, only: quadrature_suite
-    use test_harness_order, only: harness_order_suite
     implicit none (type, external)
     private
     public :: load_tests
