@@ -4,6 +4,7 @@ module suites
     use test_errors, only: errors_suite
     use test_systems, only: systems_suite
     use test_harness, only: harness_suite
+    use test_hyperdual, only: hyperdual_suite
     implicit none (type, external)
     private
     public :: load_tests
@@ -18,6 +19,7 @@ contains
         call suite%addTest(harness_suite())
         call suite%addTest(errors_suite())
         call suite%addTest(systems_suite())
+        call suite%addTest(hyperdual_suite())
     end function load_tests
 end module suites
 

@@ -1,8 +1,8 @@
 module lagrangia_elliptic
     !! Elliptic integrals and functions from the complementary modulus \(k' = \sqrt{1 - k^2}\).
     !!
-    !! Near \(k = 1\) the modulus is all nines; \(k'\) keeps every digit, and where \(k\) is small it
-    !! loses none that matter. Neither the parameter \(m = k^2\) nor \(k\) itself is needed.
+    !! Near \(k = 1\) the modulus is all nines; \(k'\) keeps every digit, and where \(k\) is small
+    !! it loses none that matter. Neither the parameter \(m = k^2\) nor \(k\) itself is needed.
     use lagrangia_kinds, only: dp
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     implicit none (type, external)
@@ -53,9 +53,9 @@ contains
     pure subroutine jacobi(u, kc, sn, cn, dn)
         !! Jacobi's \(\mathrm{sn}, \mathrm{cn}, \mathrm{dn}\) of any real argument.
         !!
-        !! Landen's transformation takes \(k'\) up to 1, where the functions are those of the circle,
-        !! and back; every step is free of cancellation. The circle's angle is \(\pi u/2K\), so that
-        !! `sin` reduces long times by the period: what is left is the rounding of `u` itself.
+        !! Landen's transformation takes \(k'\) up to 1, where the functions are those of the
+        !! circle, and back; every step is free of cancellation. The circle's angle is \(\pi u/2K\),
+        !! so that `sin` reduces long times by the period: only the rounding of `u` is left.
         !!
         !! Source: R. Bulirsch, Numer. Math. 7, 78 (1965), procedure `sncndn`, with sine and cosine
         !! in place of the cotangent, which overflows for small `u`.
