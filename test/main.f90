@@ -4,6 +4,7 @@ module suites
     use test_errors, only: errors_suite
     use test_systems, only: systems_suite
     use test_harness, only: harness_suite
+    use test_harness_order, only: harness_order_suite
     use test_hyperdual, only: hyperdual_suite
     implicit none (type, external)
     private
@@ -17,6 +18,7 @@ contains
 
         suite = TestSuite("lagrangia")
         call suite%addTest(harness_suite())
+        call suite%addTest(harness_order_suite())
         call suite%addTest(errors_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(hyperdual_suite())

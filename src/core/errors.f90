@@ -18,6 +18,8 @@ module lagrangia_errors
     type :: error_t
         !! What went wrong: one line for the user, and the exit status that belongs to it.
         character(:), allocatable :: message
+        character(:), allocatable :: key  !! the key of a scene that is to blame, if it is known
+        integer :: element = 1            !! and which of its values
         integer :: status = status_usage
     contains
         procedure :: add_context
@@ -25,15 +27,19 @@ module lagrangia_errors
 
 contains
 
-    pure subroutine fail(error, message, status)
+    pure subroutine fail(error, message, status, key, element)
         !! Make `error` say `message`; the status is that of a usage error unless given.
         type(error_t), allocatable, intent(out) :: error
         character(*), intent(in) :: message
         integer, intent(in), optional :: status
+        character(*), intent(in), optional :: key
+        integer, intent(in), optional :: element
 
         allocate (error)
         error%message = message
         if (present(status)) error%status = status
+        if (present(key)) error%key = key
+        if (present(element)) error%element = element
     end subroutine fail
 
     pure subroutine add_context(self, context)

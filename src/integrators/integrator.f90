@@ -6,7 +6,7 @@ module lagrangia_integrator
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: integrator_t, integrator_box_t
+    public :: integrator_t, integrator_box_t, dense_integrator_t
 
     type, abstract :: integrator_t
         character(name_length) :: name = ""
@@ -22,6 +22,21 @@ module lagrangia_integrator
         !! A place for one integrator of any kind.
         class(integrator_t), allocatable :: item
     end type integrator_box_t
+
+    type, abstract, extends(integrator_t) :: dense_integrator_t
+        !! An integrator that walks step by step and knows the solution between the ends of its
+        !! latest step, `t_old` to `t_new`. Adaptive ones choose their steps by `tolerance`.
+        real(dp) :: tolerance = 1e-10_dp  !! of the local error, absolute below 1, relative above
+        real(dp) :: t_old = 0.0_dp        !! s
+        real(dp) :: t_new = 0.0_dp        !! s
+        real(dp) :: t_end = 0.0_dp        !! no step goes beyond, s
+        integer(i8) :: accepted = 0
+        integer(i8) :: rejected = 0
+    contains
+        procedure(start_i), deferred :: start
+        procedure(step_i), deferred :: step
+        procedure(state_at_i), deferred :: state_at
+    end type dense_integrator_t
 
     abstract interface
         pure subroutine prepare_i(self, system, error)
@@ -46,5 +61,34 @@ module lagrangia_integrator
             real(dp), intent(inout) :: q(system%ndof)
             real(dp), intent(inout) :: v(system%ndof)
         end subroutine advance_i
+
+        pure subroutine start_i(self, system, t0, q, v, t_end)
+            !! Stand at `t0`; `prepare` came before. Also after an event has changed the state.
+            import :: dense_integrator_t, system_t, dp
+            implicit none (type, external)
+            class(dense_integrator_t), intent(inout) :: self
+            class(system_t), intent(in) :: system
+            real(dp), intent(in) :: t0, q(system%ndof), v(system%ndof), t_end
+        end subroutine start_i
+
+        pure subroutine step_i(self, system, error)
+            !! One accepted step from `t_new` on, never beyond `t_end`; fails (status 3) where no
+            !! step is small enough, and then stands where it stood.
+            import :: dense_integrator_t, system_t, error_t
+            implicit none (type, external)
+            class(dense_integrator_t), intent(inout) :: self
+            class(system_t), intent(in) :: system
+            type(error_t), allocatable, intent(out) :: error
+        end subroutine step_i
+
+        pure subroutine state_at_i(self, t, q, v)
+            !! Dense output: the state at `t` between `t_old` and `t_new`; at the ends exactly the
+            !! states of the steps. No evaluations of accelerations.
+            import :: dense_integrator_t, dp
+            implicit none (type, external)
+            class(dense_integrator_t), intent(in) :: self
+            real(dp), intent(in) :: t
+            real(dp), intent(out) :: q(:), v(:)
+        end subroutine state_at_i
     end interface
 end module lagrangia_integrator

@@ -10,7 +10,8 @@ module lagrangia_reference
         character(line_length) :: title = ""  !! which closed form, and its source
         integer :: ndof = 0
         logical :: has_state = .true.         !! `state_at` is known; otherwise only the period
-        real(dp) :: period = 0.0_dp           !! s; 0 where the motion has none
+        real(dp) :: period = 0.0_dp           !! s; 0 where none is known
+        real(dp) :: small_period = 0.0_dp     !! of small oscillations, s; 0 where none is known
     contains
         procedure(state_at_i), deferred :: state_at
     end type reference_t

@@ -2,10 +2,11 @@ module funit_equal
     !! Assertions of equality. NaN equals nothing; an infinity equals itself.
     use, intrinsic :: iso_fortran_env, only: int32, int64, real64
     use funit_exceptions, only: throw
-    use funit_messages, only: conformable, headline, keyword_only, line, list
+    use funit_messages, only: comparison, conformable, fail_reals, headline, keyword_only, list, &
+                              place
     implicit none (type, external)
     private
-    public :: assertEqual, assertRelativelyEqual
+    public :: assertEqual
 
     interface assertEqual
         !! Fail unless `actual` is `expected`: reals within an absolute tolerance (zero if absent),
@@ -16,11 +17,6 @@ module funit_equal
         module procedure equal_real, equal_real_reals, equal_reals
         module procedure equal_real_matrix, equal_matrices
     end interface assertEqual
-
-    interface assertRelativelyEqual
-        !! Fail unless `abs(actual - expected) <= tolerance*abs(expected)`; a zero `expected` fails.
-        module procedure close_real, close_real_reals, close_reals, close_matrices
-    end interface assertRelativelyEqual
 
     character(*), parameter :: nl = new_line("a")
 
@@ -175,38 +171,6 @@ contains
                          shape(actual), tolerance, message)
     end subroutine equal_matrices
 
-    subroutine close_real(expected, actual, tolerance, message)
-        real(real64), intent(in) :: expected, actual, tolerance
-        character(*), intent(in), optional :: message
-
-        call check_relatively([expected], [actual], [integer ::], tolerance, message)
-    end subroutine close_real
-
-    subroutine close_real_reals(expected, actual, tolerance, message)
-        real(real64), intent(in) :: expected, actual(:), tolerance
-        character(*), intent(in), optional :: message
-
-        call check_relatively(spread(expected, 1, size(actual)), actual, shape(actual), &
-                              tolerance, message)
-    end subroutine close_real_reals
-
-    subroutine close_reals(expected, actual, tolerance, message)
-        real(real64), intent(in) :: expected(:), actual(:), tolerance
-        character(*), intent(in), optional :: message
-
-        if (.not. conformable(shape(expected), shape(actual), message)) return
-        call check_relatively(expected, actual, shape(actual), tolerance, message)
-    end subroutine close_reals
-
-    subroutine close_matrices(expected, actual, tolerance, message)
-        real(real64), intent(in) :: expected(:, :), actual(:, :), tolerance
-        character(*), intent(in), optional :: message
-
-        if (.not. conformable(shape(expected), shape(actual), message)) return
-        call check_relatively(reshape(expected, [size(actual)]), reshape(actual, [size(actual)]), &
-                              shape(actual), tolerance, message)
-    end subroutine close_matrices
-
     subroutine check_logicals(expected, actual, is_array, message)
         logical, intent(in) :: expected(:), actual(:), is_array
         character(*), intent(in), optional :: message
@@ -262,64 +226,4 @@ contains
         agree = actual <= expected .and. actual >= expected
         if (.not. agree) agree = abs(actual - expected) <= tolerance
     end function agree
-
-    subroutine check_relatively(expected, actual, extents, tolerance, message)
-        !! Arrays come flattened; `extents` is their shape, empty for scalars.
-        real(real64), intent(in) :: expected(:), actual(:)
-        integer, intent(in) :: extents(:)
-        real(real64), intent(in) :: tolerance
-        character(*), intent(in), optional :: message
-        integer :: i
-
-        if (any(abs(expected) <= 0.0_real64)) then
-            call throw(headline("Zero denominator detected in AssertRelativelyEqual.", &
-                                [integer ::], message))
-            return
-        end if
-        i = findloc(abs(actual - expected) <= tolerance*abs(expected), .false., dim=1)
-        if (i == 0) return
-        call fail_reals("AssertRelativelyEqual", "    Rel. difference", expected(i), actual(i), &
-                        (actual(i) - expected(i))/expected(i), tolerance, &
-                        place(i, extents), message)
-    end subroutine check_relatively
-
-    subroutine fail_reals(claim, label, expected, actual, difference, tolerance, at, message)
-        !! Say how far apart two numbers are.
-        character(*), intent(in) :: claim, label
-        real(real64), intent(in) :: expected, actual, difference, tolerance
-        integer, intent(in) :: at(:)
-        character(*), intent(in), optional :: message
-        character(45) :: wanted, got
-        character(135) :: apart
-
-        write (wanted, "(g0)") expected
-        write (got, "(g0)") actual
-        write (apart, "('<', g0, '> (greater than tolerance of ', g0, ')')") difference, tolerance
-        call throw(headline(claim, at, message)//comparison(wanted, got, label, apart, at))
-    end subroutine fail_reals
-
-    function comparison(expected, actual, label, difference, at) result(text)
-        !! What was expected, what was found, how they differ and where.
-        character(*), intent(in) :: expected, actual, label, difference
-        integer, intent(in) :: at(:)
-        character(:), allocatable :: text
-
-        text = line("Expected", len(label), "<"//trim(expected)//">") &
-               //line("Actual", len(label), "<"//trim(actual)//">") &
-               //line(label, len(label), trim(difference))
-        if (size(at) > 0) text = text//line("at index", 14, list(at))
-    end function comparison
-
-    pure function place(i, extents) result(at)
-        !! The index of element `i`, in array element order, of an array of shape `extents`.
-        integer, intent(in) :: i, extents(:)
-        integer :: at(size(extents))
-        integer :: before, k
-
-        before = i - 1
-        do k = 1, size(extents)
-            at(k) = modulo(before, extents(k)) + 1
-            before = before/extents(k)
-        end do
-    end function place
 end module funit_equal

@@ -5,10 +5,11 @@ module funit
     !! Names, arguments, verdicts and messages are pFUnit's; what is missing here does not compile.
     use funit_claims, only: assertExceptionRaised, assertFail, assertFalse, assertIsFinite, &
                             assertSameShape, assertTrue
-    use funit_equal, only: assertEqual, assertRelativelyEqual
+    use funit_equal, only: assertEqual
     use funit_exceptions, only: anyExceptions
     use funit_order, only: assertGreaterThan, assertGreaterThanOrEqual, assertLessThan, &
                            assertLessThanOrEqual
+    use funit_relative, only: assertRelativelyEqual
     use funit_runner, only: finalize, initialize, run, stub
     use funit_suites, only: TestMethod, TestSuite
     implicit none (type, external)

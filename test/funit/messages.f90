@@ -1,9 +1,10 @@
 module funit_messages
     !! The words in which an assertion fails.
+    use, intrinsic :: iso_fortran_env, only: real64
     use funit_exceptions, only: throw
     implicit none (type, external)
     private
-    public :: conformable, headline, keyword_only, line, list
+    public :: comparison, conformable, fail_reals, headline, keyword_only, line, list, place
 
     type, abstract :: keyword_only
         !! No object can have this type: arguments after one of it are given by keyword.
@@ -57,4 +58,44 @@ contains
         if (size(numbers) > 0) write (buffer, "(i0, *(:, ',', i0))") numbers
         text = "["//trim(buffer)//"]"
     end function list
+
+    subroutine fail_reals(claim, label, expected, actual, difference, tolerance, at, message)
+        !! Say how far apart two numbers are.
+        character(*), intent(in) :: claim, label
+        real(real64), intent(in) :: expected, actual, difference, tolerance
+        integer, intent(in) :: at(:)
+        character(*), intent(in), optional :: message
+        character(45) :: wanted, got
+        character(135) :: apart
+
+        write (wanted, "(g0)") expected
+        write (got, "(g0)") actual
+        write (apart, "('<', g0, '> (greater than tolerance of ', g0, ')')") difference, tolerance
+        call throw(headline(claim, at, message)//comparison(wanted, got, label, apart, at))
+    end subroutine fail_reals
+
+    function comparison(expected, actual, label, difference, at) result(text)
+        !! What was expected, what was found, how they differ and where.
+        character(*), intent(in) :: expected, actual, label, difference
+        integer, intent(in) :: at(:)
+        character(:), allocatable :: text
+
+        text = line("Expected", len(label), "<"//trim(expected)//">") &
+               //line("Actual", len(label), "<"//trim(actual)//">") &
+               //line(label, len(label), trim(difference))
+        if (size(at) > 0) text = text//line("at index", 14, list(at))
+    end function comparison
+
+    pure function place(i, extents) result(at)
+        !! The index of element `i`, in array element order, of an array of shape `extents`.
+        integer, intent(in) :: i, extents(:)
+        integer :: at(size(extents))
+        integer :: before, k
+
+        before = i - 1
+        do k = 1, size(extents)
+            at(k) = modulo(before, extents(k)) + 1
+            before = before/extents(k)
+        end do
+    end function place
 end module funit_messages

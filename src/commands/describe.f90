@@ -1,0 +1,125 @@
+module lagrangia_describe
+    !! `lagrangia describe SYSTEM`: what a lecturer would write on the blackboard.
+    use lagrangia_catalogue, only: new_system
+    use lagrangia_command_line, only: command_line_t
+    use lagrangia_console, only: put_line
+    use lagrangia_description, only: description_t, line_length, quantity_t
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: describe_command
+
+contains
+
+    subroutine describe_command(line, error)
+        !! Print the description of one system.
+        type(command_line_t), intent(in) :: line
+        type(error_t), allocatable, intent(out) :: error
+        class(system_t), allocatable :: system
+        type(description_t) :: d
+        integer :: i
+
+        if (size(line%arguments) == 0) then
+            call fail(error, "describe what? 'lagrangia list systems' shows the names")
+            return
+        end if
+        call new_system(line%arguments(1)%text, system, error)
+        if (allocated(error)) return
+        call system%describe(d)
+        call put_line(trim(d%name)//": "//trim(d%title))
+        call put_line("source: "//trim(d%source))
+        call put_line("")
+        call put_line("coordinates")
+        do i = 1, size(d%coordinates)
+            call put_quantity(d%coordinates(i))
+        end do
+        call put_line("parameters of &"//trim(d%name))
+        do i = 1, size(d%parameters)
+            associate (p => d%parameters(i))
+                call put_line("  "//left(p%name, 22)//left("["//trim(p%unit)//"]", 12)// &
+                              trim(p%meaning)//"; default "//default_text(i)//"; "//p%domain())
+            end associate
+        end do
+        call put_block("L =", d%lagrangian)
+        call put_block("equations of motion", d%equations)
+        call put_line("energy (v dL/dv - L)"//merge(", not conserved", "               ", &
+                                                    system%time_dependent))
+        call put_line("  "//trim(d%energy))
+        if (any(d%quantities%conserved)) call put_line("conserved besides")
+        do i = 1, size(d%quantities)
+            if (d%quantities(i)%conserved) call put_quantity(d%quantities(i))
+        end do
+        if (.not. all(d%quantities%conserved)) call put_line("other columns")
+        do i = 1, size(d%quantities)
+            if (.not. d%quantities(i)%conserved) call put_quantity(d%quantities(i))
+        end do
+        call put_line("constraints")
+        call put_line("  "//trim(d%constraint))
+        call put_line("structure")
+        call put_line("  "//structure(system))
+        if (size(d%notes) > 0) call put_block("notes", d%notes)
+    contains
+        function default_text(i) result(text)
+            integer, intent(in) :: i
+            character(:), allocatable :: text
+            integer :: k
+
+            associate (p => d%parameters(i))
+                text = trim(p%computed)
+                if (text /= "") return
+                text = to_text(p%value(1))
+                do k = 2, p%count
+                    text = text//", "//to_text(p%value(k))
+                end do
+            end associate
+        end function default_text
+    end subroutine describe_command
+
+    subroutine put_quantity(item)
+        !! `  theta   [rad]   angle ...`.
+        type(quantity_t), intent(in) :: item
+
+        call put_line("  "//left(item%name, 22)//left("["//trim(item%unit)//"]", 12)//trim(item%meaning))
+    end subroutine put_quantity
+
+    subroutine put_block(title, lines)
+        !! A title and its lines, indented.
+        character(*), intent(in) :: title, lines(:)
+        integer :: i
+
+        call put_line(title)
+        do i = 1, size(lines)
+            call put_line("  "//trim(lines(i)))
+        end do
+    end subroutine put_block
+
+    pure function left(text, width) result(wide)
+        !! Left-justified; longer text keeps one blank behind it.
+        character(*), intent(in) :: text
+        integer, intent(in) :: width
+        character(:), allocatable :: wide
+
+        wide = trim(text)//repeat(" ", max(1, width - len_trim(text)))
+    end function left
+
+    pure function structure(system) result(text)
+        !! What integrators and tests need to know, in words.
+        class(system_t), intent(in) :: system
+        character(:), allocatable :: text
+        type(description_t) :: d
+
+        call system%describe(d)
+        text = to_text(system%ndof - system%constraints)//" degree"// &
+               merge("s", " ", system%ndof - system%constraints > 1)
+        text = trim(text)//" of freedom; accelerations depend on "
+        if (system%velocity_forces) then
+            text = text//"positions and velocities"
+        else
+            text = text//"positions only"
+        end if
+        if (system%time_dependent) text = text//" and on the time"
+        if (system%cyclic > 0) text = text//"; "//trim(d%coordinates(system%cyclic)%name)//" is cyclic"
+    end function structure
+end module lagrangia_describe

@@ -1,0 +1,102 @@
+module lagrangia_list
+    !! `lagrangia list [systems|methods|scenes]`: what there is, one a line.
+    use lagrangia_catalogue, only: nth_integrator, nth_system
+    use lagrangia_command_line, only: command_line_t, word_t
+    use lagrangia_console, only: put_line
+    use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_integrator, only: integrator_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_scene_reader, only: read_scene
+    use lagrangia_shipped, only: shipped_scenes
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: nearest_name, quoted
+    implicit none (type, external)
+    private
+    public :: list_command
+
+contains
+
+    subroutine list_command(line, error)
+        !! Print one list, or all three under their titles.
+        type(command_line_t), intent(in) :: line
+        type(error_t), allocatable, intent(out) :: error
+        character(8), parameter :: kinds(3) = ["systems ", "methods ", "scenes  "]
+        character(:), allocatable :: what, near
+        integer :: i
+
+        what = ""
+        if (size(line%arguments) > 0) what = line%arguments(1)%text
+        if (what /= "" .and. .not. any(kinds == what)) then
+            near = nearest_name(what, kinds)
+            if (near /= "") then
+                near = "did you mean '"//near//"'?"
+            else
+                near = "there are systems, methods, scenes"
+            end if
+            call fail(error, "cannot list "//quoted(what)//"; "//near)
+            return
+        end if
+        do i = 1, size(kinds)
+            if (what /= "" .and. kinds(i) /= what) cycle
+            if (what == "") call put_line(trim(kinds(i)))
+            select case (i)
+            case (1); call list_systems()
+            case (2); call list_methods()
+            case default; call list_scenes(error)
+            end select
+            if (allocated(error)) return
+        end do
+    contains
+        subroutine put(name, meaning)
+            character(*), intent(in) :: name, meaning
+
+            call put_line(repeat("  ", merge(1, 0, what == ""))//trim(name)// &
+                          repeat(" ", max(2, 28 - len_trim(name)))//trim(meaning))
+        end subroutine put
+
+        subroutine list_systems()
+            class(system_t), allocatable :: system
+            type(description_t) :: d
+            integer :: k
+
+            k = 0
+            do
+                k = k + 1
+                call nth_system(k, system)
+                if (.not. allocated(system)) exit
+                call system%describe(d)
+                call put(d%name, d%title)
+            end do
+        end subroutine list_systems
+
+        subroutine list_methods()
+            class(integrator_t), allocatable :: integrator
+            integer :: k
+
+            k = 0
+            do
+                k = k + 1
+                call nth_integrator(k, integrator)
+                if (.not. allocated(integrator)) exit
+                call put(integrator%name, integrator%title)
+            end do
+        end subroutine list_methods
+
+        subroutine list_scenes(error)
+            type(error_t), allocatable, intent(out) :: error
+            type(word_t), allocatable :: paths(:)
+            class(system_t), allocatable :: system
+            type(scene_t) :: scene
+            integer :: k
+
+            call shipped_scenes(paths, error)
+            if (allocated(error)) return
+            do k = 1, size(paths)
+                call read_scene(paths(k)%text, [word_t ::], scene, system, error)
+                if (allocated(error)) return
+                call put(scene%name, scene%title)
+            end do
+        end subroutine list_scenes
+    end subroutine list_command
+end module lagrangia_list

@@ -1,0 +1,137 @@
+module lagrangia_registry
+    !! The commands and options that there are, as data: help, dispatch and refusals read it.
+    use lagrangia_command_line, only: command_line_t, may_have_value, needs_value, no_value, &
+                                      option_t
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_text, only: join, nearest_name, quoted
+    implicit none (type, external)
+    private
+    public :: command_t, commands, options
+    public :: check_line, help_text
+
+    type :: command_t
+        character(12) :: name = ""
+        character(32) :: arguments = ""
+        character(80) :: meaning = ""
+        integer :: most = 0              !! arguments at most; -1: any number
+        character(72) :: accepts = ""    !! options, beside --help and --version
+    end type command_t
+
+    type(option_t), parameter :: options(*) = [ &
+        option_t("set", needs_value, "GROUP%KEY=VALUE", "override a scene or a default; repeatable"), &
+        option_t("output", needs_value, "DIR", "where data files go (default data/output)"), &
+        option_t("format", needs_value, "text|csv|npy", "of the data files"), &
+        option_t("plot", may_have_value, "svg|png", "draw every data file with gnuplot (default png)"), &
+        option_t("json", no_value, "", "print the results as JSON"), &
+        option_t("quiet", no_value, "", "print nothing but errors"), &
+        option_t("help", no_value, "", "this text, or a command's"), &
+        option_t("version", no_value, "", "version, compiler, its flags")]
+
+    type(command_t), parameter :: commands(*) = [ &
+        command_t("", "", "run every scene in data/scenes and print the scorecard", 0, &
+                  "set output format plot json quiet"), &
+        command_t("run", "SCENE...", "the same for these scenes: a .nml file, or a shipped one's name", &
+                  -1, "set output format plot json quiet"), &
+        command_t("list", "[systems|methods|scenes]", "what there is, one a line", 1, ""), &
+        command_t("describe", "SYSTEM", "coordinates, parameters, L, equations, invariants", 1, "")]
+
+contains
+
+    pure subroutine check_line(line, which, error)
+        !! Find the command; fails where it, an option or a number of arguments does not fit.
+        type(command_line_t), intent(in) :: line
+        integer, intent(out) :: which
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: near
+        type(command_t) :: command
+        integer :: i
+
+        do which = 1, size(commands)
+            if (commands(which)%name == line%command) exit
+        end do
+        if (which > size(commands)) then
+            near = nearest_name(line%command, commands(2:)%name)
+            if (near /= "") then
+                near = "; did you mean '"//near//"'?"
+            else
+                near = "; there are "//join(commands(2:)%name, ", ")
+            end if
+            call fail(error, "unknown command "//quoted(line%command)//near)
+            return
+        end if
+        if (line%has("help") .or. line%has("version")) return
+        command = commands(which)
+        do i = 1, size(line%names)
+            if (index(" "//command%accepts, " "//line%names(i)%text//" ") == 0) then
+                call fail(error, "option '--"//line%names(i)%text//"' does not go with '"// &
+                          trim("lagrangia "//command%name)//"'")
+                return
+            end if
+        end do
+        if (command%most >= 0 .and. size(line%arguments) > command%most) then
+            call fail(error, "'"//trim("lagrangia "//command%name)//"' does not take "// &
+                      quoted(line%arguments(command%most + 1)%text))
+        end if
+    end subroutine check_line
+
+    function help_text(which) result(text)
+        !! Help for one command (`which` > 1) or for all.
+        integer, intent(in) :: which
+        character(:), allocatable :: text
+        integer :: i
+
+        text = ""
+        if (which > 1) then
+            call add("usage: lagrangia "//trim(commands(which)%name)//" "// &
+                     trim(commands(which)%arguments)//" [options]")
+            call add("")
+            call add("  "//commands(which)%meaning)
+        else
+            call add("lagrangia: the systems of a classical-mechanics course, run and checked")
+            call add("")
+            call add("usage: lagrangia [command] [options]")
+            call add("")
+            do i = 1, size(commands)
+                call add("  "//padded(trim("lagrangia "//commands(i)%name)//" "// &
+                                      commands(i)%arguments, 36)//commands(i)%meaning)
+            end do
+        end if
+        call add("")
+        call add("options:")
+        do i = 1, size(options)
+            if (which > 1 .and. options(i)%name /= "help" .and. options(i)%name /= "version") then
+                if (index(" "//commands(which)%accepts, " "//trim(options(i)%name)//" ") == 0) cycle
+            end if
+            call add("  "//padded(usage(options(i)), 36)//options(i)%meaning)
+        end do
+        if (which > 1) return
+        call add("")
+        call add("exit status: 0 all is well, 1 a check or tolerance did not hold, 2 usage or scene error,")
+        call add("  3 the numbers failed, 4 LAPACK or GSL refused, 5 file error, 130 interrupted")
+    contains
+        subroutine add(line)
+            character(*), intent(in) :: line
+
+            text = text//trim(line)//new_line("a")
+        end subroutine add
+    end function help_text
+
+    pure function usage(option) result(text)
+        !! `--name VALUE`.
+        type(option_t), intent(in) :: option
+        character(:), allocatable :: text
+
+        text = "--"//trim(option%name)
+        if (option%takes == needs_value) text = text//" "//trim(option%value)
+        if (option%takes == may_have_value) text = text//"[="//trim(option%value)//"]"
+    end function usage
+
+    pure function padded(text, width) result(wide)
+        !! `text` followed by blanks up to `width`, two at least.
+        character(*), intent(in) :: text
+        integer, intent(in) :: width
+        character(:), allocatable :: wide
+
+        wide = trim(text)//repeat(" ", max(2, width - len_trim(text)))
+    end function padded
+end module lagrangia_registry

@@ -1,0 +1,148 @@
+module lagrangia_run_command
+    !! `lagrangia` and `lagrangia run SCENE...`: scenes, their files, the scorecard.
+    use lagrangia_command_line, only: command_line_t, word_t
+    use lagrangia_console, only: note, put_line
+    use lagrangia_errors, only: error_t, fail, status_interrupted, status_not_held, &
+                                status_terminated
+    use lagrangia_observer, only: observer_t
+    use lagrangia_outcome, only: outcome_json, outcome_t, scorecard_head, scorecard_row
+    use lagrangia_play, only: play
+    use lagrangia_progress, only: progress_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_scene_files, only: check_format
+    use lagrangia_scene_reader, only: read_scene
+    use lagrangia_shipped, only: find_scene, shipped_scenes
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
+    use lagrangia_version, only: is_optimised
+    implicit none (type, external)
+    private
+    public :: run_command
+
+contains
+
+    subroutine run_command(line, error)
+        !! Read all scenes before any of them runs; then run them, a row each. A scene that fails
+        !! does not keep the others from running; the exit status is that of the first failure.
+        type(command_line_t), intent(in) :: line
+        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable :: scene_error
+        type(word_t), allocatable :: paths(:)
+        type(progress_t), target :: progress
+        class(observer_t), pointer :: watcher
+        type(outcome_t) :: outcome
+        character(:), allocatable :: format
+        logical :: json, quiet
+        integer :: i, missed
+
+        json = line%has("json")
+        quiet = line%has("quiet")
+        format = line%value_of("format", "text")
+        call check_format(format, error)
+        if (allocated(error)) return
+        call choose_scenes(line, paths, error)
+        if (allocated(error)) return
+        if (.not. (is_optimised() .or. quiet)) call note("this build is not optimised; "// &
+            "'fpm run --profile release' is several times faster")
+
+        watcher => progress
+        missed = 0
+        if (json) then
+            call put_line("[")
+        else if (.not. quiet) then
+            call put_line(scorecard_head())
+        end if
+        do i = 1, size(paths)
+            call run_one(paths(i)%text, scene_error)
+            call progress%clear()
+            if (allocated(scene_error)) then
+                call scene_error%add_context(paths(i)%text)
+                if (stops_all(scene_error)) then
+                    call move_alloc(scene_error, error)
+                    return
+                end if
+            end if
+            if (json) then
+                call put_line(outcome_json(outcome)//trim(merge(",", " ", i < size(paths))))
+            else if (.not. quiet) then
+                call put_line(scorecard_row(outcome))
+            end if
+            if (allocated(scene_error)) then
+                call note(scene_error%message)
+                if (.not. allocated(error)) call fail(error, "", scene_error%status)
+            else if (.not. outcome%holds()) then
+                missed = missed + 1
+            end if
+        end do
+        if (json) call put_line("]")
+        if (missed > 0 .and. .not. allocated(error)) call fail(error, to_text(missed)//" of "// &
+            to_text(size(paths))//" scenes did not hold their tolerances", status_not_held)
+    contains
+        subroutine run_one(path, error)
+            character(*), intent(in) :: path
+            type(error_t), allocatable, intent(out) :: error
+            class(system_t), allocatable :: system
+            type(scene_t) :: scene
+
+            call read_scene(path, sets(line), scene, system, error)
+            if (allocated(error)) return
+            call progress%restart(trim(scene%name))
+            call play(scene, system, line%value_of("output", "data/output"), format, watcher, &
+                      outcome, error)
+        end subroutine run_one
+    end subroutine run_command
+
+    pure function stops_all(error) result(yes)
+        !! An interrupt ends everything.
+        type(error_t), intent(in) :: error
+        logical :: yes
+
+        yes = error%status == status_interrupted .or. error%status == status_terminated
+    end function stops_all
+
+    pure function sets(line) result(words)
+        !! The values of all `--set`.
+        type(command_line_t), intent(in) :: line
+        type(word_t), allocatable :: words(:)
+        integer :: i, k
+
+        k = 0
+        do i = 1, size(line%names)
+            if (line%names(i)%text == "set") k = k + 1
+        end do
+        allocate (words(k))
+        k = 0
+        do i = 1, size(line%names)
+            if (line%names(i)%text /= "set") cycle
+            k = k + 1
+            words(k)%text = line%values(i)%text
+        end do
+    end function sets
+
+    subroutine choose_scenes(line, paths, error)
+        !! The named scenes or all; every one is read, so that nothing runs if one is wrong.
+        type(command_line_t), intent(in) :: line
+        type(word_t), allocatable, intent(out) :: paths(:)
+        type(error_t), allocatable, intent(out) :: error
+        class(system_t), allocatable :: system
+        type(scene_t) :: scene
+        integer :: i
+
+        if (line%command == "") then
+            call shipped_scenes(paths, error)
+        else if (size(line%arguments) == 0) then
+            call fail(error, "run what? 'lagrangia list scenes' shows the names; a path ends in .nml")
+        else
+            allocate (paths(size(line%arguments)))
+            do i = 1, size(paths)
+                call find_scene(line%arguments(i)%text, paths(i)%text, error)
+                if (allocated(error)) return
+            end do
+        end if
+        if (allocated(error)) return
+        do i = 1, size(paths)
+            call read_scene(paths(i)%text, sets(line), scene, system, error)
+            if (allocated(error)) return
+        end do
+    end subroutine choose_scenes
+end module lagrangia_run_command

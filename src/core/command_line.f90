@@ -1,0 +1,172 @@
+module lagrangia_command_line
+    !! The words of a command line: a command, its arguments, its options.
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_text, only: nearest_name, quoted, to_text
+    implicit none (type, external)
+    private
+    public :: word_t, option_t, command_line_t
+    public :: command_words, parse_words
+    public :: no_value, needs_value, may_have_value
+
+    integer, parameter :: no_value = 0, needs_value = 1, may_have_value = 2
+    integer, parameter :: longest_word = 4096
+
+    type :: word_t
+        character(:), allocatable :: text
+    end type word_t
+
+    type :: option_t
+        !! An option that exists: `--name`, what its value is, what it does.
+        character(16) :: name = ""
+        integer :: takes = no_value
+        character(24) :: value = ""
+        character(80) :: meaning = ""
+    end type option_t
+
+    type :: command_line_t
+        !! What was typed.
+        character(:), allocatable :: command              !! "" where there is none
+        type(word_t), allocatable :: arguments(:)
+        type(word_t), allocatable :: names(:), values(:)  !! of the options, in order
+    contains
+        procedure :: has
+        procedure :: value_of
+    end type command_line_t
+
+contains
+
+    subroutine command_words(words, error)
+        !! The program's arguments.
+        type(word_t), allocatable, intent(out) :: words(:)
+        type(error_t), allocatable, intent(out) :: error
+        integer :: i, length
+
+        allocate (words(command_argument_count()))
+        do i = 1, size(words)
+            call get_command_argument(i, length=length)
+            if (length > longest_word) then
+                call fail(error, "argument "//to_text(i)//" is longer than "// &
+                          to_text(longest_word)//" characters")
+                return
+            end if
+            allocate (character(length) :: words(i)%text)
+            if (length > 0) call get_command_argument(i, words(i)%text)
+        end do
+    end subroutine command_words
+
+    pure subroutine parse_words(words, options, line, error)
+        !! Sort words into command, arguments and options; `--` ends the options.
+        type(word_t), intent(in) :: words(:)
+        type(option_t), intent(in) :: options(:)  !! every option there is
+        type(command_line_t), intent(out) :: line
+        type(error_t), allocatable, intent(out) :: error
+        logical :: literal
+        integer :: i
+
+        line%command = ""
+        allocate (line%arguments(0), line%names(0), line%values(0))
+        literal = .false.
+        i = 0
+        do while (i < size(words))
+            i = i + 1
+            associate (text => words(i)%text)
+                if (literal .or. index(text, "-") /= 1 .or. text == "-") then
+                    if (line%command == "" .and. .not. literal) then
+                        line%command = text
+                    else
+                        call append(line%arguments, text)
+                    end if
+                else if (text == "--") then
+                    literal = .true.
+                else
+                    call take_option(words, options, i, line, error)
+                    if (allocated(error)) return
+                end if
+            end associate
+        end do
+    end subroutine parse_words
+
+    pure subroutine take_option(words, options, i, line, error)
+        !! Word `i` is an option: find it and its value.
+        type(word_t), intent(in) :: words(:)
+        type(option_t), intent(in) :: options(:)
+        integer, intent(inout) :: i
+        type(command_line_t), intent(inout) :: line
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: name, near
+        integer :: equals, k
+
+        name = words(i)%text
+        if (name == "-h") name = "--help"
+        equals = index(name, "=")
+        if (equals > 0) name = name(:equals - 1)
+        do k = 1, size(options)
+            if (name == "--"//trim(options(k)%name)) exit
+        end do
+        if (k > size(options)) then
+            near = nearest_name(name(verify(name//".", "-"):), options%name)
+            if (near /= "") near = "; did you mean '--"//near//"'?"
+            call fail(error, "unknown option "//quoted(name)//near)
+            return
+        end if
+        call append(line%names, trim(options(k)%name))
+        if (equals > 0) then
+            if (options(k)%takes == no_value) then
+                call fail(error, "option '"//name//"' takes no value")
+                return
+            end if
+            call append(line%values, words(i)%text(equals + 1:))
+        else if (options(k)%takes == needs_value) then
+            i = i + 1
+            if (i > size(words)) then
+                call fail(error, "option '"//name//"' needs a value: "//name//" "// &
+                          trim(options(k)%value))
+                return
+            end if
+            call append(line%values, words(i)%text)
+        else
+            call append(line%values, "")
+        end if
+    end subroutine take_option
+
+    pure subroutine append(list, text)
+        !! Add a word at the end.
+        type(word_t), allocatable, intent(inout) :: list(:)
+        character(*), intent(in) :: text
+        type(word_t), allocatable :: longer(:)
+        integer :: i
+
+        allocate (longer(size(list) + 1))
+        do i = 1, size(list)
+            call move_alloc(list(i)%text, longer(i)%text)
+        end do
+        longer(size(longer))%text = text
+        call move_alloc(longer, list)
+    end subroutine append
+
+    pure function has(self, name) result(found)
+        !! Whether option `--name` was given.
+        class(command_line_t), intent(in) :: self
+        character(*), intent(in) :: name
+        logical :: found
+        integer :: i
+
+        found = .false.
+        do i = 1, size(self%names)
+            found = found .or. self%names(i)%text == name
+        end do
+    end function has
+
+    pure function value_of(self, name, default) result(value)
+        !! The value of option `--name` (the last one given), or `default`.
+        class(command_line_t), intent(in) :: self
+        character(*), intent(in) :: name, default
+        character(:), allocatable :: value
+        integer :: i
+
+        value = default
+        do i = 1, size(self%names)
+            if (self%names(i)%text == name) value = self%values(i)%text
+        end do
+    end function value_of
+end module lagrangia_command_line

@@ -1,0 +1,48 @@
+module lagrangia_version
+    !! What was built, and how.
+    use, intrinsic :: iso_fortran_env, only: compiler_options, compiler_version
+    implicit none (type, external)
+    private
+    public :: version, build_text, is_optimised
+
+    character(*), parameter :: version = "0.1.0"
+
+contains
+
+    pure function build_text() result(text)
+        !! Compiler and flags; folders of the build machine are left out.
+        character(:), allocatable :: text
+
+        text = compiler_version()//", "//flags()// &
+               merge(", optimised    ", ", not optimised", is_optimised())
+        text = trim(text)
+    end function build_text
+
+    pure function is_optimised() result(yes)
+        !! Whether this build is one to measure with.
+        logical :: yes
+        character(:), allocatable :: options
+
+        options = " "//compiler_options()
+        yes = index(options, " -O2") + index(options, " -O3") > 0
+    end function is_optimised
+
+    pure function flags() result(text)
+        !! The options that change results or speed: `-O`, `-f`, `-m`, `-g`, `-std`.
+        character(:), allocatable :: text
+        character(:), allocatable :: all, word
+        integer :: first, last
+
+        all = compiler_options()//" "
+        text = ""
+        first = 1
+        do while (first <= len(all))
+            last = index(all(first:), " ") + first - 2
+            word = all(first:last)
+            first = last + 2
+            if (len(word) < 2 .or. index(word, "/") > 0) cycle
+            if (index("Ofmgs", word(2:2)) > 0 .and. word(1:1) == "-") text = text//" "//word
+        end do
+        text = text(2:)
+    end function flags
+end module lagrangia_version

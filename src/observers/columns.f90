@@ -1,0 +1,224 @@
+module lagrangia_columns
+    !! Named columns: from a name such as `theta_dot` or `energy_drift` to a number a state.
+    use lagrangia_description, only: description_t, name_length, quantity_t
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_hyperdual, only: hyperdual_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: join, nearest_name
+    implicit none (type, external)
+    private
+    public :: columns_t, new_columns, column_names
+    public :: is_error
+
+    integer, parameter :: is_time = 1, is_coordinate = 2, is_velocity = 3, is_acceleration = 4
+    integer, parameter :: is_energy = 5, is_quantity = 6, is_position = 7
+    integer, parameter :: is_error = 8  !! distance from the truth: not a function of the state
+
+    type :: column_t
+        character(name_length) :: name = ""
+        character(16) :: unit = "1"
+        integer :: kind = 0
+        integer :: index = 0          !! which coordinate, quantity or point
+        integer :: axis = 0           !! of a position
+        logical :: drift = .false.    !! change since the start, divided by `scale`
+        real(dp) :: start = 0.0_dp
+        real(dp) :: scale = 0.0_dp
+    end type column_t
+
+    type :: columns_t
+        !! What is asked for, and no more: only that is evaluated.
+        type(column_t), allocatable :: items(:)
+        integer(i8) :: energy_evaluations = 0
+        logical :: started = .false.
+        integer :: points = 0
+        logical :: needs_accelerations = .false.
+    contains
+        procedure :: evaluate
+    end type columns_t
+
+contains
+
+    pure subroutine new_columns(self, names, system, has_error, error)
+        !! Resolve `names`; fails at one that the system does not have.
+        type(columns_t), intent(out) :: self
+        character(*), intent(in) :: names(:)
+        class(system_t), intent(in) :: system
+        logical, intent(in) :: has_error  !! an `error` column can be given
+        type(error_t), allocatable, intent(out) :: error
+        type(column_t), allocatable :: all(:)
+        type(description_t) :: d
+        integer :: i, j
+
+        call system%describe(d)
+        call every_column(d, system%time_dependent, has_error, all)
+        allocate (self%items(size(names)))
+        do i = 1, size(names)
+            do j = 1, size(all)
+                if (all(j)%name == names(i)) exit
+            end do
+            if (j > size(all)) then
+                call refuse(trim(names(i)), d, all, error)
+            else if (any(names(:i - 1) == names(i))) then
+                call fail(error, "the column is there already")
+            end if
+            if (allocated(error)) then
+                error%key = "columns"
+                error%element = i
+                return
+            end if
+            self%items(i) = all(j)
+        end do
+        self%needs_accelerations = any(self%items%kind == is_acceleration)
+        if (any(self%items%kind == is_position)) self%points = size(d%points)
+    end subroutine new_columns
+
+    pure function column_names(system, has_error) result(names)
+        !! Every column that a system has.
+        class(system_t), intent(in) :: system
+        logical, intent(in) :: has_error
+        character(name_length), allocatable :: names(:)
+        type(column_t), allocatable :: all(:)
+        type(description_t) :: d
+
+        call system%describe(d)
+        call every_column(d, system%time_dependent, has_error, all)
+        names = all%name
+    end function column_names
+
+    pure subroutine every_column(d, time_dependent, has_error, all)
+        !! The whole list of a system's columns.
+        type(description_t), intent(in) :: d
+        logical, intent(in) :: time_dependent, has_error
+        type(column_t), allocatable, intent(out) :: all(:)
+        character(1), parameter :: axes(3) = ["x", "y", "z"]
+        type(column_t) :: c
+        integer :: i, k
+
+        allocate (all(0))
+        call append(all, column_t(name="t", unit="s", kind=is_time))
+        do i = 1, size(d%coordinates)
+            associate (q => d%coordinates(i))
+                call append(all, column_t(q%name, q%unit, is_coordinate, i))
+                call append(all, column_t(trim(q%name)//"_dot", trim(q%unit)//"/s", is_velocity, i))
+                call append(all, column_t(trim(q%name)//"_ddot", trim(q%unit)//"/s^2", &
+                                          is_acceleration, i))
+            end associate
+        end do
+        c = column_t("energy", "J", is_energy, scale=d%energy_scale)
+        call append(all, c)
+        if (.not. time_dependent) call append(all, drift_of(c))
+        do i = 1, size(d%quantities)
+            associate (f => d%quantities(i))
+                c = column_t(f%name, f%unit, is_quantity, i, scale=f%scale)
+                call append(all, c)
+                if (f%conserved) call append(all, drift_of(c))
+            end associate
+        end do
+        do i = 1, size(d%points)
+            do k = 1, d%dimensions
+                call append(all, column_t(axes(k)//"_"//d%points(i)%name, "m", is_position, i, k))
+            end do
+        end do
+        if (has_error) call append(all, column_t("error", "1", is_error))
+    end subroutine every_column
+
+    pure function drift_of(column) result(drift)
+        !! The relative change of a conserved column since the start.
+        type(column_t), intent(in) :: column
+        type(column_t) :: drift
+
+        drift = column
+        drift%name = trim(column%name)//"_drift"
+        drift%unit = "1"
+        drift%drift = .true.
+    end function drift_of
+
+    pure subroutine append(list, item)
+        !! Add `item` at the end.
+        type(column_t), allocatable, intent(inout) :: list(:)
+        type(column_t), intent(in) :: item
+
+        list = [list, item]
+    end subroutine append
+
+    pure subroutine refuse(name, d, all, error)
+        !! Say why there is no column `name`.
+        character(*), intent(in) :: name
+        type(description_t), intent(in) :: d
+        type(column_t), intent(in) :: all(:)
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: near
+
+        near = nearest_name(name, all%name)
+        if (name == "error") then
+            call fail(error, "column 'error': "//trim(d%name)//" has no closed form from this "// &
+                      "start; with expect_error it is estimated")
+        else if (name == "energy_drift") then
+            call fail(error, "column 'energy_drift': the energy of this "//trim(d%name)// &
+                      " is not conserved, for L contains the time")
+        else if (near /= "") then
+            call fail(error, "unknown column '"//name//"'; did you mean '"//near//"'?")
+        else
+            call fail(error, "unknown column '"//name//"'; "//trim(d%name)//" has "// &
+                      join(all%name, ", "))
+        end if
+    end subroutine refuse
+
+    subroutine evaluate(self, system, t, q, v, deviation, row)
+        !! One number a column. The first call sets where drifts start.
+        class(columns_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        real(dp), intent(in) :: deviation  !! what the column `error` shows
+        real(dp), intent(out) :: row(size(self%items))
+        real(dp) :: a(system%ndof), energy
+        type(hyperdual_t) :: r(3, self%points), tt, qq(system%ndof)
+        integer :: i
+        logical :: known
+
+        known = .false.
+        if (self%needs_accelerations) call system%accelerations(t, q, v, a)
+        if (self%points > 0) then
+            tt%re = t
+            qq%re = q
+            call system%positions(tt, qq, r)
+        end if
+        do i = 1, size(self%items)
+            associate (c => self%items(i))
+                select case (c%kind)
+                case (is_time)
+                    row(i) = t
+                case (is_coordinate)
+                    row(i) = q(c%index)
+                case (is_velocity)
+                    row(i) = v(c%index)
+                case (is_acceleration)
+                    row(i) = a(c%index)
+                case (is_energy)
+                    if (.not. known) then
+                        energy = system%energy(t, q, v)
+                        self%energy_evaluations = self%energy_evaluations + 1
+                        known = .true.
+                    end if
+                    row(i) = energy
+                case (is_quantity)
+                    row(i) = system%quantity(c%index, t, q, v)
+                case (is_position)
+                    row(i) = r(c%axis, c%index)%re
+                case default
+                    row(i) = deviation
+                end select
+                if (c%drift) then
+                    if (.not. self%started) then
+                        c%start = row(i)
+                        c%scale = max(abs(c%start), c%scale)
+                        if (c%scale <= 0.0_dp) c%scale = 1.0_dp
+                    end if
+                    row(i) = (row(i) - c%start)/c%scale
+                end if
+            end associate
+        end do
+        self%started = .true.
+    end subroutine evaluate
+end module lagrangia_columns

@@ -1,0 +1,214 @@
+module lagrangia_gnuplot
+    !! A gnuplot script that draws a data file: one panel below the other.
+    !!
+    !! The script finds its data beside itself, wherever it is run from, and takes the best
+    !! terminal that there is. No text of the user is ever more than a single-quoted string.
+    use lagrangia_description, only: name_length
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_kinds, only: dp
+    use lagrangia_text, only: nearest_name, quoted, to_text
+    implicit none (type, external)
+    private
+    public :: panel_t, gnuplot_script, new_panels
+
+    integer, parameter :: most_curves = 8
+
+    type :: panel_t
+        !! One picture: columns `y` over column `x`.
+        integer :: x = 1
+        integer :: curves = 0
+        integer :: y(most_curves) = 0
+    end type panel_t
+
+    type :: lines_t
+        character(:), allocatable :: text
+    contains
+        procedure :: add
+    end type lines_t
+
+contains
+
+    subroutine new_panels(specs, names, units, panels, error)
+        !! Panels as a scene's `plot` wants them: `'theta'`, `'x:y'`, `'t:theta1+theta2'`; with no
+        !! specs, one panel for each unit over the first column, drifts and errors apart.
+        character(*), intent(in) :: specs(:), names(:), units(:)
+        type(panel_t), allocatable, intent(out) :: panels(:)
+        type(error_t), allocatable, intent(out) :: error
+        integer :: i, k
+
+        allocate (panels(0))
+        do i = 1, size(specs)
+            panels = [panels, panel_t()]
+            call read_panel(trim(specs(i)), names, panels(i), error)
+            if (allocated(error)) then
+                error%key = "plot"
+                error%element = i
+                return
+            end if
+        end do
+        if (size(specs) > 0) return
+        do i = 2, size(names)
+            do k = 1, size(panels)
+                if (panels(k)%curves == most_curves) cycle
+                if (units(panels(k)%y(1)) == units(i) .and. &
+                    (is_small(names(panels(k)%y(1))) .eqv. is_small(names(i)))) exit
+            end do
+            if (k > size(panels)) panels = [panels, panel_t()]
+            panels(k)%curves = panels(k)%curves + 1
+            panels(k)%y(panels(k)%curves) = i
+        end do
+    end subroutine new_panels
+
+    pure function is_small(name) result(small)
+        !! A drift or an error: to be drawn on a scale of its own.
+        character(*), intent(in) :: name
+        logical :: small
+
+        small = index(name, "_drift") > 0 .or. name == "error"
+    end function is_small
+
+    subroutine read_panel(spec, names, panel, error)
+        !! `[X:]Y1[+Y2...]`, all of them names of columns.
+        character(*), intent(in) :: spec, names(:)
+        type(panel_t), intent(inout) :: panel
+        type(error_t), allocatable, intent(out) :: error
+        integer :: first, last
+
+        first = index(spec, ":") + 1
+        if (first > 1) call find(spec(:first - 2), panel%x)
+        do while (.not. allocated(error))
+            last = index(spec(first:), "+") + first - 2
+            if (last < first - 1) last = len(spec)
+            if (panel%curves == most_curves) then
+                call fail(error, "more than "//to_text(most_curves)//" curves in one panel")
+                return
+            end if
+            panel%curves = panel%curves + 1
+            call find(spec(first:last), panel%y(panel%curves))
+            first = last + 2
+            if (last >= len(spec)) exit
+        end do
+    contains
+        subroutine find(name, column)
+            character(*), intent(in) :: name
+            integer, intent(out) :: column
+            character(:), allocatable :: near
+
+            do column = 1, size(names)
+                if (names(column) == name) return
+            end do
+            near = nearest_name(name, names)
+            if (near /= "") near = "; did you mean '"//near//"'?"
+            call fail(error, quoted(name)//" is none of this scene's columns"//near)
+        end subroutine find
+    end subroutine read_panel
+
+    function gnuplot_script(file, reading, title, names, units, low, high, panels) result(text)
+        !! The script for `file`, a bare name beside the script; its pictures are `NAME.png`, ...
+        character(*), intent(in) :: file       !! data file
+        character(*), intent(in) :: reading    !! how gnuplot reads it: words behind the file name
+        character(*), intent(in) :: title, names(:), units(:)
+        real(dp), intent(in) :: low(:), high(:)  !! range of each column
+        type(panel_t), intent(in) :: panels(:)
+        character(:), allocatable :: text
+        type(lines_t) :: script
+        character(:), allocatable :: height
+        integer :: i, dot
+
+        dot = index(file, ".", back=.true.)
+        height = to_text(60 + 300*size(panels))
+        if (size(panels) == 1) height = "560"
+        script%text = ""
+        call script%add("# Draws "//file//" as it lies beside this script.")
+        call script%add("folder = './'")
+        call script%add("if (exists('ARG0')) { do for [i=1:strlen(ARG0)] { "// &
+                        "if (ARG0[i:i] eq '/') { folder = ARG0[1:i] } } }")
+        call script%add("if (folder[1:1] ne '/') { folder = './'.folder }")
+        call script%add("data = folder.'"//doubled(file)//"'")
+        call script%add("picture = folder.'"//doubled(file(:dot - 1))//"'")
+        call script%add("if (!exists('kind')) { kind = strstrt(GPVAL_TERMINALS, ' pngcairo ') ? "// &
+                        "'pngcairo' : strstrt(GPVAL_TERMINALS, ' png ') ? 'png' : "// &
+                        "strstrt(GPVAL_TERMINALS, ' svg ') ? 'svg' : 'dumb' }")
+        call script%add("if (kind eq 'pngcairo') { set terminal pngcairo noenhanced size 1000,"// &
+                        height//" font ',11'; set output picture.'.png' }")
+        call script%add("if (kind eq 'png') { set terminal png noenhanced size 1000,"//height// &
+                        "; set output picture.'.png' }")
+        call script%add("if (kind eq 'svg') { set terminal svg noenhanced size 1000,"//height// &
+                        " background 'white'; set output picture.'.svg' }")
+        call script%add("if (kind eq 'dumb') { set terminal dumb noenhanced size 100,"// &
+                        to_text(30*size(panels))//" }")
+        if (index(reading, "skip") == 1) call script%add("set datafile separator comma")
+        call script%add("set grid lc rgb '#bbbbbb' lw 0.8 lt 1")
+        call script%add("set key above right")
+        call script%add("set format y '%g'")
+        call script%add("set lmargin 14; set rmargin 4")
+        call script%add("set multiplot layout "//to_text(size(panels))//",1 title '"// &
+                        doubled(trim(title))//"' noenhanced")
+        do i = 1, size(panels)
+            call draw(panels(i))
+        end do
+        call script%add("unset multiplot")
+        text = script%text
+    contains
+        subroutine draw(panel)
+            type(panel_t), intent(in) :: panel
+            character(:), allocatable :: line
+            real(dp) :: width, rise
+            integer :: k, y
+
+            y = panel%y(1)
+            width = high(panel%x) - low(panel%x)
+            rise = high(y) - low(y)
+            line = "set size noratio"
+            if (units(panel%x) == "m" .and. units(y) == "m" .and. panel%x > 1) then
+                if (width < 5.0_dp*rise .and. rise < 5.0_dp*width) line = "set size ratio -1"
+            end if
+            call script%add(line)
+            call script%add("set xlabel '"//label(names(panel%x), units(panel%x))//"'")
+            if (panel%curves == 1) then
+                call script%add("set ylabel '"//label(names(y), units(y))//"'; unset key")
+            else
+                line = "["//trim(units(y))//"]"
+                if (any(units(panel%y(:panel%curves)) /= units(y))) line = ""
+                call script%add("set ylabel '"//line//"'; set key above right")
+            end if
+            line = "plot data "
+            do k = 1, panel%curves
+                if (k > 1) line = line//", data "
+                line = line//reading//"using "//to_text(panel%x)//":"//to_text(panel%y(k))// &
+                       " with lines lw 1.5 title '"// &
+                       label(names(panel%y(k)), units(panel%y(k)))//"'"
+            end do
+            call script%add(line)
+        end subroutine draw
+    end function gnuplot_script
+
+    pure function label(name, unit) result(text)
+        !! `theta [rad]`.
+        character(*), intent(in) :: name, unit
+        character(:), allocatable :: text
+
+        text = trim(name)//" ["//trim(unit)//"]"
+    end function label
+
+    pure function doubled(text) result(safe)
+        !! Fit for a single-quoted string of gnuplot.
+        character(*), intent(in) :: text
+        character(:), allocatable :: safe
+        integer :: i
+
+        safe = ""
+        do i = 1, len(text)
+            safe = safe//text(i:i)
+            if (text(i:i) == "'") safe = safe//"'"
+        end do
+    end function doubled
+
+    pure subroutine add(self, line)
+        !! One more line.
+        class(lines_t), intent(inout) :: self
+        character(*), intent(in) :: line
+
+        self%text = self%text//line//new_line("a")
+    end subroutine add
+end module lagrangia_gnuplot

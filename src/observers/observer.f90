@@ -1,0 +1,40 @@
+module lagrangia_observer
+    !! The contract of whoever wants to see the states of a run.
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_system, only: system_t
+    implicit none (type, external)
+    private
+    public :: observer_t, observer_box_t
+
+    type, abstract :: observer_t
+    contains
+        procedure(observe_i), deferred :: observe
+        procedure :: tick => no_tick
+    end type observer_t
+
+    type :: observer_box_t
+        !! One observer of any kind; its owner is who made it.
+        class(observer_t), pointer :: item => null()
+    end type observer_box_t
+
+    abstract interface
+        subroutine observe_i(self, system, t, q, v, error)
+            !! See one sample: the first call is the start of the run.
+            import :: observer_t, system_t, dp, error_t
+            implicit none (type, external)
+            class(observer_t), intent(inout) :: self
+            class(system_t), intent(in) :: system
+            real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+            type(error_t), allocatable, intent(out) :: error
+        end subroutine observe_i
+    end interface
+
+contains
+
+    subroutine no_tick(self, done, steps)
+        !! Hear, between samples too, that the run goes on: most don't care.
+        class(observer_t), intent(inout) :: self
+        integer(i8), intent(in) :: done, steps
+    end subroutine no_tick
+end module lagrangia_observer

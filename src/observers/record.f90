@@ -1,0 +1,68 @@
+module lagrangia_record
+    !! The observer that evaluates the columns, writes them down and remembers the worst.
+    use lagrangia_columns, only: columns_t
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_observer, only: observer_t
+    use lagrangia_reference, only: reference_t
+    use lagrangia_shadow, only: distance, shadow_t
+    use lagrangia_system, only: system_t
+    use lagrangia_table, only: table_t
+    implicit none (type, external)
+    private
+    public :: record_t
+
+    type, extends(observer_t) :: record_t
+        type(columns_t) :: columns
+        integer :: shown = 0                              !! so many columns go into the table
+        class(table_t), allocatable :: table              !! absent: nothing is written
+        class(reference_t), allocatable :: reference      !! a closed form,
+        type(shadow_t), allocatable :: shadow             !! or the run at half the step
+        real(dp) :: time = 0.0_dp                         !! of the latest sample, s
+        real(dp), allocatable :: row(:)                   !! the latest sample
+        real(dp), allocatable :: low(:), high(:)          !! range of each column so far
+        integer(i8) :: rows = 0
+    contains
+        procedure :: observe
+        procedure :: worst
+    end type record_t
+
+contains
+
+    subroutine observe(self, system, t, q, v, error)
+        !! Evaluate, remember, write.
+        class(record_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        type(error_t), allocatable, intent(out) :: error
+        real(dp) :: deviation, truth(system%ndof), ignored(system%ndof)
+
+        deviation = 0.0_dp
+        if (allocated(self%reference)) then
+            call self%reference%state_at(t, truth, ignored)
+            deviation = distance(q, truth)
+        else if (allocated(self%shadow)) then
+            call self%shadow%estimate(system, t, q, deviation)
+        end if
+        if (.not. allocated(self%row)) then
+            allocate (self%row(size(self%columns%items)))
+            allocate (self%low(size(self%row)), source=huge(t))
+            allocate (self%high(size(self%row)), source=-huge(t))
+        end if
+        call self%columns%evaluate(system, t, q, v, deviation, self%row)
+        self%low = min(self%low, self%row)
+        self%high = max(self%high, self%row)
+        if (allocated(self%table)) call self%table%row(self%row(:self%shown))
+        self%time = t
+        self%rows = self%rows + 1
+    end subroutine observe
+
+    pure function worst(self, i) result(value)
+        !! The largest magnitude of column `i` so far.
+        class(record_t), intent(in) :: self
+        integer, intent(in) :: i
+        real(dp) :: value
+
+        value = max(abs(self%low(i)), abs(self%high(i)))
+    end function worst
+end module lagrangia_record

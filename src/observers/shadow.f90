@@ -1,0 +1,70 @@
+module lagrangia_shadow
+    !! The same run at half the step, in step with the run itself: where no closed form exists,
+    !! their distance estimates the error (Richardson; Hairer, Nørsett & Wanner, sec. II.4).
+    use lagrangia_errors, only: error_t
+    use lagrangia_integrator, only: integrator_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_system, only: system_t
+    implicit none (type, external)
+    private
+    public :: shadow_t, distance
+
+    type :: shadow_t
+        private
+        class(integrator_t), allocatable :: integrator
+        real(dp) :: t0 = 0.0_dp
+        real(dp) :: h = 0.0_dp        !! half the step of the run
+        integer(i8) :: done = 0       !! half steps taken
+        real(dp), allocatable :: q(:), v(:)
+    contains
+        procedure :: start
+        procedure :: estimate
+    end type shadow_t
+
+contains
+
+    pure function distance(q, truth) result(error)
+        !! The largest difference, absolute below 1 and relative above.
+        real(dp), intent(in) :: q(:), truth(:)
+        real(dp) :: error
+
+        error = maxval(abs(q - truth)/max(1.0_dp, abs(truth)))
+    end function distance
+
+    subroutine start(self, integrator, system, t0, dt, q, v, error)
+        !! Get ready with an integrator of the run's kind.
+        class(shadow_t), intent(inout) :: self
+        class(integrator_t), intent(in) :: integrator
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t0, dt, q(system%ndof), v(system%ndof)
+        type(error_t), allocatable, intent(out) :: error
+
+        allocate (self%integrator, source=integrator)
+        call self%integrator%prepare(system, error)
+        self%t0 = t0
+        self%h = 0.5_dp*dt
+        self%q = q
+        self%v = v
+    end subroutine start
+
+    subroutine estimate(self, system, t, q, error)
+        !! Go to time `t` and estimate the error of the run's coordinates `q` there.
+        class(shadow_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof)
+        real(dp), intent(out) :: error
+        integer(i8) :: steps
+        real(dp) :: now, rest
+
+        steps = 2*int((t - self%t0)/(2.0_dp*self%h)*(1.0_dp + epsilon(t)) + 1e-6_dp, i8) - self%done
+        call self%integrator%advance(system, self%t0, self%h, self%done, steps, self%q, self%v)
+        self%done = self%done + steps
+        now = self%t0 + self%done*self%h
+        rest = 0.5_dp*(t - now)
+        if (rest > 1e-6_dp*self%h) then
+            call self%integrator%advance(system, now, rest, 0_i8, 2_i8, self%q, self%v)
+        end if
+        error = distance(q, self%q)*2.0_dp**self%integrator%order &
+                /(2.0_dp**self%integrator%order - 1.0_dp)
+    end subroutine estimate
+end module lagrangia_shadow

@@ -1,0 +1,51 @@
+module lagrangia_table
+    !! The contract of a data file's format: a header, rows of numbers, an end.
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_output_file, only: output_file_t
+    implicit none (type, external)
+    private
+    public :: table_t
+
+    type, abstract :: table_t
+        type(output_file_t) :: file
+    contains
+        procedure(begin_i), deferred :: begin  !! the header; `names` and `units` a column
+        procedure(row_i), deferred :: row      !! one sample; failures are seen by `finish`
+        procedure(finish_i), deferred :: finish
+        procedure(reading_i), deferred :: reading
+    end type table_t
+
+    abstract interface
+        subroutine begin_i(self, header, names, units)
+            import :: table_t
+            implicit none (type, external)
+            class(table_t), intent(inout) :: self
+            character(*), intent(in) :: header(:)        !! lines about the run
+            character(*), intent(in) :: names(:), units(:)
+        end subroutine begin_i
+
+        subroutine row_i(self, values)
+            import :: table_t, dp
+            implicit none (type, external)
+            class(table_t), intent(inout) :: self
+            real(dp), intent(in) :: values(:)
+        end subroutine row_i
+
+        subroutine finish_i(self, counts, error)
+            import :: table_t, error_t
+            implicit none (type, external)
+            class(table_t), intent(inout) :: self
+            character(*), intent(in) :: counts           !! the line that is known only now
+            type(error_t), allocatable, intent(out) :: error
+        end subroutine finish_i
+
+        pure function reading_i(self) result(words)
+            !! What gnuplot needs behind the file's name to read it, with a blank at the end.
+            import :: table_t
+            implicit none (type, external)
+            class(table_t), intent(in) :: self
+            character(:), allocatable :: words
+        end function reading_i
+    end interface
+end module lagrangia_table

@@ -1,0 +1,151 @@
+module lagrangia_catalogue
+    !! Names and types: the only module that knows every system, method and closed form.
+    use lagrangia_cart_pendulum, only: cart_pendulum_t
+    use lagrangia_composition, only: composition_t, new_verlet
+    use lagrangia_description, only: description_t, name_length
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_integrator, only: integrator_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_reference, only: reference_t
+    use lagrangia_rk4, only: new_rk4, rk4_t
+    use lagrangia_system, only: default_values, system_t
+    use lagrangia_text, only: join, nearest_name, quoted
+    implicit none (type, external)
+    private
+    public :: new_system, nth_system, system_names
+    public :: new_integrator, nth_integrator, method_names
+    public :: new_reference
+
+contains
+
+    subroutine nth_system(i, system)
+        !! Entry `i` of the catalogue, with its default parameters; not allocated beyond the end.
+        integer, intent(in) :: i
+        class(system_t), allocatable, intent(out) :: system
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+
+        select case (i)
+        case (1); allocate (cart_pendulum_t :: system)
+        case default; return
+        end select
+        call system%describe(d)
+        call system%configure(default_values(d), error)
+    end subroutine nth_system
+
+    subroutine nth_integrator(i, integrator)
+        !! Entry `i` of the methods; not allocated beyond the end.
+        integer, intent(in) :: i
+        class(integrator_t), allocatable, intent(out) :: integrator
+
+        select case (i)
+        case (1); call place_rk4()
+        case (2); call place_verlet()
+        end select
+    contains
+        subroutine place_rk4()
+            type(rk4_t) :: method
+
+            call new_rk4(method)
+            allocate (integrator, source=method)
+        end subroutine place_rk4
+
+        subroutine place_verlet()
+            type(composition_t) :: method
+
+            call new_verlet(method)
+            allocate (integrator, source=method)
+        end subroutine place_verlet
+    end subroutine nth_integrator
+
+    subroutine new_reference(system, t0, q0, v0, reference)
+        !! The closed form of the motion that starts at `(q0, v0)`; not allocated if none is known.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t0, q0(:), v0(:)
+        class(reference_t), allocatable, intent(out) :: reference
+    end subroutine new_reference
+
+    subroutine new_system(name, system, error)
+        !! The system called `name`, with its default parameters.
+        character(*), intent(in) :: name
+        class(system_t), allocatable, intent(out) :: system
+        type(error_t), allocatable, intent(out) :: error
+        type(description_t) :: d
+        integer :: i
+
+        i = 0
+        do
+            i = i + 1
+            call nth_system(i, system)
+            if (.not. allocated(system)) exit
+            call system%describe(d)
+            if (d%name == name) return
+        end do
+        call refuse("system", name, system_names(), error)
+    end subroutine new_system
+
+    subroutine new_integrator(name, integrator, error)
+        !! The method called `name`.
+        character(*), intent(in) :: name
+        class(integrator_t), allocatable, intent(out) :: integrator
+        type(error_t), allocatable, intent(out) :: error
+        integer :: i
+
+        i = 0
+        do
+            i = i + 1
+            call nth_integrator(i, integrator)
+            if (.not. allocated(integrator)) exit
+            if (integrator%name == name) return
+        end do
+        call refuse("method", name, method_names(), error)
+    end subroutine new_integrator
+
+    function system_names() result(names)
+        !! The names of all systems.
+        character(name_length), allocatable :: names(:)
+        class(system_t), allocatable :: system
+        type(description_t) :: d
+        integer :: i
+
+        allocate (names(0))
+        i = 0
+        do
+            i = i + 1
+            call nth_system(i, system)
+            if (.not. allocated(system)) exit
+            call system%describe(d)
+            names = [names, d%name]
+        end do
+    end function system_names
+
+    function method_names() result(names)
+        !! The names of all methods.
+        character(name_length), allocatable :: names(:)
+        class(integrator_t), allocatable :: integrator
+        integer :: i
+
+        allocate (names(0))
+        i = 0
+        do
+            i = i + 1
+            call nth_integrator(i, integrator)
+            if (.not. allocated(integrator)) exit
+            names = [names, integrator%name]
+        end do
+    end function method_names
+
+    pure subroutine refuse(kind, name, names, error)
+        !! There is no such name: say which one is near, or which ones there are.
+        character(*), intent(in) :: kind, name, names(:)
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: near
+
+        near = nearest_name(name, names)
+        if (near /= "") then
+            call fail(error, "unknown "//kind//" "//quoted(name)//"; did you mean '"//near//"'?")
+        else
+            call fail(error, "unknown "//kind//" "//quoted(name)//"; there are "//join(names, ", "))
+        end if
+    end subroutine refuse
+end module lagrangia_catalogue

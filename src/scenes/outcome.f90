@@ -1,0 +1,236 @@
+module lagrangia_outcome
+    !! What came out of one scene: a row of the scorecard.
+    use lagrangia_description, only: name_length
+    use lagrangia_json, only: json_list, json_number, json_string
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: outcome_t, measure_t
+    public :: outcome_json, scorecard_head, scorecard_row
+    public :: from_closed_form, from_half_step
+
+    integer, parameter :: from_closed_form = 1, from_half_step = 2
+
+    type :: measure_t
+        !! The largest magnitude of one judged or shown quantity.
+        character(name_length) :: name = ""
+        real(dp) :: worst = 0.0_dp
+        logical :: judged = .false.
+        real(dp) :: limit = 0.0_dp
+    end type measure_t
+
+    type :: outcome_t
+        character(:), allocatable :: scene, system, method, file
+        real(dp) :: t = 0.0_dp
+        real(dp), allocatable :: q(:), v(:)
+        integer(i8) :: steps = 0, evaluations = 0, energy_evaluations = 0, rows = 0
+        type(measure_t), allocatable :: drifts(:)   !! of the invariants
+        type(measure_t), allocatable :: others(:)   !! `error`, `period`, ...
+        integer :: error_from = 0                   !! 0: no error known
+        real(dp) :: period = 0.0_dp                 !! measured, s; 0 if not
+        real(dp) :: seconds = 0.0_dp
+        character(:), allocatable :: failure        !! the run itself failed
+    contains
+        procedure :: verdict
+        procedure :: holds
+        procedure :: error
+    end type outcome_t
+
+contains
+
+    pure function holds(self) result(good)
+        !! Whether the run ended and every tolerance of the scene held.
+        class(outcome_t), intent(in) :: self
+        logical :: good
+
+        good = .not. allocated(self%failure)
+        if (allocated(self%drifts)) good = good .and. all(within(self%drifts))
+        if (allocated(self%others)) good = good .and. all(within(self%others))
+    end function holds
+
+    elemental function within(measure) result(good)
+        !! Not judged, or within its limit; NaN is not.
+        type(measure_t), intent(in) :: measure
+        logical :: good
+
+        good = .not. measure%judged .or. measure%worst <= measure%limit
+    end function within
+
+    pure function error(self) result(value)
+        !! The error; negative where none is known.
+        class(outcome_t), intent(in) :: self
+        real(dp) :: value
+        integer :: i
+
+        value = -1.0_dp
+        if (self%error_from == 0) return
+        do i = 1, size(self%others)
+            if (self%others(i)%name == "error") value = self%others(i)%worst
+        end do
+    end function error
+
+    function verdict(self) result(text)
+        !! `holds`, `not judged`, or what did not hold.
+        class(outcome_t), intent(in) :: self
+        character(:), allocatable :: text
+        logical :: judged
+        integer :: i
+
+        if (allocated(self%failure)) then
+            text = "failed"
+            return
+        end if
+        text = ""
+        judged = .false.
+        do i = 1, size(self%drifts)
+            call judge(self%drifts(i))
+        end do
+        do i = 1, size(self%others)
+            call judge(self%others(i))
+        end do
+        if (text == "") text = merge("holds     ", "not judged", judged)
+        text = trim(text)
+    contains
+        subroutine judge(measure)
+            type(measure_t), intent(in) :: measure
+
+            judged = judged .or. measure%judged
+            if (within(measure)) return
+            if (text /= "") text = text//", "
+            text = text//"NOT "//trim(measure%name)//" "//short(measure%worst)//" > "// &
+                   short(measure%limit)
+        end subroutine judge
+    end function verdict
+
+    pure function short(value) result(text)
+        !! Two digits are enough for an error.
+        real(dp), intent(in) :: value
+        character(:), allocatable :: text
+        character(8) :: buffer
+
+        write (buffer, "(es8.1e2)") value
+        text = trim(adjustl(buffer))
+    end function short
+
+    function outcome_json(self) result(json)
+        !! One object, as `--json` prints it.
+        type(outcome_t), intent(in) :: self
+        character(:), allocatable :: json
+        integer :: i
+
+        json = '{"scene": '//json_string(self%scene)//', "system": '//json_string(self%system)// &
+               ', "method": '//json_string(self%method)//', "t": '//json_number(self%t)// &
+               ', "q": '//json_list(self%q)//', "v": '//json_list(self%v)// &
+               ', "steps": '//json_number(self%steps)// &
+               ', "evaluations": '//json_number(self%evaluations)
+        json = json//', "energy_drift": '//find(self%drifts, "energy_drift")
+        json = json//', "drifts": {'
+        do i = 1, size(self%drifts)
+            if (i > 1) json = json//", "
+            json = json//json_string(self%drifts(i)%name)//": "//json_number(self%drifts(i)%worst)
+        end do
+        json = json//'}, "error": '//find(self%others, "error")
+        json = json//', "error_from": '
+        select case (self%error_from)
+        case (from_closed_form); json = json//'"exact"'
+        case (from_half_step); json = json//'"estimate"'
+        case default; json = json//"null"
+        end select
+        json = json//', "period": '
+        if (self%period > 0.0_dp) then
+            json = json//json_number(self%period)
+        else
+            json = json//"null"
+        end if
+        json = json//', "period_error": '//find(self%others, "period")
+        json = json//', "omega": null, "seconds": '//json_number(self%seconds)// &
+               ', "verdict": '//json_string(self%verdict())//', "file": '
+        if (self%file == "") then
+            json = json//"null}"
+        else
+            json = json//json_string(self%file)//"}"
+        end if
+    end function outcome_json
+
+    pure function find(measures, name) result(json)
+        !! The worst of `name`, or `null`.
+        type(measure_t), intent(in) :: measures(:)
+        character(*), intent(in) :: name
+        character(:), allocatable :: json
+        integer :: i
+
+        json = "null"
+        do i = 1, size(measures)
+            if (measures(i)%name == name) json = json_number(measures(i)%worst)
+        end do
+    end function find
+
+    function scorecard_head() result(line)
+        !! The titles over the rows.
+        character(:), allocatable :: line
+
+        line = cells("scene", "system", "method", "steps", "evaluations", "worst drift", "error", &
+                     "period error", "seconds", "verdict")
+    end function scorecard_head
+
+    function scorecard_row(self) result(line)
+        !! One line a scene.
+        type(outcome_t), intent(in) :: self
+        character(:), allocatable :: line
+        character(:), allocatable :: drift, error_text, period_text
+        character(12) :: seconds
+        integer :: i, k
+
+        drift = "-"
+        if (size(self%drifts) > 0) then
+            k = maxloc(self%drifts%worst, 1)
+            associate (name => self%drifts(k)%name)
+                drift = short(self%drifts(k)%worst)//" "//name(:index(name, "_drift") - 1)
+            end associate
+        end if
+        error_text = "-"
+        if (self%error_from == from_closed_form) error_text = short(self%error())//" exact"
+        if (self%error_from == from_half_step) error_text = short(self%error())//" estimate"
+        period_text = "-"
+        do i = 1, size(self%others)
+            if (index(self%others(i)%name, "period") > 0 .and. &
+                (self%others(i)%judged .or. period_text == "-")) &
+                period_text = short(self%others(i)%worst)
+        end do
+        write (seconds, "(f12.4)") self%seconds
+        line = cells(self%scene, self%system, self%method, to_text(self%steps), &
+                     to_text(self%evaluations), drift, error_text, period_text, &
+                     trim(adjustl(seconds)), self%verdict())
+    end function scorecard_row
+
+    pure function cells(scene, system, method, steps, evaluations, drift, error, period, seconds, &
+                        verdict) result(line)
+        !! The row's columns: words to the left, counts to the right.
+        character(*), intent(in) :: scene, system, method, steps, evaluations, drift, error, &
+                                    period, seconds, verdict
+        character(:), allocatable :: line
+
+        line = left(scene, 26)//left(system, 17)//left(method, 8)//right(steps, 8)// &
+               right(evaluations, 12)//"  "//left(drift, 18)//left(error, 18)//left(period, 14)// &
+               right(seconds, 8)//"  "//verdict
+    end function cells
+
+    pure function left(text, width) result(cell)
+        !! At least one blank behind it.
+        character(*), intent(in) :: text
+        integer, intent(in) :: width
+        character(:), allocatable :: cell
+
+        cell = text//repeat(" ", max(1, width - len(text)))
+    end function left
+
+    pure function right(text, width) result(cell)
+        !! At least one blank before it.
+        character(*), intent(in) :: text
+        integer, intent(in) :: width
+        character(:), allocatable :: cell
+
+        cell = repeat(" ", max(1, width - len(text)))//text
+    end function right
+end module lagrangia_outcome

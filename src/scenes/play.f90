@@ -1,0 +1,266 @@
+module lagrangia_play
+    !! One scene from its data to its data file, picture and row of the scorecard.
+    use lagrangia_catalogue, only: new_integrator, new_reference
+    use lagrangia_columns, only: new_columns
+    use lagrangia_description, only: description_t, name_length
+    use lagrangia_errors, only: error_t, fail, status_numbers
+    use lagrangia_gnuplot, only: new_panels, panel_t
+    use lagrangia_integrator, only: integrator_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_observer, only: observer_box_t, observer_t
+    use lagrangia_outcome, only: from_closed_form, from_half_step, measure_t, outcome_t
+    use lagrangia_period, only: period_t
+    use lagrangia_record, only: record_t
+    use lagrangia_reference, only: reference_t
+    use lagrangia_run, only: new_plan, plan_t, run
+    use lagrangia_scene, only: scene_t
+    use lagrangia_scene_files, only: abandon_files, finish_files, open_files
+    use lagrangia_system, only: system_t
+    implicit none (type, external)
+    private
+    public :: play, rehearse, performance_t
+
+    type :: performance_t
+        !! All that one scene needs to run.
+        type(plan_t) :: plan
+        class(integrator_t), allocatable :: integrator
+        class(reference_t), allocatable :: reference  !! absent: no closed form
+        type(record_t) :: record
+        type(period_t) :: period
+        type(panel_t), allocatable :: panels(:)
+        type(outcome_t) :: outcome
+    end type performance_t
+
+contains
+
+    subroutine rehearse(scene, system, p, error)
+        !! Everything that can be refused before anything is computed or any file is touched.
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        type(performance_t), intent(inout) :: p
+        type(error_t), allocatable, intent(out) :: error
+
+        call begin_outcome(scene, p%outcome)
+        call new_plan(p%plan, scene%t0, scene%dt, scene%duration, scene%every, error)
+        if (allocated(error)) return
+        call new_integrator(trim(scene%method), p%integrator, error)
+        if (allocated(error)) then
+            error%key = "method"
+            return
+        end if
+        call p%integrator%prepare(system, error)
+        if (allocated(error)) return
+        call new_reference(system, scene%t0, scene%q, scene%v, p%reference)
+        call new_record(scene, system, p, error)
+        if (allocated(error)) return
+        call new_panels(scene%plots, scene%columns, p%record%columns%items(:p%record%shown)%unit, &
+                        p%panels, error)
+    end subroutine rehearse
+
+    subroutine play(scene, system, folder, format, watcher, outcome, error)
+        !! Run `scene` and write its files below `folder` (`""`: write none).
+        !!
+        !! A run that fails on its numbers (status 3) keeps the rows that were good; any other
+        !! failure leaves no file, and an existing one as it was.
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        character(*), intent(in) :: folder, format
+        class(observer_t), pointer, intent(in) :: watcher  !! hears the run go on; may be null
+        type(outcome_t), intent(out) :: outcome
+        type(error_t), allocatable, intent(out) :: error
+        type(performance_t), target :: p
+        type(observer_box_t) :: observers(3)
+        type(error_t), allocatable :: file_error
+        integer :: n
+
+        call rehearse(scene, system, p, error)
+        outcome = p%outcome
+        if (allocated(error)) return
+        if (folder /= "") then
+            call open_files(scene, system, folder, format, p%record, outcome%file, error)
+            if (allocated(error)) return
+        end if
+        n = 0
+        if (size(p%record%columns%items) > 0) call join(p%record)
+        if (scene%period_of /= "") then
+            call find_coordinate(system, scene%period_of, p%period%coordinate)
+            call join(p%period)
+        end if
+        if (associated(watcher)) call join(watcher)
+        call timed_run(system, p, observers(:n), outcome, error)
+        if (allocated(error)) then
+            outcome%failure = error%message
+            outcome%t = p%record%time
+            if (error%status /= status_numbers) then
+                call abandon_files(p%record)
+                return
+            end if
+        end if
+        call take_measures(scene, p, outcome)
+        call finish_files(scene, folder, format, p%record, p%panels, outcome, file_error)
+        if (allocated(file_error) .and. .not. allocated(error)) call move_alloc(file_error, error)
+    contains
+        subroutine join(observer)
+            class(observer_t), target, intent(in) :: observer
+
+            n = n + 1
+            observers(n)%item => observer
+        end subroutine join
+    end subroutine play
+
+    subroutine timed_run(system, p, observers, outcome, error)
+        !! The run itself, its final state and what it cost.
+        class(system_t), intent(in) :: system
+        type(performance_t), target, intent(inout) :: p  !! the observers point into it
+        type(observer_box_t), intent(in) :: observers(:)
+        type(outcome_t), intent(inout) :: outcome
+        type(error_t), allocatable, intent(out) :: error
+        integer(i8) :: start, finish, rate
+
+        call system_clock(start, rate)
+        call run(system, p%integrator, p%plan, observers, outcome%q, outcome%v, error)
+        call system_clock(finish)
+        outcome%seconds = real(finish - start, dp)/real(rate, dp)
+        outcome%steps = p%plan%steps + merge(1, 0, p%plan%rest > 0.0_dp)
+        outcome%evaluations = p%integrator%evaluations
+        outcome%t = p%plan%t0 + p%plan%duration
+    end subroutine timed_run
+
+    pure subroutine begin_outcome(scene, outcome)
+        !! What is known before the run.
+        type(scene_t), intent(in) :: scene
+        type(outcome_t), intent(inout) :: outcome
+
+        outcome%scene = trim(scene%name)
+        outcome%system = trim(scene%system)
+        outcome%method = trim(scene%method)
+        outcome%file = ""
+        outcome%t = scene%t0
+        outcome%q = scene%q
+        outcome%v = scene%v
+        allocate (outcome%drifts(0), outcome%others(0))
+    end subroutine begin_outcome
+
+    subroutine new_record(scene, system, p, error)
+        !! The columns that are shown, and behind them those that are only judged.
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        type(performance_t), intent(inout) :: p
+        type(error_t), allocatable, intent(out) :: error
+        character(name_length), allocatable :: names(:)
+        integer :: i
+
+        names = scene%columns
+        do i = 1, size(scene%expectations)
+            associate (name => scene%expectations(i)%name)
+                if (is_period(name) .or. any(names == name)) cycle
+                names = [names, name]
+            end associate
+        end do
+        p%record%shown = size(scene%columns)
+        if (any(names == "error")) then
+            if (allocated(p%reference)) then
+                if (p%reference%has_state) p%outcome%error_from = from_closed_form
+            end if
+            if (p%outcome%error_from == from_closed_form) then
+                allocate (p%record%reference, source=p%reference)
+            else if (any(scene%expectations%name == "error")) then
+                p%outcome%error_from = from_half_step
+                allocate (p%record%shadow)
+                call p%record%shadow%start(p%integrator, system, p%plan%t0, p%plan%dt, scene%q, &
+                                           scene%v, error)
+                if (allocated(error)) return
+            end if
+        end if
+        call new_columns(p%record%columns, names, system, p%outcome%error_from > 0, error)
+        if (allocated(error)) return
+        call check_period(scene, p, error)
+    end subroutine new_record
+
+    elemental function is_period(name) result(yes)
+        !! An expectation about the period rather than about a column.
+        character(*), intent(in) :: name
+        logical :: yes
+
+        yes = name == "period" .or. name == "small_period"
+    end function is_period
+
+    pure subroutine check_period(scene, p, error)
+        !! Refuse to expect a period that is not measured or has nothing to compare with.
+        type(scene_t), intent(in) :: scene
+        type(performance_t), intent(in) :: p
+        type(error_t), allocatable, intent(out) :: error
+        logical :: known
+        integer :: i
+
+        do i = 1, size(scene%expectations)
+            associate (name => scene%expectations(i)%name)
+                if (.not. is_period(name)) cycle
+                known = .false.
+                if (allocated(p%reference)) known = merge(p%reference%period, &
+                    p%reference%small_period, name == "period") > 0.0_dp
+                if (.not. known) then
+                    call fail(error, "no such period of this motion is known", &
+                              key="expect_"//trim(name))
+                else if (scene%period_of == "") then
+                    call fail(error, "needs period_of = 'a coordinate'", &
+                              key="expect_"//trim(name))
+                end if
+            end associate
+            if (allocated(error)) return
+        end do
+    end subroutine check_period
+
+    pure subroutine find_coordinate(system, name, index)
+        !! The number of the coordinate called `name`.
+        class(system_t), intent(in) :: system
+        character(*), intent(in) :: name
+        integer, intent(out) :: index
+        type(description_t) :: d
+
+        call system%describe(d)
+        index = findloc(d%coordinates%name == name, .true., 1)
+    end subroutine find_coordinate
+
+    pure subroutine take_measures(scene, p, outcome)
+        !! The worst of every drift and error, and the period beside what it should be.
+        type(scene_t), intent(in) :: scene
+        type(performance_t), intent(in) :: p
+        type(outcome_t), intent(inout) :: outcome
+        type(measure_t) :: m
+        integer :: i
+
+        outcome%energy_evaluations = p%record%columns%energy_evaluations
+        outcome%rows = p%record%rows
+        if (p%record%rows > 0) then
+            do i = 1, size(p%record%columns%items)
+                m = measure(p%record%columns%items(i)%name, p%record%worst(i))
+                if (p%record%columns%items(i)%drift) then
+                    outcome%drifts = [outcome%drifts, m]
+                else if (m%name == "error" .or. m%judged) then
+                    outcome%others = [outcome%others, m]
+                end if
+            end do
+        end if
+        if (scene%period_of == "") return
+        outcome%period = p%period%period()
+        if (.not. allocated(p%reference)) return
+        if (p%reference%period > 0.0_dp) outcome%others = [outcome%others, &
+            measure("period", abs(outcome%period/p%reference%period - 1.0_dp))]
+        if (p%reference%small_period > 0.0_dp) outcome%others = [outcome%others, &
+            measure("small_period", abs(outcome%period/p%reference%small_period - 1.0_dp))]
+    contains
+        pure function measure(name, worst) result(m)
+            character(*), intent(in) :: name
+            real(dp), intent(in) :: worst
+            type(measure_t) :: m
+            integer :: k
+
+            m%name = name
+            m%worst = worst
+            k = findloc(scene%expectations%name == name, .true., 1)
+            m%judged = k > 0
+            if (m%judged) m%limit = scene%expectations(k)%limit
+        end function measure
+    end subroutine take_measures
+end module lagrangia_play

@@ -1,0 +1,134 @@
+module lagrangia_run
+    !! The one loop: a system, an integrator, and whoever wants to see the states.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_errors, only: error_t, fail, status_numbers
+    use lagrangia_integrator, only: integrator_t
+    use lagrangia_interrupt, only: interrupt_status
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_observer, only: observer_box_t
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: plan_t, new_plan, run
+
+    integer(i8), parameter :: longest_block = 1024  !! steps between two looks at signals
+
+    type :: plan_t
+        !! A grid of times: whole steps, and perhaps a shorter one that lands on the end.
+        real(dp) :: t0 = 0.0_dp
+        real(dp) :: dt = 0.0_dp
+        real(dp) :: duration = 0.0_dp
+        integer(i8) :: steps = 0      !! whole steps
+        real(dp) :: rest = 0.0_dp     !! length of the last, shortened step; 0 if there is none
+        integer(i8) :: every = 1      !! steps between samples
+    end type plan_t
+
+contains
+
+    pure subroutine new_plan(plan, t0, dt, duration, every, error)
+        !! Count the steps; fails where they cannot be counted or do not move the time.
+        type(plan_t), intent(out) :: plan
+        real(dp), intent(in) :: t0, dt, duration
+        integer(i8), intent(in) :: every  !! steps between samples
+        type(error_t), allocatable, intent(out) :: error
+        real(dp) :: count
+        integer(i8) :: whole
+
+        count = duration/dt
+        if (count > 1e15_dp) then
+            call fail(error, "duration/dt = "//to_text(count)//" steps are too many to count", &
+                      key="dt")
+            return
+        end if
+        if (abs(t0) + duration + dt <= abs(t0) + duration) then
+            call fail(error, "is too small to move the time near t = "//to_text(t0 + duration), &
+                      key="dt")
+            return
+        end if
+        plan%t0 = t0
+        plan%dt = dt
+        plan%duration = duration
+        plan%every = every
+        whole = nint(count, i8)
+        if (abs(count - whole) <= 8.0_dp*epsilon(count)*max(1.0_dp, count)) then
+            plan%steps = whole
+        else
+            plan%steps = int(count, i8)
+            plan%rest = duration - plan%steps*dt
+        end if
+    end subroutine new_plan
+
+    subroutine run(system, integrator, plan, observers, q, v, error)
+        !! Integrate from `t0` over `duration`, showing every sample and the end to `observers`.
+        !!
+        !! A state that is not finite ends the run: `q` and `v` are then the last good sample.
+        class(system_t), intent(in) :: system
+        class(integrator_t), intent(inout) :: integrator
+        type(plan_t), intent(in) :: plan
+        type(observer_box_t), intent(in) :: observers(:)
+        real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+        type(error_t), allocatable, intent(out) :: error
+        real(dp) :: q_good(system%ndof), v_good(system%ndof)
+        integer(i8) :: done, block_end
+
+        call integrator%prepare(system, error)
+        if (allocated(error)) return
+        done = 0
+        call show(plan%t0)
+        do while (done < plan%steps .and. .not. allocated(error))
+            block_end = min(plan%steps, done + longest_block, (done/plan%every + 1)*plan%every)
+            call integrator%advance(system, plan%t0, plan%dt, done, block_end - done, q, v)
+            done = block_end
+            if (mod(done, plan%every) == 0 .or. (done == plan%steps .and. plan%rest <= 0.0_dp)) then
+                call show(time_of(done))
+            else
+                call look_around()
+            end if
+        end do
+        if (plan%rest > 0.0_dp .and. .not. allocated(error)) then
+            call integrator%advance(system, time_of(done), plan%rest, 0_i8, 1_i8, q, v)
+            call show(plan%t0 + plan%duration)
+        end if
+    contains
+        pure function time_of(k) result(t)
+            integer(i8), intent(in) :: k
+            real(dp) :: t
+
+            t = plan%t0 + k*plan%dt
+            if (k == plan%steps .and. plan%rest <= 0.0_dp) t = plan%t0 + plan%duration
+        end function time_of
+
+        subroutine show(t)
+            real(dp), intent(in) :: t
+            integer :: i
+
+            if (.not. (all(ieee_is_finite(q)) .and. all(ieee_is_finite(v)))) then
+                call fail(error, "the state is not finite at t = "//to_text(t)//" s: the step dt = "// &
+                          to_text(plan%dt)//" s is too long, or the motion diverges", status_numbers)
+                q = q_good
+                v = v_good
+                return
+            end if
+            q_good = q
+            v_good = v
+            do i = 1, size(observers)
+                call observers(i)%item%observe(system, t, q, v, error)
+                if (allocated(error)) return
+            end do
+            call look_around()
+        end subroutine show
+
+        subroutine look_around()
+            integer :: i
+
+            if (interrupt_status() /= 0) then
+                call fail(error, "interrupted", interrupt_status())
+                return
+            end if
+            do i = 1, size(observers)
+                call observers(i)%item%tick(done, plan%steps)
+            end do
+        end subroutine look_around
+    end subroutine run
+end module lagrangia_run

@@ -1,0 +1,120 @@
+module lagrangia_scene
+    !! A scene as plain, validated data, and as the text that would make it again.
+    use lagrangia_description, only: description_t, name_length
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: scene_t, expectation_t, scene_lines, scene_line_length
+
+    integer, parameter :: scene_line_length = 512
+
+    type :: expectation_t
+        !! The scene's own tolerance: the column `name` stays within `limit`.
+        character(name_length) :: name = ""
+        real(dp) :: limit = 0.0_dp
+    end type expectation_t
+
+    type :: scene_t
+        character(name_length) :: name = ""        !! file name without folder and ending
+        character(200) :: title = ""
+        character(name_length) :: system = ""
+        character(name_length) :: method = "rk4"
+        character(200) :: output = ""              !! below the output folder
+        real(dp) :: t0 = 0.0_dp, dt = 0.0_dp, duration = 0.0_dp  !! s
+        integer(i8) :: every = 1
+        real(dp), allocatable :: q(:), v(:)        !! at `t0`
+        real(dp), allocatable :: parameters(:)     !! in the order of the system's description
+        character(name_length), allocatable :: columns(:)
+        character(200), allocatable :: plots(:)    !! panels: `'y'`, `'x:y'`, `'t:y1+y2'`
+        character(name_length) :: period_of = ""   !! a coordinate whose period is measured
+        type(expectation_t), allocatable :: expectations(:)
+    end type scene_t
+
+contains
+
+    function scene_lines(scene, d) result(lines)
+        !! The effective scene, all defaults filled in, as namelist text.
+        type(scene_t), intent(in) :: scene
+        type(description_t), intent(in) :: d
+        character(scene_line_length), allocatable :: lines(:)
+        character(:), allocatable :: list
+        integer :: i, first
+
+        allocate (lines(0))
+        call add("&scene")
+        call add("  title = "//text_value(scene%title))
+        call add("  system = "//text_value(scene%system))
+        call add("  method = "//text_value(scene%method))
+        call add("  t0 = "//to_text(scene%t0))
+        call add("  dt = "//to_text(scene%dt))
+        call add("  duration = "//to_text(scene%duration))
+        call add("  every = "//to_text(scene%every))
+        call add("  q = "//numbers(scene%q))
+        call add("  v = "//numbers(scene%v))
+        list = ""
+        do i = 1, size(scene%columns)
+            if (i > 1) list = list//", "
+            list = list//text_value(scene%columns(i))
+        end do
+        call add("  columns = "//list)
+        list = ""
+        do i = 1, size(scene%plots)
+            if (i > 1) list = list//", "
+            list = list//text_value(scene%plots(i))
+        end do
+        if (list /= "") call add("  plot = "//list)
+        if (scene%period_of /= "") call add("  period_of = "//text_value(scene%period_of))
+        do i = 1, size(scene%expectations)
+            call add("  expect_"//trim(scene%expectations(i)%name)//" = "// &
+                     to_text(scene%expectations(i)%limit))
+        end do
+        call add("  output = "//text_value(scene%output))
+        call add("/")
+        call add("&"//scene%system)
+        first = 1
+        do i = 1, size(d%parameters)
+            associate (p => d%parameters(i))
+                call add("  "//trim(p%name)//" = "// &
+                         numbers(scene%parameters(first:first + p%count - 1)))
+                first = first + p%count
+            end associate
+        end do
+        call add("/")
+    contains
+        subroutine add(line)
+            character(*), intent(in) :: line
+            character(scene_line_length) :: wide
+
+            wide = line
+            lines = [lines, wide]
+        end subroutine add
+    end function scene_lines
+
+    pure function numbers(values) result(text)
+        !! `1, 2.5`.
+        real(dp), intent(in) :: values(:)
+        character(:), allocatable :: text
+        integer :: i
+
+        text = ""
+        do i = 1, size(values)
+            if (i > 1) text = text//", "
+            text = text//to_text(values(i))
+        end do
+    end function numbers
+
+    pure function text_value(text) result(value)
+        !! Between single quotes, those within doubled.
+        character(*), intent(in) :: text
+        character(:), allocatable :: value
+        integer :: i
+
+        value = "'"
+        do i = 1, len_trim(text)
+            if (text(i:i) == "'") value = value//"'"
+            value = value//text(i:i)
+        end do
+        value = value//"'"
+    end function text_value
+end module lagrangia_scene

@@ -1,0 +1,106 @@
+module lagrangia_scene_files
+    !! The files of one scene: the data file while it runs, the gnuplot script when it is done.
+    use lagrangia_csv_table, only: csv_table_t
+    use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_gnuplot, only: gnuplot_script, panel_t
+    use lagrangia_npy, only: npy_table_t
+    use lagrangia_outcome, only: outcome_t
+    use lagrangia_output_file, only: output_file_t
+    use lagrangia_record, only: record_t
+    use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: nearest_name, quoted, to_text
+    use lagrangia_text_table, only: text_table_t
+    use lagrangia_version, only: build_text, version
+    implicit none (type, external)
+    private
+    public :: check_format, open_files, finish_files, abandon_files
+
+    character(4), parameter :: formats(3) = ["text", "csv ", "npy "]
+    character(4), parameter :: endings(3) = [".dat", ".csv", ".npy"]
+
+contains
+
+    pure subroutine check_format(format, error)
+        !! Refuse a format that does not exist.
+        character(*), intent(in) :: format
+        type(error_t), allocatable, intent(out) :: error
+
+        if (any(formats == format)) return
+        call fail(error, "unknown format "//quoted(format)//"; there are text, csv, npy")
+    end subroutine check_format
+
+    pure function data_path(folder, output, format) result(path)
+        !! `folder/output`, with the format's ending where `output` has none.
+        character(*), intent(in) :: folder, output, format
+        character(:), allocatable :: path
+
+        path = folder//"/"//output
+        if (folder(len(folder):) == "/") path = folder//output
+        if (index(output(index(output, "/", back=.true.) + 1:), ".") > 0) return
+        path = path//trim(endings(findloc(formats == format, .true., 1)))
+    end function data_path
+
+    subroutine open_files(scene, system, folder, format, record, path, error)
+        !! Open the data file, under a temporary name until `finish_files`, and write its header.
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        character(*), intent(in) :: folder, format
+        type(record_t), intent(inout) :: record
+        character(:), allocatable, intent(out) :: path
+        type(error_t), allocatable, intent(out) :: error
+        character(scene_line_length) :: first, build
+        type(description_t) :: d
+
+        select case (format)
+        case ("text"); allocate (text_table_t :: record%table)
+        case ("csv"); allocate (csv_table_t :: record%table)
+        case default; allocate (npy_table_t :: record%table)
+        end select
+        path = data_path(folder, trim(scene%output), format)
+        call record%table%file%open(path, error)
+        if (allocated(error)) return
+        call system%describe(d)
+        first = "lagrangia "//version//": "//scene%title
+        build = "build: "//build_text()
+        associate (items => record%columns%items(:record%shown))
+            call record%table%begin([first, scene_lines(scene, d), build], items%name, items%unit)
+        end associate
+    end subroutine open_files
+
+    subroutine finish_files(scene, folder, format, record, panels, outcome, error)
+        !! Complete the data file under its name, and write the script beside it.
+        type(scene_t), intent(in) :: scene
+        character(*), intent(in) :: folder, format
+        type(record_t), intent(inout) :: record
+        type(panel_t), intent(in) :: panels(:)
+        type(outcome_t), intent(in) :: outcome
+        type(error_t), allocatable, intent(out) :: error
+        type(output_file_t) :: script
+        character(:), allocatable :: path
+
+        if (.not. allocated(record%table)) return
+        call record%table%finish("steps: "//to_text(outcome%steps)// &
+                                 ", force evaluations: "//to_text(outcome%evaluations)// &
+                                 ", energy evaluations: "//to_text(outcome%energy_evaluations)// &
+                                 ", rows: "//to_text(outcome%rows), error)
+        if (allocated(error)) return
+        path = data_path(folder, trim(scene%output), format)
+        call script%open(path(:index(path, ".", back=.true.) - 1)//".gp", error)
+        if (allocated(error)) return
+        associate (items => record%columns%items(:record%shown))
+            call script%write(gnuplot_script( &
+                path(index(path, "/", back=.true.) + 1:), record%table%reading(), &
+                trim(scene%title), items%name, items%unit, record%low, record%high, panels))
+        end associate
+        call script%commit(error)
+    end subroutine finish_files
+
+    subroutine abandon_files(record)
+        !! Leave nothing behind.
+        type(record_t), intent(inout) :: record
+
+        if (allocated(record%table)) call record%table%file%abandon()
+    end subroutine abandon_files
+end module lagrangia_scene_files

@@ -1,0 +1,117 @@
+module lagrangia_shipped
+    !! The scenes that come with the toolkit: the files `data/scenes/*.nml`.
+    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_funptr, c_int, &
+                                           c_null_char, c_null_funptr, c_ptr, c_size_t
+    use lagrangia_command_line, only: word_t
+    use lagrangia_description, only: name_length
+    use lagrangia_errors, only: error_t, fail, status_file
+    use lagrangia_text, only: nearest_name, quoted
+    implicit none (type, external)
+    private
+    public :: shipped_scenes, find_scene, scene_name
+
+    character(*), parameter :: folder = "data/scenes/"
+    character(*), parameter :: ending = ".nml"
+
+    type, bind(c) :: glob_t
+        !! glibc's `glob_t`; the rest of it (flags, function pointers) is only room.
+        integer(c_size_t) :: count = 0
+        type(c_ptr) :: paths
+        integer(c_size_t) :: rest(16) = 0
+    end type glob_t
+
+    interface
+        function c_glob(pattern, flags, on_error, found) bind(c, name="glob") result(status)
+            import :: c_char, c_int, c_funptr, glob_t
+            implicit none (type, external)
+            character(kind=c_char), intent(in) :: pattern(*)
+            integer(c_int), value :: flags
+            type(c_funptr), value :: on_error
+            type(glob_t), intent(inout) :: found
+            integer(c_int) :: status
+        end function c_glob
+
+        subroutine c_globfree(found) bind(c, name="globfree")
+            import :: glob_t
+            implicit none (type, external)
+            type(glob_t), intent(inout) :: found
+        end subroutine c_globfree
+
+        pure function c_strlen(text) bind(c, name="strlen") result(length)
+            import :: c_ptr, c_size_t
+            implicit none (type, external)
+            type(c_ptr), value :: text
+            integer(c_size_t) :: length
+        end function c_strlen
+    end interface
+
+contains
+
+    subroutine shipped_scenes(paths, error)
+        !! The paths of all shipped scenes, in alphabetical order; fails where there is none.
+        type(word_t), allocatable, intent(out) :: paths(:)
+        type(error_t), allocatable, intent(out) :: error
+        type(glob_t) :: found
+        type(c_ptr), pointer :: list(:)
+        character(kind=c_char), pointer :: bytes(:)
+        integer :: i, k
+
+        if (c_glob(folder//"*"//ending//c_null_char, 0_c_int, c_null_funptr, found) /= 0) then
+            call fail(error, "no scenes in '"//folder//"': start lagrangia in the project's folder, "// &
+                      "or give the path of a .nml file", status_file)
+            return
+        end if
+        call c_f_pointer(found%paths, list, [found%count])
+        allocate (paths(size(list)))
+        do i = 1, size(list)
+            call c_f_pointer(list(i), bytes, [c_strlen(list(i))])
+            allocate (character(size(bytes)) :: paths(i)%text)
+            do k = 1, size(bytes)
+                paths(i)%text(k:k) = bytes(k)
+            end do
+        end do
+        call c_globfree(found)
+    end subroutine shipped_scenes
+
+    subroutine find_scene(name, path, error)
+        !! The path of a scene: `name` itself if it looks like a path, or a shipped scene's.
+        character(*), intent(in) :: name
+        character(:), allocatable, intent(out) :: path
+        type(error_t), allocatable, intent(out) :: error
+        type(word_t), allocatable :: paths(:)
+        character(name_length), allocatable :: names(:)
+        character(:), allocatable :: near
+        integer :: i
+
+        path = name
+        if (index(name, "/") > 0 .or. index(name, ending) > 0) return
+        call shipped_scenes(paths, error)
+        if (allocated(error)) return
+        allocate (names(size(paths)))
+        do i = 1, size(paths)
+            names(i) = scene_name(paths(i)%text)
+            if (names(i) == name) then
+                path = paths(i)%text
+                return
+            end if
+        end do
+        near = nearest_name(name, names)
+        if (near /= "") then
+            near = "; did you mean '"//near//"'?"
+        else
+            near = "; 'lagrangia list scenes' shows the names, a path ends in .nml"
+        end if
+        call fail(error, "unknown scene "//quoted(name)//near)
+    end subroutine find_scene
+
+    pure function scene_name(path) result(name)
+        !! The file's name without its folder and its ending.
+        character(*), intent(in) :: path
+        character(:), allocatable :: name
+        integer :: dot
+
+        name = path(index(path, "/", back=.true.) + 1:)
+        dot = index(name, ".", back=.true.)
+        if (dot > 1) name = name(:dot - 1)
+    end function scene_name
+end module lagrangia_shipped
