@@ -32,7 +32,6 @@ contains
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
         call suite%addTest(errors_suite())
-        call suite%addTest(hyperdual_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(text_suite())
         call suite%addTest(namelist_suite())
@@ -44,6 +43,7 @@ contains
         call suite%addTest(elliptic_suite())
         call suite%addTest(gsl_suite())
         call suite%addTest(quadrature_suite())
+        call suite%addTest(hyperdual_suite())
     end function load_tests
 end module suites
 
