@@ -20,8 +20,8 @@ contains
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
         call suite%addTest(errors_suite())
-        call suite%addTest(hyperdual_suite())
         call suite%addTest(systems_suite())
+        call suite%addTest(hyperdual_suite())
     end function load_tests
 end module suites
 

@@ -6,6 +6,7 @@ module lagrangia_commands
     use lagrangia_errors, only: error_t
     use lagrangia_interrupt, only: catch_interrupts
     use lagrangia_list, only: list_command
+    use lagrangia_output_file, only: remove_unfinished
     use lagrangia_registry, only: check_line, commands, help_text, options
     use lagrangia_run_command, only: run_command
     use lagrangia_version, only: build_text, version
@@ -42,6 +43,7 @@ contains
             case default; call run_command(line, error)
             end select
         end if
+        call remove_unfinished()
         call finish_console(output_error)
         if (allocated(output_error) .and. .not. allocated(error)) &
             call move_alloc(output_error, error)

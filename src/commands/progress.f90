@@ -1,5 +1,6 @@
 module lagrangia_progress
     !! How far a long run is, on a terminal's stderr only.
+    use, intrinsic :: iso_fortran_env, only: error_unit
     use lagrangia_console, only: is_terminal, show_progress
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
@@ -36,7 +37,7 @@ contains
         self%next = patience
         self%shown = .false.
         call system_clock(self%start, self%rate)
-        if (.not. is_terminal(2)) self%next = huge(patience)
+        if (.not. is_terminal(error_unit)) self%next = huge(patience)
     end subroutine restart
 
     subroutine observe(self, system, t, q, v, error)

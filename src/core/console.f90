@@ -11,7 +11,8 @@ module lagrangia_console
     use lagrangia_files, only: e_bad_unit, hold_standard_units, last_error, reason
     implicit none (type, external)
     private
-    public :: console_failed, finish_console, is_terminal, note, put, put_line, terminal_width
+    public :: console_failed, finish_console, is_terminal, note, put, put_line, &
+              show_progress, terminal_width
 
     type(c_ptr), save :: stream = c_null_ptr  !! C's `FILE *` for stdout
     integer, save :: failure = 0              !! the system's number of the first failure
@@ -59,6 +60,16 @@ contains
         line = line//new_line("a")
         written = c_write(2_c_int, line, len(line, c_size_t))  ! if stderr is gone, who would know?
     end subroutine note
+
+    subroutine show_progress(text)
+        !! Let `text` replace the line of the terminal behind stderr; `""` clears it.
+        character(*), intent(in) :: text
+        character(:), allocatable :: line
+        integer(c_size_t) :: written
+
+        line = char(13)//char(27)//"[K"//text
+        written = c_write(2_c_int, line, len(line, c_size_t))
+    end subroutine show_progress
 
     subroutine finish_console(error)
         !! Send on what is still held back; fails if anything put was lost. The exit status of

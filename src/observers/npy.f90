@@ -2,81 +2,55 @@ module lagrangia_npy
     !! NumPy's own file format, version 1.0: `data = numpy.load("x.npy")`, then `data["theta"]`.
     !!
     !! Source: NumPy documentation, `numpy.lib.format`.
-    use lagrangia_errors, only: error_t, fail
+    use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_output_file, only: output_file_t
+    use lagrangia_table, only: table_t
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: npy_file_t
+    public :: npy_table_t
 
     integer, parameter :: alignment = 64       !! the data start at a multiple of this
-    integer, parameter :: longest = 10000      !! `numpy.load` mistrusts longer headers
     character(20), parameter :: no_count = ""  !! room for the number of rows, not yet known
 
-    type :: npy_file_t
+    type, extends(table_t) :: npy_table_t
         !! A one-dimensional array of records, one a row, each a double for every column: the
         !! names of the columns are in the file, which a plain two-dimensional array has no
         !! place for (`numpy.lib.recfunctions.structured_to_unstructured` makes one).
         private
-        type(output_file_t) :: file
         integer :: columns = 0
         integer(i8) :: rows = 0
         integer(i8) :: count_offset = 0  !! where the number of rows stands
+        integer(i8) :: data_offset = 0   !! where the first row begins
     contains
-        procedure :: open => open_npy
-        procedure :: write_row
-        procedure :: failed
-        procedure :: commit
-        procedure :: abandon
-    end type npy_file_t
+        procedure :: begin
+        procedure :: row
+        procedure :: finish
+        procedure :: reading
+    end type npy_table_t
 
 contains
 
-    subroutine open_npy(self, path, names, error)
-        !! Begin the file; fails if numpy could not read such names, or as `output_file_t` does.
-        class(npy_file_t), intent(inout) :: self
-        character(*), intent(in) :: path
-        character(*), intent(in) :: names(:)  !! of the columns, all different; trimmed
-        type(error_t), allocatable, intent(out) :: error
-        character(:), allocatable :: before, header
+    subroutine begin(self, header, names, units)
+        !! The names of the columns; the rest of the header has no place in this format.
+        class(npy_table_t), intent(inout) :: self
+        character(*), intent(in) :: header(:), names(:), units(:)
+        character(:), allocatable :: before, text
         integer :: i
 
         self%columns = size(names)
-        self%rows = 0
         before = "{'descr': ["
         do i = 1, size(names)
-            call check_name(names, i, error)
-            if (allocated(error)) return
             before = before//"('"//trim(names(i))//"', '"//byte_order()//"f8'), "
         end do
         before = before//"], 'fortran_order': False, 'shape': ("
-        header = before//no_count//",), }"
+        text = before//no_count//",), }"
+        text = text//repeat(" ", modulo(-(10 + len(text) + 1), alignment))//new_line("a")
         self%count_offset = 10 + len(before)
-        header = header//repeat(" ", modulo(-(10 + len(header) + 1), alignment))//new_line("a")
-        if (len(header) > longest) then
-            call fail(error, "too many columns for numpy: '"//path//"'")
-            return
-        end if
-        call self%file%open(path, error)
-        if (allocated(error)) return
-        call self%file%write(char(147)//"NUMPY"//char(1)//char(0) &
-                             //char(modulo(len(header), 256))//char(len(header)/256)//header)
-    end subroutine open_npy
-
-    pure subroutine check_name(names, i, error)
-        !! Refuse `names(i)` if it is empty, has an odd character, or occurred before.
-        character(*), intent(in) :: names(:)
-        integer, intent(in) :: i
-        type(error_t), allocatable, intent(inout) :: error
-        character(*), parameter :: letters = "abcdefghijklmnopqrstuvwxyz" &
-                                             //"ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_"
-
-        if (verify(trim(names(i)), letters) > 0 .or. names(i) == "") then
-            call fail(error, "column '"//trim(names(i))//"' cannot be named so in a .npy file")
-        else if (any(names(:i - 1) == names(i))) then
-            call fail(error, "column '"//trim(names(i))//"' occurs twice")
-        end if
-    end subroutine check_name
+        self%data_offset = 10 + len(text)
+        call self%file%write(char(147)//"NUMPY"//char(1)//char(0)// &
+                             char(modulo(len(text), 256))//char(len(text)/256)//text)
+    end subroutine begin
 
     pure function byte_order()
         !! `<` if the low byte of a number comes first on this machine, else `>`.
@@ -86,38 +60,33 @@ contains
         byte_order = transfer(one, byte_order)
     end function byte_order
 
-    subroutine write_row(self, values)
-        !! Append a row: as many values as there are columns.
-        class(npy_file_t), intent(inout) :: self
-        real(dp), intent(in) :: values(self%columns)
+    subroutine row(self, values)
+        !! One sample.
+        class(npy_table_t), intent(inout) :: self
+        real(dp), intent(in) :: values(:)
 
         call self%file%write_reals(values)
         self%rows = self%rows + 1
-    end subroutine write_row
+    end subroutine row
 
-    pure function failed(self)
-        !! Whether something could not be written.
-        class(npy_file_t), intent(in) :: self
-        logical :: failed
-
-        failed = self%file%failed()
-    end function failed
-
-    subroutine commit(self, error)
-        !! Write the number of rows into the header, and complete the file.
-        class(npy_file_t), intent(inout) :: self
+    subroutine finish(self, counts, error)
+        !! Write the number of rows into the header, and give the file its name.
+        class(npy_table_t), intent(inout) :: self
+        character(*), intent(in) :: counts
         type(error_t), allocatable, intent(out) :: error
         character(len(no_count)) :: count
 
-        write (count, "(i0)") self%rows
+        count = to_text(self%rows)
         call self%file%rewrite(self%count_offset, count)
         call self%file%commit(error)
-    end subroutine commit
+    end subroutine finish
 
-    subroutine abandon(self)
-        !! Leave no file.
-        class(npy_file_t), intent(inout) :: self
+    pure function reading(self) result(words)
+        !! What gnuplot needs behind the file's name.
+        class(npy_table_t), intent(in) :: self
+        character(:), allocatable :: words
 
-        call self%file%abandon()
-    end subroutine abandon
+        words = "binary skip="//to_text(self%data_offset)//" format='%"//to_text(self%columns)// &
+                "double' "
+    end function reading
 end module lagrangia_npy

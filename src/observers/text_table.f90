@@ -1,7 +1,7 @@
 module lagrangia_text_table
     !! The data file as text: a `#` header, then one row a sample; for gnuplot and numpy.loadtxt.
     use lagrangia_errors, only: error_t
-    use lagrangia_kinds, only: dp
+    use lagrangia_kinds, only: dp, i8
     use lagrangia_number_text, only: field_width, write_row
     use lagrangia_table, only: table_t
     implicit none (type, external)
@@ -11,7 +11,7 @@ module lagrangia_text_table
     integer, parameter :: counts_width = 140  !! room for the line that is known at the end
 
     type, extends(table_t) :: text_table_t
-        integer, private :: counts_at = 0     !! offset of that line, bytes
+        integer(i8), private :: counts_at = 0     !! offset of that line, bytes
     contains
         procedure :: begin
         procedure :: row
