@@ -101,6 +101,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
         type(description_t) :: d
         type(error_t), allocatable :: found
+        character(name_length), allocatable :: names(:)
         real(dp), allocatable :: values(:)
         integer :: i
 
@@ -128,7 +129,8 @@ contains
                 scene%parameters = [scene%parameters, values]
             end associate
         end do
-        call refuse_unknown_keys(tree, scene%system, d%parameters%name, error)
+        names = d%parameters%name
+        call refuse_unknown_keys(tree, scene%system, names, error)
         if (allocated(error)) return
         call system%configure(scene%parameters, error)
         if (allocated(error)) return
