@@ -44,8 +44,8 @@ contains
         end do
         call put_block("L =", d%lagrangian)
         call put_block("equations of motion", d%equations)
-        call put_line("energy (v dL/dv - L)"//merge(", not conserved", "               ", &
-                                                    system%time_dependent))
+        call put_line("energy (v dL/dv - L)"//trim(merge(", not conserved", "               ", &
+                                                         system%time_dependent)))
         call put_line("  "//trim(d%energy))
         if (any(d%quantities%conserved)) call put_line("conserved besides")
         do i = 1, size(d%quantities)
