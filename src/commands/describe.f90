@@ -81,7 +81,8 @@ contains
         !! `  theta   [rad]   angle ...`.
         type(quantity_t), intent(in) :: item
 
-        call put_line("  "//left(item%name, 22)//left("["//trim(item%unit)//"]", 12)//trim(item%meaning))
+        call put_line("  "//left(item%name, 22)//left("["//trim(item%unit)//"]", 12)// &
+                      trim(item%meaning))
     end subroutine put_quantity
 
     subroutine put_block(title, lines)
@@ -120,6 +121,8 @@ contains
             text = text//"positions only"
         end if
         if (system%time_dependent) text = text//" and on the time"
-        if (system%cyclic > 0) text = text//"; "//trim(d%coordinates(system%cyclic)%name)//" is cyclic"
+        if (system%cyclic > 0) then
+            text = text//"; "//trim(d%coordinates(system%cyclic)%name)//" is cyclic"
+        end if
     end function structure
 end module lagrangia_describe

@@ -126,8 +126,9 @@ contains
         call script%add("if (folder[1:1] ne '/') { folder = './'.folder }")
         call script%add("data = folder.'"//doubled(file)//"'")
         call script%add("picture = folder.'"//doubled(file(:dot - 1))//"'")
-        call script%add("if (!exists('kind')) { kind = strstrt(GPVAL_TERMINALS, ' pngcairo ') ? "// &
-                        "'pngcairo' : strstrt(GPVAL_TERMINALS, ' png ') ? 'png' : "// &
+        call script%add("if (!exists('kind')) { kind = "// &
+                        "strstrt(GPVAL_TERMINALS, ' pngcairo ') ? 'pngcairo' : "// &
+                        "strstrt(GPVAL_TERMINALS, ' png ') ? 'png' : "// &
                         "strstrt(GPVAL_TERMINALS, ' svg ') ? 'svg' : 'dumb' }")
         call script%add("if (kind eq 'pngcairo') { set terminal pngcairo noenhanced size 1000,"// &
                         height//" font ',11'; set output picture.'.png' }")

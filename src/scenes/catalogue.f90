@@ -78,6 +78,7 @@ contains
         select case (i)
         case (1); call place_rk4()
         case (2); call place_verlet()
+        case default; return
         end select
     contains
         subroutine place_rk4()
