@@ -2,6 +2,11 @@ module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
     use test_errors, only: errors_suite
+    use test_cart_pendulum, only: cart_pendulum_suite
+    use test_constant_accelerations, only: constant_accelerations_suite
+    use test_double_pendulum, only: double_pendulum_suite
+    use test_oscillator, only: oscillator_suite
+    use test_pendulum, only: pendulum_suite
     use test_systems, only: systems_suite
     use test_harness, only: harness_suite
     use test_harness_order, only: harness_order_suite
@@ -20,6 +25,11 @@ contains
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
         call suite%addTest(errors_suite())
+        call suite%addTest(cart_pendulum_suite())
+        call suite%addTest(constant_accelerations_suite())
+        call suite%addTest(double_pendulum_suite())
+        call suite%addTest(oscillator_suite())
+        call suite%addTest(pendulum_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(hyperdual_suite())
     end function load_tests
