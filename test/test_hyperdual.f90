@@ -31,6 +31,8 @@ contains
         suite = TestSuite("hyperdual")
         call suite%addTest(TestMethod("operators", operators))
         call suite%addTest(TestMethod("powers", powers))
+        call suite%addTest(TestMethod("an_exponent_varies_along_each_direction", &
+                                      an_exponent_varies_along_each_direction))
         call suite%addTest(TestMethod("functions", functions))
         call suite%addTest(TestMethod("functions_of_negative_values", functions_of_negative_values))
         call suite%addTest(TestMethod("array_reductions", array_reductions))
@@ -110,6 +112,16 @@ contains
         call check("z**hyperdual(5.0_dp)", z**hyperdual(5.0_dp), &
                    [-4.8261724457_dp, 10.56826083_dp, -33.466159295_dp, 99.138514915_dp])
     end subroutine powers
+
+    subroutine an_exponent_varies_along_each_direction()
+        !! \(2.7^e\): derivatives \(2.7^e \ln 2.7\), wherever the exponent has its only one.
+        real(dp), parameter :: value = c**0.83_dp, slope = value*log(c)
+
+        call check("d1", c**hyperdual_t(0.83_dp, d1=1.9_dp), [value, 1.9_dp*slope, 0.0_dp, 0.0_dp])
+        call check("d2", c**hyperdual_t(0.83_dp, d2=1.9_dp), [value, 0.0_dp, 1.9_dp*slope, 0.0_dp])
+        call check("d12", c**hyperdual_t(0.83_dp, d12=1.9_dp), &
+                   [value, 0.0_dp, 0.0_dp, 1.9_dp*slope])
+    end subroutine an_exponent_varies_along_each_direction
 
     subroutine functions()
         !! Every function, where it is none of its special values.

@@ -11,7 +11,7 @@ module lagrangia_elliptic
 
     real(dp), parameter :: pi = acos(-1.0_dp)
     real(dp), parameter :: close_enough = 1e-8_dp  !! the mean then squares the difference
-    integer, parameter :: max_depth = 16           !! the smallest \(k'\), 5e-324, needs 13
+    integer, parameter :: max_depth = 16           !! the smallest \(k'\), 5e-324, needs 14
 
 contains
 
@@ -21,23 +21,23 @@ contains
         !! Source: DLMF 19.8.1.
         real(dp), intent(in) :: a, b
         real(dp) :: mean
-        real(dp) :: larger, geometric, next
+        real(dp) :: scale, geometric, next
 
-        larger = max(a, b)
         if (.not. (min(a, b) >= 0.0_dp .and. ieee_is_finite(a) .and. ieee_is_finite(b))) then
             mean = ieee_value(1.0_dp, ieee_quiet_nan)
             return
         end if
         mean = 0.0_dp
         if (min(a, b) <= 0.0_dp) return
+        scale = 0.5_dp*a + 0.5_dp*b
+        geometric = sqrt(a)*sqrt(b)/scale
         mean = 1.0_dp
-        geometric = min(a, b)/larger
         do while (mean - geometric > close_enough*mean)
             next = 0.5_dp*(mean + geometric)
             geometric = sqrt(mean*geometric)
             mean = next
         end do
-        mean = larger*(0.5_dp*(mean + geometric))
+        mean = scale*(0.5_dp*(mean + geometric))
     end function agm
 
     elemental function elliptic_k(kc) result(value)

@@ -28,7 +28,7 @@ contains
         !! Solve \(A x = b\) for a small dense \(A\).
         !!
         !! LAPACK's expert driver: unlike `dgesv` it balances rows and columns first, so masses of
-        !! 1e-12 and 1e12 may meet in one matrix, and it refuses a matrix that only rounding keeps
+        !! 1e-24 and 1e24 may meet in one matrix, and it refuses a matrix that only rounding keeps
         !! from being singular.
         !!
         !! Source: LAPACK Users' Guide, 3rd ed., sec. 2.3.1 and 4.4; `dgesvx`.

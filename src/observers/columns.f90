@@ -35,6 +35,8 @@ module lagrangia_columns
         logical :: needs_accelerations = .false.
     contains
         procedure :: evaluate
+        procedure :: names
+        procedure :: units
     end type columns_t
 
 contains
@@ -164,6 +166,24 @@ contains
                       join(all%name, ", "))
         end if
     end subroutine refuse
+
+    pure function names(self, count) result(list)
+        !! The names of the first `count` columns.
+        class(columns_t), intent(in) :: self
+        integer, intent(in) :: count
+        character(name_length) :: list(count)
+
+        list = self%items(:count)%name
+    end function names
+
+    pure function units(self, count) result(list)
+        !! The units of the first `count` columns.
+        class(columns_t), intent(in) :: self
+        integer, intent(in) :: count
+        character(16) :: list(count)
+
+        list = self%items(:count)%unit
+    end function units
 
     subroutine evaluate(self, system, t, q, v, deviation, row)
         !! One number a column. The first call sets where drifts start.

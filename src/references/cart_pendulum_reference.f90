@@ -88,6 +88,7 @@ contains
         if (.not. found) return
         self%clock = clock_at(self, self%phase)
         self%period = merge(pi, 2.0_dp*pi, self%rotates)*self%mean
+        self%small_period = 2.0_dp*pi*sqrt(system%m1*system%l/((system%m1 + system%m2)*system%g))
     end subroutine new_cart_pendulum_reference
 
     pure function share(system)

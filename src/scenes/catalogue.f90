@@ -1,15 +1,42 @@
 module lagrangia_catalogue
     !! Names and types: the only module that knows every system, method and closed form.
+    use lagrangia_atwood, only: atwood_t
+    use lagrangia_atwood_reference, only: atwood_reference_t, new_atwood_reference
     use lagrangia_cart_pendulum, only: cart_pendulum_t
+    use lagrangia_cart_pendulum_reference, only: cart_pendulum_reference_t, &
+        new_cart_pendulum_reference
+    use lagrangia_charged_particle, only: charged_particle_t
+    use lagrangia_charged_particle_reference, only: charged_particle_reference_t, &
+        new_charged_particle_reference
     use lagrangia_composition, only: composition_t, new_verlet
     use lagrangia_description, only: description_t, name_length
+    use lagrangia_double_pendulum, only: double_pendulum_t
+    use lagrangia_driven_pendulum, only: driven_pendulum_t
+    use lagrangia_driven_pendulum_reference, only: driven_pendulum_reference_t, &
+        new_driven_pendulum_reference
     use lagrangia_errors, only: error_t, fail
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp
+    use lagrangia_oscillator, only: oscillator_t
+    use lagrangia_oscillator_reference, only: oscillator_reference_t, &
+        new_oscillator_reference
+    use lagrangia_pendulum, only: pendulum_t
+    use lagrangia_pendulum_reference, only: pendulum_reference_t, new_pendulum_reference
     use lagrangia_reference, only: reference_t
     use lagrangia_rk4, only: new_rk4, rk4_t
+    use lagrangia_rolling_disk, only: rolling_disk_t
+    use lagrangia_rolling_disk_reference, only: rolling_disk_reference_t, &
+        new_rolling_disk_reference
+    use lagrangia_rotating_hoop, only: rotating_hoop_t
+    use lagrangia_rotating_hoop_reference, only: rotating_hoop_reference_t, &
+        new_rotating_hoop_reference
+    use lagrangia_rotating_wire, only: rotating_wire_t
+    use lagrangia_rotating_wire_reference, only: rotating_wire_reference_t, &
+        new_rotating_wire_reference
     use lagrangia_system, only: default_values, system_t
     use lagrangia_text, only: join, nearest_name, quoted
+    use lagrangia_wedge, only: wedge_t
+    use lagrangia_wedge_reference, only: wedge_reference_t, new_wedge_reference
     implicit none (type, external)
     private
     public :: new_system, nth_system, system_names
@@ -26,7 +53,17 @@ contains
         type(error_t), allocatable :: error
 
         select case (i)
-        case (1); allocate (cart_pendulum_t :: system)
+        case (1); allocate (oscillator_t :: system)
+        case (2); allocate (pendulum_t :: system)
+        case (3); allocate (double_pendulum_t :: system)
+        case (4); allocate (cart_pendulum_t :: system)
+        case (5); allocate (atwood_t :: system)
+        case (6); allocate (wedge_t :: system)
+        case (7); allocate (rolling_disk_t :: system)
+        case (8); allocate (charged_particle_t :: system)
+        case (9); allocate (rotating_wire_t :: system)
+        case (10); allocate (rotating_hoop_t :: system)
+        case (11); allocate (driven_pendulum_t :: system)
         case default; return
         end select
         call system%describe(d)
@@ -41,6 +78,7 @@ contains
         select case (i)
         case (1); call place_rk4()
         case (2); call place_verlet()
+        case default; return
         end select
     contains
         subroutine place_rk4()
@@ -63,6 +101,80 @@ contains
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t0, q0(:), v0(:)
         class(reference_t), allocatable, intent(out) :: reference
+        logical :: found
+
+        select type (system)
+        type is (oscillator_t)
+            block
+                type(oscillator_reference_t) :: closed_form
+
+                call new_oscillator_reference(closed_form, system, t0, q0, v0, found)
+                if (found) allocate (reference, source=closed_form)
+            end block
+        type is (pendulum_t)
+            block
+                type(pendulum_reference_t) :: closed_form
+
+                call new_pendulum_reference(closed_form, system, t0, q0, v0, found)
+                if (found) allocate (reference, source=closed_form)
+            end block
+        type is (cart_pendulum_t)
+            block
+                type(cart_pendulum_reference_t) :: closed_form
+
+                call new_cart_pendulum_reference(closed_form, system, t0, q0, v0, found)
+                if (found) allocate (reference, source=closed_form)
+            end block
+        type is (atwood_t)
+            block
+                type(atwood_reference_t) :: closed_form
+
+                call new_atwood_reference(closed_form, system, t0, q0, v0, found)
+                if (found) allocate (reference, source=closed_form)
+            end block
+        type is (wedge_t)
+            block
+                type(wedge_reference_t) :: closed_form
+
+                call new_wedge_reference(closed_form, system, t0, q0, v0, found)
+                if (found) allocate (reference, source=closed_form)
+            end block
+        type is (rolling_disk_t)
+            block
+                type(rolling_disk_reference_t) :: closed_form
+
+                call new_rolling_disk_reference(closed_form, system, t0, q0, v0, found)
+                if (found) allocate (reference, source=closed_form)
+            end block
+        type is (charged_particle_t)
+            block
+                type(charged_particle_reference_t) :: closed_form
+
+                call new_charged_particle_reference(closed_form, system, t0, q0, v0, found)
+                if (found) allocate (reference, source=closed_form)
+            end block
+        type is (rotating_wire_t)
+            block
+                type(rotating_wire_reference_t) :: closed_form
+
+                call new_rotating_wire_reference(closed_form, system, t0, q0, v0, found)
+                if (found) allocate (reference, source=closed_form)
+            end block
+        type is (rotating_hoop_t)
+            block
+                type(rotating_hoop_reference_t) :: closed_form
+
+                call new_rotating_hoop_reference(closed_form, system, t0, q0, v0, found)
+                if (found) allocate (reference, source=closed_form)
+            end block
+        type is (driven_pendulum_t)
+            block
+                type(driven_pendulum_reference_t) :: closed_form
+
+                call new_driven_pendulum_reference(closed_form, system, t0, q0, v0, found)
+                if (found) allocate (reference, source=closed_form)
+            end block
+        end select
     end subroutine new_reference
 
     subroutine new_system(name, system, error)

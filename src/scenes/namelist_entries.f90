@@ -132,8 +132,8 @@ contains
             after_comma = .false.
         end do
         if (tree%entries(tree%entry_count)%count == 0) then
-            call refuse(before, before%at, "no value after '='; write one, or leave the key out", &
-                        error)
+            call refuse(before, before%at, "no value after '='; write one (expressions are "// &
+                        "not computed), or leave the key out", error)
         else if (byte == "," .and. after_comma) then
             call refuse(scanner, scanner%at, "an empty value between commas; write every value", &
                         error)
@@ -196,6 +196,9 @@ contains
             scanner%at = scanner%at + star
             if (scan(next_byte(text, scanner%at), "'""") == 1) then
                 call read_string(text, scanner, repeats, tree, error)
+                return
+            else if (scan(next_byte(text, scanner%at), "(=") == 1) then
+                call refuse_byte(text, scanner, scanner%at, error)
                 return
             else if (scanner%at > last) then
                 call refuse(scanner, scanner%at - 1, "'"//to_text(repeats)//"*' repeats no "// &

@@ -83,9 +83,9 @@ contains
                 if (exists) problem = "the file cannot be opened; may it be read?"
             end if
         end if
-        if (len(problem) > 0) then
-            call fail(error, trim(short_source(trim(path)))//": "//problem, status_file)
-        end if
+        if (len(problem) == 0) return
+        if (len_trim(path) > 0) problem = trim(short_source(trim(path)))//": "//problem
+        call fail(error, problem, status_file)
     end subroutine read_whole_file
 
     subroutine read_open_file(descriptor, text, problem)

@@ -189,13 +189,15 @@ contains
         integer, intent(in), optional :: element
         integer, allocatable :: picked(:)
         type(error_t), allocatable :: ignored
-        integer :: i
+        integer :: i, position
 
         call pick(tree, group, key, picked, ignored, 1, huge(1))
         i = 1
-        if (present(element)) i = element
-        if (count_of(picked) >= i) then
-            call refuse_picked(tree, picked(i), problem, error)
+        if (present(element)) i = max(1, element)
+        position = 0
+        if (i <= count_of(picked)) position = picked(i)
+        if (position > 0) then
+            call refuse_picked(tree, position, problem, error)
         else
             call fail_at(error, place_t(tree%source), label(group, key)//": "//problem)
         end if

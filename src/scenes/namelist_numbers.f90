@@ -1,9 +1,11 @@
 module lagrangia_namelist_numbers
     !! The strict grammar of a number in a namelist, and its correctly rounded value.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use, intrinsic :: ieee_arithmetic, only: ieee_get_flag, ieee_get_halting_mode, &
+                                             ieee_is_finite, ieee_overflow, ieee_set_flag, &
+                                             ieee_set_halting_mode, ieee_underflow
     use, intrinsic :: iso_c_binding, only: c_char, c_double, c_null_char, c_null_ptr, c_ptr
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_text, only: lower, to_text
+    use lagrangia_text, only: lower
     implicit none (type, external)
     private
     public :: read_number, starts_number, to_integer
@@ -53,13 +55,27 @@ contains
         number = 0.0_dp
         call split(token, parts, problem)
         if (len(problem) > 0) return
-        number = real(strtod(with_letter_e(token), c_null_ptr), dp)
+        number = quiet_strtod(with_letter_e(token))
         if (.not. ieee_is_finite(number)) then
-            problem = "is too large for a double (at most "//to_text(huge(number))//")"
+            problem = "is too large for a double (at most 1.79769e308)"
         else if (abs(number) < tiny(number) .and. any_digit_but_zero(token, parts)) then
-            problem = "is too small for a double (at least "//to_text(tiny(number))//", or 0)"
+            problem = "is too small for a double (at least 2.22508e-308, or 0)"
         end if
     end subroutine read_number
+
+    pure function quiet_strtod(c_text) result(number)
+        !! `strtod` that leaves no trace of an overflow or underflow behind, and does not trap.
+        character(*), intent(in) :: c_text
+        real(dp) :: number
+        logical :: halts(2), raised(2)
+
+        call ieee_get_halting_mode([ieee_overflow, ieee_underflow], halts)
+        call ieee_get_flag([ieee_overflow, ieee_underflow], raised)
+        call ieee_set_halting_mode([ieee_overflow, ieee_underflow], .false.)
+        number = real(strtod(c_text, c_null_ptr), dp)
+        call ieee_set_flag([ieee_overflow, ieee_underflow], raised)
+        call ieee_set_halting_mode([ieee_overflow, ieee_underflow], halts)
+    end function quiet_strtod
 
     pure function with_letter_e(token) result(c_text)
         !! `token` as C reads it: `e` for `d`, and a final NUL.

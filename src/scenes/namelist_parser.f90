@@ -161,8 +161,8 @@ contains
                 call end_or_refuse(text, scanner, place, error)
                 done = .true.
             case (" ")
-                call fail_at(error, place, "group &"//escaped(trim(name), 30)// &
-                             " has no end: its '/' is missing")
+                call fail_at(error, place, "group &"//escaped(trim(name), 30)//" begins here "// &
+                             "and has no end: its '/' is missing")
             case default
                 call read_entry(text, scanner, tree, tree%group_count, error)
             end select

@@ -53,7 +53,7 @@ contains
         call new_reference(system, scene%t0, scene%q, scene%v, p%reference)
         call new_record(scene, system, p, error)
         if (allocated(error)) return
-        call new_panels(scene%plots, scene%columns, p%record%columns%items(:p%record%shown)%unit, &
+        call new_panels(scene%plots, scene%columns, p%record%columns%units(p%record%shown), &
                         p%panels, error)
     end subroutine rehearse
 

@@ -84,10 +84,8 @@ contains
     contains
         subroutine add(line)
             character(*), intent(in) :: line
-            character(scene_line_length) :: wide
 
-            wide = line
-            lines = [lines, wide]
+            lines = [character(scene_line_length) :: lines, line]
         end subroutine add
     end function scene_lines
 

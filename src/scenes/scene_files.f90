@@ -64,9 +64,9 @@ contains
         call system%describe(d)
         first = "lagrangia "//version//": "//scene%title
         build = "build: "//build_text()
-        associate (items => record%columns%items(:record%shown))
-            call record%table%begin([first, scene_lines(scene, d), build], items%name, items%unit)
-        end associate
+        call record%table%begin([first, scene_lines(scene, d), build], &
+                                record%columns%names(record%shown), &
+                                record%columns%units(record%shown))
     end subroutine open_files
 
     subroutine finish_files(scene, folder, format, record, panels, outcome, error)
@@ -89,11 +89,10 @@ contains
         path = data_path(folder, trim(scene%output), format)
         call script%open(path(:index(path, ".", back=.true.) - 1)//".gp", error)
         if (allocated(error)) return
-        associate (items => record%columns%items(:record%shown))
-            call script%write(gnuplot_script( &
-                path(index(path, "/", back=.true.) + 1:), record%table%reading(), &
-                trim(scene%title), items%name, items%unit, record%low, record%high, panels))
-        end associate
+        call script%write(gnuplot_script( &
+            path(index(path, "/", back=.true.) + 1:), record%table%reading(), trim(scene%title), &
+            record%columns%names(record%shown), record%columns%units(record%shown), record%low, &
+            record%high, panels))
         call script%commit(error)
     end subroutine finish_files
 

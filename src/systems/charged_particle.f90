@@ -1,0 +1,260 @@
+module lagrangia_charged_particle
+    !! A charge in uniform electric and magnetic fields of any direction, free or in a trap.
+    !!
+    !! Source: the lecture of 1 September 2011, velocity-dependent potentials:
+    !! \(L = \tfrac12 mv^2 - e\varphi + e\,A\cdot v\). The notes say that \(B = 0\) gives
+    !! \(F = -\nabla\varphi\): the charge is missing, \(F = -e\nabla\varphi\), and also
+    !! \(\partial A/\partial t\) must vanish, as it does here.
+    use lagrangia_description, only: conserved, coordinate, description_t, nonnegative, number, &
+                                     point, positive, quantity, vector
+    use lagrangia_errors, only: error_t
+    use lagrangia_hyperdual, only: dot_product, hyperdual_t, operator(*), operator(+), operator(-)
+    use lagrangia_kinds, only: dp
+    use lagrangia_system, only: check_parameters, system_t
+    implicit none (type, external)
+    private
+    public :: charged_particle_t, cross
+
+    type, extends(system_t) :: charged_particle_t
+        !! Coordinates: \(x\), \(y\), \(z\), m, from the centre of the trap.
+        real(dp) :: m = 1.0_dp                                  !! kg
+        real(dp) :: charge = 1.0_dp                             !! e, C
+        real(dp) :: electric(3) = [0.2_dp, 0.1_dp, 0.0_dp]      !! E, V/m
+        real(dp) :: magnetic(3) = [0.0_dp, 0.0_dp, 1.0_dp]      !! B, T
+        real(dp) :: trap = 0.0_dp                               !! isotropic, N/m
+    contains
+        procedure :: describe
+        procedure :: configure
+        procedure :: accelerations
+        procedure :: lagrangian
+        procedure :: energy
+        procedure :: quantity => momentum_or_speed
+        procedure :: positions
+        procedure :: axis
+        procedure :: centre
+    end type charged_particle_t
+
+    interface cross
+        module procedure cross_real, cross_real_hyperdual
+    end interface cross
+
+contains
+
+    pure subroutine describe(self, d)
+        !! See `system_t`.
+        class(charged_particle_t), intent(in) :: self
+        type(description_t), intent(out) :: d
+        real(dp), parameter :: per_speed = 1.0_dp  !! m/s: free, the particle has no natural speed
+        integer :: i
+
+        d%name = "charged_particle"
+        d%title = "a charge in uniform electric and magnetic fields, free or in a trap"
+        d%coordinates = [coordinate("x", "m", "position, from the centre of the trap"), &
+                         coordinate("y", "m", "position, from the centre of the trap"), &
+                         coordinate("z", "m", "position, from the centre of the trap")]
+        d%parameters = [positive("m", "kg", "mass", self%m), &
+                        number("charge", "C", "charge, e, of either sign", self%charge), &
+                        vector("electric", "V/m", "electric field, E", self%electric), &
+                        vector("magnetic", "T", "magnetic field, B", self%magnetic), &
+                        nonnegative("trap", "N/m", "spring constant of an isotropic trap", &
+                                    self%trap)]
+        d%energy_scale = self%m*per_speed**2
+        d%quantities = [ &
+            quantity("pseudo_x", "kg m/s", "(m v + e B x r - e E t)_x: conserved without a trap"), &
+            quantity("pseudo_y", "kg m/s", "(m v + e B x r - e E t)_y: conserved without a trap"), &
+            quantity("pseudo_z", "kg m/s", "(m v + e B x r - e E t)_z: conserved without a trap"), &
+            quantity("L_axis", "kg m^2/s", "n.(s x m v) + e |B| s_perp^2/2, s = r - e E/trap "// &
+                     "(or r), n along B: see the notes"), &
+            conserved("energy_axis", "J", "m/2 v_n^2 - e E_n r_n + trap/2 r_n^2: of the motion "// &
+                      "along B (n)", d%energy_scale), &
+            quantity("speed", "m/s", "|v|: conserved without electric field and trap"), &
+            quantity("p_x", "kg m/s", "(m v + e A)_x: canonical momentum, depends on the gauge"), &
+            quantity("p_y", "kg m/s", "(m v + e A)_y: canonical momentum, depends on the gauge"), &
+            quantity("p_z", "kg m/s", "(m v + e A)_z: canonical momentum, depends on the gauge")]
+        if (self%trap <= 0.0_dp) then
+            d%quantities(1:3)%conserved = .true.
+            d%quantities(6)%conserved = norm2(self%charge*self%electric) <= 0.0_dp
+            do i = 1, 3
+                d%quantities(6 + i)%conserved = is_cyclic(self, i)
+            end do
+        end if
+        d%quantities(4)%conserved = self%trap > 0.0_dp .or. parallel(self)
+        d%quantities(:3)%scale = self%m*per_speed
+        d%quantities(6:)%scale = self%m*per_speed
+        d%quantities(6)%scale = per_speed
+        d%points = [point("particle", self%m)]
+        d%dimensions = 3
+        d%lagrangian = [character(len(d%title)) :: &
+            "m/2 v.v + e E.r + e A.v - trap/2 r.r,   A = B x r/2 (symmetric gauge)"]
+        d%energy = "m/2 v.v - e E.r + trap/2 r.r"
+        d%equations = [character(len(d%title)) :: "m v_dot = e (E + v x B) - trap r"]
+        d%constraint = "none: three free coordinates"
+        d%notes = [character(len(d%title)) :: &
+            "The notes have F = - grad(phi) for B = 0: a slip, F = - e grad(phi), and dA/dt = 0.", &
+            "General: L = m/2 v.v - e phi + e A.v; here phi = - E.r. B does no work.", &
+            "Any gauge gives the same motion; m v + e A, which depends on it, is not conserved.", &
+            "Free: drift E x B/B^2, turning at omega_c = e B/m, falling freely along B.", &
+            "L_axis is conserved in a trap; without one where E is parallel to B or zero.", &
+            "Trap, E = 0: omega = sqrt(omega0^2 + omega_c^2/4) +- omega_c/2 across B, "// &
+            "omega0 along it."]
+        d%source = "Phys 601, 1 September 2011: velocity-dependent generalized potentials"
+    end subroutine describe
+
+    pure subroutine configure(self, values, error)
+        !! Parameters: m, charge, electric(3), magnetic(3), trap.
+        class(charged_particle_t), intent(inout) :: self
+        real(dp), intent(in) :: values(:)
+        type(error_t), allocatable, intent(out) :: error
+        integer :: i
+
+        call check_parameters(self, values, error)
+        if (allocated(error)) return
+        self%ndof = 3
+        self%m = values(1)
+        self%charge = values(2)
+        self%electric = values(3:5)
+        self%magnetic = values(6:8)
+        self%trap = values(9)
+        self%velocity_forces = norm2(self%charge*self%magnetic) > 0.0_dp
+        self%cyclic = 0
+        do i = 1, 3
+            if (is_cyclic(self, i)) self%cyclic = i
+        end do
+    end subroutine configure
+
+    pure function is_cyclic(self, i) result(cyclic)
+        !! \(L\) does not contain coordinate `i`: no trap, no field along it, B only along it.
+        class(charged_particle_t), intent(in) :: self
+        integer, intent(in) :: i
+        logical :: cyclic
+        real(dp) :: b(3)
+
+        b = self%charge*self%magnetic
+        b(i) = 0.0_dp
+        cyclic = max(self%trap, abs(self%charge*self%electric(i)), norm2(b)) <= 0.0_dp
+    end function is_cyclic
+
+    pure function parallel(self)
+        !! E and B are parallel, to rounding, or one of them is zero.
+        class(charged_particle_t), intent(in) :: self
+        logical :: parallel
+
+        associate (e => self%charge*self%electric, b => self%charge*self%magnetic)
+            parallel = norm2(cross(e, b)) <= 4.0_dp*epsilon(1.0_dp)*norm2(e)*norm2(b)
+        end associate
+    end function parallel
+
+    pure function axis(self) result(n)
+        !! Unit vector along B; along E where there is no B; along z where there is neither.
+        class(charged_particle_t), intent(in) :: self
+        real(dp) :: n(3)
+
+        n = [0.0_dp, 0.0_dp, 1.0_dp]
+        if (norm2(self%magnetic) > 0.0_dp) then
+            n = self%magnetic/norm2(self%magnetic)
+        else if (norm2(self%electric) > 0.0_dp) then
+            n = self%electric/norm2(self%electric)
+        end if
+    end function axis
+
+    pure function centre(self) result(r)
+        !! Where the trap balances the electric field, m; the origin where there is no trap.
+        class(charged_particle_t), intent(in) :: self
+        real(dp) :: r(3)
+
+        r = 0.0_dp
+        if (self%trap > 0.0_dp) r = self%charge*self%electric/self%trap
+    end function centre
+
+    pure subroutine accelerations(self, t, q, v, a)
+        !! $$ m\dot v = e\,(E + v\times B) - k r $$
+        class(charged_particle_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: a(self%ndof)
+
+        associate (m => self%m, e => self%charge, b => self%magnetic, k => self%trap)
+            a(1) = (e*(self%electric(1) + v(2)*b(3) - v(3)*b(2)) - k*q(1))/m
+            a(2) = (e*(self%electric(2) + v(3)*b(1) - v(1)*b(3)) - k*q(2))/m
+            a(3) = (e*(self%electric(3) + v(1)*b(2) - v(2)*b(1)) - k*q(3))/m
+        end associate
+    end subroutine accelerations
+
+    pure function lagrangian(self, t, q, v) result(l)
+        !! $$ L = \tfrac12 mv^2 + e\,E\cdot r + e\,A\cdot v - \tfrac12 kr^2,\qquad
+        !!    A = \tfrac12 B\times r $$
+        class(charged_particle_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t) :: l
+
+        l = 0.5_dp*self%m*dot_product(v, v) + self%charge*dot_product(self%electric, q) &
+            + 0.5_dp*self%charge*dot_product(cross(self%magnetic, q), v) &
+            - 0.5_dp*self%trap*dot_product(q, q)
+    end function lagrangian
+
+    pure function energy(self, t, q, v) result(e)
+        !! $$ E = \tfrac12 mv^2 - e\,E\cdot r + \tfrac12 kr^2 $$ The magnetic field does no work.
+        class(charged_particle_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: e
+
+        e = 0.5_dp*self%m*dot_product(v, v) - self%charge*dot_product(self%electric, q) &
+            + 0.5_dp*self%trap*dot_product(q, q)
+    end function energy
+
+    pure function momentum_or_speed(self, i, t, q, v) result(value)
+        !! 1 to 3: pseudo-momentum. 4, 5: angular momentum about the axis, energy along it.
+        !! 6: speed. 7 to 9: canonical momentum.
+        class(charged_particle_t), intent(in) :: self
+        integer, intent(in) :: i
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: value, p(3), n(3), s(3)
+
+        associate (m => self%m, e => self%charge, b => self%magnetic, k => self%trap)
+            n = self%axis()
+            select case (i)
+            case (1:3)
+                p = m*v + e*cross(b, q) - e*self%electric*t
+                value = p(i)
+            case (4)
+                s = q - self%centre()
+                value = m*dot_product(n, cross(s, v)) &
+                        + 0.5_dp*e*norm2(b)*sum((s - dot_product(n, s)*n)**2)
+            case (5)
+                value = 0.5_dp*m*dot_product(n, v)**2 &
+                        - e*dot_product(n, self%electric)*dot_product(n, q) &
+                        + 0.5_dp*k*dot_product(n, q)**2
+            case (6)
+                value = norm2(v)
+            case default
+                p = m*v + 0.5_dp*e*cross(b, q)
+                value = p(i - 6)
+            end select
+        end associate
+    end function momentum_or_speed
+
+    pure subroutine positions(self, t, q, r)
+        !! The coordinates are Cartesian.
+        class(charged_particle_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof)
+        type(hyperdual_t), intent(out) :: r(:, :)
+
+        r(:, 1) = q
+    end subroutine positions
+
+    pure function cross_real(a, b) result(c)
+        !! \(a\times b\).
+        real(dp), intent(in) :: a(3), b(3)
+        real(dp) :: c(3)
+
+        c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+    end function cross_real
+
+    pure function cross_real_hyperdual(a, b) result(c)
+        !! \(a\times b\).
+        real(dp), intent(in) :: a(3)
+        type(hyperdual_t), intent(in) :: b(3)
+        type(hyperdual_t) :: c(3)
+
+        c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+    end function cross_real_hyperdual
+end module lagrangia_charged_particle

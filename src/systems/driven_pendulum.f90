@@ -1,0 +1,200 @@
+module lagrangia_driven_pendulum
+    !! A pendulum whose pivot is shaken up and down: \(L\) contains the time.
+    !!
+    !! Source: the lecture of 1 September 2011 says of conservative forces that \(V\) must not
+    !! depend on the time. That is sufficient, not necessary: Lagrange's equations hold for
+    !! \(V(x, t)\) and for this moving constraint alike; what is lost is the energy,
+    !! \(\dot h = -\partial L/\partial t\). The pendulum itself is not in the notes.
+    !!
+    !! Signs: \(y\) and \(y_p = a\cos\Omega t\) count upwards, \(\theta\) from the downward
+    !! vertical; \(g + \ddot y_p\) is the gravity that the bob feels.
+    use lagrangia_description, only: coordinate, description_t, nonnegative, number, point, &
+                                     positive, quantity
+    use lagrangia_errors, only: error_t
+    use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
+                                   operator(-), sin
+    use lagrangia_kinds, only: dp
+    use lagrangia_system, only: check_parameters, system_t
+    implicit none (type, external)
+    private
+    public :: driven_pendulum_t
+
+    type, extends(system_t) :: driven_pendulum_t
+        !! Coordinate: \(\theta\), rad, from the downward vertical.
+        real(dp) :: m = 1.0_dp                 !! kg
+        real(dp) :: l = 1.0_dp                 !! m
+        real(dp) :: g = 9.81_dp                !! m s^-2
+        real(dp) :: amplitude = 0.1_dp         !! a of the pivot, m
+        real(dp) :: drive_frequency = 50.0_dp  !! \(\Omega\), rad s^-1
+    contains
+        procedure :: describe
+        procedure :: configure
+        procedure :: accelerations
+        procedure :: lagrangian
+        procedure :: energy
+        procedure :: quantity => energy_or_force
+        procedure :: positions
+        procedure :: driven
+    end type driven_pendulum_t
+
+contains
+
+    pure subroutine describe(self, d)
+        !! See `system_t`.
+        class(driven_pendulum_t), intent(in) :: self
+        type(description_t), intent(out) :: d
+
+        d%name = "driven_pendulum"
+        d%title = "a pendulum whose pivot moves up and down"
+        d%coordinates = [coordinate("theta", "rad", "angle of the rod from the downward vertical")]
+        d%parameters = [ &
+            positive("m", "kg", "mass of the bob", self%m), &
+            positive("l", "m", "length of the rod", self%l), &
+            nonnegative("g", "m/s^2", "gravity", self%g), &
+            number("amplitude", "m", "a: the pivot is at y_p = a cos(W t), upwards", &
+                   self%amplitude), &
+            nonnegative("drive_frequency", "rad/s", "W, angular frequency of the pivot", &
+                        self%drive_frequency)]
+        d%energy_scale = self%m*(self%g*self%l + (self%amplitude*self%drive_frequency)**2)
+        d%quantities = [ &
+            quantity("mechanical_energy", "J", "T + V, with the pivot's motion in T"), &
+            quantity("p_theta", "kg m^2/s", "m l^2 theta_dot + m l y_p_dot sin(theta): free of "// &
+                     "the drive's fast part"), &
+            quantity("slow_energy", "J", "p_theta^2/(2 m l^2) - m g l cos(theta) + "// &
+                     "m/4 (a W sin(theta))^2: Kapitza's average"), &
+            quantity("tension", "N", "m (l theta_dot^2 + (g + y_p_ddot) cos(theta)): force "// &
+                     "along the rod"), &
+            quantity("pivot", "m", "y_p = a cos(W t): height of the pivot")]
+        if (.not. self%driven()) then
+            d%quantities(1)%conserved = .true.
+            d%quantities(3)%conserved = .true.
+            d%quantities(2)%conserved = self%g <= 0.0_dp
+            d%quantities(1:3:2)%scale = d%energy_scale
+        end if
+        d%points = [point("bob", self%m)]
+        d%lagrangian = [character(len(d%title)) :: &
+            "m/2 (l^2 theta_dot^2 + 2 l theta_dot y_p_dot sin(theta) + y_p_dot^2)", &
+            "- m g (y_p - l cos(theta))"]
+        d%energy = "m/2 (l^2 theta_dot^2 - y_p_dot^2) + m g (y_p - l cos(theta))"
+        d%equations = [character(len(d%title)) :: &
+            "l theta_ddot + (g + y_p_ddot) sin(theta) = 0,   y_p_ddot = - a W^2 cos(W t)"]
+        d%constraint = "holonomic, rheonomic: x^2 + (y - a cos(W t))^2 = l^2"
+        if (.not. self%driven()) d%constraint = "holonomic, scleronomic: x^2 + (y - a)^2 = l^2"
+        d%notes = [character(len(d%title)) :: &
+            "The notes ask that V be free of t: not needed for Lagrange's equations, which hold;", &
+            "what is lost is the energy: dh/dt = - dL/dt. This pendulum is not in the notes.", &
+            "a, W: amplitude, drive_frequency. y, y_p count upwards; at t = 0 the pivot is at a.", &
+            "A function of t alone may be left out of L (uniqueness): then h changes, not theta.", &
+            "Upside down it is stable for a fast drive: (a W)^2 > 2 g l, a << l (Kapitza)."]
+        d%source = "Hamilton's Principle: rheonomic constraints (the notes define the concept only)"
+    end subroutine describe
+
+    pure subroutine configure(self, values, error)
+        !! Parameters: m, l, g, amplitude, drive_frequency.
+        class(driven_pendulum_t), intent(inout) :: self
+        real(dp), intent(in) :: values(:)
+        type(error_t), allocatable, intent(out) :: error
+
+        call check_parameters(self, values, error)
+        if (allocated(error)) return
+        self%ndof = 1
+        self%velocity_forces = .false.
+        self%m = values(1)
+        self%l = values(2)
+        self%g = values(3)
+        self%amplitude = values(4)
+        self%drive_frequency = values(5)
+        self%time_dependent = self%driven()
+        self%cyclic = merge(0, 1, self%driven() .or. self%g > 0.0_dp)
+    end subroutine configure
+
+    pure function driven(self)
+        !! The pivot moves.
+        class(driven_pendulum_t), intent(in) :: self
+        logical :: driven
+
+        driven = abs(self%amplitude)*self%drive_frequency > 0.0_dp
+    end function driven
+
+    pure subroutine accelerations(self, t, q, v, a)
+        !! $$ \ddot\theta = -\frac{g + \ddot y_p}{\ell}\sin\theta,\qquad
+        !!    \ddot y_p = -a\,\Omega^2\cos\Omega t $$
+        class(driven_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: a(self%ndof)
+
+        associate (w => self%drive_frequency)
+            a(1) = -(self%g - self%amplitude*w**2*cos(w*t))/self%l*sin(q(1))
+        end associate
+    end subroutine accelerations
+
+    pure function lagrangian(self, t, q, v) result(l)
+        !! $$ L = \tfrac12 m(\ell^2\dot\theta^2 + 2\ell\dot\theta\dot y_p\sin\theta + \dot y_p^2)
+        !!      - mg(y_p - \ell\cos\theta) $$
+        class(driven_pendulum_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t) :: l, y, y_dot
+
+        associate (m => self%m, r => self%l, w => self%drive_frequency)
+            y = self%amplitude*cos(w*t)
+            y_dot = -self%amplitude*w*sin(w*t)
+            l = 0.5_dp*m*(r**2*v(1)**2 + 2.0_dp*r*v(1)*y_dot*sin(q(1)) + y_dot**2) &
+                - m*self%g*(y - r*cos(q(1)))
+        end associate
+    end function lagrangian
+
+    pure function energy(self, t, q, v) result(e)
+        !! $$ h = \tfrac12 m(\ell^2\dot\theta^2 - \dot y_p^2) + mg(y_p - \ell\cos\theta) $$
+        class(driven_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: e
+
+        associate (m => self%m, l => self%l, a => self%amplitude, w => self%drive_frequency)
+            e = 0.5_dp*m*(l**2*v(1)**2 - (a*w*sin(w*t))**2) &
+                + m*self%g*(a*cos(w*t) - l*cos(q(1)))
+        end associate
+    end function energy
+
+    pure function energy_or_force(self, i, t, q, v) result(value)
+        !! 1: \(T + V\). 2: momentum of \(\theta\). 3: Kapitza's averaged energy. 4: tension.
+        !! 5: height of the pivot.
+        class(driven_pendulum_t), intent(in) :: self
+        integer, intent(in) :: i
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: value, y, y_dot, y_ddot, s, c, p
+
+        s = sin(q(1))
+        c = cos(q(1))
+        associate (m => self%m, l => self%l, g => self%g, w => self%drive_frequency, &
+                   theta_dot => v(1))
+            y = self%amplitude*cos(w*t)
+            y_dot = -self%amplitude*w*sin(w*t)
+            y_ddot = -w**2*y
+            p = m*l**2*theta_dot + m*l*y_dot*s
+            select case (i)
+            case (1)
+                value = 0.5_dp*m*(l**2*theta_dot**2 + 2.0_dp*l*theta_dot*y_dot*s + y_dot**2) &
+                        + m*g*(y - l*c)
+            case (2)
+                value = p
+            case (3)
+                value = 0.5_dp*p**2/(m*l**2) - m*g*l*c + 0.25_dp*m*(self%amplitude*w*s)**2
+            case (4)
+                value = m*(l*theta_dot**2 + (g + y_ddot)*c)
+            case default
+                value = y
+            end select
+        end associate
+    end function energy_or_force
+
+    pure subroutine positions(self, t, q, r)
+        !! The bob, \((\ell\sin\theta, y_p - \ell\cos\theta)\).
+        class(driven_pendulum_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof)
+        type(hyperdual_t), intent(out) :: r(:, :)
+
+        r = hyperdual_t()
+        r(1, 1) = self%l*sin(q(1))
+        r(2, 1) = self%amplitude*cos(self%drive_frequency*t) - self%l*cos(q(1))
+    end subroutine positions
+end module lagrangia_driven_pendulum

@@ -1,0 +1,164 @@
+module lagrangia_rotating_hoop
+    !! A bead on a vertical hoop that is turned about its vertical diameter at a constant rate.
+    !!
+    !! Source: Hamilton's Principle, where the notes define the concept only: a constraint that
+    !! contains the time is rheonomic. Beyond \(\omega^2 = g/R\) the bottom is unstable and the
+    !! bead finds two tilted equilibria, \(\cos\theta_* = g/(\omega^2R)\).
+    use lagrangia_description, only: coordinate, description_t, nonnegative, number, point, &
+                                     positive, quantity
+    use lagrangia_errors, only: error_t
+    use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
+                                   operator(-), sin
+    use lagrangia_kinds, only: dp
+    use lagrangia_system, only: check_parameters, system_t
+    implicit none (type, external)
+    private
+    public :: rotating_hoop_t
+
+    type, extends(system_t) :: rotating_hoop_t
+        !! Coordinate: \(\theta\), rad, from the downward vertical.
+        real(dp) :: m = 1.0_dp      !! kg
+        real(dp) :: r = 1.0_dp      !! m
+        real(dp) :: omega = 5.0_dp  !! rad s^-1
+        real(dp) :: g = 9.81_dp     !! m s^-2
+    contains
+        procedure :: describe
+        procedure :: configure
+        procedure :: accelerations
+        procedure :: lagrangian
+        procedure :: energy
+        procedure :: quantity => energy_or_torque
+        procedure :: positions
+    end type rotating_hoop_t
+
+contains
+
+    pure subroutine describe(self, d)
+        !! See `system_t`.
+        class(rotating_hoop_t), intent(in) :: self
+        type(description_t), intent(out) :: d
+
+        d%name = "rotating_hoop"
+        d%title = "a bead on a vertical hoop that turns at a constant rate"
+        d%coordinates = [coordinate("theta", "rad", "angle of the bead from the lowest point")]
+        d%parameters = [positive("m", "kg", "mass of the bead", self%m), &
+                        positive("r", "m", "radius of the hoop", self%r), &
+                        number("omega", "rad/s", "rate at which the hoop is turned", self%omega), &
+                        nonnegative("g", "m/s^2", "gravity", self%g)]
+        d%energy_scale = self%m*self%r*(self%g + self%omega**2*self%r)
+        d%quantities = [ &
+            quantity("mechanical_energy", "J", "m/2 r^2 (theta_dot^2 + omega^2 sin(theta)^2) "// &
+                     "- m g r cos(theta): T + V"), &
+            quantity("L_z", "kg m^2/s", "m r^2 omega sin(theta)^2: angular momentum about the "// &
+                     "vertical"), &
+            quantity("torque", "N m", "2 m r^2 omega theta_dot sin(theta) cos(theta): what "// &
+                     "keeps the hoop turning"), &
+            quantity("hoop_force", "N", "m (r theta_dot^2 + r omega^2 sin(theta)^2 + "// &
+                     "g cos(theta)): towards the centre")]
+        if (abs(self%omega) <= 0.0_dp) then
+            d%quantities(1)%conserved = .true.
+            d%quantities(1)%scale = d%energy_scale
+        end if
+        d%points = [point("bead", self%m)]
+        d%dimensions = 3
+        d%lagrangian = [character(len(d%title)) :: &
+            "m/2 r^2 (theta_dot^2 + omega^2 sin(theta)^2) + m g r cos(theta)"]
+        d%energy = "m/2 r^2 (theta_dot^2 - omega^2 sin(theta)^2) - m g r cos(theta)"
+        d%equations = [character(len(d%title)) :: &
+            "theta_ddot = sin(theta) (omega^2 cos(theta) - g/r)"]
+        d%constraint = "holonomic, rheonomic: x sin(omega t) - y cos(omega t) = 0, "// &
+                       "x^2 + y^2 + z^2 = r^2"
+        d%notes = [character(len(d%title)) :: &
+            "The notes only define the concept: a constraint containing the time is rheonomic.", &
+            "L has no t, so h = theta_dot dL/dtheta_dot - L is conserved; T + V is not.", &
+            "Power of the drive: d(T + V)/dt = omega torque, torque = dL_z/dt.", &
+            "Bottom: Omega^2 = g/r - omega^2, stable while it is positive. The top never is.", &
+            "Tilted, if omega^2 r > g: cos(theta) = g/(omega^2 r), "// &
+            "Omega^2 = omega^2 - g^2/(omega r)^2."]
+        d%source = "Hamilton's Principle: rheonomic constraints (the notes define the concept only)"
+    end subroutine describe
+
+    pure subroutine configure(self, values, error)
+        !! Parameters: m, r, omega, g.
+        class(rotating_hoop_t), intent(inout) :: self
+        real(dp), intent(in) :: values(:)
+        type(error_t), allocatable, intent(out) :: error
+
+        call check_parameters(self, values, error)
+        if (allocated(error)) return
+        self%ndof = 1
+        self%velocity_forces = .false.
+        self%m = values(1)
+        self%r = values(2)
+        self%omega = values(3)
+        self%g = values(4)
+        self%cyclic = merge(0, 1, max(abs(self%omega), self%g) > 0.0_dp)
+    end subroutine configure
+
+    pure subroutine accelerations(self, t, q, v, a)
+        !! $$ \ddot\theta = \sin\theta\,(\omega^2\cos\theta - g/R) $$
+        class(rotating_hoop_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: a(self%ndof)
+
+        a(1) = sin(q(1))*(self%omega**2*cos(q(1)) - self%g/self%r)
+    end subroutine accelerations
+
+    pure function lagrangian(self, t, q, v) result(l)
+        !! $$ L = \tfrac12 mR^2(\dot\theta^2 + \omega^2\sin^2\theta) + mgR\cos\theta $$
+        class(rotating_hoop_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t) :: l
+
+        associate (m => self%m, r => self%r, omega => self%omega, g => self%g)
+            l = 0.5_dp*m*r**2*(v(1)**2 + omega**2*sin(q(1))**2) + m*g*r*cos(q(1))
+        end associate
+    end function lagrangian
+
+    pure function energy(self, t, q, v) result(e)
+        !! $$ h = \tfrac12 mR^2(\dot\theta^2 - \omega^2\sin^2\theta) - mgR\cos\theta $$
+        !! Not \(T + V\): the second term is kinetic.
+        class(rotating_hoop_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: e
+
+        associate (m => self%m, r => self%r, omega => self%omega, g => self%g)
+            e = 0.5_dp*m*r**2*(v(1)**2 - omega**2*sin(q(1))**2) - m*g*r*cos(q(1))
+        end associate
+    end function energy
+
+    pure function energy_or_torque(self, i, t, q, v) result(value)
+        !! 1: \(T + V\). 2: angular momentum. 3: torque of the drive. 4: force of the hoop in
+        !! its own plane.
+        class(rotating_hoop_t), intent(in) :: self
+        integer, intent(in) :: i
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: value, s, c
+
+        s = sin(q(1))
+        c = cos(q(1))
+        associate (m => self%m, r => self%r, omega => self%omega, g => self%g, theta_dot => v(1))
+            select case (i)
+            case (1)
+                value = 0.5_dp*m*r**2*(theta_dot**2 + omega**2*s**2) - m*g*r*c
+            case (2)
+                value = m*r**2*omega*s**2
+            case (3)
+                value = 2.0_dp*m*r**2*omega*theta_dot*s*c
+            case default
+                value = m*(r*theta_dot**2 + r*omega**2*s**2 + g*c)
+            end select
+        end associate
+    end function energy_or_torque
+
+    pure subroutine positions(self, t, q, r)
+        !! The bead, \(R\,(\sin\theta\cos\omega t, \sin\theta\sin\omega t, -\cos\theta)\), z up.
+        class(rotating_hoop_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof)
+        type(hyperdual_t), intent(out) :: r(:, :)
+
+        r(1, 1) = self%r*sin(q(1))*cos(self%omega*t)
+        r(2, 1) = self%r*sin(q(1))*sin(self%omega*t)
+        r(3, 1) = -self%r*cos(q(1))
+    end subroutine positions
+end module lagrangia_rotating_hoop

@@ -1,0 +1,73 @@
+module test_gsl
+    !! GSL's `elljac` behind our door: right, or refused.
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_elliptic, only: jacobi
+    use lagrangia_errors, only: error_t, status_library, status_numbers
+    use lagrangia_gsl, only: jacobi_sn_cn_dn
+    use lagrangia_kinds, only: dp
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    implicit none (type, external)
+    private
+    public :: gsl_suite
+
+    real(dp), parameter :: eps = epsilon(1.0_dp)
+
+contains
+
+    function gsl_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("gsl")
+        call suite%addTest(TestMethod("agrees_where_it_can", agrees_where_it_can))
+        call suite%addTest(TestMethod("refuses_the_rest", refuses_the_rest))
+    end function gsl_suite
+
+    subroutine agrees_where_it_can()
+        !! GSL sees \(1 - k^2\) only: the tolerance is that rounding, \(\epsilon/k'^2\), times `u`.
+        real(dp), parameter :: k(3) = [0.3_dp, 0.6_dp, 0.995_dp], u = 1.9_dp
+        real(dp) :: ours(3), gsl(3), kc
+        type(error_t), allocatable :: error
+        integer :: i
+
+        do i = 1, size(k)
+            kc = sqrt((1.0_dp - k(i))*(1.0_dp + k(i)))
+            call jacobi(u, kc, ours(1), ours(2), ours(3))
+            call jacobi_sn_cn_dn(u, k(i), gsl(1), gsl(2), gsl(3), error)
+            call assertFalse(allocated(error))
+            call assertEqual(ours, gsl, tolerance=4.0_dp*eps*u/kc**2)
+        end do
+    end subroutine agrees_where_it_can
+
+    subroutine refuses_the_rest()
+        !! Where `elljac` would be silently wrong we refuse; where GSL refuses, its words come.
+        real(dp) :: bad, sn, cn, dn
+        type(error_t), allocatable :: error
+
+        sn = 7.0_dp
+        cn = 7.0_dp
+        dn = 7.0_dp
+        call jacobi_sn_cn_dn(9.0_dp, 1.0_dp - 0.5_dp*eps, sn, cn, dn, error)
+        call assertTrue(allocated(error))
+        call assertEqual([0.0_dp, 0.0_dp, 0.0_dp], [sn, cn, dn])
+        if (allocated(error)) then
+            call assertEqual("elljac: no digit is right this close to modulus 1", error%message)
+            call assertEqual(status_library, error%status)
+        end if
+        call jacobi_sn_cn_dn(9.0_dp, 1.2_dp, sn, cn, dn, error)
+        call assertTrue(allocated(error))
+        if (allocated(error)) then
+            call assertEqual("elljac: GSL says: input domain error", error%message)
+            call assertEqual(status_library, error%status)
+        end if
+        bad = ieee_value(1.0_dp, ieee_quiet_nan)
+        call jacobi_sn_cn_dn(bad, 0.5_dp, sn, cn, dn, error)
+        call assertTrue(allocated(error))
+        call jacobi_sn_cn_dn(0.5_dp, bad, sn, cn, dn, error)
+        call assertTrue(allocated(error))
+        if (allocated(error)) then
+            call assertEqual("elljac: argument and modulus must be finite", error%message)
+            call assertEqual(status_numbers, error%status)
+        end if
+    end subroutine refuses_the_rest
+end module test_gsl

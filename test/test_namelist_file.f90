@@ -1,0 +1,91 @@
+module test_namelist_file
+    !! Reading a whole file: regular files only, every byte, nothing that blocks.
+    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
+    use lagrangia_errors, only: error_t, status_file
+    use lagrangia_namelist_file, only: most_bytes, read_whole_file
+    implicit none (type, external)
+    private
+    public :: namelist_file_suite
+
+    interface
+        function mkfifo(path, mode) bind(c, name="mkfifo") result(status)
+            !! Make a FIFO.
+            import :: c_char, c_int
+            implicit none (type, external)
+            ! allow(assumed-size): a C string
+            character(kind=c_char), intent(in) :: path(*)
+            integer(c_int), value :: mode
+            integer(c_int) :: status
+        end function mkfifo
+    end interface
+
+contains
+
+    function namelist_file_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("namelist file")
+        call suite%addTest(TestMethod("files", files))
+    end function namelist_file_suite
+
+    subroutine unreadable(path, expected)
+        !! Reading `path` fails with just this message.
+        character(*), intent(in) :: path, expected
+        character(:), allocatable :: text
+        type(error_t), allocatable :: error
+
+        call read_whole_file(path, text, error)
+        call assertTrue(allocated(error), message="not refused: "//expected)
+        if (.not. allocated(error)) return
+        call assertEqual(expected, error%message)
+        call assertEqual(status_file, error%status)
+        call assertFalse(allocated(text))
+    end subroutine unreadable
+
+    subroutine files()
+        !! Whole regular files only; nothing that could block or never end.
+        character(*), parameter :: fifo = "namelist_test.fifo", file = "namelist_test.nml"
+        character(:), allocatable :: text
+        type(error_t), allocatable :: error
+        integer :: i, unit
+        character(256) :: bytes
+
+        do i = 0, 255
+            bytes(i + 1:i + 1) = char(i)
+        end do
+        open (newunit=unit, file=file, access="stream", form="unformatted", status="replace", &
+              action="write")
+        write (unit) bytes, "no final newline"
+        close (unit)
+        call read_whole_file(file//"  ", text, error)
+        call assertFalse(allocated(error))
+        if (anyExceptions()) return
+        call assertEqual(272, len(text))
+        call assertTrue(text == bytes//"no final newline", message="every byte comes through")
+        open (newunit=unit, file=file, access="stream", form="unformatted", status="replace", &
+              action="write")
+        write (unit) repeat("x", most_bytes)
+        close (unit)
+        call read_whole_file(file, text, error)
+        call assertFalse(allocated(error), message="the largest file")
+        if (allocated(text)) call assertEqual(most_bytes, len(text))
+        open (newunit=unit, file=file, access="stream", form="unformatted", position="append", &
+              action="write")
+        write (unit) "x"
+        close (unit)
+        call unreadable(file, file//": the file is longer than 1048576 bytes")
+        open (newunit=unit, file=file)
+        close (unit, status="delete")
+        call unreadable(file, file//": no such file")
+        call unreadable("/dev/zero", "/dev/zero: not a regular file")
+        call unreadable("/", "/: not a regular file")
+        call unreadable("  ", "the name of the file is empty")
+        call unreadable("a"//c_null_char//"b", "a\x00b: the name of the file holds a NUL byte")
+        if (mkfifo(fifo//c_null_char, int(o"600", c_int)) /= 0_c_int) return
+        call unreadable(fifo, fifo//": not a regular file")
+        open (newunit=unit, file=fifo, action="readwrite")
+        close (unit, status="delete")
+    end subroutine files
+end module test_namelist_file

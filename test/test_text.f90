@@ -1,0 +1,125 @@
+module test_text
+    !! Text helpers: names that are near, bytes that are safe to show, numbers that read back.
+    use, intrinsic :: ieee_arithmetic, only: ieee_negative_inf, ieee_positive_inf, &
+                                             ieee_quiet_nan, ieee_value
+    use funit, only: TestMethod, TestSuite, assertEqual
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_text, only: escaped, join, lower, nearest_name, quoted, to_text
+    implicit none (type, external)
+    private
+    public :: text_suite
+
+contains
+
+    function text_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("text")
+        call suite%addTest(TestMethod("lower_leaves_other_bytes", lower_leaves_other_bytes))
+        call suite%addTest(TestMethod("join_trims_and_separates", join_trims_and_separates))
+        call suite%addTest(TestMethod("shown_text_is_plain_and_bounded", &
+                                      shown_text_is_plain_and_bounded))
+        call suite%addTest(TestMethod("nearest_name_mends_slips", nearest_name_mends_slips))
+        call suite%addTest(TestMethod("nearest_name_gives_up", nearest_name_gives_up))
+        call suite%addTest(TestMethod("reals_look_short", reals_look_short))
+        call suite%addTest(TestMethod("reals_read_back", reals_read_back))
+        call suite%addTest(TestMethod("integers_in_decimal", integers_in_decimal))
+    end function text_suite
+
+    subroutine lower_leaves_other_bytes()
+        !! Only A to Z change.
+        call assertEqual("az09_@[`{"//char(195)//char(132), &
+                         lower("AZ09_@[`{"//char(195)//char(132)))
+    end subroutine lower_leaves_other_bytes
+
+    subroutine join_trims_and_separates()
+        !! No separator at the ends.
+        call assertEqual("a, bcd, e", join([character(5) :: "a", "bcd", "e"], ", "))
+        call assertEqual("a", join(["a"], ", "))
+        call assertEqual(0, len(join([character(5) ::], ", ")))
+    end subroutine join_trims_and_separates
+
+    subroutine shown_text_is_plain_and_bounded()
+        !! Control and non-ASCII bytes in hexadecimal, length bounded.
+        call assertEqual("a\x00\x1B[31m\x7F\xC3b", &
+                         escaped("a"//achar(0)//achar(27)//"[31m"//achar(127)//char(195)//"b"))
+        call assertEqual("'abc'", quoted("abc"))
+        call assertEqual("'"//repeat("x", 40)//"'", quoted(repeat("x", 40)))
+        call assertEqual("'"//repeat("x", 40)//"...'", quoted(repeat("x", 41)))
+        call assertEqual("abc...", escaped("abcd", 3))
+        call assertEqual("ab\...", escaped("ab"//achar(1), 3))
+        call assertEqual("''", quoted(""))
+    end subroutine shown_text_is_plain_and_bounded
+
+    subroutine nearest_name_mends_slips()
+        !! A letter lost, added, changed or swapped; the best of several; whatever the case.
+        character(13), parameter :: names(5) = &
+            [character(13) :: "pendulum", "cart_pendulum", "atwood", "m1", "length"]
+
+        call assertEqual("cart_pendulum", nearest_name("cart_pendlum", names))
+        call assertEqual("pendulum", nearest_name("penduulum", names))
+        call assertEqual("pendulum", nearest_name("pendulun", names))
+        call assertEqual("length", nearest_name("lenght", names))
+        call assertEqual("atwood", nearest_name("ATWODO", names))
+        call assertEqual("m1", nearest_name("m2", names))
+    end subroutine nearest_name_mends_slips
+
+    subroutine nearest_name_gives_up()
+        !! Nothing near: no advice rather than a wild one. A swap counts as one slip.
+        call assertEqual(0, len(nearest_name("rk4", ["verlet", "boris "])))
+        call assertEqual(0, len(nearest_name("k", ["m"])))
+        call assertEqual(0, len(nearest_name("", ["m"])))
+        call assertEqual(0, len(nearest_name("m", [character(1) ::])))
+        call assertEqual(0, len(nearest_name(repeat("m", 64), [repeat("m", 63)])))
+        call assertEqual("dt", nearest_name("td", ["dt"]), message="one swap")
+        call assertEqual(0, len(nearest_name("abc", ["acd"])), message="two slips in three letters")
+        call assertEqual("acde", nearest_name("abce", ["acde"]), &
+                         message="two slips in four letters")
+    end subroutine nearest_name_gives_up
+
+    subroutine reals_look_short()
+        !! What a person would have typed.
+        call assertEqual("0.01", to_text(0.01_dp))
+        call assertEqual("0.001", to_text(1e-3_dp))
+        call assertEqual("9.81", to_text(9.81_dp))
+        call assertEqual("20.0", to_text(20.0_dp))
+        call assertEqual("-2.5", to_text(-2.5_dp))
+        call assertEqual("0.0", to_text(0.0_dp))
+        call assertEqual("1234.5", to_text(1234.5_dp))
+        call assertEqual("1e-5", to_text(1e-5_dp))
+        call assertEqual("1.5e-7", to_text(1.5e-7_dp))
+        call assertEqual("1e22", to_text(1e22_dp))
+        call assertEqual("-1.5e300", to_text(-1.5e300_dp))
+        call assertEqual("0.30000000000000004", to_text(0.1_dp + 0.2_dp))
+    end subroutine reals_look_short
+
+    subroutine reals_read_back()
+        !! Bit by bit, over all exponents.
+        real(dp) :: back, number, u(2)
+        character(32) :: text
+        integer :: i, wrong
+
+        wrong = 0
+        do i = 1, 20000
+            call random_number(u)
+            number = (u(1) - 0.5_dp)*10.0_dp**(600*(u(2) - 0.5_dp))
+            text = to_text(number)
+            read (text, *) back
+            if (transfer(back, 1_i8) /= transfer(number, 1_i8)) wrong = wrong + 1
+        end do
+        call assertEqual(0, wrong)
+        text = to_text(-0.0_dp)
+        call assertEqual("-0.0", text)
+        call assertEqual("inf", to_text(ieee_value(1.0_dp, ieee_positive_inf)))
+        call assertEqual("-inf", to_text(ieee_value(1.0_dp, ieee_negative_inf)))
+        call assertEqual("nan", to_text(ieee_value(1.0_dp, ieee_quiet_nan)))
+    end subroutine reals_read_back
+
+    subroutine integers_in_decimal()
+        !! Both kinds, the ends included.
+        call assertEqual("-7", to_text(-7))
+        call assertEqual("9223372036854775807", to_text(huge(1_i8)))
+        call assertEqual("-9223372036854775808", to_text(-huge(1_i8) - 1_i8))
+    end subroutine integers_in_decimal
+end module test_text
