@@ -10,12 +10,12 @@ module reference_checks
     public :: check_reference, check_state
 
     real(dp), parameter :: share = 0.003_dp
-        !! of the differences' step, of the time in which the state changes
+    !! of the differences' step, of the time in which the state changes
     real(dp), parameter :: truncation = 1e-11_dp
-        !! of differences of order 8 with that step, where the state is singular in the complex
-        !! plane at a fifth of that time (a light cart): 576*(5*share)**8
+    !! of differences of order 8 with that step, where the state is singular in the complex
+    !! plane at a fifth of that time (a light cart): 576*(5*share)**8
     real(dp), parameter :: rounding = 100.0_dp*epsilon(1.0_dp)
-        !! of the state; its differences have it divided by the step
+    !! of the state; its differences have it divided by the step
 
 contains
 
