@@ -158,7 +158,7 @@ contains
         do i = 1, size(scene%expectations)
             associate (name => scene%expectations(i)%name)
                 if (is_period(name) .or. any(names == name)) cycle
-                names = [names, name]
+                names = [character(name_length) :: names, name]
             end associate
         end do
         p%record%shown = size(scene%columns)
