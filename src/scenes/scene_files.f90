@@ -87,6 +87,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
         character(scene_line_length) :: first, build
         type(description_t) :: d
+        logical :: itself
 
         select case (format)
         case ("text"); allocate (text_table_t :: record%table)
@@ -94,7 +95,9 @@ contains
         case default; allocate (npy_table_t :: record%table)
         end select
         path = data_path(folder, trim(scene%output), format)
-        if (same_file(path, scene%source) .or. same_file(script_path(path), scene%source)) then
+        itself = same_file(path, scene%source)
+        if (.not. itself) itself = same_file(script_path(path), scene%source)
+        if (itself) then
             call fail(error, "the output '"//path//"' is the scene itself", key="output")
             return
         end if
