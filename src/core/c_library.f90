@@ -1,0 +1,219 @@
+module lagrangia_c_library
+    !! The C library, declared here and nowhere else. Every function has a fixed list of arguments;
+    !! variadic ones (printf, open, fcntl) cannot be called portably through `bind(c)`.
+    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int, c_long, c_ptr, &
+        c_size_t
+    implicit none (type, external)
+    private
+    public :: c_access, c_chmod, c_errno, c_execvp, c_exit, c_fclose, c_fdopen, c_fflush, &
+              c_fileno, c_fopen, c_fork, c_free, c_fseek, c_fwrite, c_fwrite_reals, c_getpid, &
+              c_isatty, c_lstat, c_mkdir, c_realpath, c_remove, c_rename, c_signal, c_stat, &
+              c_strerror, c_strlen, c_waitpid, c_write
+
+    ! allow(assumed-size): C takes the address of the first element
+    interface
+        function c_fopen(path, mode) bind(c, name="fopen") result(stream)
+            import :: c_char, c_ptr
+            implicit none (type, external)
+            character(kind=c_char), intent(in) :: path(*), mode(*)
+            type(c_ptr) :: stream
+        end function c_fopen
+
+        function c_fdopen(descriptor, mode) bind(c, name="fdopen") result(stream)
+            import :: c_char, c_int, c_ptr
+            implicit none (type, external)
+            integer(c_int), value :: descriptor
+            character(kind=c_char), intent(in) :: mode(*)
+            type(c_ptr) :: stream
+        end function c_fdopen
+
+        function c_fwrite(bytes, size, count, stream) bind(c, name="fwrite") result(written)
+            import :: c_char, c_ptr, c_size_t
+            implicit none (type, external)
+            character(kind=c_char), intent(in) :: bytes(*)
+            integer(c_size_t), value :: size, count
+            type(c_ptr), value :: stream
+            integer(c_size_t) :: written
+        end function c_fwrite
+
+        function c_fwrite_reals(values, size, count, stream) bind(c, name="fwrite") result(written)
+            import :: c_double, c_ptr, c_size_t
+            implicit none (type, external)
+            real(c_double), intent(in) :: values(*)
+            integer(c_size_t), value :: size, count
+            type(c_ptr), value :: stream
+            integer(c_size_t) :: written
+        end function c_fwrite_reals
+
+        function c_fflush(stream) bind(c, name="fflush") result(status)
+            import :: c_int, c_ptr
+            implicit none (type, external)
+            type(c_ptr), value :: stream
+            integer(c_int) :: status
+        end function c_fflush
+
+        function c_fclose(stream) bind(c, name="fclose") result(status)
+            import :: c_int, c_ptr
+            implicit none (type, external)
+            type(c_ptr), value :: stream
+            integer(c_int) :: status
+        end function c_fclose
+
+        function c_fseek(stream, offset, whence) bind(c, name="fseek") result(status)
+            import :: c_int, c_long, c_ptr
+            implicit none (type, external)
+            type(c_ptr), value :: stream
+            integer(c_long), value :: offset
+            integer(c_int), value :: whence  !! 0 from the start, 2 from the end
+            integer(c_int) :: status
+        end function c_fseek
+
+        function c_fileno(stream) bind(c, name="fileno") result(descriptor)
+            import :: c_int, c_ptr
+            implicit none (type, external)
+            type(c_ptr), value :: stream
+            integer(c_int) :: descriptor
+        end function c_fileno
+
+        function c_write(descriptor, bytes, count) bind(c, name="write") result(written)
+            import :: c_char, c_int, c_size_t
+            implicit none (type, external)
+            integer(c_int), value :: descriptor
+            character(kind=c_char), intent(in) :: bytes(*)
+            integer(c_size_t), value :: count
+            integer(c_size_t) :: written  !! -1 on failure
+        end function c_write
+
+        function c_isatty(descriptor) bind(c, name="isatty") result(yes)
+            import :: c_int
+            implicit none (type, external)
+            integer(c_int), value :: descriptor
+            integer(c_int) :: yes
+        end function c_isatty
+
+        function c_rename(old, new) bind(c, name="rename") result(status)
+            import :: c_char, c_int
+            implicit none (type, external)
+            character(kind=c_char), intent(in) :: old(*), new(*)
+            integer(c_int) :: status
+        end function c_rename
+
+        function c_remove(path) bind(c, name="remove") result(status)
+            import :: c_char, c_int
+            implicit none (type, external)
+            character(kind=c_char), intent(in) :: path(*)
+            integer(c_int) :: status
+        end function c_remove
+
+        function c_mkdir(path, mode) bind(c, name="mkdir") result(status)
+            import :: c_char, c_int
+            implicit none (type, external)
+            character(kind=c_char), intent(in) :: path(*)
+            integer(c_int), value :: mode
+            integer(c_int) :: status
+        end function c_mkdir
+
+        function c_chmod(path, mode) bind(c, name="chmod") result(status)
+            import :: c_char, c_int
+            implicit none (type, external)
+            character(kind=c_char), intent(in) :: path(*)
+            integer(c_int), value :: mode
+            integer(c_int) :: status
+        end function c_chmod
+
+        function c_access(path, mode) bind(c, name="access") result(status)
+            import :: c_char, c_int
+            implicit none (type, external)
+            character(kind=c_char), intent(in) :: path(*)
+            integer(c_int), value :: mode  !! 2 may be written
+            integer(c_int) :: status
+        end function c_access
+
+        function c_realpath(path, buffer) bind(c, name="realpath") result(text)
+            import :: c_char, c_ptr
+            implicit none (type, external)
+            character(kind=c_char), intent(in) :: path(*)
+            type(c_ptr), value :: buffer
+            type(c_ptr) :: text
+        end function c_realpath
+
+        function c_getpid() bind(c, name="getpid") result(pid)
+            import :: c_int
+            implicit none (type, external)
+            integer(c_int) :: pid
+        end function c_getpid
+
+        function c_signal(number, handler) bind(c, name="signal") result(old)
+            import :: c_funptr, c_int
+            implicit none (type, external)
+            integer(c_int), value :: number
+            type(c_funptr), value :: handler
+            type(c_funptr) :: old
+        end function c_signal
+
+        function c_fork() bind(c, name="fork") result(pid)
+            import :: c_int
+            implicit none (type, external)
+            integer(c_int) :: pid
+        end function c_fork
+
+        function c_execvp(file, arguments) bind(c, name="execvp") result(status)
+            import :: c_char, c_int, c_ptr
+            implicit none (type, external)
+            character(kind=c_char), intent(in) :: file(*)
+            type(c_ptr), intent(in) :: arguments(*)
+            integer(c_int) :: status
+        end function c_execvp
+
+        function c_waitpid(pid, status, options) bind(c, name="waitpid") result(found)
+            import :: c_int
+            implicit none (type, external)
+            integer(c_int), value :: pid, options
+            integer(c_int), intent(out) :: status
+            integer(c_int) :: found
+        end function c_waitpid
+
+        subroutine c_exit(status) bind(c, name="_exit")
+            import :: c_int
+            implicit none (type, external)
+            integer(c_int), value :: status
+        end subroutine c_exit
+
+        function c_strerror(number) bind(c, name="strerror") result(text)
+            import :: c_int, c_ptr
+            implicit none (type, external)
+            integer(c_int), value :: number
+            type(c_ptr) :: text
+        end function c_strerror
+
+        function c_strlen(text) bind(c, name="strlen") result(length)
+            import :: c_ptr, c_size_t
+            implicit none (type, external)
+            type(c_ptr), value :: text
+            integer(c_size_t) :: length
+        end function c_strlen
+
+        subroutine c_free(memory) bind(c, name="free")
+            import :: c_ptr
+            implicit none (type, external)
+            type(c_ptr), value :: memory
+        end subroutine c_free
+
+        function c_errno() bind(c, name="_gfortran_ierrno_i4") result(number)
+            !! `errno` is a macro in C; libgfortran's own function reads it on every system.
+            import :: c_int
+            implicit none (type, external)
+            integer(c_int) :: number
+        end function c_errno
+
+        subroutine c_stat() bind(c, name="_gfortran_stat_i8_sub")
+            !! Not called as declared: see `look_at` in lagrangia_files.
+            implicit none (type, external)
+        end subroutine c_stat
+
+        subroutine c_lstat() bind(c, name="_gfortran_lstat_i8_sub")
+            !! As `c_stat`, of a link itself.
+            implicit none (type, external)
+        end subroutine c_lstat
+    end interface
+end module lagrangia_c_library
