@@ -1,0 +1,247 @@
+module lagrangia_output_file
+    !! Files that are complete or absent: written beside their place, then renamed into it.
+    !!
+    !! All goes through C's `fwrite`: libgfortran reports no full disk and no broken pipe.
+    use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_long, c_null_char, c_null_ptr, &
+        c_ptr, c_size_t
+    use lagrangia_c_library, only: c_access, c_chmod, c_fclose, c_fflush, c_fopen, c_fseek, &
+        c_fwrite, c_fwrite_reals, c_getpid, c_remove, c_rename
+    use lagrangia_errors, only: error_t, fail, status_file
+    use lagrangia_files, only: e_bad_unit, e_exists, e_invalid, e_missing, facts_t, folder_of, &
+        hold_standard_units, last_error, look_at, make_folders, reason, resolved
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_unfinished, only: forget, remember
+    implicit none (type, external)
+    private
+    public :: output_file_t
+
+    type :: output_file_t
+        !! `open`, any number of `write`, then `commit` or `abandon`. Writing never fails aloud:
+        !! the first failure is remembered, and `commit` reports it.
+        private
+        character(:), allocatable :: path       !! as the user wrote it
+        character(:), allocatable :: place      !! the same after symbolic links
+        character(:), allocatable :: temporary  !! where the bytes go until `commit`
+        type(c_ptr) :: stream = c_null_ptr      !! C's `FILE *`; null when not open
+        integer(i8) :: bytes = 0                !! written so far
+        integer :: failure = 0                  !! the system's number of the first failure
+        integer :: permissions = -1             !! of the file to be replaced, if there is one
+    contains
+        procedure :: open => open_file
+        procedure :: write => write_text
+        procedure :: write_reals
+        procedure :: rewrite
+        procedure :: failed
+        procedure :: position
+        procedure :: commit
+        procedure :: abandon
+    end type output_file_t
+
+    integer :: serial = 0                       !! tells this process's temporaries apart
+
+contains
+
+    subroutine open_file(self, path, error)
+        !! Begin a file that will be called `path`; makes the folders that are missing.
+        !!
+        !! Fails if `path` is a folder, a device or a pipe, or may not be written.
+        class(output_file_t), intent(inout) :: self
+        character(*), intent(in) :: path
+        type(error_t), allocatable, intent(out) :: error
+        type(facts_t) :: facts
+        character(:), allocatable :: culprit
+        integer :: number
+
+        call self%abandon()
+        call hold_standard_units()
+        self%path = path
+        self%place = path
+        self%bytes = 0
+        self%failure = 0
+        self%permissions = -1
+        if (path == "" .or. index(path, c_null_char) > 0) then
+            call refuse(error, path, "not a file name")
+            return
+        end if
+        facts = look_at(path)
+        if (facts%folder .or. path(len(path):) == "/") then
+            call refuse(error, path, "it is a folder")
+        else if (facts%found .and. .not. facts%regular) then
+            call refuse(error, path, "it is not a regular file")
+        else if (facts%found) then
+            if (c_access(path//c_null_char, 2_c_int) /= 0) then
+                call refuse(error, path, reason(last_error()))
+            end if
+            self%permissions = facts%permissions
+            facts = look_at(path, follow=.false.)
+            if (facts%link) self%place = resolved(path)
+        else
+            facts = look_at(path, follow=.false.)
+            if (facts%link) call refuse(error, path, "it is a link that leads nowhere")
+        end if
+        if (allocated(error)) return
+        call make_folders(folder_of(self%place), number, culprit)
+        if (number == e_exists) then
+            call refuse(error, path, "'"//culprit//"' is not a folder")
+            return
+        else if (number /= 0) then
+            call refuse(error, path, "cannot make '"//culprit//"': "//reason(number))
+            return
+        end if
+        facts = look_at(self%place)  ! a name that is too long must not be found out at the end
+        number = merge(0, facts%status, facts%found .or. facts%status == e_missing)
+        if (number == 0) call open_temporary(self, number)
+        if (number /= 0) call refuse(error, path, reason(number))
+    end subroutine open_file
+
+    subroutine open_temporary(self, number)
+        !! Create a file of our own in the folder of `self%place`.
+        class(output_file_t), intent(inout) :: self
+        integer, intent(out) :: number  !! 0, or why not
+        integer, parameter :: attempts = 1000
+        character(60) :: name
+        integer :: attempt
+
+        number = e_exists
+        do attempt = 1, attempts
+            !$omp critical (lagrangia_serial)
+            serial = serial + 1
+            write (name, "(a, i0, a, i0, a)") "/.lagrangia-", c_getpid(), "-", serial, ".tmp"
+            !$omp end critical (lagrangia_serial)
+            self%temporary = folder_of(self%place)//trim(name)
+            ! x: never somebody else's file; e: not inherited by the programs we run
+            self%stream = c_fopen(self%temporary//c_null_char, "wxe"//c_null_char)
+            number = 0
+            if (c_associated(self%stream)) exit
+            number = last_error()
+            if (number /= e_exists) return
+        end do
+        if (number == 0) call remember(self%temporary)
+    end subroutine open_temporary
+
+    subroutine write_text(self, text)
+        !! Append `text` as it is; lines end with `new_line("a")`.
+        class(output_file_t), intent(inout) :: self
+        character(*), intent(in) :: text
+        integer(c_size_t) :: length
+
+        if (.not. writable(self)) return
+        length = len(text, c_size_t)
+        if (c_fwrite(text, 1_c_size_t, length, self%stream) /= length) self%failure = last_error()
+        self%bytes = self%bytes + length
+    end subroutine write_text
+
+    subroutine write_reals(self, values)
+        !! Append the bytes of `values` as they are in memory.
+        class(output_file_t), intent(inout) :: self
+        real(dp), intent(in), contiguous :: values(:)
+        integer(c_size_t) :: length
+
+        if (.not. writable(self)) return
+        length = size(values, kind=c_size_t)
+        if (c_fwrite_reals(values, 8_c_size_t, length, self%stream) /= length) then
+            self%failure = last_error()
+        end if
+        self%bytes = self%bytes + 8*length
+    end subroutine write_reals
+
+    subroutine rewrite(self, offset, text)
+        !! Replace the bytes from `offset` (0 is the first) by `text`: all of them must have been
+        !! written before. For headers with counts known only at the end.
+        class(output_file_t), intent(inout) :: self
+        integer(i8), intent(in) :: offset
+        character(*), intent(in) :: text
+        integer(c_size_t) :: length
+
+        if (.not. writable(self)) return
+        length = len(text, c_size_t)
+        if (offset < 0 .or. offset + length > self%bytes) then
+            self%failure = e_invalid
+            return
+        end if
+        if (c_fseek(self%stream, int(offset, c_long), 0_c_int) /= 0) then
+            self%failure = last_error()
+        else if (c_fwrite(text, 1_c_size_t, length, self%stream) /= length) then
+            self%failure = last_error()
+        else if (c_fseek(self%stream, 0_c_long, 2_c_int) /= 0) then
+            self%failure = last_error()
+        end if
+    end subroutine rewrite
+
+    pure function failed(self)
+        !! Whether something could not be written: a long run may stop early.
+        class(output_file_t), intent(in) :: self
+        logical :: failed
+
+        failed = self%failure /= 0
+    end function failed
+
+    pure function position(self)
+        !! How many bytes have been written: the offset of what comes next.
+        class(output_file_t), intent(in) :: self
+        integer(i8) :: position
+
+        position = self%bytes
+    end function position
+
+    subroutine commit(self, error)
+        !! Close the file and give it its name. On failure nothing is left behind, and a file
+        !! that had this name before is as it was.
+        class(output_file_t), intent(inout) :: self
+        type(error_t), allocatable, intent(out) :: error
+        integer :: status
+
+        if (.not. c_associated(self%stream)) then
+            if (.not. allocated(self%path)) self%path = ""
+            call refuse(error, self%path, "it is not open")
+            return
+        end if
+        if (self%failure == 0) then
+            if (c_fflush(self%stream) /= 0) self%failure = last_error()
+        end if
+        status = int(c_fclose(self%stream))  ! closes, whatever it returns
+        if (status /= 0 .and. self%failure == 0) self%failure = last_error()
+        self%stream = c_null_ptr
+        if (self%failure == 0 .and. self%permissions >= 0) then
+            status = int(c_chmod(self%temporary//c_null_char, int(self%permissions, c_int)))
+        end if
+        if (self%failure == 0) then
+            status = int(c_rename(self%temporary//c_null_char, self%place//c_null_char))
+            if (status /= 0) self%failure = last_error()
+        end if
+        if (self%failure /= 0) then
+            call refuse(error, self%path, reason(self%failure))
+            status = int(c_remove(self%temporary//c_null_char))
+        end if
+        call forget(self%temporary)
+    end subroutine commit
+
+    subroutine abandon(self)
+        !! Close and remove what has been written; does nothing if no file is open.
+        class(output_file_t), intent(inout) :: self
+        integer :: status
+
+        if (.not. c_associated(self%stream)) return
+        status = int(c_fclose(self%stream))
+        self%stream = c_null_ptr
+        status = int(c_remove(self%temporary//c_null_char))
+        call forget(self%temporary)
+    end subroutine abandon
+
+    function writable(self)
+        !! Whether the file is open and nothing has failed yet.
+        class(output_file_t), intent(inout) :: self
+        logical :: writable
+
+        if (.not. c_associated(self%stream) .and. self%failure == 0) self%failure = e_bad_unit
+        writable = self%failure == 0
+    end function writable
+
+    pure subroutine refuse(error, path, why)
+        !! The one form of this module's errors.
+        type(error_t), allocatable, intent(inout) :: error
+        character(*), intent(in) :: path, why
+
+        call fail(error, "cannot write '"//path//"': "//why, status_file)
+    end subroutine refuse
+end module lagrangia_output_file
