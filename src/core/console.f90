@@ -1,0 +1,117 @@
+module lagrangia_console
+    !! What the user sees: results on stdout, messages on stderr.
+    !!
+    !! All goes through C's stdio, so that a full disk, a closed stdout or a broken pipe is seen.
+    !! Do not mix with `print` and `write (output_unit, ...)`: their buffer is another one.
+    use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_null_char, c_null_ptr, c_ptr, &
+        c_size_t
+    use, intrinsic :: iso_fortran_env, only: error_unit, input_unit, output_unit
+    use lagrangia_c_library, only: c_fdopen, c_fflush, c_fwrite, c_isatty, c_write
+    use lagrangia_errors, only: error_t, fail, status_file
+    use lagrangia_files, only: e_bad_unit, hold_standard_units, last_error, reason
+    implicit none (type, external)
+    private
+    public :: console_failed, finish_console, is_terminal, note, put, put_line, terminal_width
+
+    type(c_ptr) :: stream = c_null_ptr  !! C's `FILE *` for stdout
+    integer :: failure = 0              !! the system's number of the first failure
+
+contains
+
+    subroutine put(text)
+        !! Write `text` to stdout as it is.
+        character(*), intent(in) :: text
+        integer(c_size_t) :: length
+
+        if (failure /= 0) return
+        if (.not. c_associated(stream)) then
+            call hold_standard_units()
+            stream = c_fdopen(1_c_int, "w"//c_null_char)
+            if (.not. c_associated(stream)) then
+                failure = e_bad_unit
+                return
+            end if
+        end if
+        length = len(text, c_size_t)
+        if (c_fwrite(text, 1_c_size_t, length, stream) /= length) failure = last_error()
+    end subroutine put
+
+    subroutine put_line(text)
+        !! Write `text` and the end of the line to stdout.
+        character(*), intent(in) :: text
+
+        call put(text//new_line("a"))
+    end subroutine put_line
+
+    subroutine note(text)
+        !! Write the one line `lagrangia: text` to stderr; control characters become `?`.
+        character(*), intent(in) :: text
+        character(:), allocatable :: line
+        integer(c_size_t) :: written
+        integer :: i
+
+        call flush_console()
+        call hold_standard_units()
+        line = "lagrangia: "//text
+        do i = 1, len(line)
+            if (iachar(line(i:i)) < 32 .or. iachar(line(i:i)) == 127) line(i:i) = "?"
+        end do
+        line = line//new_line("a")
+        written = c_write(2_c_int, line, len(line, c_size_t))  ! if stderr is gone, who would know?
+    end subroutine note
+
+    subroutine finish_console(error)
+        !! Send on what is still held back; fails if anything put was lost. The exit status of
+        !! a program whose results go to stdout depends on it. Also before another program
+        !! writes to the same stdout.
+        type(error_t), allocatable, intent(out) :: error
+
+        call flush_console()
+        if (failure == 0) return
+        call fail(error, "cannot write standard output: "//reason(failure), status_file)
+    end subroutine finish_console
+
+    subroutine flush_console()
+        !! Send on what is still held back.
+        if (failure /= 0 .or. .not. c_associated(stream)) return
+        if (c_fflush(stream) /= 0) failure = last_error()
+    end subroutine flush_console
+
+    function console_failed()
+        !! Whether something put was lost already: nobody reads on, a long job may stop.
+        logical :: console_failed
+
+        console_failed = failure /= 0
+    end function console_failed
+
+    function is_terminal(unit)
+        !! Whether a person reads (or types) at `input_unit`, `output_unit` or `error_unit`.
+        integer, intent(in) :: unit
+        logical :: is_terminal
+
+        select case (unit)
+        case (input_unit)
+            is_terminal = c_isatty(0_c_int) == 1
+        case (output_unit)
+            is_terminal = c_isatty(1_c_int) == 1
+        case (error_unit)
+            is_terminal = c_isatty(2_c_int) == 1
+        case default
+            is_terminal = .false.
+        end select
+    end function is_terminal
+
+    function terminal_width() result(columns)
+        !! What the variable COLUMNS says, if it is a plain positive number; else 80.
+        integer :: columns
+        character(10) :: text
+        integer :: length, status
+
+        columns = 80
+        call get_environment_variable("COLUMNS", text, length, status)
+        if (status /= 0 .or. length == 0 .or. length > 5) return
+        if (verify(trim(text), "0123456789") /= 0) return
+        read (text, "(i5)") columns
+        if (columns == 0) columns = 80
+    end function terminal_width
+end module lagrangia_console

@@ -1,0 +1,70 @@
+module lagrangia_interrupt
+    !! Ctrl-C, `kill` and closed pipes: noticed at the next sample, so that files can be removed
+    !! and the exit status be right.
+    use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int, c_intptr_t, c_null_funptr
+    use lagrangia_c_library, only: c_signal
+    use lagrangia_errors, only: status_interrupted, status_ok, status_terminated
+    implicit none (type, external)
+    private
+    public :: catch_interrupts, interrupt_status
+
+    integer(c_int), parameter :: sigint = 2    !! these numbers are the same on every Unix
+    integer(c_int), parameter :: sigpipe = 13
+    integer(c_int), parameter :: sigterm = 15
+    integer(c_int), parameter :: sigxfsz = 25  !! except this one on MIPS
+
+    integer(c_intptr_t), parameter :: ignored = 1  !! C's SIG_IGN
+
+    integer(c_int), volatile :: caught = 0  !! the first signal that came
+
+contains
+
+    subroutine catch_interrupts()
+        !! From now on SIGINT and SIGTERM only change what `interrupt_status` returns; the second
+        !! of a kind ends the program at once. A signal that our parent had us ignore (`nohup`,
+        !! a job in the background of a script) stays ignored. A broken pipe or a file beyond
+        !! `ulimit -f` no longer ends the program: the write fails, and is reported.
+        call install(sigint, c_funloc(remember_signal))
+        call install(sigterm, c_funloc(remember_signal))
+        call install(sigpipe, c_funloc(do_nothing))
+        call install(sigxfsz, c_funloc(do_nothing))
+    end subroutine catch_interrupts
+
+    function interrupt_status() result(status)
+        !! 0, or the exit status due to a signal: 130 (SIGINT), 143 (SIGTERM). Costs a load.
+        integer :: status
+
+        select case (caught)
+        case (sigint)
+            status = status_interrupted
+        case (sigterm)
+            status = status_terminated
+        case default
+            status = status_ok
+        end select
+    end function interrupt_status
+
+    subroutine install(number, handler)
+        !! Let `handler` answer a signal, unless it was ignored so far.
+        integer(c_int), intent(in) :: number
+        type(c_funptr), intent(in) :: handler
+        type(c_funptr) :: old
+
+        old = c_signal(number, handler)
+        if (transfer(old, ignored) == ignored) old = c_signal(number, old)
+    end subroutine install
+
+    subroutine remember_signal(number) bind(c)
+        !! Runs at any moment: does nothing that is not safe there.
+        integer(c_int), value :: number
+        type(c_funptr) :: old
+
+        if (caught == 0) caught = number
+        old = c_signal(number, c_null_funptr)  ! C's SIG_DFL: the next one ends the program
+    end subroutine remember_signal
+
+    subroutine do_nothing(number) bind(c)
+        !! A handler, and not SIG_IGN, because programs we start would inherit the latter.
+        integer(c_int), value :: number
+    end subroutine do_nothing
+end module lagrangia_interrupt
