@@ -2,6 +2,7 @@ program main
     !! Run every suite. A new suite takes two lines here: one `use`, one `addTest`.
     use funit, only: TestSuite, finalize, initialize, run, stub
     use test_errors, only: errors_suite
+    use test_number_text, only: number_text_suite
     use test_output_failures, only: output_failures_suite
     use test_output_file, only: output_file_suite
     use test_processes, only: processes_suite
@@ -20,6 +21,7 @@ contains
 
         suite = TestSuite("lagrangia")
         call suite%addTest(errors_suite())
+        call suite%addTest(number_text_suite())
         call suite%addTest(output_file_suite())
         call suite%addTest(output_failures_suite())
         call suite%addTest(processes_suite())
