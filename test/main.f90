@@ -1,6 +1,7 @@
 program main
     !! Run every suite. A new suite takes two lines here: one `use`, one `addTest`.
     use funit, only: TestSuite, finalize, initialize, run, stub
+    use test_console, only: console_suite
     use test_errors, only: errors_suite
     use test_npy, only: npy_suite
     use test_number_text, only: number_text_suite
@@ -26,6 +27,7 @@ contains
         call suite%addTest(output_file_suite())
         call suite%addTest(output_failures_suite())
         call suite%addTest(npy_suite())
+        call suite%addTest(console_suite())
         call suite%addTest(processes_suite())
     end function load_tests
 end program main

@@ -2,7 +2,7 @@ module test_output_file
     !! A file is complete or absent, and an existing one survives.
     use, intrinsic :: iso_c_binding, only: c_int, c_null_char
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
-    use lagrangia_c_library, only: c_chmod
+    use lagrangia_c_library, only: c_chmod, c_getpid
     use lagrangia_errors, only: error_t
     use lagrangia_files, only: facts_t, look_at, same_file
     use lagrangia_kinds, only: dp, i8
@@ -31,6 +31,8 @@ contains
                                       reals_are_written_as_in_memory))
         call suite%addTest(TestMethod("links_and_permissions_stay", links_and_permissions_stay))
         call suite%addTest(TestMethod("two_writers_do_not_mix", two_writers_do_not_mix))
+        call suite%addTest(TestMethod("nobody_elses_temporary_is_used", &
+                                      nobody_elses_temporary_is_used))
         call suite%addTest(TestMethod("unfinished_files_can_be_removed", &
                                       unfinished_files_can_be_removed))
         call suite%addTest(TestMethod("same_file_sees_through_names", &
@@ -173,6 +175,30 @@ contains
         call assertTrue(remove_file(folder//"/a.dat"))
         call assertTrue(remove_file(folder))
     end subroutine two_writers_do_not_mix
+
+    subroutine nobody_elses_temporary_is_used()
+        !! Left behind by a process that had our number, or made by one on another machine.
+        type(output_file_t) :: file
+        type(error_t), allocatable :: error
+        character(:), allocatable :: folder
+        character(60) :: names(100)
+        integer :: i
+
+        folder = new_folder("taken")
+        do i = 1, size(names)
+            write (names(i), "(a, i0, a, i0, a)") "/.lagrangia-", c_getpid(), "-", i, ".tmp"
+            call write_file(folder//trim(names(i)), "old")
+        end do
+        call file%open(folder//"/a.dat", error)
+        call file%write("new")
+        call file%commit(error)
+        call assertEqual("new", contents(folder//"/a.dat"))
+        call assertTrue(remove_file(folder//"/a.dat"))
+        do i = 1, size(names)
+            call assertEqual("old", contents(folder//trim(names(i))))
+            call assertTrue(remove_file(folder//trim(names(i))))
+        end do
+    end subroutine nobody_elses_temporary_is_used
 
     subroutine unfinished_files_can_be_removed()
         !! All of them at once, whoever has them open; committed ones stay.

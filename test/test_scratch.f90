@@ -1,13 +1,14 @@
 module test_scratch
     !! For suites that write files or must see a process end: a folder under build/ (or TMPDIR),
     !! and the few C functions with which a disk is filled and a stdout closed.
-    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long, c_null_char
-    use lagrangia_c_library, only: c_exit, c_fork, c_remove, c_waitpid
+    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_long, c_null_char, c_ptr
+    use lagrangia_c_library, only: c_exit, c_fileno, c_fopen, c_fork, c_getpid, c_remove, c_waitpid
     use lagrangia_files, only: make_folders
     implicit none (type, external)
     private
-    public :: contents, exit_status, limit_file_size, new_folder, remove_file, write_file
-    public :: c_close, c_dup2, c_link, c_raise, c_symlink
+    public :: contents, exit_status, limit_file_size, new_folder, remove_file, &
+              send_stdout_to, write_file
+    public :: c_close, c_dup2, c_link, c_pipe, c_raise, c_symlink
 
     ! allow(assumed-size): C takes the address of the first element
     interface
@@ -24,6 +25,13 @@ module test_scratch
             integer(c_int), value :: old, new
             integer(c_int) :: status
         end function c_dup2
+
+        function c_pipe(descriptors) bind(c, name="pipe") result(status)
+            import :: c_int
+            implicit none (type, external)
+            integer(c_int), intent(out) :: descriptors(2)
+            integer(c_int) :: status
+        end function c_pipe
 
         function c_link(old, new) bind(c, name="link") result(status)
             import :: c_char, c_int
@@ -66,15 +74,18 @@ module test_scratch
 contains
 
     function new_folder(name) result(folder)
-        !! An existing folder of this name, empty if the tests that used it clean up.
+        !! An existing folder of this name that belongs to this process and its children.
         character(*), intent(in) :: name
         character(:), allocatable :: folder, culprit
         character(1000) :: root
+        integer, save :: pid = 0
         integer :: number, length, status
 
         call get_environment_variable("TMPDIR", root, length, status)
         if (status /= 0 .or. length == 0) root = "build"
-        folder = trim(root)//"/lagrangia-tests/"//name
+        if (pid == 0) pid = int(c_getpid())
+        write (root(len_trim(root) + 1:), "(a, i0, a)") "/lagrangia-tests/", pid, "/"
+        folder = trim(root)//name
         call make_folders(folder, number, culprit)
     end function new_folder
 
@@ -120,7 +131,9 @@ contains
         procedure(child_i) :: child
         integer :: status
         integer(c_int) :: pid, code
+        character(:), allocatable :: folder
 
+        folder = new_folder("")  ! ours, and not the child's
         status = -1
         pid = c_fork()
         if (pid == 0) call c_exit(int(child(), c_int))
@@ -129,6 +142,17 @@ contains
         status = ibits(code, 8, 8)
         if (ibits(code, 0, 7) /= 0) status = 128 + ibits(code, 0, 7)
     end function exit_status
+
+    subroutine send_stdout_to(path)
+        !! From now on stdout is this file.
+        character(*), intent(in) :: path
+        type(c_ptr) :: stream
+        integer :: status
+
+        stream = c_fopen(path//c_null_char, "w"//c_null_char)
+        if (.not. c_associated(stream)) call c_exit(99_c_int)
+        status = int(c_dup2(c_fileno(stream), 1_c_int))
+    end subroutine send_stdout_to
 
     subroutine limit_file_size(bytes)
         !! From now on no file of this process can grow beyond `bytes`: a full disk without one.

@@ -4,8 +4,8 @@ module lagrangia_output_file
     !! All goes through C's `fwrite`: libgfortran reports no full disk and no broken pipe.
     use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_long, c_null_char, c_null_ptr, &
         c_ptr, c_size_t
-    use lagrangia_c_library, only: c_access, c_chmod, c_fclose, c_fflush, c_fopen, c_fseek, &
-        c_fwrite, c_fwrite_reals, c_getpid, c_remove, c_rename
+    use lagrangia_c_library, only: c_access, c_chmod, c_fclose, c_fopen, c_fseek, c_fwrite, &
+        c_fwrite_reals, c_getpid, c_remove, c_rename
     use lagrangia_errors, only: error_t, fail, status_file
     use lagrangia_files, only: e_bad_unit, e_exists, e_invalid, e_missing, facts_t, folder_of, &
         hold_standard_units, last_error, look_at, make_folders, reason, resolved
@@ -37,7 +37,7 @@ module lagrangia_output_file
         procedure :: abandon
     end type output_file_t
 
-    integer :: serial = 0                       !! tells this process's temporaries apart
+    integer :: serial = 0  !! tells this process's temporaries apart
 
 contains
 
@@ -196,10 +196,7 @@ contains
             call refuse(error, self%path, "it is not open")
             return
         end if
-        if (self%failure == 0) then
-            if (c_fflush(self%stream) /= 0) self%failure = last_error()
-        end if
-        status = int(c_fclose(self%stream))  ! closes, whatever it returns
+        status = int(c_fclose(self%stream))  ! writes what is held back; closes, whatever happens
         if (status /= 0 .and. self%failure == 0) self%failure = last_error()
         self%stream = c_null_ptr
         if (self%failure == 0 .and. self%permissions >= 0) then
