@@ -14,8 +14,8 @@ module lagrangia_console
     public :: console_failed, finish_console, is_terminal, note, put, put_line, &
               show_progress, terminal_width
 
-    type(c_ptr), save :: stream = c_null_ptr  !! C's `FILE *` for stdout
-    integer, save :: failure = 0              !! the system's number of the first failure
+    type(c_ptr) :: stream = c_null_ptr  !! C's `FILE *` for stdout
+    integer :: failure = 0              !! the system's number of the first failure
 
 contains
 

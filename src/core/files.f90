@@ -9,11 +9,11 @@ module lagrangia_files
     private
     public :: facts_t, folder_of, hold_standard_units, last_error, look_at, make_folders, &
               reason, resolved, same_file
-    public :: e_access, e_bad_unit, e_exists, e_input_output, e_invalid
+    public :: e_bad_unit, e_exists, e_input_output, e_invalid, e_missing
 
-    integer, parameter :: e_input_output = 5  !! EIO; these five are the same on every Unix
+    integer, parameter :: e_missing = 2       !! ENOENT; these five are the same on every Unix
+    integer, parameter :: e_input_output = 5  !! EIO
     integer, parameter :: e_bad_unit = 9      !! EBADF
-    integer, parameter :: e_access = 13       !! EACCES
     integer, parameter :: e_exists = 17       !! EEXIST
     integer, parameter :: e_invalid = 22      !! EINVAL
 
@@ -25,6 +25,7 @@ module lagrangia_files
     type :: facts_t
         !! What the system says of a name.
         logical :: found = .false.    !! something has this name
+        integer :: status = 0         !! otherwise the system's error number
         logical :: folder = .false.   !! it is a folder
         logical :: regular = .false.  !! it is a regular file
         logical :: link = .false.     !! it is a symbolic link (only if links are not followed)
@@ -66,6 +67,7 @@ contains
         call c_f_procpointer(address, ask)
         call ask(path//c_null_char, values, status)
         facts%found = status == 0
+        facts%status = int(status)
         if (.not. facts%found) return
         facts%device = values(1)
         facts%inode = values(2)

@@ -108,7 +108,8 @@ contains
         build = "build: "//build_text()
         call record%table%begin([first, scene_lines(scene, d), build], &
                                 record%columns%names(record%shown), &
-                                record%columns%units(record%shown))
+                                record%columns%units(record%shown), error)
+        if (allocated(error)) call record%table%file%abandon()
     end subroutine open_files
 
     subroutine finish_files(scene, folder, format, record, panels, outcome, error)
