@@ -49,7 +49,7 @@ contains
         call system%configure(values, error)
         call assertFalse(allocated(error), trim(d%name)//": parameters inside their domains")
         call system%describe(d)
-        read_back = default_values(d)
+        allocate (read_back, source=default_values(d))
         call assertTrue(all(abs(read_back - values) <= 0.0_dp .or. ieee_is_nan(values)), &
                         trim(d%name)//": each parameter goes where it belongs")
     end subroutine draw_parameters
