@@ -18,6 +18,10 @@ module suites
     use test_lapack, only: lapack_suite
     use test_quadrature, only: quadrature_suite
     use test_harness_order, only: harness_order_suite
+    use test_charged_particle, only: charged_particle_suite
+    use test_rheonomic, only: rheonomic_suite
+    use test_rolling_disk, only: rolling_disk_suite
+    use test_sinc, only: sinc_suite
     implicit none (type, external)
     private
     public :: load_tests
@@ -44,6 +48,10 @@ contains
         call suite%addTest(elliptic_suite())
         call suite%addTest(gsl_suite())
         call suite%addTest(quadrature_suite())
+        call suite%addTest(sinc_suite())
+        call suite%addTest(rolling_disk_suite())
+        call suite%addTest(charged_particle_suite())
+        call suite%addTest(rheonomic_suite())
     end function load_tests
 end module suites
 

@@ -3,9 +3,14 @@ module test_systems
     use funit, only: TestMethod, TestSuite
     use lagrangia_atwood, only: atwood_t
     use lagrangia_cart_pendulum, only: cart_pendulum_t
+    use lagrangia_charged_particle, only: charged_particle_t
     use lagrangia_double_pendulum, only: double_pendulum_t
+    use lagrangia_driven_pendulum, only: driven_pendulum_t
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_pendulum, only: pendulum_t
+    use lagrangia_rolling_disk, only: rolling_disk_t
+    use lagrangia_rotating_hoop, only: rotating_hoop_t
+    use lagrangia_rotating_wire, only: rotating_wire_t
     use lagrangia_wedge, only: wedge_t
     use system_checks, only: check_points, check_system
     implicit none (type, external)
@@ -25,6 +30,11 @@ contains
         call suite%addTest(TestMethod("cart_pendulum_claims_hold", cart_pendulum_claims_hold))
         call suite%addTest(TestMethod("atwood_claims_hold", atwood_claims_hold))
         call suite%addTest(TestMethod("wedge_claims_hold", wedge_claims_hold))
+        call suite%addTest(TestMethod("rolling_disk_claims_hold", rolling_disk_claims_hold))
+        call suite%addTest(TestMethod("charged_particle_claims_hold", charged_particle_claims_hold))
+        call suite%addTest(TestMethod("rotating_wire_claims_hold", rotating_wire_claims_hold))
+        call suite%addTest(TestMethod("rotating_hoop_claims_hold", rotating_hoop_claims_hold))
+        call suite%addTest(TestMethod("driven_pendulum_claims_hold", driven_pendulum_claims_hold))
     end function systems_suite
 
     subroutine oscillator_claims_hold()
@@ -68,4 +78,39 @@ contains
         call check_system(system)
         call check_points(system)
     end subroutine wedge_claims_hold
+
+    subroutine rolling_disk_claims_hold()
+        !! Not the points: the disk's moments of inertia are not in them.
+        type(rolling_disk_t) :: system
+
+        call check_system(system)
+    end subroutine rolling_disk_claims_hold
+
+    subroutine charged_particle_claims_hold()
+        type(charged_particle_t) :: system
+
+        call check_system(system)
+        call check_points(system)
+    end subroutine charged_particle_claims_hold
+
+    subroutine rotating_wire_claims_hold()
+        type(rotating_wire_t) :: system
+
+        call check_system(system)
+        call check_points(system)
+    end subroutine rotating_wire_claims_hold
+
+    subroutine rotating_hoop_claims_hold()
+        type(rotating_hoop_t) :: system
+
+        call check_system(system)
+        call check_points(system)
+    end subroutine rotating_hoop_claims_hold
+
+    subroutine driven_pendulum_claims_hold()
+        type(driven_pendulum_t) :: system
+
+        call check_system(system)
+        call check_points(system)
+    end subroutine driven_pendulum_claims_hold
 end module test_systems
