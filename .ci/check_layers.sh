@@ -76,7 +76,7 @@ function examine(statement, head, word, used) {
     }
     if (pass == 1) {
         if (statement ~ /extends *\( *system_t *\)/) concrete_system[name] = 1
-        if (statement ~ /extends *\( *integrator_t *\)/) concrete_integrator[name] = 1
+        if (statement !~ /abstract/ && statement ~ /extends *\( *integrator_t *\)/) concrete_integrator[name] = 1
         return
     }
     if (room == "test") return

@@ -1,27 +1,31 @@
 module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
+    use test_cart_pendulum, only: cart_pendulum_suite
+    use test_constant_accelerations, only: constant_accelerations_suite
+    use test_double_pendulum, only: double_pendulum_suite
     use test_elliptic, only: elliptic_suite
     use test_errors, only: errors_suite
-    use test_systems, only: systems_suite
+    use test_gsl, only: gsl_suite
     use test_harness, only: harness_suite
+    use test_harness_order, only: harness_order_suite
+    use test_hyperdual, only: hyperdual_suite
+    use test_lapack, only: lapack_suite
     use test_namelist, only: namelist_suite
     use test_namelist_file, only: namelist_file_suite
     use test_namelist_limits, only: namelist_limits_suite
     use test_namelist_refusals, only: namelist_refusals_suite
     use test_namelist_values, only: namelist_values_suite
-    use test_text, only: text_suite
-    use test_harness_order, only: harness_order_suite
-    use test_gsl, only: gsl_suite
-    use test_harness, only: harness_suite
-    use test_hyperdual, only: hyperdual_suite
-    use test_lapack, only: lapack_suite
+    use test_oscillator, only: oscillator_suite
+    use test_pendulum, only: pendulum_suite
     use test_quadrature, only: quadrature_suite
     use test_harness_order, only: harness_order_suite
     use test_charged_particle, only: charged_particle_suite
     use test_rheonomic, only: rheonomic_suite
     use test_rolling_disk, only: rolling_disk_suite
     use test_sinc, only: sinc_suite
+    use test_systems, only: systems_suite
+    use test_text, only: text_suite
     implicit none (type, external)
     private
     public :: load_tests
@@ -36,8 +40,12 @@ contains
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
         call suite%addTest(errors_suite())
+        call suite%addTest(cart_pendulum_suite())
+        call suite%addTest(constant_accelerations_suite())
+        call suite%addTest(double_pendulum_suite())
+        call suite%addTest(oscillator_suite())
+        call suite%addTest(pendulum_suite())
         call suite%addTest(systems_suite())
-        call suite%addTest(hyperdual_suite())
         call suite%addTest(text_suite())
         call suite%addTest(namelist_suite())
         call suite%addTest(namelist_values_suite())
@@ -52,6 +60,7 @@ contains
         call suite%addTest(rolling_disk_suite())
         call suite%addTest(charged_particle_suite())
         call suite%addTest(rheonomic_suite())
+        call suite%addTest(hyperdual_suite())
     end function load_tests
 end module suites
 

@@ -1,17 +1,14 @@
 module test_systems
-    !! Every system by what all systems claim. New systems take two lines here.
-    use funit, only: TestMethod, TestSuite
-    use lagrangia_atwood, only: atwood_t
-    use lagrangia_cart_pendulum, only: cart_pendulum_t
-    use lagrangia_charged_particle, only: charged_particle_t
-    use lagrangia_double_pendulum, only: double_pendulum_t
-    use lagrangia_driven_pendulum, only: driven_pendulum_t
-    use lagrangia_oscillator, only: oscillator_t
-    use lagrangia_pendulum, only: pendulum_t
-    use lagrangia_rolling_disk, only: rolling_disk_t
-    use lagrangia_rotating_hoop, only: rotating_hoop_t
-    use lagrangia_rotating_wire, only: rotating_wire_t
-    use lagrangia_wedge, only: wedge_t
+    !! Walks over the catalogue: a new system is tested the day it is listed.
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertGreaterThan
+    use lagrangia_catalogue, only: new_reference, new_system, nth_system, system_names
+    use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_reference, only: reference_t
+    use lagrangia_system, only: system_t
+    use random_states, only: draw_parameters, draw_state, restart_random
+    use reference_checks, only: check_reference
     use system_checks, only: check_points, check_system
     implicit none (type, external)
     private
@@ -24,93 +21,72 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("systems")
-        call suite%addTest(TestMethod("oscillator_claims_hold", oscillator_claims_hold))
-        call suite%addTest(TestMethod("pendulum_claims_hold", pendulum_claims_hold))
-        call suite%addTest(TestMethod("double_pendulum_claims_hold", double_pendulum_claims_hold))
-        call suite%addTest(TestMethod("cart_pendulum_claims_hold", cart_pendulum_claims_hold))
-        call suite%addTest(TestMethod("atwood_claims_hold", atwood_claims_hold))
-        call suite%addTest(TestMethod("wedge_claims_hold", wedge_claims_hold))
-        call suite%addTest(TestMethod("rolling_disk_claims_hold", rolling_disk_claims_hold))
-        call suite%addTest(TestMethod("charged_particle_claims_hold", charged_particle_claims_hold))
-        call suite%addTest(TestMethod("rotating_wire_claims_hold", rotating_wire_claims_hold))
-        call suite%addTest(TestMethod("rotating_hoop_claims_hold", rotating_hoop_claims_hold))
-        call suite%addTest(TestMethod("driven_pendulum_claims_hold", driven_pendulum_claims_hold))
+        call suite%addTest(TestMethod("every_system_keeps_its_claims", &
+                                      every_system_keeps_its_claims))
+        call suite%addTest(TestMethod("points_carry_the_inertia", points_carry_the_inertia))
+        call suite%addTest(TestMethod("every_closed_form_solves_its_equations", &
+                                      every_closed_form_solves_its_equations))
     end function systems_suite
 
-    subroutine oscillator_claims_hold()
-        type(oscillator_t) :: system
+    subroutine every_system_keeps_its_claims()
+        !! See `system_checks`.
+        class(system_t), allocatable :: system
+        integer :: i
 
-        call check_system(system)
-        call check_points(system)
-    end subroutine oscillator_claims_hold
+        i = 0
+        do
+            i = i + 1
+            call nth_system(i, system)
+            if (.not. allocated(system)) exit
+            call check_system(system)
+        end do
+        call assertEqual(size(system_names()), i - 1, "systems checked")
+        call assertGreaterThan(i, 11, message="systems checked")
+    end subroutine every_system_keeps_its_claims
 
-    subroutine pendulum_claims_hold()
-        type(pendulum_t) :: system
+    subroutine points_carry_the_inertia()
+        !! Of the systems without rotating bodies.
+        character(*), parameter :: names(*) = [character(16) :: &
+            "oscillator", "pendulum", "double_pendulum", "cart_pendulum", "wedge", &
+            "charged_particle", "rotating_wire", "rotating_hoop", "driven_pendulum"]
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        integer :: i
 
-        call check_system(system)
-        call check_points(system)
-    end subroutine pendulum_claims_hold
+        do i = 1, size(names)
+            call new_system(trim(names(i)), system, error)
+            call check_points(system)
+        end do
+    end subroutine points_carry_the_inertia
 
-    subroutine double_pendulum_claims_hold()
-        type(double_pendulum_t) :: system
+    subroutine every_closed_form_solves_its_equations()
+        !! From random states, where the closed form covers them.
+        class(system_t), allocatable :: system
+        class(reference_t), allocatable :: reference
+        type(description_t) :: d
+        real(dp), allocatable :: q(:), v(:)
+        real(dp) :: t
+        integer :: i, k, found
 
-        call check_system(system)
-        call check_points(system)
-    end subroutine double_pendulum_claims_hold
-
-    subroutine cart_pendulum_claims_hold()
-        type(cart_pendulum_t) :: system
-
-        call check_system(system)
-        call check_points(system)
-    end subroutine cart_pendulum_claims_hold
-
-    subroutine atwood_claims_hold()
-        !! Not the points: the pulley's inertia is not in them.
-        type(atwood_t) :: system
-
-        call check_system(system)
-    end subroutine atwood_claims_hold
-
-    subroutine wedge_claims_hold()
-        type(wedge_t) :: system
-
-        call check_system(system)
-        call check_points(system)
-    end subroutine wedge_claims_hold
-
-    subroutine rolling_disk_claims_hold()
-        !! Not the points: the disk's moments of inertia are not in them.
-        type(rolling_disk_t) :: system
-
-        call check_system(system)
-    end subroutine rolling_disk_claims_hold
-
-    subroutine charged_particle_claims_hold()
-        type(charged_particle_t) :: system
-
-        call check_system(system)
-        call check_points(system)
-    end subroutine charged_particle_claims_hold
-
-    subroutine rotating_wire_claims_hold()
-        type(rotating_wire_t) :: system
-
-        call check_system(system)
-        call check_points(system)
-    end subroutine rotating_wire_claims_hold
-
-    subroutine rotating_hoop_claims_hold()
-        type(rotating_hoop_t) :: system
-
-        call check_system(system)
-        call check_points(system)
-    end subroutine rotating_hoop_claims_hold
-
-    subroutine driven_pendulum_claims_hold()
-        type(driven_pendulum_t) :: system
-
-        call check_system(system)
-        call check_points(system)
-    end subroutine driven_pendulum_claims_hold
+        call restart_random()
+        found = 0
+        i = 0
+        do
+            i = i + 1
+            call nth_system(i, system)
+            if (.not. allocated(system)) exit
+            call system%describe(d)
+            do k = 1, 5
+                call draw_parameters(system, edges=.false.)
+                call draw_state(system, t, q, v)
+                call new_reference(system, t, q, v, reference)
+                if (.not. allocated(reference)) cycle
+                if (.not. reference%has_state) cycle
+                found = found + 1
+                call check_reference(reference, system, t, q, v, trim(d%name))
+            end do
+            if (anyExceptions()) return
+        end do
+        call assertGreaterThan(found, 20, message="closed forms checked")
+    end subroutine every_closed_form_solves_its_equations
 end module test_systems

@@ -45,7 +45,7 @@ contains
         end if
         call remove_unfinished()
         call finish_console(output_error)
-        if (allocated(output_error) .and. .not. allocated(error)) &
-            call move_alloc(output_error, error)
+        if (allocated(error)) return
+        if (allocated(output_error)) call move_alloc(output_error, error)
     end subroutine dispatch
 end module lagrangia_commands

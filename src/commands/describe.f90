@@ -44,8 +44,8 @@ contains
         end do
         call put_block("L =", d%lagrangian)
         call put_block("equations of motion", d%equations)
-        call put_line("energy (v dL/dv - L)"//merge(", not conserved", "               ", &
-                                                    system%time_dependent))
+        call put_line("energy (v dL/dv - L)"//trim(merge(", not conserved", "               ", &
+                                                         system%time_dependent)))
         call put_line("  "//trim(d%energy))
         if (any(d%quantities%conserved)) call put_line("conserved besides")
         do i = 1, size(d%quantities)
@@ -81,7 +81,8 @@ contains
         !! `  theta   [rad]   angle ...`.
         type(quantity_t), intent(in) :: item
 
-        call put_line("  "//left(item%name, 22)//left("["//trim(item%unit)//"]", 12)//trim(item%meaning))
+        call put_line("  "//left(item%name, 22)//left("["//trim(item%unit)//"]", 12)// &
+                      trim(item%meaning))
     end subroutine put_quantity
 
     subroutine put_block(title, lines)
@@ -120,6 +121,8 @@ contains
             text = text//"positions only"
         end if
         if (system%time_dependent) text = text//" and on the time"
-        if (system%cyclic > 0) text = text//"; "//trim(d%coordinates(system%cyclic)%name)//" is cyclic"
+        if (system%cyclic > 0) then
+            text = text//"; "//trim(d%coordinates(system%cyclic)%name)//" is cyclic"
+        end if
     end function structure
 end module lagrangia_describe

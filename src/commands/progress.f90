@@ -53,15 +53,15 @@ contains
         class(progress_t), intent(inout) :: self
         integer(i8), intent(in) :: done, steps
         integer(i8) :: now
-        real(dp) :: seconds
+        real(dp) :: seconds, percent
 
         call system_clock(now)
         seconds = real(now - self%start, dp)/real(self%rate, dp)
         if (seconds < self%next) return
         self%next = seconds + interval
         self%shown = .true.
-        call show_progress(self%label//": "// &
-                           to_text(int(100.0_dp*real(done, dp)/real(max(steps, 1_i8), dp)))//" %, "// &
+        percent = 100.0_dp*real(done, dp)/real(max(steps, 1_i8), dp)
+        call show_progress(self%label//": "//to_text(int(percent))//" %, "// &
                            to_text(int(seconds))//" s")
     end subroutine tick
 

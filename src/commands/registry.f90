@@ -18,10 +18,10 @@ module lagrangia_registry
     end type command_t
 
     type(option_t), parameter :: options(*) = [ &
-        option_t("set", needs_value, "GROUP%KEY=VALUE", "override a scene or a default; repeatable"), &
+        option_t("set", needs_value, "GROUP%KEY=VALUE", "override a scene's value; repeatable"), &
         option_t("output", needs_value, "DIR", "where data files go (default data/output)"), &
         option_t("format", needs_value, "text|csv|npy", "of the data files"), &
-        option_t("plot", may_have_value, "svg|png", "draw every data file with gnuplot (default png)"), &
+        option_t("plot", may_have_value, "svg|png", "draw the data files by gnuplot"), &
         option_t("json", no_value, "", "print the results as JSON"), &
         option_t("quiet", no_value, "", "print nothing but errors"), &
         option_t("help", no_value, "", "this text, or a command's"), &
@@ -30,8 +30,8 @@ module lagrangia_registry
     type(command_t), parameter :: commands(*) = [ &
         command_t("", "", "run every scene in data/scenes and print the scorecard", 0, &
                   "set output format plot json quiet"), &
-        command_t("run", "SCENE...", "the same for these scenes: a .nml file, or a shipped one's name", &
-                  -1, "set output format plot json quiet"), &
+        command_t("run", "SCENE...", "the same for .nml files, or shipped scenes by name", -1, &
+                  "set output format plot json quiet"), &
         command_t("list", "[systems|methods|scenes]", "what there is, one a line", 1, ""), &
         command_t("describe", "SYSTEM", "coordinates, parameters, L, equations, invariants", 1, "")]
 
@@ -106,8 +106,9 @@ contains
         end do
         if (which > 1) return
         call add("")
-        call add("exit status: 0 all is well, 1 a check or tolerance did not hold, 2 usage or scene error,")
-        call add("  3 the numbers failed, 4 LAPACK or GSL refused, 5 file error, 130 interrupted")
+        call add("exit status: 0 all is well, 1 a check or tolerance did not hold, 2 usage or")
+        call add("  scene error, 3 the numbers failed, 4 LAPACK or GSL refused, 5 file error, "// &
+                 "130 interrupted")
     contains
         subroutine add(line)
             character(*), intent(in) :: line

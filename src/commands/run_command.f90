@@ -131,7 +131,8 @@ contains
         if (line%command == "") then
             call shipped_scenes(paths, error)
         else if (size(line%arguments) == 0) then
-            call fail(error, "run what? 'lagrangia list scenes' shows the names; a path ends in .nml")
+            call fail(error, "run what? 'lagrangia list scenes' shows the names; a path ends "// &
+                      "in .nml")
         else
             allocate (paths(size(line%arguments)))
             do i = 1, size(paths)

@@ -42,8 +42,8 @@ contains
         real(dp) :: state(system%ndof)
 
         if (system%velocity_forces) then
-            call fail(error, trim(self%name)//" is for forces that depend on positions only, and "// &
-                      "here they depend on velocities; method = 'rk4' works", key="method")
+            call fail(error, trim(self%name)//" is for forces that depend on positions only, "// &
+                      "and here they depend on velocities; method = 'rk4' works", key="method")
             return
         end if
         state = 0.0_dp

@@ -11,7 +11,7 @@ module lagrangia_elliptic
 
     real(dp), parameter :: pi = acos(-1.0_dp)
     real(dp), parameter :: close_enough = 1e-8_dp  !! the mean then squares the difference
-    integer, parameter :: max_depth = 16           !! the smallest \(k'\), 5e-324, needs 13
+    integer, parameter :: max_depth = 16           !! the smallest \(k'\), 5e-324, needs 14
 
 contains
 

@@ -126,8 +126,9 @@ contains
         call script%add("if (folder[1:1] ne '/') { folder = './'.folder }")
         call script%add("data = folder.'"//doubled(file)//"'")
         call script%add("picture = folder.'"//doubled(file(:dot - 1))//"'")
-        call script%add("if (!exists('kind')) { kind = strstrt(GPVAL_TERMINALS, ' pngcairo ') ? "// &
-                        "'pngcairo' : strstrt(GPVAL_TERMINALS, ' png ') ? 'png' : "// &
+        call script%add("if (!exists('kind')) { kind = "// &
+                        "strstrt(GPVAL_TERMINALS, ' pngcairo ') ? 'pngcairo' : "// &
+                        "strstrt(GPVAL_TERMINALS, ' png ') ? 'png' : "// &
                         "strstrt(GPVAL_TERMINALS, ' svg ') ? 'svg' : 'dumb' }")
         call script%add("if (kind eq 'pngcairo') { set terminal pngcairo noenhanced size 1000,"// &
                         height//" font ',11'; set output picture.'.png' }")
@@ -159,9 +160,10 @@ contains
             y = panel%y(1)
             width = high(panel%x) - low(panel%x)
             rise = high(y) - low(y)
-            line = "set size noratio"
+            line = "set size noratio; set xtics autofreq; set ytics autofreq"
             if (units(panel%x) == "m" .and. units(y) == "m" .and. panel%x > 1) then
-                if (width < 5.0_dp*rise .and. rise < 5.0_dp*width) line = "set size ratio -1"
+                if (width < 5.0_dp*rise .and. rise < 5.0_dp*width) line = "set size ratio -1; "// &
+                    "set xtics "//tick(max(width, rise))//"; set ytics "//tick(max(width, rise))
             end if
             call script%add(line)
             call script%add("set xlabel '"//label(names(panel%x), units(panel%x))//"'")
@@ -182,6 +184,19 @@ contains
             call script%add(line)
         end subroutine draw
     end function gnuplot_script
+
+    pure function tick(range) result(text)
+        !! A step of 1, 2 or 5 times a power of ten that makes three to seven ticks in `range`.
+        real(dp), intent(in) :: range
+        character(:), allocatable :: text
+        real(dp) :: power, step
+
+        power = 10.0_dp**floor(log10(range/3.0_dp))
+        step = power
+        if (range/3.0_dp >= 2.0_dp*power) step = 2.0_dp*power
+        if (range/3.0_dp >= 5.0_dp*power) step = 5.0_dp*power
+        text = to_text(step)
+    end function tick
 
     pure function label(name, unit) result(text)
         !! `theta [rad]`.

@@ -2,8 +2,9 @@ module lagrangia_lagrange
     !! Equations of motion from a Lagrangian alone: the oracle of every hand-derived equation.
     !!
     !! Lagrange's equations written out are
-    !! $$ M\,\ddot q = \frac{\partial L}{\partial q} - \frac{\partial^2 L}{\partial\dot q\,\partial q}
-    !!    \dot q - \frac{\partial^2 L}{\partial\dot q\,\partial t} + A^\top\lambda,\qquad
+    !! $$ M\,\ddot q = \frac{\partial L}{\partial q}
+    !!    - \frac{\partial^2 L}{\partial\dot q\,\partial q}\,\dot q
+    !!    - \frac{\partial^2 L}{\partial\dot q\,\partial t} + A^\top\lambda,\qquad
     !!    M = \frac{\partial^2 L}{\partial\dot q\,\partial\dot q}, $$
     !! with \(A\ddot q = -\dot A\dot q - \dot b\) where there are constraints \(A\dot q + b = 0\)
     !! (Lagrange-d'Alembert: the constraint is *not* put into \(L\)). All derivatives are exact:

@@ -61,6 +61,8 @@ contains
         self%t0 = t0
         self%q0 = q0
         self%omega = sqrt(system%g/system%l)
+        if (self%omega > 0.0_dp) self%small_period = 2.0_dp*pi*inertia(system, 0.0_dp, 1.0_dp) &
+                                                     /self%omega
         self%drift = v0(1) + share(system)*system%l*v0(2)*cos(q0(2))
         s = sin(0.5_dp*q0(2))
         c = cos(0.5_dp*q0(2))
@@ -86,6 +88,7 @@ contains
         if (.not. found) return
         self%clock = clock_at(self, self%phase)
         self%period = merge(pi, 2.0_dp*pi, self%rotates)*self%mean
+        self%small_period = 2.0_dp*pi*sqrt(system%m1*system%l/((system%m1 + system%m2)*system%g))
     end subroutine new_cart_pendulum_reference
 
     pure function share(system)
@@ -206,16 +209,20 @@ contains
     end subroutine phase_at
 
     pure subroutine state_at(self, t, q, v)
-        !! The angle from its phase, the cart from the centre of mass.
+        !! The angle from its phase, the cart from the centre of mass. After many turns the angle
+        !! is rounded more coarsely than `s` and `c`: the cart goes by these.
         class(cart_pendulum_reference_t), intent(in) :: self
         real(dp), intent(in) :: t
         real(dp), intent(out) :: q(self%ndof), v(self%ndof)
         real(dp) :: phase, half_turns, s, c, rate, arm
 
         arm = share(self%system)*self%system%l
-        q(2) = self%q0(2)
-        v(2) = 0.0_dp
-        if (.not. self%still) then
+        if (self%still) then
+            q(2) = self%q0(2)
+            v(2) = 0.0_dp
+            s = sin(0.5_dp*q(2))
+            c = cos(0.5_dp*q(2))
+        else
             call phase_at(self, t, phase, half_turns)
             call half_angle(self, phase, s, c, rate)
             if (self%rotates) then
@@ -228,7 +235,7 @@ contains
                 q(2) = self%turns + 2.0_dp*atan2(s, c)
             end if
         end if
-        q(1) = self%q0(1) + self%drift*(t - self%t0) - arm*(sin(q(2)) - sin(self%q0(2)))
-        v(1) = self%drift - arm*v(2)*cos(q(2))
+        q(1) = self%q0(1) + self%drift*(t - self%t0) - arm*(2.0_dp*s*c - sin(self%q0(2)))
+        v(1) = self%drift - arm*v(2)*(1.0_dp - 2.0_dp*s**2)
     end subroutine state_at
 end module lagrangia_cart_pendulum_reference

@@ -31,6 +31,7 @@ contains
         self%ndof = 1
         self%omega = sqrt(system%k/system%m)
         if (self%omega > 0.0_dp) self%period = 2.0_dp*pi/self%omega
+        self%small_period = self%period
         self%t0 = t0
         self%x0 = q0(1)
         self%v0 = v0(1)

@@ -55,6 +55,7 @@ contains
             if (abs(v0(1)) > 0.0_dp) self%period = 2.0_dp*pi/abs(v0(1))
             return
         end if
+        self%small_period = 2.0_dp*pi/self%omega
         self%s = sin(0.5_dp*q0(1))
         self%c = cos(0.5_dp*q0(1))
         self%w = 0.5_dp*v0(1)/self%omega

@@ -6,10 +6,14 @@ module lagrangia_catalogue
     use lagrangia_cart_pendulum_reference, only: cart_pendulum_reference_t, &
         new_cart_pendulum_reference
     use lagrangia_charged_particle, only: charged_particle_t
+    use lagrangia_charged_particle_reference, only: charged_particle_reference_t, &
+        new_charged_particle_reference
     use lagrangia_composition, only: composition_t, new_verlet
     use lagrangia_description, only: description_t, name_length
     use lagrangia_double_pendulum, only: double_pendulum_t
     use lagrangia_driven_pendulum, only: driven_pendulum_t
+    use lagrangia_driven_pendulum_reference, only: driven_pendulum_reference_t, &
+        new_driven_pendulum_reference
     use lagrangia_errors, only: error_t, fail
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp
@@ -21,8 +25,14 @@ module lagrangia_catalogue
     use lagrangia_reference, only: reference_t
     use lagrangia_rk4, only: new_rk4, rk4_t
     use lagrangia_rolling_disk, only: rolling_disk_t
+    use lagrangia_rolling_disk_reference, only: rolling_disk_reference_t, &
+        new_rolling_disk_reference
     use lagrangia_rotating_hoop, only: rotating_hoop_t
+    use lagrangia_rotating_hoop_reference, only: rotating_hoop_reference_t, &
+        new_rotating_hoop_reference
     use lagrangia_rotating_wire, only: rotating_wire_t
+    use lagrangia_rotating_wire_reference, only: rotating_wire_reference_t, &
+        new_rotating_wire_reference
     use lagrangia_system, only: default_values, system_t
     use lagrangia_text, only: join, nearest_name, quoted
     use lagrangia_wedge, only: wedge_t
@@ -68,6 +78,7 @@ contains
         select case (i)
         case (1); call place_rk4()
         case (2); call place_verlet()
+        case default; return
         end select
     contains
         subroutine place_rk4()
@@ -126,6 +137,41 @@ contains
                 type(wedge_reference_t) :: closed_form
 
                 call new_wedge_reference(closed_form, system, t0, q0, v0, found)
+                if (found) allocate (reference, source=closed_form)
+            end block
+        type is (rolling_disk_t)
+            block
+                type(rolling_disk_reference_t) :: closed_form
+
+                call new_rolling_disk_reference(closed_form, system, t0, q0, v0, found)
+                if (found) allocate (reference, source=closed_form)
+            end block
+        type is (charged_particle_t)
+            block
+                type(charged_particle_reference_t) :: closed_form
+
+                call new_charged_particle_reference(closed_form, system, t0, q0, v0, found)
+                if (found) allocate (reference, source=closed_form)
+            end block
+        type is (rotating_wire_t)
+            block
+                type(rotating_wire_reference_t) :: closed_form
+
+                call new_rotating_wire_reference(closed_form, system, t0, q0, v0, found)
+                if (found) allocate (reference, source=closed_form)
+            end block
+        type is (rotating_hoop_t)
+            block
+                type(rotating_hoop_reference_t) :: closed_form
+
+                call new_rotating_hoop_reference(closed_form, system, t0, q0, v0, found)
+                if (found) allocate (reference, source=closed_form)
+            end block
+        type is (driven_pendulum_t)
+            block
+                type(driven_pendulum_reference_t) :: closed_form
+
+                call new_driven_pendulum_reference(closed_form, system, t0, q0, v0, found)
                 if (found) allocate (reference, source=closed_form)
             end block
         end select

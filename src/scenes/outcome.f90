@@ -194,9 +194,9 @@ contains
         if (self%error_from == from_half_step) error_text = short(self%error())//" estimate"
         period_text = "-"
         do i = 1, size(self%others)
-            if (index(self%others(i)%name, "period") > 0 .and. &
-                (self%others(i)%judged .or. period_text == "-")) &
-                period_text = short(self%others(i)%worst)
+            if (index(self%others(i)%name, "period") == 0) cycle
+            if (.not. (self%others(i)%judged .or. period_text == "-")) cycle
+            period_text = short(self%others(i)%worst)
         end do
         write (seconds, "(f12.4)") self%seconds
         line = cells(self%scene, self%system, self%method, to_text(self%steps), &

@@ -104,8 +104,9 @@ contains
             integer :: i
 
             if (.not. (all(ieee_is_finite(q)) .and. all(ieee_is_finite(v)))) then
-                call fail(error, "the state is not finite at t = "//to_text(t)//" s: the step dt = "// &
-                          to_text(plan%dt)//" s is too long, or the motion diverges", status_numbers)
+                call fail(error, "the state is not finite at t = "//to_text(t)//" s: the step "// &
+                          "dt = "//to_text(plan%dt)//" s is too long, or the motion diverges", &
+                          status_numbers)
                 q = q_good
                 v = v_good
                 return

@@ -3,28 +3,22 @@ module lagrangia_scene_reader
     !! it has been found good.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_catalogue, only: new_system
-    use lagrangia_columns, only: column_names
     use lagrangia_command_line, only: word_t
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_kinds, only: dp, i8
-    use lagrangia_namelist, only: apply_override, get_integer, get_real, get_reals, get_string, &
-                                  get_strings, has_key, namelist_t, parse_namelist, &
-                                  refuse_unknown_groups, refuse_unknown_keys, refuse_value
+    use lagrangia_kinds, only: dp
+    use lagrangia_namelist, only: apply_override, get_reals, get_string, namelist_t, &
+                                  parse_namelist, refuse_unknown_groups, &
+                                  refuse_unknown_keys, refuse_value
     use lagrangia_namelist_file, only: read_whole_file
     use lagrangia_play, only: performance_t, rehearse
-    use lagrangia_scene, only: expectation_t, scene_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_scene_keys, only: expectation_keys, keys, read_columns, read_state, read_times
     use lagrangia_shipped, only: scene_name
     use lagrangia_system, only: check_parameter, default_values, system_t
-    use lagrangia_text, only: join, to_text
     implicit none (type, external)
     private
     public :: read_scene, parse_scene
-
-    character(name_length), parameter :: keys(*) = [character(name_length) :: &
-        "title", "system", "method", "t0", "dt", "duration", "every", "samples", "q", "v", &
-        "columns", "plot", "period_of", "output"]
-    integer, parameter :: most = 10000  !! values of one key
 
 contains
 
@@ -72,7 +66,8 @@ contains
             if (allocated(error)) exit read_groups
             call refuse_unknown_keys(tree, "scene", [keys, expectation_keys(system)], error)
             if (allocated(error)) exit read_groups
-            call refuse_unknown_groups(tree, [character(name_length) :: "scene", scene%system], error)
+            call refuse_unknown_groups(tree, [character(name_length) :: "scene", scene%system], &
+                                       error)
             if (allocated(error)) exit read_groups
             call rehearse(scene, system, p, found)
             if (allocated(found)) call locate(tree, found, error)
@@ -123,7 +118,8 @@ contains
                 p%value(:p%count) = values
                 call check_parameter(p, found)
                 if (allocated(found)) then
-                    call refuse_value(tree, scene%system, trim(p%name), p%domain()//" is needed", error)
+                    call refuse_value(tree, scene%system, trim(p%name), &
+                                      p%domain()//" is needed", error)
                     return
                 end if
                 scene%parameters = [scene%parameters, values]
@@ -137,160 +133,4 @@ contains
         call system%describe(d)
         scene%parameters = default_values(d)
     end subroutine read_system
-
-    subroutine read_times(tree, scene, error)
-        !! Method, step, duration, samples.
-        type(namelist_t), intent(inout) :: tree
-        type(scene_t), intent(inout) :: scene
-        type(error_t), allocatable, intent(out) :: error
-        integer(i8) :: samples, steps
-
-        call get_string(tree, "scene", "title", scene%title, error)
-        if (allocated(error)) return
-        call get_string(tree, "scene", "method", scene%method, error)
-        if (allocated(error)) return
-        call get_real(tree, "scene", "t0", scene%t0, error)
-        if (allocated(error)) return
-        call get_positive("dt", scene%dt)
-        if (allocated(error)) return
-        call get_positive("duration", scene%duration)
-        if (allocated(error)) return
-        if (scene%dt > scene%duration) then
-            call refuse_value(tree, "scene", "dt", "is longer than the whole run, duration = "// &
-                              to_text(scene%duration), error)
-            return
-        end if
-        steps = nint(min(scene%duration/scene%dt, 1e15_dp), i8)
-        scene%every = max(1_i8, steps/1000)
-        call get_count("every", scene%every)
-        if (allocated(error) .or. .not. has_key(tree, "scene", "samples")) return
-        if (has_key(tree, "scene", "every")) then
-            call refuse_value(tree, "scene", "samples", "give either every or samples", error)
-            return
-        end if
-        call get_count("samples", samples)
-        if (allocated(error)) return
-        if (mod(steps, samples) /= 0) then
-            call refuse_value(tree, "scene", "samples", "does not divide the "//to_text(steps)// &
-                              " steps; every = "//to_text(max(1_i8, steps/samples))// &
-                              " gives about as many", error)
-            return
-        end if
-        scene%every = steps/samples
-    contains
-        subroutine get_positive(key, value)
-            character(*), intent(in) :: key
-            real(dp), intent(inout) :: value
-
-            call get_real(tree, "scene", key, value, error, required=.true.)
-            if (allocated(error)) return
-            if (value <= 0.0_dp) call refuse_value(tree, "scene", key, &
-                                                   "a number greater than 0 is needed, in s", error)
-        end subroutine get_positive
-
-        subroutine get_count(key, value)
-            character(*), intent(in) :: key
-            integer(i8), intent(inout) :: value
-
-            call get_integer(tree, "scene", key, value, error)
-            if (allocated(error)) return
-            if (value < 1) call refuse_value(tree, "scene", key, "at least 1 is needed", error)
-        end subroutine get_count
-    end subroutine read_times
-
-    subroutine read_state(tree, system, scene, error)
-        !! Coordinates and velocities at the start; velocities default to 0.
-        type(namelist_t), intent(inout) :: tree
-        class(system_t), intent(in) :: system
-        type(scene_t), intent(inout) :: scene
-        type(error_t), allocatable, intent(out) :: error
-        type(error_t), allocatable :: found
-        type(description_t) :: d
-        real(dp), allocatable :: given(:)
-
-        call system%describe(d)
-        call get_reals(tree, "scene", "q", 1, most, scene%q, error, required=.true.)
-        if (allocated(error)) return
-        if (size(scene%q) /= system%ndof) then
-            call refuse_value(tree, "scene", "q", to_text(size(scene%q))//" values, but "// &
-                              to_text(system%ndof)//" are needed: "//join(d%coordinates%name, ", "), &
-                              error)
-            return
-        end if
-        allocate (given(system%ndof), source=0.0_dp)
-        call get_reals(tree, "scene", "v", 1, most, given, error)
-        if (allocated(error)) return
-        allocate (scene%v(system%ndof))
-        call system%complete_velocities(scene%t0, scene%q, given, scene%v, found)
-        if (allocated(found)) call refuse_value(tree, "scene", "v", found%message, error)
-    end subroutine read_state
-
-    subroutine read_columns(tree, system, scene, error)
-        !! What is written, drawn, measured and expected.
-        type(namelist_t), intent(inout) :: tree
-        class(system_t), intent(in) :: system
-        type(scene_t), intent(inout) :: scene
-        type(error_t), allocatable, intent(out) :: error
-        character(name_length), allocatable :: names(:)
-        type(description_t) :: d
-        real(dp) :: limit
-        logical :: found
-        integer :: i
-
-        call system%describe(d)
-        scene%columns = [character(name_length) :: "t", d%coordinates%name]
-        if (.not. system%time_dependent) scene%columns = &
-            [character(name_length) :: scene%columns, "energy_drift"]
-        call get_strings(tree, "scene", "columns", 1, most, scene%columns, error)
-        if (allocated(error)) return
-        allocate (scene%plots(0))
-        call get_strings(tree, "scene", "plot", 1, 8, scene%plots, error)
-        if (allocated(error)) return
-        call get_string(tree, "scene", "period_of", scene%period_of, error)
-        if (allocated(error)) return
-        if (scene%period_of /= "" .and. .not. any(d%coordinates%name == scene%period_of)) then
-            call refuse_value(tree, "scene", "period_of", "a coordinate is needed: "// &
-                              join(d%coordinates%name, ", "), error)
-            return
-        end if
-        names = expectation_keys(system)
-        allocate (scene%expectations(0))
-        do i = 1, size(names)
-            call get_real(tree, "scene", trim(names(i)), limit, error, found=found)
-            if (allocated(error)) return
-            if (.not. found) cycle
-            if (limit < 0.0_dp) then
-                call refuse_value(tree, "scene", trim(names(i)), "a tolerance is at least 0", error)
-                return
-            end if
-            scene%expectations = [scene%expectations, &
-                                  expectation_t(names(i)(len("expect_") + 1:), limit)]
-        end do
-        scene%output = scene%name
-        call get_string(tree, "scene", "output", scene%output, error)
-        if (allocated(error)) return
-        if (bad_output(trim(scene%output))) call refuse_value(tree, "scene", "output", &
-            "a file name below the output folder is needed: letters, digits, . _ - / and blanks, "// &
-            "not absolute, without '..'", error)
-    end subroutine read_columns
-
-    pure function expectation_keys(system) result(names)
-        !! `expect_` and what can be judged.
-        class(system_t), intent(in) :: system
-        character(name_length), allocatable :: names(:)
-
-        names = "expect_"//[character(name_length) :: column_names(system, .true.), &
-                            "period", "small_period"]
-    end function expectation_keys
-
-    pure function bad_output(name) result(bad)
-        !! Whether `name` could leave the output folder or surprise a program that reads it.
-        character(*), intent(in) :: name
-        logical :: bad
-
-        bad = len(name) == 0 .or. index("/"//name//"/", "/../") > 0 .or. index(name, "//") > 0
-        if (bad) return
-        bad = name(1:1) == "/" .or. name(1:1) == "-" .or. name(len(name):) == "/" .or. &
-              verify(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-/ ") > 0
-    end function bad_output
 end module lagrangia_scene_reader

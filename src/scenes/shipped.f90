@@ -24,7 +24,7 @@ module lagrangia_shipped
         function c_glob(pattern, flags, on_error, found) bind(c, name="glob") result(status)
             import :: c_char, c_int, c_funptr, glob_t
             implicit none (type, external)
-            character(kind=c_char), intent(in) :: pattern(*)
+            character(kind=c_char), intent(in) :: pattern(*)  !! ends in NUL
             integer(c_int), value :: flags
             type(c_funptr), value :: on_error
             type(glob_t), intent(inout) :: found
@@ -57,8 +57,8 @@ contains
         integer :: i, k
 
         if (c_glob(folder//"*"//ending//c_null_char, 0_c_int, c_null_funptr, found) /= 0) then
-            call fail(error, "no scenes in '"//folder//"': start lagrangia in the project's folder, "// &
-                      "or give the path of a .nml file", status_file)
+            call fail(error, "no scenes in '"//folder//"': start lagrangia in the project's "// &
+                      "folder, or give the path of a .nml file", status_file)
             return
         end if
         call c_f_pointer(found%paths, list, [found%count])

@@ -60,8 +60,8 @@ contains
         d%lagrangian = [character(len(d%title)) :: &
             "(m1 + m2)/2 x_dot^2 + m2/2 l^2 theta_dot^2 + m2 l x_dot theta_dot cos(theta)", &
             "+ m2 g l cos(theta)"]
-        d%energy = "(m1 + m2)/2 x_dot^2 + m2/2 l^2 theta_dot^2 + m2 l x_dot theta_dot cos(theta)"// &
-                   " - m2 g l cos(theta)"
+        d%energy = "(m1 + m2)/2 x_dot^2 + m2/2 l^2 theta_dot^2 "// &
+                   "+ m2 l x_dot theta_dot cos(theta) - m2 g l cos(theta)"
         d%equations = [character(len(d%title)) :: &
             "(m1 + m2) x_ddot + m2 l theta_ddot cos(theta) - m2 l theta_dot^2 sin(theta) = 0", &
             "l theta_ddot + x_ddot cos(theta) + g sin(theta) = 0"]

@@ -164,11 +164,23 @@ contains
 
         text = "any finite number"
         if (self%lower > -huge(1.0_dp) .and. self%upper < huge(1.0_dp)) then
-            text = "from "//to_text(self%lower)//" to "//to_text(self%upper)
+            text = "from "//bound(self%lower)//" to "//bound(self%upper)
             if (self%open_lower) text = text//", above "//to_text(self%lower)
         else if (self%lower > -huge(1.0_dp)) then
             text = merge("greater than ", "at least     ", self%open_lower)
             text = trim(text)//" "//to_text(self%lower)
         end if
     end function domain
+
+    pure function bound(value) result(text)
+        !! A right angle by its name, other numbers as they are.
+        real(dp), intent(in) :: value
+        character(:), allocatable :: text
+
+        text = to_text(value)
+        if (abs(value) >= acos(0.0_dp) .and. abs(value) <= acos(0.0_dp)) then
+            text = "pi/2"
+            if (value < 0.0_dp) text = "-pi/2"
+        end if
+    end function bound
 end module lagrangia_description
