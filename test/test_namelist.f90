@@ -90,7 +90,7 @@ contains
 
     subroutine layout_does_not_matter()
         !! Case, line ends, byte-order mark, tabs, blanks, final newline, terminator, commas.
-        character(80) :: layouts(14)
+        character(80) :: layouts(15)
         type(namelist_t) :: tree
         type(error_t), allocatable :: error
         real(dp) :: y
@@ -102,7 +102,7 @@ contains
                    "y"//tab//"="//tab//"7"//tab//"/"//tab, "&a x=1 y=7 &end", "&a x=1, y=7, &END", &
                    "  &a x=1 , y = 7 , / ! done", "&b /"//lf//"&a y=7 /", "&b z=2/&a y=7/", &
                    "&a y"//lf//"="//lf//"7"//lf//"/", "&a x=1 y=7"//cr//cr//lf//"/", &
-                   "&a! no blank"//lf//"y=7!"//lf//"/!"]
+                   "&a! no blank"//lf//"y=7!"//lf//"/!", "&a x=1 y=7 / &b y=2 /"]
         do i = 1, size(layouts)
             y = 0.0_dp
             call read_text(trim(layouts(i)), tree)
@@ -253,10 +253,10 @@ contains
     subroutine overrides_replace_and_add()
         !! Whole entries, single elements, new keys, new groups; texts without quotes; the last
         !! word prevails.
-        character(40), parameter :: overrides(10) = [character(40) :: &
+        character(40), parameter :: overrides(11) = [character(40) :: &
             "scene%dt=1e-4", "Scene % DT = 2e-4", "scene%q(2)=5", "scene%title=My own title", &
             "scene%columns=t, x,'y, z'", "hoop%r=3", "scene%v=7,8", "scene%flag=t", &
-            "scene%output=../a b/c", "scene%q(1)=4"]
+            "scene%output=../a b/c", "scene%q(1)=4", "hoop%s=!"]
         type(namelist_t) :: tree
         type(error_t), allocatable :: error
         real(dp), allocatable :: q(:)
@@ -285,6 +285,9 @@ contains
         call assertEqual("My own title", text)
         call get_string(tree, "scene", "output", text, error)
         call assertEqual("../a b/c", text)
+        call get_string(tree, "hoop", "s", text, error)
+        call assertEqual("!", text, message="no comments in an override")
+        allocate (columns(1))
         call get_strings(tree, "scene", "columns", 3, 3, columns, error)
         call check(error)
         call assertEqual("t|x|y, z", trim(columns(1))//"|"//trim(columns(2))//"|"//columns(3))

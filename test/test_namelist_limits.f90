@@ -5,7 +5,8 @@ module test_namelist_limits
     use lagrangia_errors, only: error_t, status_usage
     use lagrangia_kinds, only: dp
     use lagrangia_namelist, only: apply_override, get_real, get_reals, namelist_t, &
-                                  parse_namelist, refuse_unknown_groups, refuse_unknown_keys
+                                  parse_namelist, refuse_unknown_groups, refuse_unknown_keys, &
+                                  refuse_value
     implicit none (type, external)
     private
     public :: namelist_limits_suite
@@ -142,6 +143,11 @@ contains
         call assertFalse(allocated(error))
         call get_real(tree, name, name, x, error)
         call plain(error)
+        call assertEqual("...", error%message(:3), message="the end of a long path is kept")
+        call assertTrue(index(error%message, "/a.nml:1:") > 0)
+        call refuse_value(tree, name, name, repeat("too long, ", 40), error)
+        call plain(error)
+        call assertEqual("...", error%message(298:), message="a long message says that it is cut")
         call refuse_unknown_keys(tree, "x", [repeat("l", 60)], error)
         call assertFalse(allocated(error), message="a group that is not there")
         call refuse_unknown_groups(tree, [(repeat("l", 60), i=1, 50)], error)

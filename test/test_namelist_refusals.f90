@@ -76,6 +76,8 @@ contains
                      "where '/' ends a group; write its value")
         call refused("&a dt=1e-3 // step"//lf//"q=1 /", "1:12: &a: "//comment)
         call refused("&a dt=1e-3, // step"//lf//"q=1 /", "1:13: &a: "//comment)
+        call refused("&a x=1 s='b' / 2", "1:16: text '2' after the end of &a; '/' ends a "// &
+                     "group, a comment begins with '!'")
         call refused("&a f = data/x /", "1:12: &a: '/' ends the group, yet text follows; a "// &
                      "text with '/' in it needs quotes")
     end subroutine slashes
@@ -211,6 +213,7 @@ contains
         call refused("&a x=1.2.3 /", "1:6: &a: x: '1.2.3' "//no_number)
         call refused("&a x=1e5.3 /", "1:6: &a: x: '1e5.3' "//no_number)
         call refused("&a x=5kg /", "1:6: &a: x: '5kg' "//no_number)
+        call refused(char(239)//char(187)//char(191)//"&a x=-/", "1:6: &a: x: '-' "//no_number)
         call refused("&a x=- /", "1:6: &a: x: '-' "//no_number)
         call refused("&a x=2*3*1 /", "1:8: &a: x: '3*1' "//no_number)
         call refused("&a x=1.5*2 /", "1:6: &a: x: '1.5*': a repeat count is a whole number; "// &

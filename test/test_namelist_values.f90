@@ -167,6 +167,9 @@ contains
         call failed(error, "a.nml:2:35: &a: l = tomato: .true. or .false. is needed")
         call get_logical(tree, "a", "k", flag, error)
         call failed(error, "a.nml:2:29: &a: k = 3: .true. or .false. is needed")
+        call apply_override(tree, "a%s=42", error)
+        call get_string(tree, "a", "s", s, error)
+        call failed(error, "--set a%s=42: &a: s = 42: a text is needed, in quotes: '42'")
     end subroutine types
 
     subroutine counts()
@@ -241,6 +244,9 @@ contains
         call failed(error, "a.nml:2:22: &a: unknown key 'zzz'; none is allowed here")
         call refuse_unknown_keys(tree, "pendlum", allowed, error)
         call failed(error, "a.nml:4:10: &pendlum: key 'tolerance' has no meaning here")
+        call apply_override(tree, "a%zzz=4", error)
+        call refuse_unknown_keys(tree, "a", allowed, error)
+        call failed(error, "--set a%zzz=4: &a: unknown key 'zzz'; allowed: length, mass, tolerance")
         call get_real(tree, "a", "zzz", x, error)
         call refuse_unknown_keys(tree, "a", allowed, error)
         call assertFalse(allocated(error))

@@ -9,11 +9,11 @@ module lagrangia_run_command
     use lagrangia_play, only: play
     use lagrangia_progress, only: progress_t
     use lagrangia_scene, only: scene_t
-    use lagrangia_scene_files, only: check_format
+    use lagrangia_scene_files, only: check_format, draw, script_path
     use lagrangia_scene_reader, only: read_scene
     use lagrangia_shipped, only: find_scene, shipped_scenes
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: to_text
+    use lagrangia_text, only: quoted, to_text
     use lagrangia_version, only: is_optimised
     implicit none (type, external)
     private
@@ -31,7 +31,7 @@ contains
         type(progress_t), target :: progress
         class(observer_t), pointer :: watcher
         type(outcome_t) :: outcome
-        character(:), allocatable :: format
+        character(:), allocatable :: folder, format, kind
         logical :: json, quiet
         integer :: i, missed
 
@@ -39,6 +39,14 @@ contains
         quiet = line%has("quiet")
         format = line%value_of("format", "text")
         call check_format(format, error)
+        if (allocated(error)) return
+        folder = line%value_of("output", "data/output")
+        if (folder == "") call fail(error, "option '--output' needs the name of a folder")
+        if (allocated(error)) return
+        kind = line%value_of("plot", "png")
+        if (kind == "") kind = "png"
+        if (kind /= "png" .and. kind /= "svg") call fail(error, "unknown picture format "// &
+            quoted(kind)//"; there are png, svg")
         if (allocated(error)) return
         call choose_scenes(line, paths, error)
         if (allocated(error)) return
@@ -67,6 +75,8 @@ contains
             else if (.not. quiet) then
                 call put_line(scorecard_row(outcome))
             end if
+            if (outcome%remark /= "" .and. .not. quiet) call note(paths(i)%text//": "// &
+                to_text(outcome%steps)//" steps"//outcome%remark)
             if (allocated(scene_error)) then
                 call note(scene_error%message)
                 if (.not. allocated(error)) call fail(error, "", scene_error%status)
@@ -87,8 +97,9 @@ contains
             call read_scene(path, sets(line), scene, system, error)
             if (allocated(error)) return
             call progress%restart(trim(scene%name))
-            call play(scene, system, line%value_of("output", "data/output"), format, watcher, &
-                      outcome, error)
+            call play(scene, system, folder, format, watcher, outcome, error)
+            if (allocated(error) .or. .not. line%has("plot")) return
+            call draw(outcome%file, kind, error)
         end subroutine run_one
     end subroutine run_command
 
@@ -126,6 +137,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
         class(system_t), allocatable :: system
         type(scene_t) :: scene
+        character(len(scene%output)), allocatable :: outputs(:)
         integer :: i
 
         if (line%command == "") then
@@ -141,9 +153,16 @@ contains
             end do
         end if
         if (allocated(error)) return
+        allocate (outputs(size(paths)))
         do i = 1, size(paths)
             call read_scene(paths(i)%text, sets(line), scene, system, error)
             if (allocated(error)) return
+            outputs(i) = script_path(trim(scene%output))
+            if (any(outputs(:i - 1) == outputs(i))) then
+                call fail(error, paths(i)%text//": another scene of this run writes the output "// &
+                          quoted(trim(scene%output))//" too")
+                return
+            end if
         end do
     end subroutine choose_scenes
 end module lagrangia_run_command

@@ -126,10 +126,10 @@ contains
         call script%add("if (folder[1:1] ne '/') { folder = './'.folder }")
         call script%add("data = folder.'"//doubled(file)//"'")
         call script%add("picture = folder.'"//doubled(file(:dot - 1))//"'")
-        call script%add("if (!exists('kind')) { kind = "// &
-                        "strstrt(GPVAL_TERMINALS, ' pngcairo ') ? 'pngcairo' : "// &
-                        "strstrt(GPVAL_TERMINALS, ' png ') ? 'png' : "// &
-                        "strstrt(GPVAL_TERMINALS, ' svg ') ? 'svg' : 'dumb' }")
+        call script%add("if (!exists('wanted')) { wanted = 'png' }")
+        call script%add("can(name) = strstrt(GPVAL_TERMINALS, ' '.name.' ')")
+        call script%add("kind = wanted eq 'svg' && can('svg') ? 'svg' : can('pngcairo') ? "// &
+                        "'pngcairo' : can('png') ? 'png' : can('svg') ? 'svg' : 'dumb'")
         call script%add("if (kind eq 'pngcairo') { set terminal pngcairo noenhanced size 1000,"// &
                         height//" font ',11'; set output picture.'.png' }")
         call script%add("if (kind eq 'png') { set terminal png noenhanced size 1000,"//height// &

@@ -278,7 +278,6 @@ contains
                 return
             end if
             scanner%number = [first, last]
-            scanner%number_line = scanner%line
         end if
         call add_value(tree, value, error)
         if (allocated(error)) return

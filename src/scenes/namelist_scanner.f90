@@ -27,7 +27,6 @@ module lagrangia_namelist_scanner
         character(100) :: source = ""
         character(100) :: context = "" !! `&scene dt: `
         integer :: number(2) = 0       !! the last number read, by position
-        integer :: number_line = 0     !! and its line
     end type scanner_t
 
 contains
@@ -97,7 +96,6 @@ contains
         real(dp) :: above, below
         integer :: first, last, slash
 
-        if (scanner%number_line /= scanner%line) return
         slash = scanner%at - 1 + verify(text(scanner%at:), blanks)
         if (next_byte(text, slash) /= "/") return
         if (verify(text(scanner%number(2) + 1:slash - 1), blanks) > 0) return

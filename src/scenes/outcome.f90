@@ -30,6 +30,7 @@ module lagrangia_outcome
         integer :: error_from = 0                   !! 0: no error known
         real(dp) :: period = 0.0_dp                 !! measured, s; 0 if not
         real(dp) :: seconds = 0.0_dp
+        character(:), allocatable :: remark         !! about the steps; "" if there is none
         character(:), allocatable :: failure        !! the run itself failed
     contains
         procedure :: verdict

@@ -16,6 +16,7 @@ module lagrangia_play
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_files, only: abandon_files, finish_files, open_files
     use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: play, rehearse, performance_t
@@ -117,6 +118,8 @@ contains
         type(error_t), allocatable, intent(out) :: error
         integer(i8) :: start, finish, rate
 
+        if (p%plan%rest > 0.0_dp) outcome%remark = " (the last one shortened to "// &
+            to_text(p%plan%rest)//" s)"
         call system_clock(start, rate)
         call run(system, p%integrator, p%plan, observers, outcome%q, outcome%v, error)
         call system_clock(finish)
@@ -135,6 +138,7 @@ contains
         outcome%system = trim(scene%system)
         outcome%method = trim(scene%method)
         outcome%file = ""
+        outcome%remark = ""
         outcome%t = scene%t0
         outcome%q = scene%q
         outcome%v = scene%v
@@ -154,7 +158,7 @@ contains
         do i = 1, size(scene%expectations)
             associate (name => scene%expectations(i)%name)
                 if (is_period(name) .or. any(names == name)) cycle
-                names = [names, name]
+                names = [character(name_length) :: names, name]
             end associate
         end do
         p%record%shown = size(scene%columns)

@@ -16,6 +16,7 @@ module lagrangia_scene
     end type expectation_t
 
     type :: scene_t
+        character(:), allocatable :: source        !! the file it was read from
         character(name_length) :: name = ""        !! file name without folder and ending
         character(200) :: title = ""
         character(name_length) :: system = ""

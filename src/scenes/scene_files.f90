@@ -2,20 +2,23 @@ module lagrangia_scene_files
     !! The files of one scene: the data file while it runs, the gnuplot script when it is done.
     use lagrangia_csv_table, only: csv_table_t
     use lagrangia_description, only: description_t
-    use lagrangia_errors, only: error_t, fail
+    use lagrangia_errors, only: error_t, fail, status_file
+    use lagrangia_files, only: same_file
     use lagrangia_gnuplot, only: gnuplot_script, panel_t
     use lagrangia_npy, only: npy_table_t
     use lagrangia_outcome, only: outcome_t
     use lagrangia_output_file, only: output_file_t
+    use lagrangia_processes, only: run_program
     use lagrangia_record, only: record_t
     use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: nearest_name, quoted, to_text
+    use lagrangia_text, only: quoted, to_text
     use lagrangia_text_table, only: text_table_t
     use lagrangia_version, only: build_text, version
     implicit none (type, external)
     private
-    public :: check_format, open_files, finish_files, abandon_files
+    public :: check_format, open_files, finish_files, abandon_files, draw, &
+              script_path
 
     character(4), parameter :: formats(3) = ["text", "csv ", "npy "]
     character(4), parameter :: endings(3) = [".dat", ".csv", ".npy"]
@@ -42,6 +45,38 @@ contains
         path = path//trim(endings(findloc(formats == format, .true., 1)))
     end function data_path
 
+    pure function script_path(path) result(script)
+        !! The gnuplot script beside a data file.
+        character(*), intent(in) :: path
+        character(:), allocatable :: script
+        integer :: dot
+
+        dot = index(path, ".", back=.true.)
+        if (dot <= index(path, "/", back=.true.)) dot = len(path) + 1
+        script = path(:dot - 1)//".gp"
+    end function script_path
+
+    subroutine draw(path, kind, error)
+        !! Let gnuplot draw the data file at `path`, as `kind` (png or svg); no shell is involved.
+        character(*), intent(in) :: path, kind
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: script, words(:)
+        integer :: status
+
+        script = script_path(path)
+        if (script(1:1) == "-") script = "./"//script
+        allocate (character(max(32, len(script))) :: words(5))
+        words(1) = "gnuplot"
+        words(2) = "-d"  ! not the user's start-up file
+        words(3) = "-e"
+        words(4) = "wanted = '"//kind//"'"
+        words(5) = script
+        call run_program(words, status, error)
+        if (allocated(error) .or. status == 0) return
+        call fail(error, "gnuplot ended with status "//to_text(status)//" on '"//script//"'", &
+                  status_file)
+    end subroutine draw
+
     subroutine open_files(scene, system, folder, format, record, path, error)
         !! Open the data file, under a temporary name until `finish_files`, and write its header.
         type(scene_t), intent(in) :: scene
@@ -59,6 +94,10 @@ contains
         case default; allocate (npy_table_t :: record%table)
         end select
         path = data_path(folder, trim(scene%output), format)
+        if (same_file(path, scene%source) .or. same_file(script_path(path), scene%source)) then
+            call fail(error, "the output '"//path//"' is the scene itself", key="output")
+            return
+        end if
         call record%table%file%open(path, error)
         if (allocated(error)) return
         call system%describe(d)
@@ -81,13 +120,13 @@ contains
         character(:), allocatable :: path
 
         if (.not. allocated(record%table)) return
-        call record%table%finish("steps: "//to_text(outcome%steps)// &
+        call record%table%finish("steps: "//to_text(outcome%steps)//outcome%remark// &
                                  ", force evaluations: "//to_text(outcome%evaluations)// &
                                  ", energy evaluations: "//to_text(outcome%energy_evaluations)// &
                                  ", rows: "//to_text(outcome%rows), error)
         if (allocated(error)) return
         path = data_path(folder, trim(scene%output), format)
-        call script%open(path(:index(path, ".", back=.true.) - 1)//".gp", error)
+        call script%open(script_path(path), error)
         if (allocated(error)) return
         call script%write(gnuplot_script( &
             path(index(path, "/", back=.true.) + 1:), record%table%reading(), trim(scene%title), &

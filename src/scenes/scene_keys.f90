@@ -152,7 +152,7 @@ contains
         if (allocated(error)) return
         if (bad_output(trim(scene%output))) call refuse_value(tree, "scene", "output", &
             "a file name below the output folder is needed: letters, digits, . _ - / and "// &
-            "blanks, not absolute, without '..'", error)
+            "blanks, not absolute, without '..', not ending in .gp", error)
     end subroutine read_columns
 
     pure function coordinates(d) result(text)
@@ -183,6 +183,8 @@ contains
                                              "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-/ "
 
         bad = len(name) == 0 .or. index("/"//name//"/", "/../") > 0 .or. index(name, "//") > 0
+        if (bad) return
+        bad = index(name//"|", ".gp|") > 0  ! the script's name
         if (bad) return
         bad = name(1:1) == "/" .or. name(1:1) == "-" .or. name(len(name):) == "/" .or. &
               verify(name, letters) > 0

@@ -54,6 +54,7 @@ contains
             call apply_override(tree, overrides(i)%text, error)
             if (allocated(error)) return
         end do
+        scene%source = source
         scene%name = scene_name(source)
         read_groups: block
             call read_system(tree, scene, system, error)

@@ -1,0 +1,36 @@
+module lagrangia
+    !! The public face of the toolkit, for other people's programs. Defines nothing.
+    !!
+    !! A system by its name, an integrator by its name, `run` to drive them:
+    !!
+    !!     use lagrangia
+    !!     class(system_t), allocatable :: system
+    !!     class(integrator_t), allocatable :: integrator
+    !!     type(plan_t) :: plan
+    !!     type(error_t), allocatable :: error
+    !!     type(observer_box_t) :: nobody(0)
+    !!     real(dp) :: q(2) = [0.0_dp, 1.0_dp], v(2) = 0.0_dp
+    !!
+    !!     call new_system("cart_pendulum", system, error)
+    !!     call system%configure([2.0_dp, 1.0_dp, 1.0_dp, 9.81_dp], error)
+    !!     call new_integrator("rk4", integrator, error)
+    !!     call new_plan(plan, 0.0_dp, 1e-3_dp, 20.0_dp, 10_i8, error)
+    !!     call run(system, integrator, plan, nobody, q, v, error)
+    use lagrangia_catalogue, only: method_names, new_integrator, new_reference, new_system, &
+                                   system_names
+    use lagrangia_description, only: conserved, coordinate, description_t, nonnegative, number, &
+                                     parameter_t, point, point_t, positive, quantity, &
+                                     quantity_t, vector
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_hyperdual
+    use lagrangia_integrator, only: dense_integrator_t, integrator_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_lagrange, only: accelerations_from_lagrangian, energy_from_lagrangian, &
+                                  euler_lagrange_t, expand_lagrangian
+    use lagrangia_observer, only: observer_box_t, observer_t
+    use lagrangia_reference, only: reference_t
+    use lagrangia_run, only: new_plan, plan_t, run
+    use lagrangia_system, only: check_parameters, default_values, system_t
+    implicit none (type, external)
+    public
+end module lagrangia
