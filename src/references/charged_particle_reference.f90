@@ -18,7 +18,7 @@ module lagrangia_charged_particle_reference
         real(dp) :: t0 = 0.0_dp, r0(3) = 0.0_dp
         real(dp) :: along(3) = 0.0_dp, across(3) = 0.0_dp    !! start velocity, to the axis
         real(dp) :: push_along(3) = 0.0_dp, push_across(3) = 0.0_dp
-            !! acceleration by E and by the trap at the start
+        !! acceleration by E and by the trap at the start
     contains
         procedure :: state_at
     end type charged_particle_reference_t
