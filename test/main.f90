@@ -25,6 +25,11 @@ module suites
     use test_pendulum, only: pendulum_suite
     use test_processes, only: processes_suite
     use test_quadrature, only: quadrature_suite
+    use test_harness_order, only: harness_order_suite
+    use test_charged_particle, only: charged_particle_suite
+    use test_rheonomic, only: rheonomic_suite
+    use test_rolling_disk, only: rolling_disk_suite
+    use test_sinc, only: sinc_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
     implicit none (type, external)
@@ -64,6 +69,20 @@ contains
         call suite%addTest(quadrature_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(text_suite())
+        call suite%addTest(namelist_suite())
+        call suite%addTest(namelist_values_suite())
+        call suite%addTest(namelist_refusals_suite())
+        call suite%addTest(namelist_limits_suite())
+        call suite%addTest(namelist_file_suite())
+        call suite%addTest(lapack_suite())
+        call suite%addTest(elliptic_suite())
+        call suite%addTest(gsl_suite())
+        call suite%addTest(quadrature_suite())
+        call suite%addTest(sinc_suite())
+        call suite%addTest(rolling_disk_suite())
+        call suite%addTest(charged_particle_suite())
+        call suite%addTest(rheonomic_suite())
+        call suite%addTest(hyperdual_suite())
     end function load_tests
 end module suites
 
