@@ -2,6 +2,7 @@ module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
     use test_cart_pendulum, only: cart_pendulum_suite
+    use test_charged_particle, only: charged_particle_suite
     use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
     use test_double_pendulum, only: double_pendulum_suite
@@ -25,8 +26,6 @@ module suites
     use test_pendulum, only: pendulum_suite
     use test_processes, only: processes_suite
     use test_quadrature, only: quadrature_suite
-    use test_harness_order, only: harness_order_suite
-    use test_charged_particle, only: charged_particle_suite
     use test_rheonomic, only: rheonomic_suite
     use test_rolling_disk, only: rolling_disk_suite
     use test_sinc, only: sinc_suite
@@ -46,6 +45,7 @@ contains
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
         call suite%addTest(cart_pendulum_suite())
+        call suite%addTest(charged_particle_suite())
         call suite%addTest(console_suite())
         call suite%addTest(constant_accelerations_suite())
         call suite%addTest(double_pendulum_suite())
@@ -67,22 +67,11 @@ contains
         call suite%addTest(pendulum_suite())
         call suite%addTest(processes_suite())
         call suite%addTest(quadrature_suite())
+        call suite%addTest(rheonomic_suite())
+        call suite%addTest(rolling_disk_suite())
+        call suite%addTest(sinc_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(text_suite())
-        call suite%addTest(namelist_suite())
-        call suite%addTest(namelist_values_suite())
-        call suite%addTest(namelist_refusals_suite())
-        call suite%addTest(namelist_limits_suite())
-        call suite%addTest(namelist_file_suite())
-        call suite%addTest(lapack_suite())
-        call suite%addTest(elliptic_suite())
-        call suite%addTest(gsl_suite())
-        call suite%addTest(quadrature_suite())
-        call suite%addTest(sinc_suite())
-        call suite%addTest(rolling_disk_suite())
-        call suite%addTest(charged_particle_suite())
-        call suite%addTest(rheonomic_suite())
-        call suite%addTest(hyperdual_suite())
     end function load_tests
 end module suites
 

@@ -60,12 +60,12 @@ contains
         !! Let gnuplot draw the data file at `path`, as `kind` (png or svg); no shell is involved.
         character(*), intent(in) :: path, kind
         type(error_t), allocatable, intent(out) :: error
-        character(:), allocatable :: script, words(:)
+        character(:), allocatable :: script
+        character(4096) :: words(5)
         integer :: status
 
         script = script_path(path)
         if (script(1:1) == "-") script = "./"//script
-        allocate (character(max(32, len(script))) :: words(5))
         words(1) = "gnuplot"
         words(2) = "-d"  ! not the user's start-up file
         words(3) = "-e"
