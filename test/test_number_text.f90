@@ -25,6 +25,7 @@ contains
         call suite%addTest(TestMethod("neighbours_of_powers_of_ten_are_right", &
                                       neighbours_of_powers_of_ten_are_right))
         call suite%addTest(TestMethod("ties_are_rounded_to_even", ties_are_rounded_to_even))
+        call suite%addTest(TestMethod("the_hardest_cases_are_right", the_hardest_cases_are_right))
         call suite%addTest(TestMethod("the_odd_ones_are_right", the_odd_ones_are_right))
         call suite%addTest(TestMethod("the_powers_of_ten_are_exact", the_powers_of_ten_are_exact))
         call suite%addTest(TestMethod("a_row_is_what_write_gives", a_row_is_what_write_gives))
@@ -105,6 +106,32 @@ contains
         call write_number(real(131075_i8, dp)/2.0_dp**17, text)  ! 1.00002288818359375 exactly
         call assertEqual(" 1.0000228881835938E+000", text)
     end subroutine ties_are_rounded_to_even
+
+    subroutine the_hardest_cases_are_right()
+        !! Doubles within \(10^{-13}\) to \(10^{-20}\) of a tie in their last digit, of both signs;
+        !! found with continued fractions, their digits with rational arithmetic.
+        call expect(1.3076622631878654e65_dp, "1.3076622631878654E+065")
+        call expect(1.3588129002659584e-245_dp, "1.3588129002659584E-245")
+        call expect(1.234550136632744e-99_dp, "1.2345501366327440E-099")
+        call expect(2.711176770832212e161_dp, "2.7111767708322121E+161")
+        call expect(5.0911336906666915e-290_dp, "5.0911336906666915E-290")
+        call expect(7.423765488072328e253_dp, "7.4237654880723281E+253")
+        call expect(6.797991057173537e-163_dp, "6.7979910571735370E-163")
+        call expect(2.0599514754271497e74_dp, "2.0599514754271497E+074")
+        call expect(2.6297292086709224e117_dp, "2.6297292086709224E+117")
+        call expect(9.418039246583203e223_dp, "9.4180392465832031E+223")
+        call expect(1.2775472324406212e-209_dp, "1.2775472324406212E-209")
+        call expect(3.607229612784954e237_dp, "3.6072296127849539E+237")
+    end subroutine the_hardest_cases_are_right
+
+    subroutine expect(x, text)
+        !! Assert that `x` and libgfortran's idea of it are `text`.
+        real(dp), intent(in) :: x
+        character(*), intent(in) :: text
+
+        call assertEqual(text, number_text(x))
+        call compare(x)
+    end subroutine expect
 
     subroutine the_odd_ones_are_right()
         !! Zeros, the ends of the range, integers, and what is not a number.

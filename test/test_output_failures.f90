@@ -42,6 +42,7 @@ contains
         call refused("a"//c_null_char, "not a file name")
         call refused(folder, "it is a folder")
         call refused(folder//"/new/", "it is a folder")
+        call refused(new_folder("refused/ends with a blank "), "it is a folder")
         call refused("/dev/null", "it is not a regular file")
         call refused(folder//"/link", "it is a link that leads nowhere")
         call refused(folder//"/file/a.dat", "'"//folder//"/file' is not a folder")
@@ -50,6 +51,7 @@ contains
         call assertEqual("old", contents(folder//"/file"))
         call assertTrue(remove_file(folder//"/file"))
         call assertTrue(remove_file(folder//"/link"))
+        call assertTrue(remove_file(folder//"/ends with a blank "))
         call assertTrue(remove_file(folder))
     end subroutine what_cannot_be_written_is_refused
 

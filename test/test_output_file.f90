@@ -61,16 +61,25 @@ contains
     end subroutine commit_gives_the_file_its_name
 
     subroutine missing_folders_are_made()
-        !! As `mkdir -p` does; no character of a name means anything but itself.
+        !! As `mkdir -p` does; no character of a name means anything but itself. Who may read
+        !! the file is decided as for any other new file.
         type(output_file_t) :: file
         type(error_t), allocatable :: error
+        type(facts_t) :: facts
         character(:), allocatable :: folder
+        integer :: permissions
 
         folder = new_folder("folders")
         call file%open(folder//"/x//"//odd_name//"/"//odd_name, error)
         call assertFalse(allocated(error))
         call file%commit(error)
         call assertFalse(allocated(error))
+        call write_file(folder//"/plain", "")
+        facts = look_at(folder//"/plain")
+        permissions = facts%permissions
+        facts = look_at(folder//"/x/"//odd_name//"/"//odd_name)
+        call assertEqual(permissions, facts%permissions)
+        call assertTrue(remove_file(folder//"/plain"))
         call assertTrue(remove_file(folder//"/x/"//odd_name//"/"//odd_name))
         call assertTrue(remove_file(folder//"/x/"//odd_name))
         call assertTrue(remove_file(folder//"/x"))
@@ -181,19 +190,23 @@ contains
         type(output_file_t) :: file
         type(error_t), allocatable :: error
         character(:), allocatable :: folder
-        character(60) :: names(100)
+        character(60) :: names(200)
         integer :: i
 
         folder = new_folder("taken")
         do i = 1, size(names)
             write (names(i), "(a, i0, a, i0, a)") "/.lagrangia-", c_getpid(), "-", i, ".tmp"
-            call write_file(folder//trim(names(i)), "old")
+            if (i <= 100) call write_file(folder//trim(names(i)), "old")
         end do
         call file%open(folder//"/a.dat", error)
         call file%write("new")
         call file%commit(error)
         call assertEqual("new", contents(folder//"/a.dat"))
         call assertTrue(remove_file(folder//"/a.dat"))
+        do i = 101, size(names)
+            call write_file(folder//trim(names(i)), "old")
+        end do
+        call remove_unfinished()  ! ours is finished: its name may be somebody else's by now
         do i = 1, size(names)
             call assertEqual("old", contents(folder//trim(names(i))))
             call assertTrue(remove_file(folder//trim(names(i))))

@@ -119,7 +119,6 @@ contains
             if (last < len(folder)) then
                 if (folder(last + 1:last + 1) /= "/") cycle
             end if
-            if (folder(last:last) == "/") cycle
             facts = look_at(folder(:last))
             if (facts%folder) cycle
             if (c_mkdir(folder(:last)//c_null_char, int(o"777", c_int)) == 0) cycle
@@ -183,12 +182,9 @@ contains
     subroutine hold_standard_units()
         !! Fill the places of a closed stdin, stdout or stderr (`>&-`) with an unwritable file, lest
         !! the next file opened take one of them and receive what is meant for the screen.
-        logical, save :: held = .false.
         type(c_ptr) :: stream
         integer :: status
 
-        if (held) return
-        held = .true.
         do
             stream = c_fopen("/dev/null"//c_null_char, "r"//c_null_char)
             if (.not. c_associated(stream)) return
