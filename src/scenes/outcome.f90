@@ -11,8 +11,9 @@ module lagrangia_outcome
     public :: from_closed_form, from_half_step
 
     character(*), parameter :: scorecard_legend = &
-        "drift and error: the largest of the run, absolute below 1 and relative above; "// &
-        "exact: against a"//new_line("a")//"closed form, estimate: against the run at half the step"
+        "drift: the largest change of an invariant, relative to its start or its natural size"// &
+        new_line("a")//"error: the largest, absolute below 1 and relative above; exact: against "// &
+        "a closed form,"//new_line("a")//"estimate: against the same run at half the step"
 
     integer, parameter :: from_closed_form = 1, from_half_step = 2
 
