@@ -8,6 +8,7 @@ module test_charged_particle
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
+    use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
     use motion, only: flow_derivative
     use random_states, only: draw_parameters, draw_state, restart_random, uniform
     use reference_checks, only: check_reference, check_state
@@ -31,6 +32,7 @@ contains
         call suite%addTest(TestMethod("invariants_follow_the_fields", &
                                       invariants_follow_the_fields))
         call suite%addTest(TestMethod("declared_invariants_hold", declared_invariants_hold))
+        call suite%addTest(TestMethod("p_is_the_canonical_momentum", p_is_the_canonical_momentum))
         call suite%addTest(TestMethod("undeclared_quantities_change", &
                                       undeclared_quantities_change))
         call suite%addTest(TestMethod("flags_follow_the_fields", flags_follow_the_fields))
@@ -137,6 +139,21 @@ contains
         call assertEqual([8.0_dp - 21.0_dp, -10.0_dp + 10.5_dp, 12.0_dp], &
                          [(particle%quantity(i, 4.0_dp, q, v), i=7, 9)], 1e-14_dp, "m v + e A")
     end subroutine declared_invariants_hold
+
+    subroutine p_is_the_canonical_momentum()
+        !! p_x, p_y, p_z are dL/dv.
+        type(charged_particle_t) :: particle
+        type(euler_lagrange_t) :: terms
+        real(dp), allocatable :: q(:), v(:)
+        real(dp) :: t
+        integer :: i
+
+        call restart_random()
+        call draw_parameters(particle, edges=.false.)
+        call draw_state(particle, t, q, v)
+        call expand_lagrangian(particle, t, q, v, terms)
+        call assertEqual(terms%dl_dv, [(particle%quantity(i, t, q, v), i=7, 9)], 1e-14_dp)
+    end subroutine p_is_the_canonical_momentum
 
     subroutine undeclared_quantities_change()
         !! Negative control: what is not declared is not conserved, at a random state.
@@ -395,10 +412,12 @@ contains
     end subroutine weak_fields_lose_no_digits
 
     subroutine many_turns_lose_no_digits()
-        !! After 1000 turns the errors are those of the angle, 6000 epsilon.
+        !! After 1000 turns the errors are those of the angle, 6000 epsilon; also of the slow
+        !! circle in a weak trap, although 160 million cyclotron turns go by meanwhile.
         type(charged_particle_t) :: particle
         type(charged_particle_reference_t) :: reference
         real(dp), parameter :: r0(3) = [1.0_dp, 2.0_dp, -0.5_dp], v0(3) = [0.4_dp, 0.3_dp, -1.1_dp]
+        real(dp) :: slow
         logical :: found
 
         call build(particle, 1.0_dp, 1.0_dp, [0.2_dp, 0.1_dp, 0.0_dp], [0.0_dp, 0.0_dp, 1.0_dp], &
@@ -406,6 +425,14 @@ contains
         call new_charged_particle_reference(reference, particle, 0.0_dp, r0, v0, found)
         associate (t => 2000.0_dp*pi)
             call check_state(reference, t, r0 + [0.1_dp, -0.2_dp, -1.1_dp]*t, v0, 4e-12_dp, "turns")
+        end associate
+        call build(particle, 1.0_dp, 1.0_dp, nil, [0.0_dp, 0.0_dp, 1.0_dp], 1e-6_dp)
+        slow = 2e-6_dp/(1.0_dp + sqrt(1.0_dp + 4e-6_dp))
+        call new_charged_particle_reference(reference, particle, 0.0_dp, [1.0_dp, 0.0_dp, 0.0_dp], &
+                                            [0.0_dp, slow, 0.0_dp], found)
+        associate (angle => slow*1e9_dp)
+            call check_state(reference, 1e9_dp, [cos(angle), sin(angle), 0.0_dp], &
+                             slow*[-sin(angle), cos(angle), 0.0_dp], 2e-12_dp, "slow circle")
         end associate
     end subroutine many_turns_lose_no_digits
 end module test_charged_particle

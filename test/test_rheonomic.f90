@@ -1,5 +1,6 @@
 module test_rheonomic
     !! Moving constraints: bead on a rotating wire, on a rotating hoop, pendulum on a shaken pivot.
+    use, intrinsic :: iso_fortran_env, only: real128
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
                      assertGreaterThan, assertLessThan, assertLessThanOrEqual, assertTrue
     use lagrangia_description, only: description_t
@@ -343,6 +344,7 @@ contains
         !! Bottom, top, both tilts, on any turn; nowhere else, and not in motion.
         type(rotating_hoop_t) :: hoop
         real(dp) :: tilt
+        integer :: i
 
         call set(hoop, [1.3_dp, 0.8_dp, 5.0_dp, 9.81_dp])
         tilt = acos(9.81_dp/20.0_dp)
@@ -352,10 +354,13 @@ contains
         call set(hoop, [1.3_dp, 0.8_dp, 3.0_dp, 9.81_dp])
         call stands([0.0_dp, pi], .true.)
         call stands([acos(3.0_dp**2*0.8_dp/9.81_dp), tilt], .false.)
-        ! omega^2 R is little more than g: the tilt is 2 asin(sqrt((1 - g/(omega^2 R))/2))
-        call set(hoop, [1.3_dp, 1.0_dp, 2.0_dp, 4.0_dp*(1.0_dp - 2.0_dp**(-30))])
-        call stands([2.0_dp*asin(2.0_dp**(-15.5_dp))], .true.)
-        call stands([2.0_dp*asin(2.0_dp**(-15.5_dp)) + 1e-14_dp], .false.)
+        ! omega^2 R little more than g, against quadruple precision
+        do i = 10, 40, 6
+            call set(hoop, [1.3_dp, 0.7_dp, 3.1_dp, 3.1_dp**2*0.7_dp*(1.0_dp - 2.0_dp**(-i))])
+            tilt = real(acos(real(hoop%g, real128)/real(3.1_dp**2*0.7_dp, real128)), dp)
+            call stands([tilt, -tilt], .true.)
+            call stands([tilt + 1e-14_dp], .false.)
+        end do
         call set(hoop, [1.3_dp, 0.8_dp, 0.0_dp, 0.0_dp])
         call stands([0.3_dp], .true.)
     contains
@@ -437,39 +442,41 @@ contains
 
     subroutine fast_drive_keeps_it_upright()
         !! Kapitza: upside down it stays for (a W)^2 > 2 g l, and falls below; his averaged energy
-        !! is constant to some a/l, while T + V is not.
+        !! is constant to a tenth of a/l, while T + V is not.
         real(dp) :: largest, slow, mechanical
 
-        call swing(120.0_dp, largest, slow, mechanical)
+        call swing(0.05_dp, 120.0_dp, largest, slow, mechanical)
         call assertLessThan(largest, 0.3_dp, message="stays upright")
-        call assertLessThan(slow, 0.05_dp, message="averaged energy")
+        call assertLessThan(slow, 0.005_dp, message="averaged energy")
         call assertGreaterThan(mechanical, 1.0_dp, message="T + V")
-        call swing(70.0_dp, largest, slow, mechanical)
+        call swing(0.005_dp, 1200.0_dp, largest, slow, mechanical)
+        call assertLessThan(slow, 0.0005_dp, message="averaged energy")
+        call swing(0.05_dp, 70.0_dp, largest, slow, mechanical)
         call assertGreaterThan(largest, 1.5_dp, message="falls")
     end subroutine fast_drive_keeps_it_upright
 
-    subroutine swing(w, largest, slow, mechanical)
-        !! 10 s from 0.2 rad off the top with a = 0.05, l = 1: the largest angle from the top,
+    subroutine swing(a, w, largest, slow, mechanical)
+        !! 4 s from 0.2 rad off the top, l = 1, by 40000 steps: the largest angle from the top,
         !! and the spread of both energies in units of m g l.
-        real(dp), intent(in) :: w
+        real(dp), intent(in) :: a, w
         real(dp), intent(out) :: largest, slow, mechanical
         type(driven_pendulum_t) :: pendulum
         type(rk4_t) :: rk4
         type(error_t), allocatable :: error
-        real(dp) :: q(1), v(1), t, energies(2, 0:2500)
+        real(dp) :: q(1), v(1), t, energies(2, 0:10000)
         integer :: k
 
-        call set(pendulum, [1.3_dp, 1.0_dp, 9.81_dp, 0.05_dp, w])
+        call set(pendulum, [1.3_dp, 1.0_dp, 9.81_dp, a, w])
         call new_rk4(rk4)
         call rk4%prepare(pendulum, error)
         q = pi - 0.2_dp
         v = 0.0_dp
         largest = 0.2_dp
-        do k = 0, 2500
-            t = k*4e-3_dp
+        do k = 0, 10000
+            t = k*4e-4_dp
             largest = max(largest, abs(q(1) - pi))
             energies(:, k) = [pendulum%quantity(3, t, q, v), pendulum%quantity(1, t, q, v)]
-            call rk4%advance(pendulum, 0.0_dp, 1e-3_dp, int(4*k, i8), 4_i8, q, v)
+            call rk4%advance(pendulum, 0.0_dp, 1e-4_dp, int(4*k, i8), 4_i8, q, v)
         end do
         slow = (maxval(energies(1, :)) - minval(energies(1, :)))/(1.3_dp*9.81_dp)
         mechanical = (maxval(energies(2, :)) - minval(energies(2, :)))/(1.3_dp*9.81_dp)

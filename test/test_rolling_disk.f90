@@ -7,7 +7,8 @@ module test_rolling_disk
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
-    use lagrangia_lagrange, only: accelerations_from_lagrangian
+    use lagrangia_lagrange, only: accelerations_from_lagrangian, euler_lagrange_t, &
+                                  expand_lagrangian
     use lagrangia_rolling_disk, only: rolling_disk_t
     use lagrangia_rolling_disk_reference, only: new_rolling_disk_reference, &
                                                 rolling_disk_reference_t
@@ -46,6 +47,7 @@ contains
                                       level_conserves_p_phi_not_p_x))
         call suite%addTest(TestMethod("incline_does_not_conserve_p_phi", &
                                       incline_does_not_conserve_p_phi))
+        call suite%addTest(TestMethod("p_theta_is_the_momentum", p_theta_is_the_momentum))
         call suite%addTest(TestMethod("orbit_is_the_centre_of_the_circle", &
                                       orbit_is_the_centre_of_the_circle))
         call suite%addTest(TestMethod("reference_gives_the_notes_circle", &
@@ -268,6 +270,27 @@ contains
         call flow_derivative(disk, 2, t, q, v, rate, scale)
         call assertEqual(1.7_dp*9.81_dp*sin(-0.3_dp)*0.6_dp*sin(q(4)), rate, differencing*scale)
     end subroutine incline_does_not_conserve_p_phi
+
+    subroutine p_theta_is_the_momentum()
+        !! p_theta = dL/dtheta_dot. p_phi is dL/dphi_dot once the disk rolls: with the momenta
+        !! p_x, p_y that rolling adds, along (r sin(theta), -r cos(theta)).
+        type(rolling_disk_t) :: disk
+        type(euler_lagrange_t) :: terms
+        real(dp), allocatable :: q(:), v(:)
+        real(dp) :: t
+
+        call restart_random()
+        call draw_parameters(disk, edges=.false.)
+        call draw_state(disk, t, q, v)
+        call expand_lagrangian(disk, t, q, v, terms)
+        associate (p => terms%dl_dv, r => disk%r)
+            call assertEqual(p(4), disk%quantity(1, t, q, v), rounding*abs(p(4)), "p_theta")
+            call assertEqual(p(3) + r*(sin(q(4))*p(1) - cos(q(4))*p(2)), &
+                             disk%quantity(2, t, q, v), rounding*sum(abs(p)), "p_phi")
+            call assertEqual(p(1:2), [disk%quantity(10, t, q, v), disk%quantity(11, t, q, v)], &
+                             rounding*sum(abs(p)), "p_x, p_y")
+        end associate
+    end subroutine p_theta_is_the_momentum
 
     subroutine orbit_is_the_centre_of_the_circle()
         !! (orbit_x, orbit_y)/theta_dot^2 = (x0 + rho cos(theta0), y0 + rho sin(theta0)), and
