@@ -154,7 +154,7 @@ contains
         character(name_length), allocatable :: names(:)
         integer :: i
 
-        names = scene%columns
+        allocate (names, source=scene%columns)
         do i = 1, size(scene%expectations)
             associate (name => scene%expectations(i)%name)
                 if (is_period(name) .or. any(names == name)) cycle
