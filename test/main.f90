@@ -27,6 +27,10 @@ module suites
     use test_processes, only: processes_suite
     use test_quadrature, only: quadrature_suite
     use test_rheonomic, only: rheonomic_suite
+    use test_rolling_disk_reference, only: rolling_disk_reference_suite
+    use test_charged_particle_reference, only: charged_particle_reference_suite
+    use test_rotating_reference, only: rotating_reference_suite
+    use test_driven_pendulum, only: driven_pendulum_suite
     use test_rolling_disk, only: rolling_disk_suite
     use test_sinc, only: sinc_suite
     use test_systems, only: systems_suite
@@ -68,6 +72,10 @@ contains
         call suite%addTest(processes_suite())
         call suite%addTest(quadrature_suite())
         call suite%addTest(rheonomic_suite())
+        call suite%addTest(rolling_disk_reference_suite())
+        call suite%addTest(charged_particle_reference_suite())
+        call suite%addTest(rotating_reference_suite())
+        call suite%addTest(driven_pendulum_suite())
         call suite%addTest(rolling_disk_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(systems_suite())
