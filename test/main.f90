@@ -6,6 +6,7 @@ module suites
     use test_charged_particle_reference, only: charged_particle_reference_suite
     use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
+    use test_discrete_maps, only: discrete_maps_suite
     use test_double_pendulum, only: double_pendulum_suite
     use test_driven_pendulum, only: driven_pendulum_suite
     use test_elliptic, only: elliptic_suite
@@ -15,6 +16,7 @@ module suites
     use test_harness_order, only: harness_order_suite
     use test_hyperdual, only: hyperdual_suite
     use test_lapack, only: lapack_suite
+    use test_method_orders, only: method_orders_suite
     use test_namelist, only: namelist_suite
     use test_namelist_file, only: namelist_file_suite
     use test_namelist_limits, only: namelist_limits_suite
@@ -32,6 +34,7 @@ module suites
     use test_rolling_disk, only: rolling_disk_suite
     use test_rolling_disk_reference, only: rolling_disk_reference_suite
     use test_rotating_reference, only: rotating_reference_suite
+    use test_scene_files, only: scene_files_suite
     use test_sinc, only: sinc_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
@@ -53,6 +56,7 @@ contains
         call suite%addTest(charged_particle_reference_suite())
         call suite%addTest(console_suite())
         call suite%addTest(constant_accelerations_suite())
+        call suite%addTest(discrete_maps_suite())
         call suite%addTest(double_pendulum_suite())
         call suite%addTest(driven_pendulum_suite())
         call suite%addTest(elliptic_suite())
@@ -60,6 +64,7 @@ contains
         call suite%addTest(gsl_suite())
         call suite%addTest(hyperdual_suite())
         call suite%addTest(lapack_suite())
+        call suite%addTest(method_orders_suite())
         call suite%addTest(namelist_suite())
         call suite%addTest(namelist_file_suite())
         call suite%addTest(namelist_limits_suite())
@@ -77,6 +82,7 @@ contains
         call suite%addTest(rolling_disk_suite())
         call suite%addTest(rolling_disk_reference_suite())
         call suite%addTest(rotating_reference_suite())
+        call suite%addTest(scene_files_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(text_suite())
