@@ -1,11 +1,13 @@
 module test_scene_files
     !! Every shipped scene runs within its own tolerances and comes back from its own echo; wrong
     !! scenes are refused in these words.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_catalogue, only: system_names
     use lagrangia_command_line, only: word_t
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, status_numbers
+    use lagrangia_json, only: json_number, json_string
     use lagrangia_kinds, only: dp
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: from_half_step, outcome_t
@@ -31,6 +33,7 @@ contains
         call suite%addTest(TestMethod("every_echo_is_the_scene", every_echo_is_the_scene))
         call suite%addTest(TestMethod("wrong_scenes_are_refused", wrong_scenes_are_refused))
         call suite%addTest(TestMethod("overrides_override", overrides_override))
+        call suite%addTest(TestMethod("json_has_no_nan", json_has_no_nan))
         call suite%addTest(TestMethod("an_estimate_says_so", an_estimate_says_so))
         call suite%addTest(TestMethod("what_is_not_asked_is_not_computed", &
                                       what_is_not_asked_is_not_computed))
@@ -71,14 +74,16 @@ contains
         type(error_t), allocatable :: error
         class(system_t), allocatable :: system
         type(scene_t) :: scene, again
+        type(word_t) :: later(1)
         type(description_t) :: d
         character(scene_line_length), allocatable :: lines(:)
         character(:), allocatable :: text
         integer :: i, k
 
+        later(1)%text = "scene%t0=0.3"  ! a default does not show whether it is echoed
         call shipped_scenes(paths, error)
         do i = 1, size(paths)
-            call read_scene(paths(i)%text, [word_t ::], scene, system, error)
+            call read_scene(paths(i)%text, later, scene, system, error)
             call system%describe(d)
             allocate (lines, source=scene_lines(scene, d))
             text = ""
@@ -155,6 +160,13 @@ contains
         call assertEqual(message, error%message(:min(len(message), len(error%message))))
         call assertEqual(2, error%status)
     end subroutine refuse
+
+    subroutine json_has_no_nan()
+        !! Numbers with 17 digits, strings escaped, `null` for what is not a number.
+        call assertEqual("1.0000000000000001E-001", json_number(0.1_dp))
+        call assertEqual("null", json_number(ieee_value(1.0_dp, ieee_quiet_nan)))
+        call assertEqual('"a\"b\\c\u0009."', json_string('a"b\c'//achar(9)//"."))
+    end subroutine json_has_no_nan
 
     subroutine overrides_override()
         !! `--set` changes the scene's and the system's values.
