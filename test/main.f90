@@ -1,9 +1,12 @@
 module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
+    use test_canonical, only: canonical_suite
     use test_cart_pendulum, only: cart_pendulum_suite
     use test_charged_particle, only: charged_particle_suite
     use test_charged_particle_reference, only: charged_particle_reference_suite
+    use test_compensated, only: compensated_suite
+    use test_compositions, only: compositions_suite
     use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
     use test_discrete_maps, only: discrete_maps_suite
@@ -11,12 +14,15 @@ module suites
     use test_driven_pendulum, only: driven_pendulum_suite
     use test_elliptic, only: elliptic_suite
     use test_errors, only: errors_suite
+    use test_exact_maps, only: exact_maps_suite
     use test_gsl, only: gsl_suite
     use test_harness, only: harness_suite
     use test_harness_order, only: harness_order_suite
     use test_hyperdual, only: hyperdual_suite
     use test_lapack, only: lapack_suite
     use test_method_orders, only: method_orders_suite
+    use test_method_structure, only: method_structure_suite
+    use test_methods, only: methods_suite
     use test_namelist, only: namelist_suite
     use test_namelist_file, only: namelist_file_suite
     use test_namelist_limits, only: namelist_limits_suite
@@ -78,6 +84,12 @@ contains
         call suite%addTest(pendulum_suite())
         call suite%addTest(processes_suite())
         call suite%addTest(quadrature_suite())
+        call suite%addTest(compensated_suite())
+        call suite%addTest(canonical_suite())
+        call suite%addTest(methods_suite())
+        call suite%addTest(method_structure_suite())
+        call suite%addTest(exact_maps_suite())
+        call suite%addTest(compositions_suite())
         call suite%addTest(rheonomic_suite())
         call suite%addTest(rolling_disk_suite())
         call suite%addTest(rolling_disk_reference_suite())

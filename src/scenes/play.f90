@@ -1,12 +1,13 @@
 module lagrangia_play
     !! One scene from its data to its data file, picture and row of the scorecard.
-    use lagrangia_catalogue, only: new_integrator, new_reference
+    use lagrangia_catalogue, only: new_reference
     use lagrangia_columns, only: new_columns
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_gnuplot, only: new_panels, panel_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_methods, only: new_integrator, prepare_integrator
     use lagrangia_observer, only: observer_box_t, observer_t
     use lagrangia_outcome, only: from_closed_form, from_half_step, measure_t, outcome_t
     use lagrangia_period, only: period_t
@@ -44,12 +45,9 @@ contains
         call begin_outcome(scene, p%outcome)
         call new_plan(p%plan, scene%t0, scene%dt, scene%duration, scene%every, error)
         if (allocated(error)) return
-        call new_integrator(trim(scene%method), p%integrator, error)
-        if (allocated(error)) then
-            error%key = "method"
-            return
-        end if
-        call p%integrator%prepare(system, error)
+        call new_integrator(trim(scene%method), p%integrator, error, scene%compensated)
+        if (allocated(error)) return
+        call prepare_integrator(p%integrator, system, error)
         if (allocated(error)) return
         call new_reference(system, scene%t0, scene%q, scene%v, p%reference)
         call new_record(scene, system, p, error)

@@ -4,8 +4,8 @@ module lagrangia_scene_keys
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_namelist, only: get_integer, get_real, get_reals, get_string, get_strings, &
-                                  has_key, namelist_t, refuse_value
+    use lagrangia_namelist, only: get_integer, get_logical, get_real, get_reals, get_string, &
+                                  get_strings, has_key, namelist_t, refuse_value
     use lagrangia_scene, only: expectation_t, scene_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: join, to_text
@@ -14,15 +14,15 @@ module lagrangia_scene_keys
     public :: keys, key_length, expectation_keys, read_columns, read_state, read_times
 
     character(name_length), parameter :: keys(*) = [character(name_length) :: &
-        "title", "system", "method", "t0", "dt", "duration", "every", "samples", "q", "v", &
-        "columns", "plot", "period_of", "output"]
+        "title", "system", "method", "compensated", "t0", "dt", "duration", "every", "samples", &
+        "q", "v", "columns", "plot", "period_of", "output"]
     integer, parameter :: key_length = name_length + len("expect_")
     integer, parameter :: most = 10000  !! values of one key
 
 contains
 
     subroutine read_times(tree, scene, error)
-        !! Method, step, duration, samples.
+        !! Method, how it adds, step, duration, samples.
         type(namelist_t), intent(inout) :: tree
         type(scene_t), intent(inout) :: scene
         type(error_t), allocatable, intent(out) :: error
@@ -31,6 +31,8 @@ contains
         call get_string(tree, "scene", "title", scene%title, error)
         if (allocated(error)) return
         call get_string(tree, "scene", "method", scene%method, error)
+        if (allocated(error)) return
+        call get_logical(tree, "scene", "compensated", scene%compensated, error)
         if (allocated(error)) return
         call get_real(tree, "scene", "t0", scene%t0, error)
         if (allocated(error)) return
