@@ -9,7 +9,6 @@ module suites
     use test_compositions, only: compositions_suite
     use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
-    use test_discrete_maps, only: discrete_maps_suite
     use test_double_pendulum, only: double_pendulum_suite
     use test_driven_pendulum, only: driven_pendulum_suite
     use test_elliptic, only: elliptic_suite
@@ -20,7 +19,6 @@ module suites
     use test_harness_order, only: harness_order_suite
     use test_hyperdual, only: hyperdual_suite
     use test_lapack, only: lapack_suite
-    use test_method_orders, only: method_orders_suite
     use test_method_structure, only: method_structure_suite
     use test_methods, only: methods_suite
     use test_namelist, only: namelist_suite
@@ -57,20 +55,24 @@ contains
         suite = TestSuite("lagrangia")
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
+        call suite%addTest(canonical_suite())
         call suite%addTest(cart_pendulum_suite())
         call suite%addTest(charged_particle_suite())
         call suite%addTest(charged_particle_reference_suite())
+        call suite%addTest(compensated_suite())
+        call suite%addTest(compositions_suite())
         call suite%addTest(console_suite())
         call suite%addTest(constant_accelerations_suite())
-        call suite%addTest(discrete_maps_suite())
         call suite%addTest(double_pendulum_suite())
         call suite%addTest(driven_pendulum_suite())
         call suite%addTest(elliptic_suite())
         call suite%addTest(errors_suite())
+        call suite%addTest(exact_maps_suite())
         call suite%addTest(gsl_suite())
         call suite%addTest(hyperdual_suite())
         call suite%addTest(lapack_suite())
-        call suite%addTest(method_orders_suite())
+        call suite%addTest(method_structure_suite())
+        call suite%addTest(methods_suite())
         call suite%addTest(namelist_suite())
         call suite%addTest(namelist_file_suite())
         call suite%addTest(namelist_limits_suite())
@@ -84,12 +86,6 @@ contains
         call suite%addTest(pendulum_suite())
         call suite%addTest(processes_suite())
         call suite%addTest(quadrature_suite())
-        call suite%addTest(compensated_suite())
-        call suite%addTest(canonical_suite())
-        call suite%addTest(methods_suite())
-        call suite%addTest(method_structure_suite())
-        call suite%addTest(exact_maps_suite())
-        call suite%addTest(compositions_suite())
         call suite%addTest(rheonomic_suite())
         call suite%addTest(rolling_disk_suite())
         call suite%addTest(rolling_disk_reference_suite())
