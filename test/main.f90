@@ -10,6 +10,7 @@ module suites
     use test_harness, only: harness_suite
     use test_harness_order, only: harness_order_suite
     use test_hyperdual, only: hyperdual_suite
+    use test_lanes, only: lanes_suite
     use test_lapack, only: lapack_suite
     use test_namelist, only: namelist_suite
     use test_namelist_file, only: namelist_file_suite
@@ -41,6 +42,7 @@ contains
         call suite%addTest(oscillator_suite())
         call suite%addTest(pendulum_suite())
         call suite%addTest(systems_suite())
+        call suite%addTest(lanes_suite())
         call suite%addTest(text_suite())
         call suite%addTest(namelist_suite())
         call suite%addTest(namelist_values_suite())

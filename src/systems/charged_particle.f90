@@ -10,7 +10,7 @@ module lagrangia_charged_particle
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: dot_product, hyperdual_t, operator(*), operator(+), operator(-)
     use lagrangia_kinds, only: dp
-    use lagrangia_system, only: check_parameters, system_t
+    use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
     public :: charged_particle_t, cross
@@ -26,6 +26,7 @@ module lagrangia_charged_particle
         procedure :: describe
         procedure :: configure
         procedure :: accelerations
+        procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
         procedure :: quantity => momentum_or_speed
@@ -257,4 +258,17 @@ contains
 
         c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
     end function cross_real_hyperdual
+
+    pure subroutine accelerations_lanes(self, t, q, v, a)
+        !! `accelerations`, in all lanes at once.
+        class(charged_particle_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+
+        associate (m => self%m, e => self%charge, b => self%magnetic, k => self%trap)
+            a(:, 1) = (e*(self%electric(1) + v(:, 2)*b(3) - v(:, 3)*b(2)) - k*q(:, 1))/m
+            a(:, 2) = (e*(self%electric(2) + v(:, 3)*b(1) - v(:, 1)*b(3)) - k*q(:, 2))/m
+            a(:, 3) = (e*(self%electric(3) + v(:, 1)*b(2) - v(:, 2)*b(1)) - k*q(:, 3))/m
+        end associate
+    end subroutine accelerations_lanes
 end module lagrangia_charged_particle
