@@ -22,7 +22,10 @@ module lagrangia
                                      parameter_t, point, point_t, positive, quantity, &
                                      quantity_t, vector
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_hyperdual
+    use lagrangia_hyperdual, only: abs, assignment(=), atan, cos, cosh, dot_product, exp, &
+                                   hyperdual, hyperdual_t, log, operator(*), operator(**), &
+                                   operator(+), operator(-), operator(/), operator(<), &
+                                   operator(>), sin, sinh, sqrt, sum, tan, tanh
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_lagrange, only: accelerations_from_lagrangian, energy_from_lagrangian, &

@@ -2,6 +2,8 @@ module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
     use test_cart_pendulum, only: cart_pendulum_suite
+    use test_charged_particle, only: charged_particle_suite
+    use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
     use test_double_pendulum, only: double_pendulum_suite
     use test_elliptic, only: elliptic_suite
@@ -17,9 +19,17 @@ module suites
     use test_namelist_limits, only: namelist_limits_suite
     use test_namelist_refusals, only: namelist_refusals_suite
     use test_namelist_values, only: namelist_values_suite
+    use test_npy, only: npy_suite
+    use test_number_text, only: number_text_suite
     use test_oscillator, only: oscillator_suite
+    use test_output_failures, only: output_failures_suite
+    use test_output_file, only: output_file_suite
     use test_pendulum, only: pendulum_suite
+    use test_processes, only: processes_suite
     use test_quadrature, only: quadrature_suite
+    use test_rheonomic, only: rheonomic_suite
+    use test_rolling_disk, only: rolling_disk_suite
+    use test_sinc, only: sinc_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
     implicit none (type, external)
@@ -35,25 +45,35 @@ contains
         suite = TestSuite("lagrangia")
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
-        call suite%addTest(errors_suite())
         call suite%addTest(cart_pendulum_suite())
+        call suite%addTest(charged_particle_suite())
+        call suite%addTest(console_suite())
         call suite%addTest(constant_accelerations_suite())
         call suite%addTest(double_pendulum_suite())
+        call suite%addTest(elliptic_suite())
+        call suite%addTest(errors_suite())
+        call suite%addTest(gsl_suite())
+        call suite%addTest(hyperdual_suite())
+        call suite%addTest(lapack_suite())
+        call suite%addTest(namelist_suite())
+        call suite%addTest(namelist_file_suite())
+        call suite%addTest(namelist_limits_suite())
+        call suite%addTest(namelist_refusals_suite())
+        call suite%addTest(namelist_values_suite())
+        call suite%addTest(npy_suite())
+        call suite%addTest(number_text_suite())
         call suite%addTest(oscillator_suite())
+        call suite%addTest(output_failures_suite())
+        call suite%addTest(output_file_suite())
         call suite%addTest(pendulum_suite())
+        call suite%addTest(processes_suite())
+        call suite%addTest(quadrature_suite())
+        call suite%addTest(rheonomic_suite())
+        call suite%addTest(rolling_disk_suite())
+        call suite%addTest(sinc_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(lanes_suite())
         call suite%addTest(text_suite())
-        call suite%addTest(namelist_suite())
-        call suite%addTest(namelist_values_suite())
-        call suite%addTest(namelist_refusals_suite())
-        call suite%addTest(namelist_limits_suite())
-        call suite%addTest(namelist_file_suite())
-        call suite%addTest(lapack_suite())
-        call suite%addTest(elliptic_suite())
-        call suite%addTest(gsl_suite())
-        call suite%addTest(quadrature_suite())
-        call suite%addTest(hyperdual_suite())
     end function load_tests
 end module suites
 

@@ -1,7 +1,7 @@
 module random_states
     !! Parameters and states at random, the same ones in every run.
-    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-    use funit, only: assertFalse
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
+    use funit, only: assertFalse, assertTrue
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
@@ -22,7 +22,7 @@ contains
         logical, intent(in) :: edges
         type(description_t) :: d
         type(error_t), allocatable :: error
-        real(dp), allocatable :: values(:)
+        real(dp), allocatable :: values(:), read_back(:)
         real(dp) :: lowest, chance
         integer :: i, j, k
 
@@ -48,6 +48,10 @@ contains
         end do
         call system%configure(values, error)
         call assertFalse(allocated(error), trim(d%name)//": parameters inside their domains")
+        call system%describe(d)
+        allocate (read_back, source=default_values(d))
+        call assertTrue(all(abs(read_back - values) <= 0.0_dp .or. ieee_is_nan(values)), &
+                        trim(d%name)//": each parameter goes where it belongs")
     end subroutine draw_parameters
 
     subroutine draw_state(system, t, q, v)

@@ -229,7 +229,7 @@ contains
             call draw_state(system, t, q, v)
             call system%describe(d)
             call expand_lagrangian(system, t, q, v, terms)
-            allocate (r(3, size(d%points)), mass(system%ndof, system%ndof))
+            allocate (r(3, size(d%points)), mass(system%ndof, system%ndof), qq(system%ndof))
             mass = 0.0_dp
             do i = 1, system%ndof
                 do j = 1, system%ndof
@@ -244,7 +244,7 @@ contains
             end do
             call assertEqual(terms%mass, mass, rounding*maxval(abs(terms%mass)), &
                              trim(d%name)//": mass matrix from positions")
-            deallocate (r, mass)
+            deallocate (r, mass, qq)
             if (anyExceptions()) return
         end do
     end subroutine check_points

@@ -201,6 +201,7 @@ contains
     subroutine wedge_limits()
         !! A heavy wedge stays; beside a vertical one the block falls; a light one is thrown out.
         type(wedge_t) :: system
+        type(description_t) :: d
         type(error_t), allocatable :: error
         real(dp), parameter :: rest(2) = 0.0_dp
         real(dp) :: a(2)
@@ -214,6 +215,8 @@ contains
         call system%configure([0.7_dp, 2.0_dp, 0.0_dp, 9.81_dp], error)
         call system%accelerations(0.0_dp, rest, rest, a)
         call assertEqual([0.0_dp, 0.0_dp], a, 0.0_dp, "level")
+        call system%describe(d)
+        call assertTrue(d%quantities(3)%conserved, "p_q1 on the level")
         call system%configure([0.7_dp, 1e-20_dp, 0.6_dp, 9.81_dp], error)
         call system%accelerations(0.0_dp, rest, rest, a)
         call assertEqual([9.81_dp/sin(0.6_dp), -9.81_dp/tan(0.6_dp)], a, 4e-15_dp, "light wedge")

@@ -4,12 +4,12 @@ module test_elliptic
     !! The expected numbers are mpmath's, at 60 to 700 digits, from the doubles given here.
     !! Tolerances: one multiplication rounds the argument, so no result can be better than
     !! `epsilon*(|f| + |u f'(u)|)`; 8 times that is allowed for the dozen roundings on the way.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan, ieee_positive_inf, &
+                                             ieee_quiet_nan, ieee_value
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertLessThan, &
                      assertRelativelyEqual, assertTrue
     use lagrangia_elliptic, only: agm, amplitude, elliptic_k, jacobi
     use lagrangia_kinds, only: dp
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan, ieee_positive_inf, &
-                                             ieee_quiet_nan, ieee_value
     implicit none (type, external)
     private
     public :: elliptic_suite

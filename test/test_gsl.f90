@@ -1,11 +1,11 @@
 module test_gsl
     !! GSL's `elljac` behind our door: right, or refused.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_elliptic, only: jacobi
     use lagrangia_errors, only: error_t, status_library, status_numbers
     use lagrangia_gsl, only: jacobi_sn_cn_dn
     use lagrangia_kinds, only: dp
-    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     implicit none (type, external)
     private
     public :: gsl_suite

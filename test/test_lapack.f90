@@ -4,12 +4,12 @@ module test_lapack
     !! Right-hand sides are built from the solution in integers, so both are exact. Gaussian
     !! elimination loses a few times n epsilon times the condition of the balanced matrix, below 100
     !! in all that are solved here: 1e3 epsilon.
+    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_quiet_nan, ieee_value
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
                      assertRelativelyEqual, assertTrue
     use lagrangia_errors, only: error_t, status_library
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
-    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_quiet_nan, ieee_value
     implicit none (type, external)
     private
     public :: lapack_suite

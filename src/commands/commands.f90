@@ -6,9 +6,9 @@ module lagrangia_commands
     use lagrangia_errors, only: error_t
     use lagrangia_interrupt, only: catch_interrupts
     use lagrangia_list, only: list_command
-    use lagrangia_output_file, only: remove_unfinished
     use lagrangia_registry, only: check_line, commands, help_text, options
     use lagrangia_run_command, only: run_command
+    use lagrangia_unfinished, only: remove_unfinished
     use lagrangia_version, only: build_text, version
     implicit none (type, external)
     private

@@ -5,7 +5,8 @@ module lagrangia_run_command
     use lagrangia_errors, only: error_t, fail, status_interrupted, status_not_held, &
                                 status_terminated
     use lagrangia_observer, only: observer_t
-    use lagrangia_outcome, only: outcome_json, outcome_t, scorecard_head, scorecard_row
+    use lagrangia_outcome, only: outcome_json, outcome_t, scorecard_head, scorecard_legend, &
+                                 scorecard_row
     use lagrangia_play, only: play
     use lagrangia_progress, only: progress_t
     use lagrangia_scene, only: scene_t
@@ -84,7 +85,12 @@ contains
                 missed = missed + 1
             end if
         end do
-        if (json) call put_line("]")
+        if (json) then
+            call put_line("]")
+        else if (.not. quiet) then
+            call put_line(scorecard_legend)
+            call put_line("data files and gnuplot scripts: "//folder)
+        end if
         if (missed > 0 .and. .not. allocated(error)) call fail(error, to_text(missed)//" of "// &
             to_text(size(paths))//" scenes did not hold their tolerances", status_not_held)
     contains

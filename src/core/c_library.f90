@@ -10,6 +10,7 @@ module lagrangia_c_library
               c_isatty, c_lstat, c_mkdir, c_realpath, c_remove, c_rename, c_signal, c_stat, &
               c_strerror, c_strlen, c_waitpid, c_write
 
+    ! allow(assumed-size): C takes the address of the first element
     interface
         function c_fopen(path, mode) bind(c, name="fopen") result(stream)
             import :: c_char, c_ptr
@@ -207,10 +208,12 @@ module lagrangia_c_library
 
         subroutine c_stat() bind(c, name="_gfortran_stat_i8_sub")
             !! Not called as declared: see `look_at` in lagrangia_files.
+            implicit none (type, external)
         end subroutine c_stat
 
         subroutine c_lstat() bind(c, name="_gfortran_lstat_i8_sub")
             !! As `c_stat`, of a link itself.
+            implicit none (type, external)
         end subroutine c_lstat
     end interface
 end module lagrangia_c_library

@@ -8,14 +8,14 @@ module lagrangia_console
     use, intrinsic :: iso_fortran_env, only: error_unit, input_unit, output_unit
     use lagrangia_c_library, only: c_fdopen, c_fflush, c_fwrite, c_isatty, c_write
     use lagrangia_errors, only: error_t, fail, status_file
-    use lagrangia_files, only: e_bad_unit, hold_standard_units, last_error, reason
+    use lagrangia_files, only: e_bad_unit, last_error, reason
     implicit none (type, external)
     private
     public :: console_failed, finish_console, is_terminal, note, put, put_line, &
               show_progress, terminal_width
 
-    type(c_ptr), save :: stream = c_null_ptr  !! C's `FILE *` for stdout
-    integer, save :: failure = 0              !! the system's number of the first failure
+    type(c_ptr) :: stream = c_null_ptr  !! C's `FILE *` for stdout
+    integer :: failure = 0              !! the system's number of the first failure
 
 contains
 
@@ -26,7 +26,6 @@ contains
 
         if (failure /= 0) return
         if (.not. c_associated(stream)) then
-            call hold_standard_units()
             stream = c_fdopen(1_c_int, "w"//c_null_char)
             if (.not. c_associated(stream)) then
                 failure = e_bad_unit
@@ -52,7 +51,6 @@ contains
         integer :: i
 
         call flush_console()
-        call hold_standard_units()
         line = "lagrangia: "//text
         do i = 1, len(line)
             if (iachar(line(i:i)) < 32 .or. iachar(line(i:i)) == 127) line(i:i) = "?"

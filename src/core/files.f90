@@ -9,11 +9,11 @@ module lagrangia_files
     private
     public :: facts_t, folder_of, hold_standard_units, last_error, look_at, make_folders, &
               reason, resolved, same_file
-    public :: e_access, e_bad_unit, e_exists, e_input_output, e_invalid
+    public :: e_bad_unit, e_exists, e_input_output, e_invalid, e_missing
 
-    integer, parameter :: e_input_output = 5  !! EIO; these five are the same on every Unix
+    integer, parameter :: e_missing = 2       !! ENOENT; these five are the same on every Unix
+    integer, parameter :: e_input_output = 5  !! EIO
     integer, parameter :: e_bad_unit = 9      !! EBADF
-    integer, parameter :: e_access = 13       !! EACCES
     integer, parameter :: e_exists = 17       !! EEXIST
     integer, parameter :: e_invalid = 22      !! EINVAL
 
@@ -25,6 +25,7 @@ module lagrangia_files
     type :: facts_t
         !! What the system says of a name.
         logical :: found = .false.    !! something has this name
+        integer :: status = 0         !! otherwise the system's error number
         logical :: folder = .false.   !! it is a folder
         logical :: regular = .false.  !! it is a regular file
         logical :: link = .false.     !! it is a symbolic link (only if links are not followed)
@@ -66,6 +67,7 @@ contains
         call c_f_procpointer(address, ask)
         call ask(path//c_null_char, values, status)
         facts%found = status == 0
+        facts%status = int(status)
         if (.not. facts%found) return
         facts%device = values(1)
         facts%inode = values(2)
@@ -117,7 +119,6 @@ contains
             if (last < len(folder)) then
                 if (folder(last + 1:last + 1) /= "/") cycle
             end if
-            if (folder(last:last) == "/") cycle
             facts = look_at(folder(:last))
             if (facts%folder) cycle
             if (c_mkdir(folder(:last)//c_null_char, int(o"777", c_int)) == 0) cycle
@@ -181,12 +182,9 @@ contains
     subroutine hold_standard_units()
         !! Fill the places of a closed stdin, stdout or stderr (`>&-`) with an unwritable file, lest
         !! the next file opened take one of them and receive what is meant for the screen.
-        logical, save :: held = .false.
         type(c_ptr) :: stream
         integer :: status
 
-        if (held) return
-        held = .true.
         do
             stream = c_fopen("/dev/null"//c_null_char, "r"//c_null_char)
             if (.not. c_associated(stream)) return

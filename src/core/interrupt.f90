@@ -15,7 +15,7 @@ module lagrangia_interrupt
 
     integer(c_intptr_t), parameter :: ignored = 1  !! C's SIG_IGN
 
-    integer(c_int), volatile, save :: caught = 0  !! the first signal that came
+    integer(c_int), volatile :: caught = 0  !! the first signal that came
 
 contains
 

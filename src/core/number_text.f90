@@ -21,6 +21,7 @@ module lagrangia_number_text
 
 contains
 
+    ! allow(assumed-size-character-intent): nothing is cut
     pure subroutine write_row(values, row, length)
         !! A line of a text table: every value as `es24.16e3`, a blank between two, a newline.
         real(dp), intent(in) :: values(:)
@@ -37,6 +38,7 @@ contains
         row(length:length) = new_line("a")
     end subroutine write_row
 
+    ! allow(assumed-size-character-intent): nothing is cut
     pure subroutine write_csv_row(values, row, length)
         !! A line of a comma-separated table: the same digits without padding.
         real(dp), intent(in) :: values(:)

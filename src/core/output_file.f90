@@ -4,15 +4,16 @@ module lagrangia_output_file
     !! All goes through C's `fwrite`: libgfortran reports no full disk and no broken pipe.
     use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_long, c_null_char, c_null_ptr, &
         c_ptr, c_size_t
-    use lagrangia_c_library, only: c_access, c_chmod, c_fclose, c_fflush, c_fopen, c_fseek, &
-        c_fwrite, c_fwrite_reals, c_getpid, c_remove, c_rename
+    use lagrangia_c_library, only: c_access, c_chmod, c_fclose, c_fopen, c_fseek, c_fwrite, &
+        c_fwrite_reals, c_getpid, c_remove, c_rename
     use lagrangia_errors, only: error_t, fail, status_file
-    use lagrangia_files, only: e_access, e_bad_unit, e_exists, e_invalid, facts_t, folder_of, &
+    use lagrangia_files, only: e_bad_unit, e_exists, e_invalid, e_missing, facts_t, folder_of, &
         hold_standard_units, last_error, look_at, make_folders, reason, resolved
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_unfinished, only: forget, remember
     implicit none (type, external)
     private
-    public :: output_file_t, remove_unfinished
+    public :: output_file_t
 
     type :: output_file_t
         !! `open`, any number of `write`, then `commit` or `abandon`. Writing never fails aloud:
@@ -36,13 +37,7 @@ module lagrangia_output_file
         procedure :: abandon
     end type output_file_t
 
-    type :: name_t
-        !! The name of a temporary file.
-        character(:), allocatable :: text
-    end type name_t
-
-    type(name_t), allocatable, save :: unfinished(:)  !! temporaries that still exist
-    integer, save :: serial = 0                       !! tells this process's temporaries apart
+    integer :: serial = 0  !! tells this process's temporaries apart
 
 contains
 
@@ -86,11 +81,16 @@ contains
         end if
         if (allocated(error)) return
         call make_folders(folder_of(self%place), number, culprit)
-        if (number /= 0) then
-            call refuse(error, path, "no folder '"//culprit//"': "//reason(number))
+        if (number == e_exists) then
+            call refuse(error, path, "'"//culprit//"' is not a folder")
+            return
+        else if (number /= 0) then
+            call refuse(error, path, "cannot make '"//culprit//"': "//reason(number))
             return
         end if
-        call open_temporary(self, number)
+        facts = look_at(self%place)  ! a name that is too long must not be found out at the end
+        number = merge(0, facts%status, facts%found .or. facts%status == e_missing)
+        if (number == 0) call open_temporary(self, number)
         if (number /= 0) call refuse(error, path, reason(number))
     end subroutine open_file
 
@@ -104,10 +104,10 @@ contains
 
         number = e_exists
         do attempt = 1, attempts
-            !$omp critical (lagrangia_unfinished)
+            !$omp critical (lagrangia_serial)
             serial = serial + 1
             write (name, "(a, i0, a, i0, a)") "/.lagrangia-", c_getpid(), "-", serial, ".tmp"
-            !$omp end critical (lagrangia_unfinished)
+            !$omp end critical (lagrangia_serial)
             self%temporary = folder_of(self%place)//trim(name)
             ! x: never somebody else's file; e: not inherited by the programs we run
             self%stream = c_fopen(self%temporary//c_null_char, "wxe"//c_null_char)
@@ -196,10 +196,7 @@ contains
             call refuse(error, self%path, "it is not open")
             return
         end if
-        if (self%failure == 0) then
-            if (c_fflush(self%stream) /= 0) self%failure = last_error()
-        end if
-        status = int(c_fclose(self%stream))  ! closes, whatever it returns
+        status = int(c_fclose(self%stream))  ! writes what is held back; closes, whatever happens
         if (status /= 0 .and. self%failure == 0) self%failure = last_error()
         self%stream = c_null_ptr
         if (self%failure == 0 .and. self%permissions >= 0) then
@@ -228,19 +225,6 @@ contains
         call forget(self%temporary)
     end subroutine abandon
 
-    subroutine remove_unfinished()
-        !! Remove every temporary that was neither committed nor abandoned: the last act of a
-        !! program that failed or was interrupted.
-        integer :: i, status
-
-        if (.not. allocated(unfinished)) return
-        do i = 1, size(unfinished)
-            if (.not. allocated(unfinished(i)%text)) cycle
-            status = int(c_remove(unfinished(i)%text//c_null_char))
-            deallocate (unfinished(i)%text)
-        end do
-    end subroutine remove_unfinished
-
     function writable(self)
         !! Whether the file is open and nothing has failed yet.
         class(output_file_t), intent(inout) :: self
@@ -257,41 +241,4 @@ contains
 
         call fail(error, "cannot write '"//path//"': "//why, status_file)
     end subroutine refuse
-
-    subroutine remember(name)
-        !! Put `name` in a free place among the unfinished files.
-        character(*), intent(in) :: name
-        type(name_t), allocatable :: longer(:)
-        integer :: i, count
-
-        !$omp critical (lagrangia_unfinished)
-        if (.not. allocated(unfinished)) allocate (unfinished(0))
-        count = size(unfinished)
-        do i = 1, count
-            if (.not. allocated(unfinished(i)%text)) exit
-        end do
-        if (i > count) then
-            allocate (longer(2*count + 1))
-            do i = 1, count
-                call move_alloc(unfinished(i)%text, longer(i)%text)
-            end do
-            call move_alloc(longer, unfinished)
-            i = count + 1
-        end if
-        unfinished(i)%text = name
-        !$omp end critical (lagrangia_unfinished)
-    end subroutine remember
-
-    subroutine forget(name)
-        !! Take `name` off the unfinished files.
-        character(*), intent(in) :: name
-        integer :: i
-
-        !$omp critical (lagrangia_unfinished)
-        do i = 1, size(unfinished)
-            if (.not. allocated(unfinished(i)%text)) cycle
-            if (unfinished(i)%text == name) deallocate (unfinished(i)%text)
-        end do
-        !$omp end critical (lagrangia_unfinished)
-    end subroutine forget
 end module lagrangia_output_file

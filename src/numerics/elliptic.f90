@@ -3,8 +3,8 @@ module lagrangia_elliptic
     !!
     !! Near \(k = 1\) the modulus is all nines; \(k'\) keeps every digit, and where \(k\) is small
     !! it loses none that matter. Neither the parameter \(m = k^2\) nor \(k\) itself is needed.
-    use lagrangia_kinds, only: dp
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+    use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
     public :: agm, amplitude, elliptic_k, jacobi

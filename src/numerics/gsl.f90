@@ -3,10 +3,10 @@ module lagrangia_gsl
     !!
     !! GSL's error handler would abort the program: it is switched off before the first call, and
     !! every status is checked.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_f_pointer, c_int, c_ptr, c_size_t
     use lagrangia_errors, only: error_t, fail, status_library, status_numbers
     use lagrangia_kinds, only: dp
-    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_f_pointer, c_int, c_ptr, c_size_t
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     implicit none (type, external)
     private
     public :: jacobi_sn_cn_dn

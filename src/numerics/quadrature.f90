@@ -1,8 +1,8 @@
 module lagrangia_quadrature
     !! Integrals over one period of smooth periodic functions.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_kinds, only: dp
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     implicit none (type, external)
     private
     public :: integrand_t, integrate_period

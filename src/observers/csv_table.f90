@@ -18,10 +18,11 @@ module lagrangia_csv_table
 
 contains
 
-    subroutine begin(self, header, names, units)
+    subroutine begin(self, header, names, units, error)
         !! The names of the columns; the rest of the header has no place in this format.
         class(csv_table_t), intent(inout) :: self
         character(*), intent(in) :: header(:), names(:), units(:)
+        type(error_t), allocatable, intent(out) :: error
         character(:), allocatable :: text
         integer :: i
 
@@ -35,7 +36,7 @@ contains
     subroutine row(self, values)
         !! One sample.
         class(csv_table_t), intent(inout) :: self
-        real(dp), intent(in) :: values(:)
+        real(dp), intent(in), contiguous :: values(:)
         character((field_width + 1)*size(values)) :: line
         integer :: length
 

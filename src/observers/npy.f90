@@ -2,7 +2,7 @@ module lagrangia_npy
     !! NumPy's own file format, version 1.0: `data = numpy.load("x.npy")`, then `data["theta"]`.
     !!
     !! Source: NumPy documentation, `numpy.lib.format`.
-    use lagrangia_errors, only: error_t
+    use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp, i8
     use lagrangia_table, only: table_t
     use lagrangia_text, only: to_text
@@ -10,8 +10,9 @@ module lagrangia_npy
     private
     public :: npy_table_t
 
-    integer, parameter :: alignment = 64       !! the data start at a multiple of this
-    character(20), parameter :: no_count = ""  !! room for the number of rows, not yet known
+    integer, parameter :: alignment = 64    !! the data start at a multiple of this
+    integer, parameter :: longest = 10000   !! `numpy.load` mistrusts longer headers
+    integer, parameter :: preamble = 10     !! bytes before the header: format, version, length
 
     type, extends(table_t) :: npy_table_t
         !! A one-dimensional array of records, one a row, each a double for every column: the
@@ -19,9 +20,9 @@ module lagrangia_npy
         !! place for (`numpy.lib.recfunctions.structured_to_unstructured` makes one).
         private
         integer :: columns = 0
+        integer :: data_offset = 0          !! where the first row begins
         integer(i8) :: rows = 0
-        integer(i8) :: count_offset = 0  !! where the number of rows stands
-        integer(i8) :: data_offset = 0   !! where the first row begins
+        character(:), allocatable :: kinds  !! the header's list of names and kinds of number
     contains
         procedure :: begin
         procedure :: row
@@ -31,26 +32,43 @@ module lagrangia_npy
 
 contains
 
-    subroutine begin(self, header, names, units)
+    subroutine begin(self, header, names, units, error)
         !! The names of the columns; the rest of the header has no place in this format.
         class(npy_table_t), intent(inout) :: self
         character(*), intent(in) :: header(:), names(:), units(:)
-        character(:), allocatable :: before, text
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: text
         integer :: i
 
         self%columns = size(names)
-        before = "{'descr': ["
+        self%kinds = ""
         do i = 1, size(names)
-            before = before//"('"//trim(names(i))//"', '"//byte_order()//"f8'), "
+            self%kinds = self%kinds//"('"//trim(names(i))//"', '"//byte_order()//"f8'), "
         end do
-        before = before//"], 'fortran_order': False, 'shape': ("
-        text = before//no_count//",), }"
-        text = text//repeat(" ", modulo(-(10 + len(text) + 1), alignment))//new_line("a")
-        self%count_offset = 10 + len(before)
-        self%data_offset = 10 + len(text)
+        text = header_text(self%kinds, 0_i8)
+        if (len(text) > longest) then
+            call fail(error, to_text(self%columns)//" columns are too many for numpy; "// &
+                      "--format text has no limit", key="columns")
+            return
+        end if
+        self%data_offset = preamble + len(text)
         call self%file%write(char(147)//"NUMPY"//char(1)//char(0)// &
                              char(modulo(len(text), 256))//char(len(text)/256)//text)
     end subroutine begin
+
+    pure function header_text(kinds, rows) result(header)
+        !! The header; its length does not depend on the number of rows.
+        character(*), intent(in) :: kinds
+        integer(i8), intent(in) :: rows
+        character(:), allocatable :: header
+        integer :: length
+
+        header = "{'descr': ["//kinds//"], 'fortran_order': False, 'shape': ("
+        length = preamble + len(header) + range(rows) + 1 + len(",), }") + len(new_line("a"))
+        length = length + modulo(-length, alignment) - preamble
+        header = header//to_text(rows)//",), }"
+        header = header//repeat(" ", length - 1 - len(header))//new_line("a")
+    end function header_text
 
     pure function byte_order()
         !! `<` if the low byte of a number comes first on this machine, else `>`.
@@ -63,7 +81,7 @@ contains
     subroutine row(self, values)
         !! One sample.
         class(npy_table_t), intent(inout) :: self
-        real(dp), intent(in) :: values(:)
+        real(dp), intent(in), contiguous :: values(:)
 
         call self%file%write_reals(values)
         self%rows = self%rows + 1
@@ -74,10 +92,8 @@ contains
         class(npy_table_t), intent(inout) :: self
         character(*), intent(in) :: counts
         type(error_t), allocatable, intent(out) :: error
-        character(len(no_count)) :: count
 
-        count = to_text(self%rows)
-        call self%file%rewrite(self%count_offset, count)
+        call self%file%rewrite(int(preamble, i8), header_text(self%kinds, self%rows))
         call self%file%commit(error)
     end subroutine finish
 

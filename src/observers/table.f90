@@ -17,19 +17,20 @@ module lagrangia_table
     end type table_t
 
     abstract interface
-        subroutine begin_i(self, header, names, units)
-            import :: table_t
+        subroutine begin_i(self, header, names, units, error)
+            import :: table_t, error_t
             implicit none (type, external)
             class(table_t), intent(inout) :: self
             character(*), intent(in) :: header(:)        !! lines about the run
             character(*), intent(in) :: names(:), units(:)
+            type(error_t), allocatable, intent(out) :: error
         end subroutine begin_i
 
         subroutine row_i(self, values)
             import :: table_t, dp
             implicit none (type, external)
             class(table_t), intent(inout) :: self
-            real(dp), intent(in) :: values(:)
+            real(dp), intent(in), contiguous :: values(:)
         end subroutine row_i
 
         subroutine finish_i(self, counts, error)

@@ -21,10 +21,11 @@ module lagrangia_text_table
 
 contains
 
-    subroutine begin(self, header, names, units)
+    subroutine begin(self, header, names, units, error)
         !! Header lines behind `# `; the last one names the columns with their units.
         class(text_table_t), intent(inout) :: self
         character(*), intent(in) :: header(:), names(:), units(:)
+        type(error_t), allocatable, intent(out) :: error
         character(:), allocatable :: text
         integer :: i
 
@@ -43,7 +44,7 @@ contains
     subroutine row(self, values)
         !! One sample.
         class(text_table_t), intent(inout) :: self
-        real(dp), intent(in) :: values(:)
+        real(dp), intent(in), contiguous :: values(:)
         character((field_width + 1)*size(values)) :: line
         integer :: length
 

@@ -85,6 +85,7 @@ contains
         real(dp), dimension(system%ndof + system%constraints, &
                             system%ndof + system%constraints) :: matrix
         real(dp), dimension(system%ndof + system%constraints) :: right, solution
+        real(dp), dimension(system%constraints, system%ndof) :: constraint, rate
         integer :: n, k
 
         n = system%ndof
@@ -101,9 +102,11 @@ contains
             qq%re = q
             qq%d1 = v
             call system%constraint_rows(tt, qq, rows, drift)
-            matrix(n + 1:, :n) = rows%re
-            matrix(:n, n + 1:) = -transpose(rows%re)
-            right(n + 1:) = -matmul(rows%d1, v) - drift%d1
+            constraint = rows%re
+            rate = rows%d1
+            matrix(n + 1:, :n) = constraint
+            matrix(:n, n + 1:) = -transpose(constraint)
+            right(n + 1:) = -matmul(rate, v) - drift%d1
         end if
         call solve_linear(matrix, right, solution, error)
         if (allocated(error)) return

@@ -61,8 +61,8 @@ contains
         self%t0 = t0
         self%q0 = q0
         self%omega = sqrt(system%g/system%l)
-        if (self%omega > 0.0_dp) self%small_period = 2.0_dp*pi*inertia(system, 0.0_dp, 1.0_dp) &
-                                                     /self%omega
+        if (system%g > 0.0_dp) self%small_period = &
+            2.0_dp*pi*sqrt(system%m1*system%l/((system%m1 + system%m2)*system%g))
         self%drift = v0(1) + share(system)*system%l*v0(2)*cos(q0(2))
         s = sin(0.5_dp*q0(2))
         c = cos(0.5_dp*q0(2))
@@ -88,7 +88,6 @@ contains
         if (.not. found) return
         self%clock = clock_at(self, self%phase)
         self%period = merge(pi, 2.0_dp*pi, self%rotates)*self%mean
-        self%small_period = 2.0_dp*pi*sqrt(system%m1*system%l/((system%m1 + system%m2)*system%g))
     end subroutine new_cart_pendulum_reference
 
     pure function share(system)

@@ -1,6 +1,6 @@
 module lagrangia_charged_particle_reference
     !! A charge in uniform fields, free or in an isotropic trap, in closed form.
-    use lagrangia_charged_particle, only: charged_particle_t, cross
+    use lagrangia_charged_particle, only: charged_particle_t, cross, length
     use lagrangia_kinds, only: dp
     use lagrangia_reference, only: reference_t
     use lagrangia_sinc, only: sinc
@@ -18,7 +18,7 @@ module lagrangia_charged_particle_reference
         real(dp) :: t0 = 0.0_dp, r0(3) = 0.0_dp
         real(dp) :: along(3) = 0.0_dp, across(3) = 0.0_dp    !! start velocity, to the axis
         real(dp) :: push_along(3) = 0.0_dp, push_across(3) = 0.0_dp
-            !! acceleration by E and by the trap at the start
+        !! acceleration by E and by the trap at the start
     contains
         procedure :: state_at
     end type charged_particle_reference_t
@@ -38,7 +38,7 @@ contains
                      "oscillation (Larmor)"
         self%ndof = 3
         self%axis = sign(1.0_dp, system%charge)*system%axis()
-        self%alpha = 0.5_dp*abs(system%charge)*norm2(system%magnetic)/system%m
+        self%alpha = 0.5_dp*abs(system%charge)*length(system%magnetic)/system%m
         self%omega0 = sqrt(system%trap/system%m)
         self%t0 = t0
         self%r0 = q0
@@ -49,7 +49,7 @@ contains
         self%across = v0 - self%along
         if (self%omega0 > 0.0_dp) then
             if (self%alpha <= 0.0_dp) self%period = 2.0_dp*pi/self%omega0
-        else if (self%alpha > 0.0_dp .and. norm2(self%along) + norm2(push) <= 0.0_dp) then
+        else if (self%alpha > 0.0_dp .and. length(self%along) + length(push) <= 0.0_dp) then
             self%period = pi/self%alpha
         end if
     end subroutine new_charged_particle_reference

@@ -227,7 +227,7 @@ contains
             call nth_system(i, system)
             if (.not. allocated(system)) exit
             call system%describe(d)
-            names = [names, d%name]
+            names = [character(name_length) :: names, d%name]
         end do
     end function system_names
 
@@ -243,7 +243,7 @@ contains
             i = i + 1
             call nth_integrator(i, integrator)
             if (.not. allocated(integrator)) exit
-            names = [names, integrator%name]
+            names = [character(name_length) :: names, integrator%name]
         end do
     end function method_names
 

@@ -7,8 +7,13 @@ module lagrangia_outcome
     implicit none (type, external)
     private
     public :: outcome_t, measure_t
-    public :: outcome_json, scorecard_head, scorecard_row
+    public :: outcome_json, scorecard_head, scorecard_legend, scorecard_row
     public :: from_closed_form, from_half_step
+
+    character(*), parameter :: scorecard_legend = &
+        "drift: the largest change of an invariant, relative to its start or its natural size"// &
+        new_line("a")//"error: the largest, absolute below 1 and relative above; exact: against "// &
+        "a closed form,"//new_line("a")//"estimate: against the same run at half the step"
 
     integer, parameter :: from_closed_form = 1, from_half_step = 2
 
@@ -213,8 +218,8 @@ contains
         character(:), allocatable :: line
 
         line = left(scene, 26)//left(system, 17)//left(method, 8)//right(steps, 8)// &
-               right(evaluations, 12)//"  "//left(drift, 18)//left(error, 18)//left(period, 14)// &
-               right(seconds, 8)//"  "//verdict
+               right(evaluations, 12)//"  "//left(drift, 23)//left(error, 18)//left(period, 14)// &
+               right(seconds, 7)//"  "//verdict
     end function cells
 
     pure function left(text, width) result(cell)

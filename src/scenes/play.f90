@@ -154,11 +154,11 @@ contains
         character(name_length), allocatable :: names(:)
         integer :: i
 
-        names = scene%columns
+        allocate (names, source=scene%columns)
         do i = 1, size(scene%expectations)
             associate (name => scene%expectations(i)%name)
                 if (is_period(name) .or. any(names == name)) cycle
-                names = [names, name]
+                names = [character(name_length) :: names, name]
             end associate
         end do
         p%record%shown = size(scene%columns)

@@ -60,12 +60,12 @@ contains
         !! Let gnuplot draw the data file at `path`, as `kind` (png or svg); no shell is involved.
         character(*), intent(in) :: path, kind
         type(error_t), allocatable, intent(out) :: error
-        character(:), allocatable :: script, words(:)
+        character(:), allocatable :: script
+        character(4096) :: words(5)
         integer :: status
 
         script = script_path(path)
         if (script(1:1) == "-") script = "./"//script
-        allocate (character(max(32, len(script))) :: words(5))
         words(1) = "gnuplot"
         words(2) = "-d"  ! not the user's start-up file
         words(3) = "-e"
@@ -87,6 +87,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
         character(scene_line_length) :: first, build
         type(description_t) :: d
+        logical :: itself
 
         select case (format)
         case ("text"); allocate (text_table_t :: record%table)
@@ -94,7 +95,9 @@ contains
         case default; allocate (npy_table_t :: record%table)
         end select
         path = data_path(folder, trim(scene%output), format)
-        if (same_file(path, scene%source) .or. same_file(script_path(path), scene%source)) then
+        itself = same_file(path, scene%source)
+        if (.not. itself) itself = same_file(script_path(path), scene%source)
+        if (itself) then
             call fail(error, "the output '"//path//"' is the scene itself", key="output")
             return
         end if
@@ -105,7 +108,8 @@ contains
         build = "build: "//build_text()
         call record%table%begin([first, scene_lines(scene, d), build], &
                                 record%columns%names(record%shown), &
-                                record%columns%units(record%shown))
+                                record%columns%units(record%shown), error)
+        if (allocated(error)) call record%table%file%abandon()
     end subroutine open_files
 
     subroutine finish_files(scene, folder, format, record, panels, outcome, error)

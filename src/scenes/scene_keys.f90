@@ -11,11 +11,12 @@ module lagrangia_scene_keys
     use lagrangia_text, only: join, to_text
     implicit none (type, external)
     private
-    public :: keys, expectation_keys, read_columns, read_state, read_times
+    public :: keys, key_length, expectation_keys, read_columns, read_state, read_times
 
     character(name_length), parameter :: keys(*) = [character(name_length) :: &
         "title", "system", "method", "t0", "dt", "duration", "every", "samples", "q", "v", &
         "columns", "plot", "period_of", "output"]
+    integer, parameter :: key_length = name_length + len("expect_")
     integer, parameter :: most = 10000  !! values of one key
 
 contains
@@ -112,7 +113,7 @@ contains
         class(system_t), intent(in) :: system
         type(scene_t), intent(inout) :: scene
         type(error_t), allocatable, intent(out) :: error
-        character(name_length), allocatable :: names(:)
+        character(key_length), allocatable :: names(:)
         type(description_t) :: d
         real(dp) :: limit
         logical :: found
@@ -159,7 +160,7 @@ contains
         !! Their names in order.
         type(description_t), intent(in) :: d
         character(:), allocatable :: text
-        character(name_length), allocatable :: names(:)
+        character(name_length) :: names(size(d%coordinates))
 
         names = d%coordinates%name
         text = join(names, ", ")
@@ -168,7 +169,7 @@ contains
     pure function expectation_keys(system) result(names)
         !! `expect_` and what can be judged.
         class(system_t), intent(in) :: system
-        character(name_length), allocatable :: names(:)
+        character(key_length), allocatable :: names(:)
 
         names = "expect_"//[character(name_length) :: column_names(system, .true.), &
                             "period", "small_period"]

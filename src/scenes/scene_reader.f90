@@ -13,7 +13,8 @@ module lagrangia_scene_reader
     use lagrangia_namelist_file, only: read_whole_file
     use lagrangia_play, only: performance_t, rehearse
     use lagrangia_scene, only: scene_t
-    use lagrangia_scene_keys, only: expectation_keys, keys, read_columns, read_state, read_times
+    use lagrangia_scene_keys, only: expectation_keys, key_length, keys, read_columns, &
+                                    read_state, read_times
     use lagrangia_shipped, only: scene_name
     use lagrangia_system, only: check_parameter, default_values, system_t
     implicit none (type, external)
@@ -65,7 +66,8 @@ contains
             if (allocated(error)) exit read_groups
             call read_columns(tree, system, scene, error)
             if (allocated(error)) exit read_groups
-            call refuse_unknown_keys(tree, "scene", [keys, expectation_keys(system)], error)
+            call refuse_unknown_keys(tree, "scene", [character(key_length) :: keys, &
+                                                     expectation_keys(system)], error)
             if (allocated(error)) exit read_groups
             call refuse_unknown_groups(tree, [character(name_length) :: "scene", scene%system], &
                                        error)

@@ -84,8 +84,10 @@ contains
         end if
         d%notes = [character(len(d%title)) :: &
             "The notes have (m1 + m2) d(x_dot^2)/dt^2: a slip, it is (m1 + m2) x_ddot.", &
-            "With a_s, the effective gravity is g + a_s; the energy function is then not T + V.", &
-            "L differs from that with gravity g + a_s by dF/dt, F = -(m1 - m2) a_s t x + f(t).", &
+            "A support that accelerates (a_s) makes it rheonomic: L contains t, the energy "// &
+            "function is not T + V.", &
+            "Effective gravity g + a_s: the L of a fixed support with g + a_s for g differs by "// &
+            "dF/dt, F = (m1 - m2) a_s t x + f(t).", &
             "A string only pulls: for a_s < -g it goes slack, and this is no longer the machine.", &
             "A slow way to measure g: choose m1 close to m2."]
         d%source = "Hamilton's Principle: case I, Atwood's machine"

@@ -13,7 +13,7 @@ module lagrangia_charged_particle
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
-    public :: charged_particle_t, cross
+    public :: charged_particle_t, cross, length
 
     type, extends(system_t) :: charged_particle_t
         !! Coordinates: \(x\), \(y\), \(z\), m, from the centre of the trap.
@@ -74,7 +74,7 @@ contains
             quantity("p_z", "kg m/s", "(m v + e A)_z: canonical momentum, depends on the gauge")]
         if (self%trap <= 0.0_dp) then
             d%quantities(1:3)%conserved = .true.
-            d%quantities(6)%conserved = norm2(self%charge*self%electric) <= 0.0_dp
+            d%quantities(6)%conserved = length(self%charge*self%electric) <= 0.0_dp
             do i = 1, 3
                 d%quantities(6 + i)%conserved = is_cyclic(self, i)
             end do
@@ -116,7 +116,7 @@ contains
         self%electric = values(3:5)
         self%magnetic = values(6:8)
         self%trap = values(9)
-        self%velocity_forces = norm2(self%charge*self%magnetic) > 0.0_dp
+        self%velocity_forces = length(self%charge*self%magnetic) > 0.0_dp
         self%cyclic = 0
         do i = 1, 3
             if (is_cyclic(self, i)) self%cyclic = i
@@ -132,7 +132,7 @@ contains
 
         b = self%charge*self%magnetic
         b(i) = 0.0_dp
-        cyclic = max(self%trap, abs(self%charge*self%electric(i)), norm2(b)) <= 0.0_dp
+        cyclic = max(self%trap, abs(self%charge*self%electric(i)), length(b)) <= 0.0_dp
     end function is_cyclic
 
     pure function parallel(self)
@@ -140,9 +140,8 @@ contains
         class(charged_particle_t), intent(in) :: self
         logical :: parallel
 
-        associate (e => self%charge*self%electric, b => self%charge*self%magnetic)
-            parallel = norm2(cross(e, b)) <= 4.0_dp*epsilon(1.0_dp)*norm2(e)*norm2(b)
-        end associate
+        parallel = abs(self%charge)*length(cross(self%axis(), self%electric)) &
+                   <= 4.0_dp*epsilon(1.0_dp)*abs(self%charge)*length(self%electric)
     end function parallel
 
     pure function axis(self) result(n)
@@ -151,10 +150,10 @@ contains
         real(dp) :: n(3)
 
         n = [0.0_dp, 0.0_dp, 1.0_dp]
-        if (norm2(self%magnetic) > 0.0_dp) then
-            n = self%magnetic/norm2(self%magnetic)
-        else if (norm2(self%electric) > 0.0_dp) then
-            n = self%electric/norm2(self%electric)
+        if (length(self%magnetic) > 0.0_dp) then
+            n = self%magnetic/length(self%magnetic)
+        else if (length(self%electric) > 0.0_dp) then
+            n = self%electric/length(self%electric)
         end if
     end function axis
 
@@ -219,13 +218,13 @@ contains
             case (4)
                 s = q - self%centre()
                 value = m*dot_product(n, cross(s, v)) &
-                        + 0.5_dp*e*norm2(b)*sum((s - dot_product(n, s)*n)**2)
+                        + 0.5_dp*e*length(b)*sum((s - dot_product(n, s)*n)**2)
             case (5)
                 value = 0.5_dp*m*dot_product(n, v)**2 &
                         - e*dot_product(n, self%electric)*dot_product(n, q) &
                         + 0.5_dp*k*dot_product(n, q)**2
             case (6)
-                value = norm2(v)
+                value = length(v)
             case default
                 p = m*v + 0.5_dp*e*cross(b, q)
                 value = p(i - 6)
@@ -241,6 +240,14 @@ contains
 
         r(:, 1) = q
     end subroutine positions
+
+    pure function length(a)
+        !! \(|a|\): gfortran's `norm2` underflows below 1e-154.
+        real(dp), intent(in) :: a(3)
+        real(dp) :: length
+
+        length = hypot(hypot(a(1), a(2)), a(3))
+    end function length
 
     pure function cross_real(a, b) result(c)
         !! \(a\times b\).

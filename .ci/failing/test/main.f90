@@ -1,6 +1,6 @@
 module failing_tests
     !! Tests that fail in every way a runner has to show.
-    use, intrinsic :: iso_fortran_env, only: output_unit
+    use, intrinsic :: iso_fortran_env, only: output_unit, real64
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFail, &
                      assertGreaterThan, assertTrue
     implicit none (type, external)
@@ -58,7 +58,7 @@ contains
 
     subroutine fails_twice()
         call assertEqual("expected", "found")
-        call assertGreaterThan(1.0d0, 2.0d0, 0.5d0, message="second  ")
+        call assertGreaterThan(1.0_real64, 2.0_real64, 0.5_real64, message="second  ")
     end subroutine fails_twice
 
     subroutine fails_without_words()

@@ -1,0 +1,207 @@
+module test_output_failures
+    !! What cannot be written is refused or reported, and leaves nothing behind.
+    use, intrinsic :: iso_c_binding, only: c_int, c_null_char
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertTrue
+    use lagrangia_c_library, only: c_access, c_chmod
+    use lagrangia_errors, only: error_t, status_file
+    use lagrangia_interrupt, only: catch_interrupts
+    use lagrangia_kinds, only: i8
+    use lagrangia_output_file, only: output_file_t
+    use test_scratch, only: c_symlink, contents, exit_status, limit_file_size, new_folder, &
+        remove_file, write_file
+    implicit none (type, external)
+    private
+    public :: output_failures_suite
+
+contains
+
+    function output_failures_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("output_failures")
+        call suite%addTest(TestMethod("what_cannot_be_written_is_refused", &
+                                      what_cannot_be_written_is_refused))
+        call suite%addTest(TestMethod("a_protected_file_is_refused", a_protected_file_is_refused))
+        call suite%addTest(TestMethod("rewrite_stays_inside", rewrite_stays_inside))
+        call suite%addTest(TestMethod("a_closed_file_cannot_be_written", &
+                                      a_closed_file_cannot_be_written))
+        call suite%addTest(TestMethod("a_failed_rename_is_reported", a_failed_rename_is_reported))
+        call suite%addTest(TestMethod("a_full_disk_is_reported", a_full_disk_is_reported))
+        call suite%addTest(TestMethod("a_full_disk_is_seen_early", a_full_disk_is_seen_early))
+    end function output_failures_suite
+
+    subroutine what_cannot_be_written_is_refused()
+        !! Before anything is computed, in one line that names the file.
+        character(:), allocatable :: folder
+
+        folder = new_folder("refused")
+        call write_file(folder//"/file", "old")
+        call assertTrue(c_symlink("nowhere"//c_null_char, folder//"/link"//c_null_char) == 0)
+        call refused("", "not a file name")
+        call refused("a"//c_null_char, "not a file name")
+        call refused(folder, "it is a folder")
+        call refused(folder//"/new/", "it is a folder")
+        call refused(new_folder("refused/ends with a blank "), "it is a folder")
+        call refused("/dev/null", "it is not a regular file")
+        call refused(folder//"/link", "it is a link that leads nowhere")
+        call refused(folder//"/file/a.dat", "'"//folder//"/file' is not a folder")
+        call refused(folder//"/file/x/a.dat", "'"//folder//"/file' is not a folder")
+        call refused(folder//"/"//repeat("n", 300), "File name too long")
+        call assertEqual("old", contents(folder//"/file"))
+        call assertTrue(remove_file(folder//"/file"))
+        call assertTrue(remove_file(folder//"/link"))
+        call assertTrue(remove_file(folder//"/ends with a blank "))
+        call assertTrue(remove_file(folder))
+    end subroutine what_cannot_be_written_is_refused
+
+    subroutine refused(path, why)
+        !! Assert that `open` refuses `path` in these words.
+        character(*), intent(in) :: path, why
+        type(output_file_t) :: file
+        type(error_t), allocatable :: error
+
+        call file%open(path, error)
+        call assertTrue(allocated(error), path//" was opened")
+        if (.not. allocated(error)) then
+            call file%abandon()
+            return
+        end if
+        call assertEqual("cannot write '"//path//"': "//why, error%message)
+        call assertEqual(status_file, error%status)
+    end subroutine refused
+
+    subroutine a_protected_file_is_refused()
+        !! Though its folder would allow a rename. (For root nothing is protected.)
+        character(:), allocatable :: path
+
+        path = new_folder("protected")//"/a.dat"
+        call write_file(path, "old")
+        call assertTrue(c_chmod(path//c_null_char, int(o"444", c_int)) == 0)
+        if (c_access(path//c_null_char, 2_c_int) /= 0) call refused(path, "Permission denied")
+        call assertEqual("old", contents(path))
+        call assertTrue(remove_file(path))
+    end subroutine a_protected_file_is_refused
+
+    subroutine rewrite_stays_inside()
+        !! Only what has been written can be rewritten.
+        type(output_file_t) :: file
+        type(error_t), allocatable :: error
+        character(:), allocatable :: folder
+        integer(i8) :: offset
+
+        folder = new_folder("inside")
+        do offset = -1, 2, 3
+            call file%open(folder//"/a.dat", error)
+            call file%write("abc")
+            call file%rewrite(offset, "de")
+            call file%commit(error)
+            call assertTrue(allocated(error))
+        end do
+        call assertTrue(remove_file(folder))
+    end subroutine rewrite_stays_inside
+
+    subroutine a_closed_file_cannot_be_written()
+        !! A mistake of ours, not of the user; but no silence either.
+        type(output_file_t) :: file
+        type(error_t), allocatable :: error
+
+        call file%write("text")
+        call assertTrue(file%failed())
+        call file%commit(error)
+        call assertTrue(allocated(error))
+        if (anyExceptions()) return
+        call assertEqual("cannot write '': it is not open", error%message)
+    end subroutine a_closed_file_cannot_be_written
+
+    subroutine a_failed_rename_is_reported()
+        !! Here a folder took the name while the file was being written.
+        type(output_file_t) :: file
+        type(error_t), allocatable :: error
+        character(:), allocatable :: folder, blocker
+
+        folder = new_folder("rename")
+        call file%open(folder//"/a.dat", error)
+        call file%write("text")
+        blocker = new_folder("rename/a.dat")
+        call file%commit(error)
+        call assertTrue(allocated(error))
+        if (anyExceptions()) return
+        call assertEqual("cannot write '"//folder//"/a.dat': Is a directory", error%message)
+        call assertTrue(remove_file(blocker))
+        call assertTrue(remove_file(folder), "a temporary was left")
+    end subroutine a_failed_rename_is_reported
+
+    subroutine a_full_disk_is_reported()
+        !! By `commit`, even if all of the text was still in C's buffer.
+        character(:), allocatable :: folder
+
+        folder = new_folder("full")
+        call write_file(folder//"/a.dat", "old")
+        call assertEqual(status_file, exit_status(write_little))
+        call assertEqual(status_file, exit_status(write_much))
+        call assertEqual("old", contents(folder//"/a.dat"))
+        call assertTrue(remove_file(folder//"/a.dat"))
+        call assertTrue(remove_file(folder), "a temporary was left")
+    end subroutine a_full_disk_is_reported
+
+    function write_little() result(status)
+        !! Less than C's buffer holds.
+        integer :: status
+
+        status = write_limited(40)
+    end function write_little
+
+    function write_much() result(status)
+        !! Many times what C's buffer holds.
+        integer :: status
+
+        status = write_limited(100000)
+    end function write_much
+
+    function write_limited(length) result(status)
+        !! Write so many bytes where 20 can be: the status of the error if it is the right one.
+        integer, intent(in) :: length
+        integer :: status, i
+        type(output_file_t) :: file
+        type(error_t), allocatable :: error
+        character(:), allocatable :: path
+
+        path = new_folder("full")//"/a.dat"
+        call catch_interrupts()
+        call limit_file_size(20)
+        call file%open(path, error)
+        do i = 1, length/10
+            call file%write("0123456789")
+        end do
+        call file%commit(error)
+        status = 1
+        if (.not. allocated(error)) return
+        if (error%message == "cannot write '"//path//"': File too large") status = error%status
+    end function write_limited
+
+    subroutine a_full_disk_is_seen_early()
+        !! A long run can stop at the first row that is lost.
+        call assertEqual(7, exit_status(write_until_failed))
+    end subroutine a_full_disk_is_seen_early
+
+    function write_until_failed() result(status)
+        !! 7 if `failed` becomes true after the limit and long before the end.
+        integer :: status
+        type(output_file_t) :: file
+        type(error_t), allocatable :: error
+        integer :: i
+
+        call catch_interrupts()
+        call limit_file_size(20)
+        call file%open(new_folder("early")//"/a.dat", error)
+        status = 1
+        if (file%failed()) return
+        do i = 1, 1000000
+            call file%write("0123456789")
+            if (file%failed()) status = 7
+            if (file%failed()) exit
+        end do
+        call file%abandon()
+    end function write_until_failed
+end module test_output_failures

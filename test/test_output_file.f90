@@ -1,0 +1,262 @@
+module test_output_file
+    !! A file is complete or absent, and an existing one survives.
+    use, intrinsic :: iso_c_binding, only: c_int, c_null_char
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_c_library, only: c_chmod, c_getpid
+    use lagrangia_errors, only: error_t
+    use lagrangia_files, only: facts_t, look_at, same_file
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_output_file, only: output_file_t
+    use lagrangia_unfinished, only: remove_unfinished
+    use test_scratch, only: c_link, c_symlink, contents, new_folder, remove_file, write_file
+    implicit none (type, external)
+    private
+    public :: output_file_suite
+
+    character(*), parameter :: odd_name = " a 'b' ""c"" $(d);*\ "  !! ends with a blank
+
+contains
+
+    function output_file_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("output_file")
+        call suite%addTest(TestMethod("commit_gives_the_file_its_name", &
+                                      commit_gives_the_file_its_name))
+        call suite%addTest(TestMethod("missing_folders_are_made", missing_folders_are_made))
+        call suite%addTest(TestMethod("abandon_leaves_no_trace", abandon_leaves_no_trace))
+        call suite%addTest(TestMethod("rewrite_replaces_in_place", rewrite_replaces_in_place))
+        call suite%addTest(TestMethod("reals_are_written_as_in_memory", &
+                                      reals_are_written_as_in_memory))
+        call suite%addTest(TestMethod("links_and_permissions_stay", links_and_permissions_stay))
+        call suite%addTest(TestMethod("two_writers_do_not_mix", two_writers_do_not_mix))
+        call suite%addTest(TestMethod("nobody_elses_temporary_is_used", &
+                                      nobody_elses_temporary_is_used))
+        call suite%addTest(TestMethod("unfinished_files_can_be_removed", &
+                                      unfinished_files_can_be_removed))
+        call suite%addTest(TestMethod("same_file_sees_through_names", &
+                                      same_file_sees_through_names))
+    end function output_file_suite
+
+    subroutine commit_gives_the_file_its_name()
+        !! Until then the old file stays as it was; afterwards only the new one is there.
+        type(output_file_t) :: file
+        type(error_t), allocatable :: error
+        character(:), allocatable :: folder
+
+        folder = new_folder("commit")
+        call write_file(folder//"/a.dat", "old")
+        call file%open(folder//"/a.dat", error)
+        call assertFalse(allocated(error))
+        call file%write("new")
+        call file%write(new_line("a")//"text")
+        call assertEqual(8, int(file%position()))
+        call assertEqual("old", contents(folder//"/a.dat"))
+        call file%commit(error)
+        call assertFalse(allocated(error))
+        call assertEqual("new"//new_line("a")//"text", contents(folder//"/a.dat"))
+        call assertTrue(remove_file(folder//"/a.dat"))
+        call assertTrue(remove_file(folder), "something else was left in the folder")
+    end subroutine commit_gives_the_file_its_name
+
+    subroutine missing_folders_are_made()
+        !! As `mkdir -p` does; no character of a name means anything but itself. Who may read
+        !! the file is decided as for any other new file.
+        type(output_file_t) :: file
+        type(error_t), allocatable :: error
+        type(facts_t) :: facts
+        character(:), allocatable :: folder
+        integer :: permissions
+
+        folder = new_folder("folders")
+        call file%open(folder//"/x//"//odd_name//"/"//odd_name, error)
+        call assertFalse(allocated(error))
+        call file%commit(error)
+        call assertFalse(allocated(error))
+        call write_file(folder//"/plain", "")
+        facts = look_at(folder//"/plain")
+        permissions = facts%permissions
+        facts = look_at(folder//"/x/"//odd_name//"/"//odd_name)
+        call assertEqual(permissions, facts%permissions)
+        call assertTrue(remove_file(folder//"/plain"))
+        call assertTrue(remove_file(folder//"/x/"//odd_name//"/"//odd_name))
+        call assertTrue(remove_file(folder//"/x/"//odd_name))
+        call assertTrue(remove_file(folder//"/x"))
+        call assertTrue(remove_file(folder))
+    end subroutine missing_folders_are_made
+
+    subroutine abandon_leaves_no_trace()
+        !! Neither a new file nor a temporary; also when `open` is called again instead.
+        type(output_file_t) :: file
+        type(error_t), allocatable :: error
+        character(:), allocatable :: folder
+
+        folder = new_folder("abandon")
+        call file%open(folder//"/a.dat", error)
+        call file%write("text")
+        call assertFalse(remove_file(folder), "no temporary while a file is written")
+        call file%open(folder//"/b.dat", error)
+        call file%abandon()
+        call file%abandon()
+        call assertTrue(remove_file(folder), "something was left in the folder")
+    end subroutine abandon_leaves_no_trace
+
+    subroutine rewrite_replaces_in_place()
+        !! And what is written next goes to the end.
+        type(output_file_t) :: file
+        type(error_t), allocatable :: error
+        character(:), allocatable :: path
+
+        path = new_folder("rewrite")//"/a.dat"
+        call file%open(path, error)
+        call file%write("rows: ?? end")
+        call file%rewrite(6_i8, "42")
+        call file%write(".")
+        call file%rewrite(0_i8, "R")
+        call file%rewrite(12_i8, "!")
+        call file%commit(error)
+        call assertFalse(allocated(error))
+        call assertEqual("Rows: 42 end!", contents(path))
+        call assertTrue(remove_file(path))
+    end subroutine rewrite_replaces_in_place
+
+    subroutine reals_are_written_as_in_memory()
+        !! Eight bytes each.
+        type(output_file_t) :: file
+        type(error_t), allocatable :: error
+        character(:), allocatable :: path
+        character(24) :: bytes
+        real(dp), parameter :: values(3) = [1.0_dp/3.0_dp, -0.0_dp, 1e-310_dp]
+
+        path = new_folder("reals")//"/a.bin"
+        call file%open(path, error)
+        call file%write_reals(values)
+        call assertEqual(24, int(file%position()))
+        call file%commit(error)
+        bytes = transfer(values, bytes)
+        call assertTrue(contents(path) == bytes)
+        call assertTrue(remove_file(path))
+    end subroutine reals_are_written_as_in_memory
+
+    subroutine links_and_permissions_stay()
+        !! Writing to a symbolic link replaces the file it leads to, which keeps its permissions.
+        type(output_file_t) :: file
+        type(error_t), allocatable :: error
+        type(facts_t) :: facts
+        character(:), allocatable :: folder
+
+        folder = new_folder("links")
+        call write_file(folder//"/file", "old")
+        call assertTrue(c_chmod(folder//"/file"//c_null_char, int(o"640", c_int)) == 0)
+        call assertTrue(c_symlink("file"//c_null_char, folder//"/link"//c_null_char) == 0)
+        call file%open(folder//"/link", error)
+        call file%write("new")
+        call file%commit(error)
+        call assertFalse(allocated(error))
+        facts = look_at(folder//"/link", follow=.false.)
+        call assertTrue(facts%link)
+        call assertEqual("new", contents(folder//"/file"))
+        facts = look_at(folder//"/file")
+        call assertEqual(int(o"640"), facts%permissions)
+        call assertTrue(remove_file(folder//"/link"))
+        call assertTrue(remove_file(folder//"/file"))
+        call assertTrue(remove_file(folder))
+    end subroutine links_and_permissions_stay
+
+    subroutine two_writers_do_not_mix()
+        !! Of one name: the last to commit wins, and its file is its own.
+        type(output_file_t) :: one, two
+        type(error_t), allocatable :: error
+        character(:), allocatable :: folder
+
+        folder = new_folder("two")
+        call one%open(folder//"/a.dat", error)
+        call two%open(folder//"/a.dat", error)
+        call assertFalse(allocated(error))
+        call one%write("one")
+        call two%write("two two")
+        call one%write(" one")
+        call two%commit(error)
+        call assertEqual("two two", contents(folder//"/a.dat"))
+        call one%commit(error)
+        call assertEqual("one one", contents(folder//"/a.dat"))
+        call assertTrue(remove_file(folder//"/a.dat"))
+        call assertTrue(remove_file(folder))
+    end subroutine two_writers_do_not_mix
+
+    subroutine nobody_elses_temporary_is_used()
+        !! Left behind by a process that had our number, or made by one on another machine.
+        type(output_file_t) :: file
+        type(error_t), allocatable :: error
+        character(:), allocatable :: folder
+        character(60) :: names(200)
+        integer :: i
+
+        folder = new_folder("taken")
+        do i = 1, size(names)
+            write (names(i), "(a, i0, a, i0, a)") "/.lagrangia-", c_getpid(), "-", i, ".tmp"
+            if (i <= 100) call write_file(folder//trim(names(i)), "old")
+        end do
+        call file%open(folder//"/a.dat", error)
+        call file%write("new")
+        call file%commit(error)
+        call assertEqual("new", contents(folder//"/a.dat"))
+        call assertTrue(remove_file(folder//"/a.dat"))
+        do i = 101, size(names)
+            call write_file(folder//trim(names(i)), "old")
+        end do
+        call remove_unfinished()  ! ours is finished: its name may be somebody else's by now
+        do i = 1, size(names)
+            call assertEqual("old", contents(folder//trim(names(i))))
+            call assertTrue(remove_file(folder//trim(names(i))))
+        end do
+    end subroutine nobody_elses_temporary_is_used
+
+    subroutine unfinished_files_can_be_removed()
+        !! All of them at once, whoever has them open; committed ones stay.
+        type(output_file_t) :: files(5)
+        type(error_t), allocatable :: error
+        character(:), allocatable :: folder
+        integer :: i
+
+        folder = new_folder("unfinished")
+        do i = 1, size(files)
+            call files(i)%open(folder//"/"//achar(iachar("a") + i), error)
+        end do
+        call files(2)%commit(error)
+        call files(4)%abandon()
+        call files(4)%open(folder//"/again", error)
+        call remove_unfinished()
+        call assertEqual("", contents(folder//"/c"))
+        call assertTrue(remove_file(folder//"/c"))
+        call assertTrue(remove_file(folder), "a temporary was left")
+        call files(1)%commit(error)
+        call assertTrue(allocated(error))
+        do i = 1, size(files)
+            call files(i)%abandon()
+        end do
+    end subroutine unfinished_files_can_be_removed
+
+    subroutine same_file_sees_through_names()
+        !! Hard links, symbolic links, another spelling; not what does not exist.
+        character(:), allocatable :: folder
+
+        folder = new_folder("same")
+        call write_file(folder//"/a", "text")
+        call write_file(folder//"/b", "text")
+        call assertTrue(c_link(folder//"/a"//c_null_char, folder//"/hard"//c_null_char) == 0)
+        call assertTrue(c_symlink("a"//c_null_char, folder//"/soft"//c_null_char) == 0)
+        call assertTrue(same_file(folder//"/a", folder//"/hard"))
+        call assertTrue(same_file(folder//"/a", folder//"/soft"))
+        call assertTrue(same_file(folder//"/a", folder//"/../same/./a"))
+        call assertFalse(same_file(folder//"/a", folder//"/b"))
+        call assertFalse(same_file(folder//"/a", folder//"/none"))
+        call assertFalse(same_file(folder//"/none", folder//"/none"))
+        call assertTrue(remove_file(folder//"/a"))
+        call assertTrue(remove_file(folder//"/b"))
+        call assertTrue(remove_file(folder//"/hard"))
+        call assertTrue(remove_file(folder//"/soft"))
+        call assertTrue(remove_file(folder))
+    end subroutine same_file_sees_through_names
+end module test_output_file

@@ -1,0 +1,167 @@
+module test_processes
+    !! Signals and other programs: seen in processes of their own.
+    use, intrinsic :: iso_c_binding, only: c_funptr, c_int, c_intptr_t, c_null_funptr
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
+    use lagrangia_c_library, only: c_exit, c_signal
+    use lagrangia_console, only: finish_console, put_line
+    use lagrangia_errors, only: error_t, status_file, status_interrupted, status_terminated
+    use lagrangia_interrupt, only: catch_interrupts, interrupt_status
+    use lagrangia_processes, only: run_program
+    use test_scratch, only: c_raise, contents, exit_status, new_folder, remove_file, &
+        send_stdout_to
+    implicit none (type, external)
+    private
+    public :: processes_suite
+
+    integer(c_int), parameter :: sigint = 2, sigterm = 15
+
+contains
+
+    function processes_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("processes")
+        call suite%addTest(TestMethod("signals_are_remembered", signals_are_remembered))
+        call suite%addTest(TestMethod("a_second_sigint_kills", a_second_sigint_kills))
+        call suite%addTest(TestMethod("ignored_signals_stay_ignored", ignored_signals_stay_ignored))
+        call suite%addTest(TestMethod("programs_return_their_status", programs_return_their_status))
+        call suite%addTest(TestMethod("arguments_reach_no_shell", arguments_reach_no_shell))
+        call suite%addTest(TestMethod("a_missing_program_is_an_error", &
+                                      a_missing_program_is_an_error))
+        call suite%addTest(TestMethod("what_was_put_comes_first", what_was_put_comes_first))
+    end function processes_suite
+
+    subroutine signals_are_remembered()
+        !! And become the exit status; the first one counts.
+        call assertEqual(0, interrupt_status())
+        call assertEqual(status_interrupted, exit_status(catch_sigint))
+        call assertEqual(status_terminated, exit_status(catch_sigterm))
+    end subroutine signals_are_remembered
+
+    function catch_sigint() result(status)
+        !! What SIGINT, and then SIGTERM, lead to.
+        integer :: status
+
+        call prepare(sigint)
+        status = int(c_raise(sigint))
+        status = int(c_raise(sigterm))
+        status = interrupt_status()
+    end function catch_sigint
+
+    function catch_sigterm() result(status)
+        !! What SIGTERM leads to.
+        integer :: status
+
+        call prepare(sigterm)
+        status = int(c_raise(sigterm))
+        status = interrupt_status()
+    end function catch_sigterm
+
+    subroutine prepare(number)
+        !! Make sure that whoever started the tests did not have this signal ignored; catch it.
+        integer(c_int), intent(in) :: number
+        type(c_funptr) :: old
+
+        old = c_signal(number, c_null_funptr)
+        call catch_interrupts()
+        if (interrupt_status() /= 0) call c_exit(99_c_int)
+    end subroutine prepare
+
+    subroutine a_second_sigint_kills()
+        !! For loops that do not look.
+        call assertEqual(128 + int(sigint), exit_status(interrupt_twice))
+    end subroutine a_second_sigint_kills
+
+    function interrupt_twice() result(status)
+        !! 0 if the second SIGINT does nothing.
+        integer :: status
+
+        call prepare(sigint)
+        status = int(c_raise(sigint))
+        status = int(c_raise(sigint))
+        status = 0
+    end function interrupt_twice
+
+    subroutine ignored_signals_stay_ignored()
+        !! As those of a program started by `nohup`, or in the background by a script.
+        call assertEqual(0, exit_status(ignore_sigint))
+    end subroutine ignored_signals_stay_ignored
+
+    function ignore_sigint() result(status)
+        !! What SIGINT leads to if it was ignored before.
+        integer :: status
+        type(c_funptr) :: old
+
+        old = c_signal(sigint, transfer(1_c_intptr_t, c_null_funptr))  ! SIG_IGN
+        call catch_interrupts()
+        status = int(c_raise(sigint))
+        status = int(c_raise(sigint))
+        status = interrupt_status()
+    end function ignore_sigint
+
+    subroutine programs_return_their_status()
+        !! 128 + the signal if they die of one.
+        type(error_t), allocatable :: error
+        integer :: status
+
+        call run_program([character(12) :: "sh", "-c", "exit 7"], status, error)
+        call assertFalse(allocated(error))
+        call assertEqual(7, status)
+        call run_program([character(12) :: "sh", "-c", "kill -9 $$"], status, error)
+        call assertFalse(allocated(error))
+        call assertEqual(137, status)
+        call run_program(["true"], status, error)
+        call assertEqual(0, status)
+    end subroutine programs_return_their_status
+
+    subroutine arguments_reach_no_shell()
+        !! One argument stays one argument, character for character.
+        type(error_t), allocatable :: error
+        character(60) :: arguments(5)
+        integer :: status
+
+        arguments(1) = "sh"
+        arguments(2) = "-c"
+        arguments(3) = "test $# = 1 && test ""$1"" = 'a  $(b) ""c"" *;' && exit 7"
+        arguments(4) = "name"
+        arguments(5) = "a  $(b) ""c"" *;"
+        call run_program(arguments, status, error)
+        call assertEqual(7, status)
+    end subroutine arguments_reach_no_shell
+
+    subroutine a_missing_program_is_an_error()
+        !! With its name in the message.
+        type(error_t), allocatable :: error
+        integer :: status
+
+        call run_program([character(12) :: "/no/gnuplot", "-d"], status, error)
+        call assertTrue(allocated(error))
+        if (anyExceptions()) return
+        call assertEqual("cannot run '/no/gnuplot': no such program", error%message)
+        call assertEqual(status_file, error%status)
+    end subroutine a_missing_program_is_an_error
+
+    subroutine what_was_put_comes_first()
+        !! Before what the other program says to the same stdout.
+        character(:), allocatable :: path
+
+        path = new_folder("order")//"/out"
+        call assertEqual(0, exit_status(put_run_put))
+        call assertEqual("one"//new_line("a")//"two"//new_line("a")//"three"//new_line("a"), &
+                         contents(path))
+        call assertTrue(remove_file(path))
+    end subroutine what_was_put_comes_first
+
+    function put_run_put() result(status)
+        !! We, another program, we.
+        integer :: status
+        type(error_t), allocatable :: error
+
+        call send_stdout_to(new_folder("order")//"/out")
+        call put_line("one")
+        call run_program([character(8) :: "sh", "-c", "echo two"], status, error)
+        call put_line("three")
+        call finish_console(error)
+    end function put_run_put
+end module test_processes
