@@ -3,9 +3,11 @@ module suites
     use funit, only: TestSuite
     use test_cart_pendulum, only: cart_pendulum_suite
     use test_charged_particle, only: charged_particle_suite
+    use test_charged_particle_reference, only: charged_particle_reference_suite
     use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
     use test_double_pendulum, only: double_pendulum_suite
+    use test_driven_pendulum, only: driven_pendulum_suite
     use test_elliptic, only: elliptic_suite
     use test_errors, only: errors_suite
     use test_gsl, only: gsl_suite
@@ -29,6 +31,8 @@ module suites
     use test_quadrature, only: quadrature_suite
     use test_rheonomic, only: rheonomic_suite
     use test_rolling_disk, only: rolling_disk_suite
+    use test_rolling_disk_reference, only: rolling_disk_reference_suite
+    use test_rotating_reference, only: rotating_reference_suite
     use test_sinc, only: sinc_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
@@ -47,9 +51,11 @@ contains
         call suite%addTest(harness_order_suite())
         call suite%addTest(cart_pendulum_suite())
         call suite%addTest(charged_particle_suite())
+        call suite%addTest(charged_particle_reference_suite())
         call suite%addTest(console_suite())
         call suite%addTest(constant_accelerations_suite())
         call suite%addTest(double_pendulum_suite())
+        call suite%addTest(driven_pendulum_suite())
         call suite%addTest(elliptic_suite())
         call suite%addTest(errors_suite())
         call suite%addTest(gsl_suite())
@@ -70,6 +76,8 @@ contains
         call suite%addTest(quadrature_suite())
         call suite%addTest(rheonomic_suite())
         call suite%addTest(rolling_disk_suite())
+        call suite%addTest(rolling_disk_reference_suite())
+        call suite%addTest(rotating_reference_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(lanes_suite())

@@ -166,6 +166,14 @@ contains
                     "set xtics "//tick(max(width, rise))//"; set ytics "//tick(max(width, rise))
             end if
             call script%add(line)
+            line = "set autoscale y"
+            if (.not. any(high(panel%y(:panel%curves)) > low(panel%y(:panel%curves)))) then
+                width = max(0.1_dp*abs(low(y)), tiny(width))
+                if (abs(low(y)) <= 0.0_dp) width = 1.0_dp
+                if (panel%curves == 1) line = "set yrange ["//to_text(low(y) - width)//":"// &
+                                              to_text(high(y) + width)//"]"
+            end if
+            call script%add(line)
             call script%add("set xlabel '"//label(names(panel%x), units(panel%x))//"'")
             if (panel%curves == 1) then
                 call script%add("set ylabel '"//label(names(y), units(y))//"'; unset key")

@@ -16,6 +16,7 @@ module lagrangia_period
         integer :: turns = 0          !! lower turning points met
         real(dp) :: first = 0.0_dp    !! time of the first, s
         real(dp) :: last = 0.0_dp     !! time of the latest, s
+        logical :: resolved = .true.  !! the samples are close enough to follow the motion
         logical, private :: started = .false.
         real(dp), private :: t = 0.0_dp, q = 0.0_dp, v = 0.0_dp, a = 0.0_dp
     contains
@@ -36,6 +37,8 @@ contains
 
         i = self%coordinate
         call system%accelerations(t, q, v, a)
+        if (self%started) self%resolved = self%resolved .and. follows(t - self%t, self%v, self%a, &
+                                                                      v(i), a(i))
         if (self%started .and. self%v < 0.0_dp .and. v(i) >= 0.0_dp) then
             self%last = turning_time(self%t, self%q, self%v, self%a, t, q(i), v(i), a(i))
             if (self%turns == 0) self%first = self%last
@@ -49,13 +52,23 @@ contains
     end subroutine observe
 
     pure function period(self) result(value)
-        !! The mean period, s; 0 where fewer than two turning points were met.
+        !! The mean period, s; 0 where fewer than two turning points were met, or where the
+        !! samples are too far apart to tell (a period from too few samples would be a fiction).
         class(period_t), intent(in) :: self
         real(dp) :: value
 
         value = 0.0_dp
-        if (self%turns > 1) value = (self%last - self%first)/(self%turns - 1)
+        if (self%turns > 1 .and. self%resolved) value = (self%last - self%first)/(self%turns - 1)
     end function period
+
+    pure function follows(h, v0, a0, v1, a1) result(yes)
+        !! Whether the accelerations at both ends account for the change of the velocity.
+        real(dp), intent(in) :: h, v0, a0, v1, a1
+        logical :: yes
+
+        yes = abs(v1 - v0 - 0.5_dp*h*(a0 + a1)) <= &
+              0.1_dp*(abs(v0) + abs(v1) + h*(abs(a0) + abs(a1)))
+    end function follows
 
     pure function turning_time(t0, q0, v0, a0, t1, q1, v1, a1) result(t)
         !! Where the derivative of the quintic Hermite interpolant vanishes, by bisection.

@@ -28,7 +28,7 @@ contains
         found = .true.
         self%title = "r0 cosh(omega t) + v0/omega sinh(omega t)"
         self%ndof = 1
-        self%omega = abs(system%omega)
+        self%omega = system%omega
         self%t0 = t0
         self%r0 = q0(1)
         self%v0 = v0(1)
@@ -38,7 +38,8 @@ contains
         !! $$ r = r_0\cosh\omega t + \frac{v_0}\omega\sinh\omega t
         !!      = r_0e^{-\omega t} + (v_0 + \omega r_0)\frac{\sinh\omega t}\omega $$
         !! The second form does not cancel for a bead that creeps towards the axis,
-        !! \(v_0 = -\omega r_0\). Of either sign of time, that of growth is taken.
+        !! \(v_0 = -\omega r_0\). It is even in \(\omega\), whose sign is taken so that
+        !! \(\omega t\ge 0\).
         class(rotating_wire_reference_t), intent(in) :: self
         real(dp), intent(in) :: t
         real(dp), intent(out) :: q(self%ndof), v(self%ndof)

@@ -11,7 +11,7 @@ module lagrangia_outcome
     public :: from_closed_form, from_half_step
 
     character(*), parameter :: scorecard_legend = &
-        "drift: the largest change of an invariant, relative to its start or its natural size"// &
+        "drift: the largest change of an invariant, relative to its start or natural size"// &
         new_line("a")//"error: the largest, absolute below 1 and relative above; exact: against "// &
         "a closed form,"//new_line("a")//"estimate: against the same run at half the step"
 

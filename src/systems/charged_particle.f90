@@ -93,7 +93,7 @@ contains
         d%notes = [character(len(d%title)) :: &
             "The notes have F = - grad(phi) for B = 0: a slip, F = - e grad(phi), and dA/dt = 0.", &
             "General: L = m/2 v.v - e phi + e A.v; here phi = - E.r. B does no work.", &
-            "Any gauge gives the same motion; m v + e A, which depends on it, is not conserved.", &
+            "Any gauge, one motion: m v + e A depends on it, m v + e B x r - e E t does not.", &
             "Free: drift E x B/B^2, turning at omega_c = e B/m, falling freely along B.", &
             "L_axis is conserved in a trap; without one where E is parallel to B or zero.", &
             "Trap, E = 0: omega = sqrt(omega0^2 + omega_c^2/4) +- omega_c/2 across B, "// &
