@@ -15,6 +15,8 @@ module lagrangia_catalogue
     use lagrangia_driven_pendulum_reference, only: driven_pendulum_reference_t, &
         new_driven_pendulum_reference
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_gauss, only: gauss_t, new_gauss16
+    use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp
     use lagrangia_oscillator, only: oscillator_t
@@ -70,14 +72,17 @@ contains
         call system%configure(default_values(d), error)
     end subroutine nth_system
 
-    subroutine nth_integrator(i, integrator)
-        !! Entry `i` of the methods; not allocated beyond the end.
+    subroutine nth_integrator(i, integrator, adaptive)
+        !! Entry `i` of the methods; not allocated beyond the end. With `adaptive` the one that
+        !! chooses its steps, where there is one.
         integer, intent(in) :: i
         class(integrator_t), allocatable, intent(out) :: integrator
+        logical, intent(in), optional :: adaptive
 
         select case (i)
         case (1); call place_rk4()
         case (2); call place_verlet()
+        case (3); call place_gauss16()
         case default; return
         end select
     contains
@@ -94,6 +99,21 @@ contains
             call new_verlet(method)
             allocate (integrator, source=method)
         end subroutine place_verlet
+
+        subroutine place_gauss16()
+            type(gauss_t) :: fixed
+            type(gauss_adaptive_t) :: free
+
+            if (present(adaptive)) then
+                if (adaptive) then
+                    call new_gauss16_adaptive(free)
+                    allocate (integrator, source=free)
+                    return
+                end if
+            end if
+            call new_gauss16(fixed)
+            allocate (integrator, source=fixed)
+        end subroutine place_gauss16
     end subroutine nth_integrator
 
     subroutine new_reference(system, t0, q0, v0, reference)
@@ -196,17 +216,19 @@ contains
         call refuse("system", name, system_names(), error)
     end subroutine new_system
 
-    subroutine new_integrator(name, integrator, error)
-        !! The method called `name`.
+    subroutine new_integrator(name, integrator, error, adaptive)
+        !! The method called `name`; with `adaptive` the one that chooses its steps by a tolerance,
+        !! a `dense_integrator_t`, if it has any.
         character(*), intent(in) :: name
         class(integrator_t), allocatable, intent(out) :: integrator
         type(error_t), allocatable, intent(out) :: error
+        logical, intent(in), optional :: adaptive
         integer :: i
 
         i = 0
         do
             i = i + 1
-            call nth_integrator(i, integrator)
+            call nth_integrator(i, integrator, adaptive)
             if (.not. allocated(integrator)) exit
             if (integrator%name == name) return
         end do

@@ -47,6 +47,7 @@ module lagrangia_rolling_disk
     interface
         pure module subroutine describe(self, d)
             !! See `system_t`; in `rolling_disk_description`.
+            implicit none (type, external)
             class(rolling_disk_t), intent(in) :: self
             type(description_t), intent(out) :: d
         end subroutine describe
