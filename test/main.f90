@@ -6,6 +6,7 @@ module suites
     use test_charged_particle_reference, only: charged_particle_reference_suite
     use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
+    use test_dop853, only: dop853_suite
     use test_dop853_coefficients, only: dop853_coefficients_suite
     use test_double_pendulum, only: double_pendulum_suite
     use test_driven_pendulum, only: driven_pendulum_suite
@@ -54,6 +55,7 @@ contains
         call suite%addTest(charged_particle_reference_suite())
         call suite%addTest(console_suite())
         call suite%addTest(constant_accelerations_suite())
+        call suite%addTest(dop853_suite())
         call suite%addTest(dop853_coefficients_suite())
         call suite%addTest(double_pendulum_suite())
         call suite%addTest(driven_pendulum_suite())
