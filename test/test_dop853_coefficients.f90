@@ -111,8 +111,10 @@ contains
         real(dp), parameter :: half_ulp = 0.5_dp*epsilon(1.0_dp)
         real(qp), parameter :: least = 1e-9_qp  !! no entry is smaller, but for zeros
 
-        call assertLessThanOrEqual(largest([(a - a_qp)/max(abs(a_qp), least)]), half_ulp, "a")
-        call assertLessThanOrEqual(largest([(d - d_qp)/max(abs(d_qp), least)]), half_ulp, "d")
+        call assertLessThanOrEqual(largest([(a - a_qp)/max(abs(a_qp), least)]), &
+                                   half_ulp, message="a")
+        call assertLessThanOrEqual(largest([(d - d_qp)/max(abs(d_qp), least)]), &
+                                   half_ulp, message="d")
         call assertLessThanOrEqual(largest([(b - b_qp)/max(abs(b_qp), least), &
                                             (c - c_qp)/max(abs(c_qp), least), &
                                             (e3 - e3_qp)/max(abs(e3_qp), least), &
