@@ -5,7 +5,7 @@ module lagrangia_columns
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: join, nearest_name
+    use lagrangia_text, only: join, nearest_name, quoted
     implicit none (type, external)
     private
     public :: columns_t, new_columns, column_names
@@ -160,9 +160,9 @@ contains
             call fail(error, "column 'energy_drift': the energy of this "//trim(d%name)// &
                       " is not conserved, for L contains the time")
         else if (near /= "") then
-            call fail(error, "unknown column '"//name//"'; did you mean '"//near//"'?")
+            call fail(error, "unknown column "//quoted(name)//"; did you mean '"//near//"'?")
         else
-            call fail(error, "unknown column '"//name//"'; "//trim(d%name)//" has "// &
+            call fail(error, "unknown column "//quoted(name)//"; "//trim(d%name)//" has "// &
                       join(all%name, ", "))
         end if
     end subroutine refuse
