@@ -116,6 +116,7 @@ contains
         else
             self%h = max(1e-6_dp, 1e-3_dp*self%h)
         end if
+        self%h = max(self%h, 1024.0_dp*spacing(t0))  ! a step that is too long will be rejected
         self%evaluations = self%evaluations + 2
     end subroutine start
 

@@ -2,6 +2,9 @@ module lagrangia_catalogue
     !! Names and types: the only module that knows every system, method and closed form.
     use lagrangia_atwood, only: atwood_t
     use lagrangia_atwood_reference, only: atwood_reference_t, new_atwood_reference
+    use lagrangia_bouncing_ball, only: bouncing_ball_t
+    use lagrangia_bouncing_ball_reference, only: bouncing_ball_reference_t, &
+        new_bouncing_ball_reference
     use lagrangia_cart_pendulum, only: cart_pendulum_t
     use lagrangia_cart_pendulum_reference, only: cart_pendulum_reference_t, &
         new_cart_pendulum_reference
@@ -10,6 +13,7 @@ module lagrangia_catalogue
         new_charged_particle_reference
     use lagrangia_composition, only: composition_t, new_verlet
     use lagrangia_description, only: description_t, name_length
+    use lagrangia_dop853, only: dop853_t, new_dop853
     use lagrangia_double_pendulum, only: double_pendulum_t
     use lagrangia_driven_pendulum, only: driven_pendulum_t
     use lagrangia_driven_pendulum_reference, only: driven_pendulum_reference_t, &
@@ -64,6 +68,7 @@ contains
         case (9); allocate (rotating_wire_t :: system)
         case (10); allocate (rotating_hoop_t :: system)
         case (11); allocate (driven_pendulum_t :: system)
+        case (12); allocate (bouncing_ball_t :: system)
         case default; return
         end select
         call system%describe(d)
@@ -78,6 +83,7 @@ contains
         select case (i)
         case (1); call place_rk4()
         case (2); call place_verlet()
+        case (3); call place_dop853()
         case default; return
         end select
     contains
@@ -94,6 +100,13 @@ contains
             call new_verlet(method)
             allocate (integrator, source=method)
         end subroutine place_verlet
+
+        subroutine place_dop853()
+            type(dop853_t) :: method
+
+            call new_dop853(method)
+            allocate (integrator, source=method)
+        end subroutine place_dop853
     end subroutine nth_integrator
 
     subroutine new_reference(system, t0, q0, v0, reference)
@@ -172,6 +185,13 @@ contains
                 type(driven_pendulum_reference_t) :: closed_form
 
                 call new_driven_pendulum_reference(closed_form, system, t0, q0, v0, found)
+                if (found) allocate (reference, source=closed_form)
+            end block
+        type is (bouncing_ball_t)
+            block
+                type(bouncing_ball_reference_t) :: closed_form
+
+                call new_bouncing_ball_reference(closed_form, system, t0, q0, v0, found)
                 if (found) allocate (reference, source=closed_form)
             end block
         end select
