@@ -111,7 +111,7 @@ contains
     subroutine estimate_falls_as_h8()
         !! h (h**5)**2/h**3.
         type(pendulum_t) :: system
-        real(dp) :: y0(2), y(2), k(2, 16), estimates(2)
+        real(dp) :: y0(2), y(2), k(2, 17), estimates(2)
         type(error_t), allocatable :: error
         integer :: i
 

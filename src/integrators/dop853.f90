@@ -51,7 +51,7 @@ contains
         class(dop853_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
-        real(dp) :: slopes(2*system%ndof, 16)
+        real(dp) :: slopes(2*system%ndof, 17)
 
         slopes = 0.0_dp
         self%y = slopes(:, 1)
@@ -188,7 +188,7 @@ contains
 
         call extra_stages(system, system%ndof, self%t_old, h, self%y0, self%y, self%k, &
                           self%dense, self%work)
-        self%k(:, 1) = self%k(:, 13)
+        self%k(:, 1) = self%k(:, 17)
         self%evaluations = self%evaluations + 4
     end subroutine finish
 
