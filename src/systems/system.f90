@@ -23,6 +23,7 @@ module lagrangia_system
         logical :: time_dependent = .false.  !! the Lagrangian contains the time
         integer :: constraints = 0           !! rows of non-holonomic constraints
         integer :: cyclic = 0                !! index of a cyclic coordinate, 0 if none
+        integer :: contacts = 0              !! unilateral constraints: each has a gap and impacts
     contains
         procedure(describe_i), deferred :: describe
         procedure(configure_i), deferred :: configure
@@ -37,6 +38,8 @@ module lagrangia_system
         procedure :: positions => no_positions
         procedure :: constraint_rows => no_constraint_rows
         procedure :: complete_velocities
+        procedure :: gap => no_gap
+        procedure :: impact => no_impact
     end type system_t
 
     type :: system_box_t
@@ -231,6 +234,27 @@ contains
         end if
         v = given
     end subroutine complete_velocities
+
+    pure function no_gap(self, i, t, q, v) result(value)
+        !! Unilateral constraint `i` is \(gap \ge 0\): where the gap falls through zero there is
+        !! an impact. Here there are none.
+        class(system_t), intent(in) :: self
+        integer, intent(in) :: i
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: value
+
+        value = 1.0_dp
+    end function no_gap
+
+    pure subroutine no_impact(self, i, t, q, v)
+        !! What happens where gap `i` falls through zero: velocities jump, and the coordinates are
+        !! set onto the constraint, which rounding may have missed. A system that would go on to
+        !! meet it ever sooner must stay there, with accelerations that hold it.
+        class(system_t), intent(in) :: self
+        integer, intent(in) :: i
+        real(dp), intent(in) :: t
+        real(dp), intent(inout) :: q(self%ndof), v(self%ndof)
+    end subroutine no_impact
 
     pure subroutine check_parameter(p, error)
         !! Refuse a parameter whose value is outside its domain or not finite.
