@@ -19,6 +19,7 @@ module suites
     use test_harness_order, only: harness_order_suite
     use test_hyperdual, only: hyperdual_suite
     use test_lapack, only: lapack_suite
+    use test_method_refusals, only: method_refusals_suite
     use test_method_structure, only: method_structure_suite
     use test_methods, only: methods_suite
     use test_namelist, only: namelist_suite
@@ -83,6 +84,7 @@ contains
         call suite%addTest(canonical_suite())
         call suite%addTest(methods_suite())
         call suite%addTest(method_structure_suite())
+        call suite%addTest(method_refusals_suite())
         call suite%addTest(exact_maps_suite())
         call suite%addTest(compositions_suite())
         call suite%addTest(rheonomic_suite())
