@@ -39,6 +39,7 @@ module suites
     use test_rolling_disk, only: rolling_disk_suite
     use test_rolling_disk_reference, only: rolling_disk_reference_suite
     use test_rotating_reference, only: rotating_reference_suite
+    use test_scene_files, only: scene_files_suite
     use test_sinc, only: sinc_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
@@ -55,18 +56,24 @@ contains
         suite = TestSuite("lagrangia")
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
+        call suite%addTest(canonical_suite())
         call suite%addTest(cart_pendulum_suite())
         call suite%addTest(charged_particle_suite())
         call suite%addTest(charged_particle_reference_suite())
+        call suite%addTest(compensated_suite())
+        call suite%addTest(compositions_suite())
         call suite%addTest(console_suite())
         call suite%addTest(constant_accelerations_suite())
         call suite%addTest(double_pendulum_suite())
         call suite%addTest(driven_pendulum_suite())
         call suite%addTest(elliptic_suite())
         call suite%addTest(errors_suite())
+        call suite%addTest(exact_maps_suite())
         call suite%addTest(gsl_suite())
         call suite%addTest(hyperdual_suite())
         call suite%addTest(lapack_suite())
+        call suite%addTest(method_structure_suite())
+        call suite%addTest(methods_suite())
         call suite%addTest(namelist_suite())
         call suite%addTest(namelist_file_suite())
         call suite%addTest(namelist_limits_suite())
@@ -91,6 +98,7 @@ contains
         call suite%addTest(rolling_disk_suite())
         call suite%addTest(rolling_disk_reference_suite())
         call suite%addTest(rotating_reference_suite())
+        call suite%addTest(scene_files_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(text_suite())
