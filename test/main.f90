@@ -22,6 +22,7 @@ module suites
     use test_hyperdual, only: hyperdual_suite
     use test_lanes, only: lanes_suite
     use test_lapack, only: lapack_suite
+    use test_method_refusals, only: method_refusals_suite
     use test_method_structure, only: method_structure_suite
     use test_methods, only: methods_suite
     use test_namelist, only: namelist_suite
@@ -92,6 +93,13 @@ contains
         call suite%addTest(pendulum_suite())
         call suite%addTest(processes_suite())
         call suite%addTest(quadrature_suite())
+        call suite%addTest(compensated_suite())
+        call suite%addTest(canonical_suite())
+        call suite%addTest(methods_suite())
+        call suite%addTest(method_structure_suite())
+        call suite%addTest(method_refusals_suite())
+        call suite%addTest(exact_maps_suite())
+        call suite%addTest(compositions_suite())
         call suite%addTest(rheonomic_suite())
         call suite%addTest(rolling_disk_suite())
         call suite%addTest(rolling_disk_reference_suite())
