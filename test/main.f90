@@ -17,6 +17,7 @@ module suites
     use test_hyperdual, only: hyperdual_suite
     use test_lapack, only: lapack_suite
     use test_lapack_band, only: lapack_band_suite
+    use test_least_time, only: least_time_suite
     use test_namelist, only: namelist_suite
     use test_namelist_file, only: namelist_file_suite
     use test_namelist_limits, only: namelist_limits_suite
@@ -65,6 +66,7 @@ contains
         call suite%addTest(hyperdual_suite())
         call suite%addTest(lapack_band_suite())
         call suite%addTest(lapack_suite())
+        call suite%addTest(least_time_suite())
         call suite%addTest(namelist_suite())
         call suite%addTest(namelist_file_suite())
         call suite%addTest(namelist_limits_suite())

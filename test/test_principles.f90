@@ -24,7 +24,7 @@ contains
 
     subroutine all_is_as_it_must_be()
         !! Statements hold; controls fail by far more than rounding; each line fits the screen.
-        character(:), allocatable :: names(:)
+        character(16), allocatable :: names(:)
         type(report_t) :: report
         type(error_t), allocatable :: error
         integer :: i, k

@@ -6,6 +6,7 @@ module lagrangia_principle
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_json, only: json_number, json_string
     use lagrangia_kinds, only: dp
+    use lagrangia_least_time, only: least_time_principle
     use lagrangia_picture_files, only: write_picture
     use lagrangia_report, only: report_t, statement_length, statement_t
     use lagrangia_scene_files, only: draw
@@ -21,7 +22,8 @@ module lagrangia_principle
     end type principle_t
 
     type(principle_t), parameter :: principles(*) = [ &
-        principle_t("action", "Hamilton: the actual path makes the action stationary")]
+        principle_t("action", "Hamilton: the actual path makes the action stationary"), &
+        principle_t("least-time", "Hero, Fermat: light takes a path of stationary time")]
 
 contains
 
@@ -70,6 +72,8 @@ contains
         select case (name)
         case ("action")
             call action_principle(walker, report, error)
+        case ("least-time")
+            call least_time_principle(walker, report, error)
         case default
             near = nearest_name(name, principle_names())
             if (near /= "") then
