@@ -11,6 +11,7 @@ module suites
     use test_driven_pendulum, only: driven_pendulum_suite
     use test_elliptic, only: elliptic_suite
     use test_errors, only: errors_suite
+    use test_gauge, only: gauge_suite
     use test_gsl, only: gsl_suite
     use test_harness, only: harness_suite
     use test_harness_order, only: harness_order_suite
@@ -62,6 +63,7 @@ contains
         call suite%addTest(driven_pendulum_suite())
         call suite%addTest(elliptic_suite())
         call suite%addTest(errors_suite())
+        call suite%addTest(gauge_suite())
         call suite%addTest(gsl_suite())
         call suite%addTest(hyperdual_suite())
         call suite%addTest(lapack_band_suite())

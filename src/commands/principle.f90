@@ -1,15 +1,18 @@
 module lagrangia_principle
     !! `lagrangia principle NAME`: both sides of a principle's statement, and their difference.
     use lagrangia_action, only: action_principle
+    use lagrangia_catalogue, only: nth_system, system_names
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_errors, only: error_t, fail, status_not_held
+    use lagrangia_gauge, only: gauge_principle
     use lagrangia_json, only: json_number, json_string
     use lagrangia_kinds, only: dp
     use lagrangia_least_time, only: least_time_principle
     use lagrangia_picture_files, only: write_picture
     use lagrangia_report, only: report_t, statement_length, statement_t
     use lagrangia_scene_files, only: draw
+    use lagrangia_system, only: system_box_t
     use lagrangia_text, only: nearest_name, quoted, to_text
     use lagrangia_walker, only: walker_t
     implicit none (type, external)
@@ -23,6 +26,7 @@ module lagrangia_principle
 
     type(principle_t), parameter :: principles(*) = [ &
         principle_t("action", "Hamilton: the actual path makes the action stationary"), &
+        principle_t("gauge", "uniqueness: L and L + dF/dt tell the same motion"), &
         principle_t("least-time", "Hero, Fermat: light takes a path of stationary time")]
 
 contains
@@ -67,11 +71,15 @@ contains
         type(report_t), intent(out) :: report
         type(error_t), allocatable, intent(out) :: error
         type(walker_t) :: walker
+        type(system_box_t), allocatable :: systems(:)
         character(:), allocatable :: near
 
         select case (name)
         case ("action")
             call action_principle(walker, report, error)
+        case ("gauge")
+            call every_system(systems)
+            call gauge_principle(systems, report, error)
         case ("least-time")
             call least_time_principle(walker, report, error)
         case default
@@ -84,6 +92,17 @@ contains
             call fail(error, "unknown principle "//quoted(name)//"; "//near)
         end select
     end subroutine principle_report
+
+    subroutine every_system(systems)
+        !! The whole catalogue, with default parameters.
+        type(system_box_t), allocatable, intent(out) :: systems(:)
+        integer :: i
+
+        allocate (systems(size(system_names())))
+        do i = 1, size(systems)
+            call nth_system(i, systems(i)%item)
+        end do
+    end subroutine every_system
 
     pure function principle_names() result(names)
         !! All of them.
