@@ -2,23 +2,32 @@ module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
     use test_action, only: action_suite
+    use test_canonical, only: canonical_suite
     use test_cart_pendulum, only: cart_pendulum_suite
     use test_charged_particle, only: charged_particle_suite
     use test_charged_particle_reference, only: charged_particle_reference_suite
+    use test_compensated, only: compensated_suite
+    use test_compositions, only: compositions_suite
     use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
+    use test_dop853, only: dop853_suite
+    use test_dop853_coefficients, only: dop853_coefficients_suite
     use test_double_pendulum, only: double_pendulum_suite
     use test_driven_pendulum, only: driven_pendulum_suite
     use test_elliptic, only: elliptic_suite
     use test_errors, only: errors_suite
     use test_gauge, only: gauge_suite
+    use test_exact_maps, only: exact_maps_suite
     use test_gsl, only: gsl_suite
     use test_harness, only: harness_suite
     use test_harness_order, only: harness_order_suite
     use test_hyperdual, only: hyperdual_suite
+    use test_lanes, only: lanes_suite
     use test_lapack, only: lapack_suite
     use test_lapack_band, only: lapack_band_suite
     use test_least_time, only: least_time_suite
+    use test_method_structure, only: method_structure_suite
+    use test_methods, only: methods_suite
     use test_namelist, only: namelist_suite
     use test_namelist_file, only: namelist_file_suite
     use test_namelist_limits, only: namelist_limits_suite
@@ -37,6 +46,7 @@ module suites
     use test_rolling_disk, only: rolling_disk_suite
     use test_rolling_disk_reference, only: rolling_disk_reference_suite
     use test_rotating_reference, only: rotating_reference_suite
+    use test_scene_files, only: scene_files_suite
     use test_sinc, only: sinc_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
@@ -54,11 +64,16 @@ contains
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
         call suite%addTest(action_suite())
+        call suite%addTest(canonical_suite())
         call suite%addTest(cart_pendulum_suite())
         call suite%addTest(charged_particle_suite())
         call suite%addTest(charged_particle_reference_suite())
+        call suite%addTest(compensated_suite())
+        call suite%addTest(compositions_suite())
         call suite%addTest(console_suite())
         call suite%addTest(constant_accelerations_suite())
+        call suite%addTest(dop853_suite())
+        call suite%addTest(dop853_coefficients_suite())
         call suite%addTest(double_pendulum_suite())
         call suite%addTest(driven_pendulum_suite())
         call suite%addTest(elliptic_suite())
@@ -69,6 +84,13 @@ contains
         call suite%addTest(lapack_band_suite())
         call suite%addTest(lapack_suite())
         call suite%addTest(least_time_suite())
+        call suite%addTest(exact_maps_suite())
+        call suite%addTest(gsl_suite())
+        call suite%addTest(hyperdual_suite())
+        call suite%addTest(lanes_suite())
+        call suite%addTest(lapack_suite())
+        call suite%addTest(method_structure_suite())
+        call suite%addTest(methods_suite())
         call suite%addTest(namelist_suite())
         call suite%addTest(namelist_file_suite())
         call suite%addTest(namelist_limits_suite())
@@ -87,6 +109,7 @@ contains
         call suite%addTest(rolling_disk_suite())
         call suite%addTest(rolling_disk_reference_suite())
         call suite%addTest(rotating_reference_suite())
+        call suite%addTest(scene_files_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(text_suite())

@@ -5,7 +5,7 @@ module lagrangia_columns
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: join, nearest_name
+    use lagrangia_text, only: join, nearest_name, quoted
     implicit none (type, external)
     private
     public :: columns_t, new_columns, column_names
@@ -151,8 +151,10 @@ contains
         type(column_t), intent(in) :: all(:)
         type(error_t), allocatable, intent(out) :: error
         character(:), allocatable :: near
+        character(name_length) :: names(size(all))
 
-        near = nearest_name(name, all%name)
+        names = all%name
+        near = nearest_name(name, names)
         if (name == "error") then
             call fail(error, "column 'error': "//trim(d%name)//" has no closed form from this "// &
                       "start; with expect_error it is estimated")
@@ -160,10 +162,10 @@ contains
             call fail(error, "column 'energy_drift': the energy of this "//trim(d%name)// &
                       " is not conserved, for L contains the time")
         else if (near /= "") then
-            call fail(error, "unknown column '"//name//"'; did you mean '"//near//"'?")
+            call fail(error, "unknown column "//quoted(name)//"; did you mean '"//near//"'?")
         else
-            call fail(error, "unknown column '"//name//"'; "//trim(d%name)//" has "// &
-                      join(all%name, ", "))
+            call fail(error, "unknown column "//quoted(name)//"; "//trim(d%name)//" has "// &
+                      join(names, ", "))
         end if
     end subroutine refuse
 

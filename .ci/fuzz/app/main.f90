@@ -1,0 +1,200 @@
+module fuzzing
+    !! `fuzz [COUNT [SEED]]`: mutated scenes, overrides and command lines. What is accepted must be
+    !! whole and come back from its own echo; what is refused must be refused in one short line.
+    use lagrangia_command_line, only: command_line_t, parse_words, word_t
+    use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_namelist_file, only: read_whole_file
+    use lagrangia_registry, only: check_line, options
+    use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
+    use lagrangia_scene_reader, only: parse_scene
+    use lagrangia_shipped, only: shipped_scenes
+    use lagrangia_system, only: system_t
+    use mutations, only: mutate, pick, seed_with
+    implicit none (type, external)
+    private
+    public :: fuzz
+
+    type(word_t), allocatable :: corpus(:)
+    integer :: seed = 1, i = 0, accepted = 0, refused = 0
+
+contains
+
+    subroutine fuzz()
+        !! The loop.
+        integer :: count
+
+        count = argument(1, 200000)
+        seed = argument(2, 1)
+        call read_corpus()
+        call seed_with(seed)
+        print "(a, i0, a, i0)", "fuzz: ", count, " inputs, seed ", seed
+        do i = 1, count
+            if (mod(i, 10) == 0) then
+                call try_words()
+            else
+                call try_scene()
+            end if
+        end do
+        print "(i0, a, i0, a)", accepted, " accepted, ", refused, &
+            " refused, none crashed or misled"
+    end subroutine fuzz
+
+    function argument(position, default) result(value)
+        !! A whole number of the command line.
+        integer, intent(in) :: position, default
+        integer :: value, status
+        character(20) :: text
+
+        value = default
+        call get_command_argument(position, text)
+        if (text == "") return
+        read (text, *, iostat=status) value
+        if (status /= 0) error stop "fuzz: a whole number is needed"
+    end function argument
+
+    subroutine read_corpus()
+        !! The shipped scenes.
+        type(word_t), allocatable :: paths(:)
+        type(error_t), allocatable :: error
+        integer :: k
+
+        call shipped_scenes(paths, error)
+        if (allocated(error)) error stop "fuzz: start in the project's folder"
+        allocate (corpus(size(paths)))
+        do k = 1, size(paths)
+            call read_whole_file(paths(k)%text, corpus(k)%text, error)
+        end do
+    end subroutine read_corpus
+
+    subroutine try_scene()
+        !! One mutated scene, half of them with a mutated override.
+        character(*), parameter :: sets(*) = [character(24) :: "scene%dt=1e-3", "scene%q=0,1", &
+            "scene%columns=t,energy", "wedge%alpha=0.5", "scene%method=rk4", "scene%q(2)=1"]
+        character(:), allocatable :: text, set
+        integer :: number
+        type(word_t), allocatable :: overrides(:)
+
+        number = pick(size(corpus))
+        text = corpus(number)%text
+        number = pick(size(corpus))
+        call mutate(text, pick(4) - 1, corpus(number)%text)
+        number = pick(2) - 1
+        allocate (overrides(number))
+        if (number == 1) then
+            number = pick(size(sets))
+            set = trim(sets(number))
+            call mutate(set, pick(3) - 1, "")
+            overrides(1)%text = set
+        end if
+        call judge(text, overrides)
+    end subroutine try_scene
+
+    subroutine judge(text, overrides)
+        !! Read it; read the echo of what was accepted.
+        character(*), intent(in) :: text
+        type(word_t), intent(in) :: overrides(:)
+        type(scene_t) :: scene, again
+        class(system_t), allocatable :: system
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+        character(scene_line_length), allocatable :: lines(:)
+        character(:), allocatable :: echo
+        logical :: whole
+        integer :: k
+
+        call parse_scene(text, "fuzz.nml", overrides, scene, system, error)
+        if (allocated(error)) then
+            call check_message(error, text)
+            refused = refused + 1
+            return
+        end if
+        accepted = accepted + 1
+        whole = scene%dt > 0.0_dp .and. scene%dt <= scene%duration .and. scene%every >= 1 .and. &
+                size(scene%q) == system%ndof .and. all(abs(scene%q) <= huge(1.0_dp)) .and. &
+                all(abs(scene%v) <= huge(1.0_dp)) .and. size(scene%columns) > 0
+        if (.not. whole) call give_up("nonsense was accepted", text)
+        call system%describe(d)
+        lines = scene_lines(scene, d)
+        echo = ""
+        do k = 1, size(lines)
+            echo = echo//trim(lines(k))//new_line("a")
+        end do
+        call parse_scene(echo, "fuzz.nml", [word_t ::], again, system, error)
+        if (allocated(error)) call give_up("its echo is refused: "//error%message, text//echo)
+        whole = all(transfer(numbers(scene), [0]) == transfer(numbers(again), [0]))
+        if (.not. whole) call give_up("its echo differs", text)
+    end subroutine judge
+
+    pure function numbers(scene) result(list)
+        !! All numbers of a scene.
+        type(scene_t), intent(in) :: scene
+        real(dp), allocatable :: list(:)
+
+        list = [scene%dt, scene%duration, scene%t0, scene%q, scene%v, scene%parameters]
+    end function numbers
+
+    subroutine try_words()
+        !! A command line of one to six words, mutated.
+        character(*), parameter :: words(*) = [character(24) :: &
+            "run", "list", "describe", "modes", "cart_pendulum", "systems", "-", "", "--", &
+            "--set", "scene%dt=1e-3", "--set=scene%dt=1", "--json", "--output", "--format=csv", &
+            "--help", "-h", "--plot=svg", "--quiet", "--no"]
+        type(word_t), allocatable :: line(:)
+        type(command_line_t) :: parsed
+        type(error_t), allocatable :: error
+        character(:), allocatable :: text, all
+        integer :: k, which
+
+        k = pick(6)
+        allocate (line(k))
+        all = ""
+        do k = 1, size(line)
+            which = pick(size(words))
+            text = trim(words(which))
+            if (pick(3) == 1) call mutate(text, 1, "")
+            line(k)%text = text
+            all = all//text//" "
+        end do
+        call parse_words(line, options, parsed, error)
+        if (.not. allocated(error)) call check_line(parsed, which, error)
+        if (allocated(error)) then
+            call check_message(error, all)
+            refused = refused + 1
+        else
+            accepted = accepted + 1
+        end if
+    end subroutine try_words
+
+    subroutine check_message(error, text)
+        !! One line of printable characters, 300 at most.
+        type(error_t), intent(in) :: error
+        character(*), intent(in) :: text
+        integer :: k
+
+        if (len(error%message) == 0) call give_up("refused without a word", text)
+        if (len(error%message) > 300) call give_up("a long message: "//error%message, text)
+        do k = 1, len(error%message)
+            if (iachar(error%message(k:k)) >= 32 .and. iachar(error%message(k:k)) <= 126) cycle
+            call give_up("an unprintable message: "//error%message, text)
+        end do
+    end subroutine check_message
+
+    subroutine give_up(what, text)
+        !! Show the input that did it.
+        character(*), intent(in) :: what, text
+
+        print "(a, i0, a, i0, 2a)", "fuzz: input ", i, " of seed ", seed, ": ", what
+        print "(a)", text
+        stop 1, quiet=.true.
+    end subroutine give_up
+end module fuzzing
+
+program main
+    !! See `fuzzing`.
+    use fuzzing, only: fuzz
+    implicit none (type, external)
+
+    call fuzz()
+end program main
