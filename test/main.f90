@@ -1,6 +1,7 @@
 module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
+    use test_action, only: action_suite
     use test_canonical, only: canonical_suite
     use test_cart_pendulum, only: cart_pendulum_suite
     use test_charged_particle, only: charged_particle_suite
@@ -15,6 +16,7 @@ module suites
     use test_driven_pendulum, only: driven_pendulum_suite
     use test_elliptic, only: elliptic_suite
     use test_errors, only: errors_suite
+    use test_gauge, only: gauge_suite
     use test_exact_maps, only: exact_maps_suite
     use test_gsl, only: gsl_suite
     use test_harness, only: harness_suite
@@ -23,6 +25,8 @@ module suites
     use test_lanes, only: lanes_suite
     use test_lapack, only: lapack_suite
     use test_method_refusals, only: method_refusals_suite
+    use test_lapack_band, only: lapack_band_suite
+    use test_least_time, only: least_time_suite
     use test_method_structure, only: method_structure_suite
     use test_methods, only: methods_suite
     use test_namelist, only: namelist_suite
@@ -36,6 +40,7 @@ module suites
     use test_output_failures, only: output_failures_suite
     use test_output_file, only: output_file_suite
     use test_pendulum, only: pendulum_suite
+    use test_principles, only: principles_suite
     use test_processes, only: processes_suite
     use test_quadrature, only: quadrature_suite
     use test_rheonomic, only: rheonomic_suite
@@ -59,6 +64,7 @@ contains
         suite = TestSuite("lagrangia")
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
+        call suite%addTest(action_suite())
         call suite%addTest(canonical_suite())
         call suite%addTest(cart_pendulum_suite())
         call suite%addTest(charged_particle_suite())
@@ -73,6 +79,12 @@ contains
         call suite%addTest(driven_pendulum_suite())
         call suite%addTest(elliptic_suite())
         call suite%addTest(errors_suite())
+        call suite%addTest(gauge_suite())
+        call suite%addTest(gsl_suite())
+        call suite%addTest(hyperdual_suite())
+        call suite%addTest(lapack_band_suite())
+        call suite%addTest(lapack_suite())
+        call suite%addTest(least_time_suite())
         call suite%addTest(exact_maps_suite())
         call suite%addTest(gsl_suite())
         call suite%addTest(hyperdual_suite())
@@ -91,6 +103,7 @@ contains
         call suite%addTest(output_failures_suite())
         call suite%addTest(output_file_suite())
         call suite%addTest(pendulum_suite())
+        call suite%addTest(principles_suite())
         call suite%addTest(processes_suite())
         call suite%addTest(quadrature_suite())
         call suite%addTest(compensated_suite())
