@@ -16,17 +16,17 @@ module suites
     use test_driven_pendulum, only: driven_pendulum_suite
     use test_elliptic, only: elliptic_suite
     use test_errors, only: errors_suite
-    use test_gauge, only: gauge_suite
     use test_exact_maps, only: exact_maps_suite
+    use test_gauge, only: gauge_suite
     use test_gsl, only: gsl_suite
     use test_harness, only: harness_suite
     use test_harness_order, only: harness_order_suite
     use test_hyperdual, only: hyperdual_suite
     use test_lanes, only: lanes_suite
     use test_lapack, only: lapack_suite
-    use test_method_refusals, only: method_refusals_suite
     use test_lapack_band, only: lapack_band_suite
     use test_least_time, only: least_time_suite
+    use test_method_refusals, only: method_refusals_suite
     use test_method_structure, only: method_structure_suite
     use test_methods, only: methods_suite
     use test_namelist, only: namelist_suite
@@ -79,17 +79,15 @@ contains
         call suite%addTest(driven_pendulum_suite())
         call suite%addTest(elliptic_suite())
         call suite%addTest(errors_suite())
-        call suite%addTest(gauge_suite())
-        call suite%addTest(gsl_suite())
-        call suite%addTest(hyperdual_suite())
-        call suite%addTest(lapack_band_suite())
-        call suite%addTest(lapack_suite())
-        call suite%addTest(least_time_suite())
         call suite%addTest(exact_maps_suite())
+        call suite%addTest(gauge_suite())
         call suite%addTest(gsl_suite())
         call suite%addTest(hyperdual_suite())
         call suite%addTest(lanes_suite())
         call suite%addTest(lapack_suite())
+        call suite%addTest(lapack_band_suite())
+        call suite%addTest(least_time_suite())
+        call suite%addTest(method_refusals_suite())
         call suite%addTest(method_structure_suite())
         call suite%addTest(methods_suite())
         call suite%addTest(namelist_suite())
@@ -106,13 +104,6 @@ contains
         call suite%addTest(principles_suite())
         call suite%addTest(processes_suite())
         call suite%addTest(quadrature_suite())
-        call suite%addTest(compensated_suite())
-        call suite%addTest(canonical_suite())
-        call suite%addTest(methods_suite())
-        call suite%addTest(method_structure_suite())
-        call suite%addTest(method_refusals_suite())
-        call suite%addTest(exact_maps_suite())
-        call suite%addTest(compositions_suite())
         call suite%addTest(rheonomic_suite())
         call suite%addTest(rolling_disk_suite())
         call suite%addTest(rolling_disk_reference_suite())
