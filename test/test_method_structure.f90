@@ -60,7 +60,7 @@ contains
                 end do
                 if (anyExceptions()) return
             end do
-            if (method%symplectic .or. method%order > 8) cycle  ! too accurate to show that it is not
+            if (method%symplectic .or. method%order > 8) cycle  ! too accurate to show it
             call assertGreaterThan(worst, 1e-6_dp, &
                                    message=trim(method%name)//": not symplectic")
         end do

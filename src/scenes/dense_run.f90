@@ -60,7 +60,9 @@ contains
                 if (allocated(error)) exit
                 call meet()
             end do
-            if (.not. (stopped .or. restarted .or. allocated(error))) call show_samples(method%t_new)
+            if (.not. (stopped .or. restarted .or. allocated(error))) then
+                call show_samples(method%t_new)
+            end if
             if (.not. allocated(error)) call look_around()
         end do
     contains
@@ -114,7 +116,8 @@ contains
             integer :: i
 
             if (.not. (all(ieee_is_finite(q_now)) .and. all(ieee_is_finite(v_now)))) then
-                call fail(error, "the state is not finite at t = "//to_text(t)//" s: the motion "// &
+                call fail(error, "the state is not finite at t = "//to_text(t)//" s: the "// &
+                    "motion "// &
                           "diverges, or the step is too long", status_numbers)
                 return
             end if
