@@ -18,6 +18,10 @@ module suites
     use test_errors, only: errors_suite
     use test_exact_maps, only: exact_maps_suite
     use test_gauge, only: gauge_suite
+    use test_gauss, only: gauss_suite
+    use test_gauss_adaptive, only: gauss_adaptive_suite
+    use test_gauss_dense, only: gauss_dense_suite
+    use test_gauss_tables, only: gauss_tables_suite
     use test_gsl, only: gsl_suite
     use test_harness, only: harness_suite
     use test_harness_order, only: harness_order_suite
@@ -111,6 +115,11 @@ contains
         call suite%addTest(scene_files_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(systems_suite())
+        call suite%addTest(lanes_suite())
+        call suite%addTest(gauss_tables_suite())
+        call suite%addTest(gauss_suite())
+        call suite%addTest(gauss_dense_suite())
+        call suite%addTest(gauss_adaptive_suite())
         call suite%addTest(text_suite())
     end function load_tests
 end module suites
