@@ -148,8 +148,9 @@ contains
                                outcome%t, error)
                 outcome%steps = method%accepted
                 outcome%rejected = method%rejected
-                if (.not. allocated(error) .and. outcome%t < p%plan%t0 + p%plan%duration) &
+                if (.not. allocated(error) .and. outcome%t < p%plan%t0 + p%plan%duration) then
                     outcome%remark = " (stopped by an event at t = "//to_text(outcome%t)//" s)"
+                end if
             end select
         else
             call run(system, p%integrator, p%plan, observers, outcome%q, outcome%v, error)
