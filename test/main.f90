@@ -2,9 +2,12 @@ module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
     use test_bouncing_ball, only: bouncing_ball_suite
+    use test_canonical, only: canonical_suite
     use test_cart_pendulum, only: cart_pendulum_suite
     use test_charged_particle, only: charged_particle_suite
     use test_charged_particle_reference, only: charged_particle_reference_suite
+    use test_compensated, only: compensated_suite
+    use test_compositions, only: compositions_suite
     use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
     use test_dense_run, only: dense_run_suite
@@ -15,11 +18,15 @@ module suites
     use test_elliptic, only: elliptic_suite
     use test_errors, only: errors_suite
     use test_events, only: events_suite
+    use test_exact_maps, only: exact_maps_suite
     use test_gsl, only: gsl_suite
     use test_harness, only: harness_suite
     use test_harness_order, only: harness_order_suite
     use test_hyperdual, only: hyperdual_suite
+    use test_lanes, only: lanes_suite
     use test_lapack, only: lapack_suite
+    use test_method_structure, only: method_structure_suite
+    use test_methods, only: methods_suite
     use test_namelist, only: namelist_suite
     use test_namelist_file, only: namelist_file_suite
     use test_namelist_limits, only: namelist_limits_suite
@@ -38,6 +45,7 @@ module suites
     use test_rolling_disk_reference, only: rolling_disk_reference_suite
     use test_roots, only: roots_suite
     use test_rotating_reference, only: rotating_reference_suite
+    use test_scene_files, only: scene_files_suite
     use test_sinc, only: sinc_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
@@ -55,9 +63,12 @@ contains
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
         call suite%addTest(bouncing_ball_suite())
+        call suite%addTest(canonical_suite())
         call suite%addTest(cart_pendulum_suite())
         call suite%addTest(charged_particle_suite())
         call suite%addTest(charged_particle_reference_suite())
+        call suite%addTest(compensated_suite())
+        call suite%addTest(compositions_suite())
         call suite%addTest(console_suite())
         call suite%addTest(constant_accelerations_suite())
         call suite%addTest(dop853_suite())
@@ -66,9 +77,13 @@ contains
         call suite%addTest(driven_pendulum_suite())
         call suite%addTest(elliptic_suite())
         call suite%addTest(errors_suite())
+        call suite%addTest(exact_maps_suite())
         call suite%addTest(gsl_suite())
         call suite%addTest(hyperdual_suite())
+        call suite%addTest(lanes_suite())
         call suite%addTest(lapack_suite())
+        call suite%addTest(method_structure_suite())
+        call suite%addTest(methods_suite())
         call suite%addTest(namelist_suite())
         call suite%addTest(namelist_file_suite())
         call suite%addTest(namelist_limits_suite())
@@ -89,6 +104,7 @@ contains
         call suite%addTest(rolling_disk_suite())
         call suite%addTest(rolling_disk_reference_suite())
         call suite%addTest(rotating_reference_suite())
+        call suite%addTest(scene_files_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(text_suite())

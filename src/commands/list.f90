@@ -1,11 +1,12 @@
 module lagrangia_list
     !! `lagrangia list [systems|methods|scenes]`: what there is, one a line.
-    use lagrangia_catalogue, only: nth_integrator, nth_system
+    use lagrangia_catalogue, only: nth_system
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: put_line
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_integrator, only: integrator_t
+    use lagrangia_methods, only: nth_integrator
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: read_scene
     use lagrangia_shipped, only: shipped_scenes
@@ -79,7 +80,7 @@ contains
                 k = k + 1
                 call nth_integrator(k, integrator)
                 if (.not. allocated(integrator)) exit
-                call put(integrator%name, integrator%title)
+                call put(integrator%name, integrator%properties()//": "//integrator%title)
             end do
         end subroutine list_methods
 

@@ -3,6 +3,7 @@ module lagrangia_adaptive_methods
     !! one of the fixed methods: then `dt` or `tolerance` in a scene says which is meant.
     use lagrangia_description, only: name_length
     use lagrangia_dop853, only: dop853_t, new_dop853
+    use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
     use lagrangia_integrator, only: dense_integrator_t
     implicit none (type, external)
     private
@@ -16,10 +17,18 @@ contains
         class(dense_integrator_t), allocatable, intent(out) :: integrator
 
         select case (i)
-        case (1); call place_dop853()
+        case (1); call place_gauss16()
+        case (2); call place_dop853()
         case default; return
         end select
     contains
+        subroutine place_gauss16()
+            type(gauss_adaptive_t) :: method
+
+            call new_gauss16_adaptive(method)
+            allocate (integrator, source=method)
+        end subroutine place_gauss16
+
         subroutine place_dop853()
             type(dop853_t) :: method
 

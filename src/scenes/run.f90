@@ -147,11 +147,14 @@ contains
 
         subroutine show(t)
             real(dp), intent(in) :: t
+            character(:), allocatable :: why
             integer :: i
 
             if (.not. (all(ieee_is_finite(q)) .and. all(ieee_is_finite(v)))) then
-                call fail(error, "the state is not finite at t = "//to_text(t)//" s: the step "// &
-                          "dt = "//to_text(plan%dt)//" s is too long, or the motion diverges", &
+                why = trim(integrator%trouble)
+                if (why == "") why = "the step dt = "//to_text(plan%dt)//" s is too long, or "// &
+                                     "the motion diverges"
+                call fail(error, "the state is not finite at t = "//to_text(t)//" s: "//why, &
                           status_numbers)
                 q = q_good
                 v = v_good

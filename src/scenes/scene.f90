@@ -21,6 +21,7 @@ module lagrangia_scene
         character(200) :: title = ""
         character(name_length) :: system = ""
         character(name_length) :: method = "rk4"
+        logical :: compensated = .false.           !! sums that keep what rounding drops
         character(200) :: output = ""              !! below the output folder
         real(dp) :: t0 = 0.0_dp, dt = 0.0_dp, duration = 0.0_dp  !! s
         integer(i8) :: every = 1
@@ -51,6 +52,7 @@ contains
         call add("  title = "//text_value(scene%title))
         call add("  system = "//text_value(scene%system))
         call add("  method = "//text_value(scene%method))
+        if (scene%compensated) call add("  compensated = .true.")
         call add("  t0 = "//to_text(scene%t0))
         if (scene%tolerance > 0.0_dp) then
             call add("  tolerance = "//to_text(scene%tolerance))

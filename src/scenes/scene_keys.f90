@@ -4,8 +4,8 @@ module lagrangia_scene_keys
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_namelist, only: get_integer, get_real, get_reals, get_string, get_strings, &
-                                  has_key, namelist_t, refuse_value
+    use lagrangia_namelist, only: get_integer, get_logical, get_real, get_reals, get_string, &
+                                  get_strings, has_key, namelist_t, refuse_value
     use lagrangia_scene, only: expectation_t, scene_t
     use lagrangia_scene_tolerance, only: read_tolerance
     use lagrangia_system, only: system_t
@@ -15,15 +15,16 @@ module lagrangia_scene_keys
     public :: keys, key_length, expectation_keys, read_columns, read_state, read_times
 
     character(name_length), parameter :: keys(*) = [character(name_length) :: &
-        "title", "system", "method", "t0", "dt", "tolerance", "duration", "every", "samples", "q", &
-        "v", "columns", "plot", "event", "event_columns", "event_plot", "period_of", "output"]
+        "title", "system", "method", "compensated", "t0", "dt", "tolerance", "duration", "every", &
+        "samples", "q", "v", "columns", "plot", "event", "event_columns", "event_plot", &
+        "period_of", "output"]
     integer, parameter :: key_length = name_length + len("expect_")
     integer, parameter :: most = 10000  !! values of one key
 
 contains
 
     subroutine read_times(tree, scene, error)
-        !! Method, step, duration, samples.
+        !! Method, how it adds, step, duration, samples.
         type(namelist_t), intent(inout) :: tree
         type(scene_t), intent(inout) :: scene
         type(error_t), allocatable, intent(out) :: error
@@ -32,6 +33,8 @@ contains
         call get_string(tree, "scene", "title", scene%title, error)
         if (allocated(error)) return
         call get_string(tree, "scene", "method", scene%method, error)
+        if (allocated(error)) return
+        call get_logical(tree, "scene", "compensated", scene%compensated, error)
         if (allocated(error)) return
         call get_real(tree, "scene", "t0", scene%t0, error)
         if (allocated(error)) return
@@ -99,7 +102,8 @@ contains
         if (allocated(error)) return
         if (size(scene%q) /= system%ndof) then
             call refuse_value(tree, "scene", "q", to_text(size(scene%q))//" values, but "// &
-                              to_text(system%ndof)//" are needed: "//coordinates(d), error)
+                              to_text(system%ndof)//trim(merge(" is ", " are", system%ndof == 1))// &
+                              " needed: "//coordinates(d), error)
             return
         end if
         allocate (given(system%ndof), source=0.0_dp)

@@ -1,7 +1,6 @@
 module lagrangia_staging
     !! From a scene to its method, the plan of its run, and the events that it looks for.
     use lagrangia_adaptive_methods, only: new_adaptive
-    use lagrangia_catalogue, only: new_integrator
     use lagrangia_columns, only: new_columns
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
@@ -11,6 +10,7 @@ module lagrangia_staging
     use lagrangia_gnuplot, only: new_panels, panel_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp
+    use lagrangia_methods, only: new_integrator, prepare_integrator
     use lagrangia_run, only: new_plan, new_sampled_plan, plan_t
     use lagrangia_scene, only: scene_t
     use lagrangia_shadow, only: shadow_t
@@ -43,11 +43,8 @@ contains
         else
             call new_plan(plan, scene%t0, scene%dt, scene%duration, scene%every, error)
             if (allocated(error)) return
-            call new_integrator(trim(scene%method), fixed, error)
-            if (allocated(error)) then
-                error%key = "method"
-                return
-            end if
+            call new_integrator(trim(scene%method), fixed, error, scene%compensated)
+            if (allocated(error)) return
             if (allocated(scene%events)) then
                 call new_stepwise(stepwise, fixed, scene%dt)
                 allocate (integrator, source=stepwise)
@@ -55,7 +52,7 @@ contains
                 call move_alloc(fixed, integrator)
             end if
         end if
-        call integrator%prepare(system, error)
+        call prepare_integrator(integrator, system, error)
     end subroutine stage_method
 
     subroutine stage_events(scene, system, events, record, panels, error)

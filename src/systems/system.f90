@@ -12,8 +12,10 @@ module lagrangia_system
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: system_t, system_box_t
+    public :: system_t, system_box_t, lanes
     public :: check_parameter, check_parameters, default_values
+
+    integer, parameter :: lanes = 8  !! states that `accelerations_lanes` takes at once
 
     type, abstract :: system_t
         integer :: ndof = 0                  !! number of coordinates
@@ -26,8 +28,12 @@ module lagrangia_system
         procedure(describe_i), deferred :: describe
         procedure(configure_i), deferred :: configure
         procedure(accelerations_i), deferred :: accelerations
+        procedure :: accelerations_lanes => each_lane
         procedure(lagrangian_i), deferred :: lagrangian
         procedure(energy_i), deferred :: energy
+        procedure :: momenta => momenta_of_lagrangian
+        procedure :: velocities => velocities_of_lagrangian
+        procedure :: forces => forces_of_lagrangian
         procedure :: quantity => no_quantity
         procedure :: positions => no_positions
         procedure :: constraint_rows => no_constraint_rows
@@ -92,6 +98,97 @@ module lagrangia_system
     end interface
 
 contains
+
+    pure subroutine momenta_of_lagrangian(self, t, q, v, p)
+        !! Canonical momenta \(p = \partial L/\partial\dot q\). A system may give its own formulae.
+        class(system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: p(self%ndof)
+        type(hyperdual_t) :: tt, qq(self%ndof), vv(self%ndof), l
+        integer :: i
+
+        tt%re = t
+        qq%re = q
+        vv%re = v
+        do i = 1, self%ndof
+            vv(i)%d1 = 1.0_dp
+            l = self%lagrangian(tt, qq, vv)
+            p(i) = l%d1
+            vv(i)%d1 = 0.0_dp
+        end do
+    end subroutine momenta_of_lagrangian
+
+    pure subroutine velocities_of_lagrangian(self, t, q, p, v)
+        !! The inverse of `momenta`. \(L\) is of degree two in the velocities, as it is in all
+        !! the lectures: \(p = M\dot q + b\), solved by elimination; \(M\) is positive definite.
+        class(system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), p(self%ndof)
+        real(dp), intent(out) :: v(self%ndof)
+        type(hyperdual_t) :: tt, qq(self%ndof), vv(self%ndof), l
+        real(dp) :: mass(self%ndof, self%ndof), share
+        integer :: i, j
+
+        tt%re = t
+        qq%re = q
+        do i = 1, self%ndof
+            vv(i)%d1 = 1.0_dp
+            do j = 1, self%ndof
+                vv(j)%d2 = 1.0_dp
+                l = self%lagrangian(tt, qq, vv)
+                mass(i, j) = l%d12
+                vv(j)%d2 = 0.0_dp
+            end do
+            v(i) = p(i) - l%d1
+            vv(i)%d1 = 0.0_dp
+        end do
+        do i = 1, self%ndof
+            do j = i + 1, self%ndof
+                share = mass(j, i)/mass(i, i)
+                v(j) = v(j) - share*v(i)
+                mass(j, i:) = mass(j, i:) - share*mass(i, i:)
+            end do
+        end do
+        do i = self%ndof, 1, -1
+            v(i) = (v(i) - dot_product(mass(i, i + 1:), v(i + 1:)))/mass(i, i)
+        end do
+    end subroutine velocities_of_lagrangian
+
+    pure subroutine forces_of_lagrangian(self, t, q, v, f)
+        !! Generalised forces \(\partial L/\partial q\), which change the momenta.
+        class(system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: f(self%ndof)
+        type(hyperdual_t) :: tt, qq(self%ndof), vv(self%ndof), l
+        integer :: i
+
+        tt%re = t
+        qq%re = q
+        vv%re = v
+        do i = 1, self%ndof
+            qq(i)%d1 = 1.0_dp
+            l = self%lagrangian(tt, qq, vv)
+            f(i) = l%d1
+            qq(i)%d1 = 0.0_dp
+        end do
+    end subroutine forces_of_lagrangian
+
+    pure subroutine each_lane(self, t, q, v, a)
+        !! `accelerations` of several states, lane by lane. A system may do better: the same
+        !! equations as whole-array statements, with sin and cos each in its own, so that the
+        !! compiler calls the vector ones. Those are good to 4 ulp, so the last digits differ.
+        class(system_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+        real(dp) :: x(self%ndof), x_dot(self%ndof), x_ddot(self%ndof)
+        integer :: i
+
+        do i = 1, lanes
+            x = q(i, :)
+            x_dot = v(i, :)
+            call self%accelerations(t(i), x, x_dot, x_ddot)
+            a(i, :) = x_ddot
+        end do
+    end subroutine each_lane
 
     pure function no_quantity(self, i, t, q, v) result(value)
         !! Entry `i` of the quantities in the description: here there are none.
