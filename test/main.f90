@@ -2,6 +2,7 @@ module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
     use test_action, only: action_suite
+    use test_bouncing_ball, only: bouncing_ball_suite
     use test_canonical, only: canonical_suite
     use test_cart_pendulum, only: cart_pendulum_suite
     use test_charged_particle, only: charged_particle_suite
@@ -10,12 +11,14 @@ module suites
     use test_compositions, only: compositions_suite
     use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
+    use test_dense_run, only: dense_run_suite
     use test_dop853, only: dop853_suite
     use test_dop853_coefficients, only: dop853_coefficients_suite
     use test_double_pendulum, only: double_pendulum_suite
     use test_driven_pendulum, only: driven_pendulum_suite
     use test_elliptic, only: elliptic_suite
     use test_errors, only: errors_suite
+    use test_events, only: events_suite
     use test_exact_maps, only: exact_maps_suite
     use test_gauge, only: gauge_suite
     use test_gauss, only: gauss_suite
@@ -50,6 +53,7 @@ module suites
     use test_rheonomic, only: rheonomic_suite
     use test_rolling_disk, only: rolling_disk_suite
     use test_rolling_disk_reference, only: rolling_disk_reference_suite
+    use test_roots, only: roots_suite
     use test_rotating_reference, only: rotating_reference_suite
     use test_scene_files, only: scene_files_suite
     use test_sinc, only: sinc_suite
@@ -69,6 +73,7 @@ contains
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
         call suite%addTest(action_suite())
+        call suite%addTest(bouncing_ball_suite())
         call suite%addTest(canonical_suite())
         call suite%addTest(cart_pendulum_suite())
         call suite%addTest(charged_particle_suite())
@@ -107,6 +112,9 @@ contains
         call suite%addTest(pendulum_suite())
         call suite%addTest(principles_suite())
         call suite%addTest(processes_suite())
+        call suite%addTest(roots_suite())
+        call suite%addTest(events_suite())
+        call suite%addTest(dense_run_suite())
         call suite%addTest(quadrature_suite())
         call suite%addTest(rheonomic_suite())
         call suite%addTest(rolling_disk_suite())

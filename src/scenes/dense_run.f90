@@ -60,9 +60,8 @@ contains
                 if (allocated(error)) exit
                 call meet()
             end do
-            if (.not. (stopped .or. restarted .or. allocated(error))) then
-                call show_samples(method%t_new)
-            end if
+            if (allocated(error)) exit
+            if (.not. (stopped .or. restarted)) call show_samples(method%t_new)
             if (.not. allocated(error)) call look_around()
         end do
     contains
@@ -117,8 +116,7 @@ contains
 
             if (.not. (all(ieee_is_finite(q_now)) .and. all(ieee_is_finite(v_now)))) then
                 call fail(error, "the state is not finite at t = "//to_text(t)//" s: the "// &
-                    "motion "// &
-                          "diverges, or the step is too long", status_numbers)
+                          "motion diverges, or the step is too long", status_numbers)
                 return
             end if
             q = q_now

@@ -14,8 +14,7 @@ module lagrangia_outcome
         "drift: the largest change of an invariant, relative to its start or natural size"// &
         new_line("a")//"error: the largest, absolute below 1 and relative above; exact: "// &
         "against a closed"//new_line("a")//"form, estimate: against the same run at half the "// &
-        "step, or a "// &
-        "hundredth of the tolerance"
+        "step or a hundredth of the tolerance"
 
     integer, parameter :: from_closed_form = 1, from_half_step = 2
 

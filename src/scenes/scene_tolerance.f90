@@ -41,8 +41,7 @@ contains
         if (has_key(tree, "scene", "dt")) then
             if (has_key(tree, "scene", "tolerance")) then
                 call refuse_value(tree, "scene", "tolerance", "give either dt, for steps of "// &
-                    "that "// &
-                                  "length, or tolerance, for steps that keep to it", error)
+                                  "that length, or tolerance, for steps that keep to it", error)
             else if (.not. any(names == scene%method)) then
                 call refuse_value(tree, "scene", "dt", "method '"//trim(scene%method)// &
                                   "' chooses its steps: give tolerance and samples instead", error)
