@@ -57,6 +57,7 @@ module suites
     use test_rotating_reference, only: rotating_reference_suite
     use test_scene_files, only: scene_files_suite
     use test_sinc, only: sinc_suite
+    use test_small_oscillations, only: small_oscillations_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
     implicit none (type, external)
@@ -126,6 +127,7 @@ contains
         call suite%addTest(rotating_reference_suite())
         call suite%addTest(scene_files_suite())
         call suite%addTest(sinc_suite())
+        call suite%addTest(small_oscillations_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(text_suite())
     end function load_tests
