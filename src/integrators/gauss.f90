@@ -35,8 +35,10 @@ contains
         type(gauss_t), intent(out) :: self
 
         self%name = "gauss16"
-        self%title = "Gauss-Legendre collocation, order 16, symplectic, any system (Butcher 1964)"
+        self%title = "Gauss-Legendre collocation, 8 stages in vector lanes (Butcher 1964)"
         self%order = 16
+        self%energy_order = 16
+        self%reversible = .true.
     end subroutine new_gauss16
 
     pure subroutine prepare(self, system, error)

@@ -50,7 +50,7 @@ contains
         type(gauss_adaptive_t), intent(out) :: self
 
         self%name = "gauss16"
-        self%title = "Gauss-Legendre collocation, order 16, by tolerance, any system (Butcher 1964)"
+        self%title = "Gauss-Legendre collocation by tolerance (Butcher 1964)"
         self%order = 16
     end subroutine new_gauss16_adaptive
 

@@ -28,6 +28,9 @@ module lagrangia_cart_pendulum
         procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
+        procedure :: momenta
+        procedure :: velocities
+        procedure :: forces
         procedure :: quantity => momentum_or_force
         procedure :: positions
     end type cart_pendulum_t
@@ -120,6 +123,46 @@ contains
                 + m2*r*v(1)*v(2)*cos(q(2)) + m2*g*r*cos(q(2))
         end associate
     end function lagrangian
+
+    pure subroutine momenta(self, t, q, v, p)
+        !! $$ p_x = (m_1+m_2)\dot x + m_2\ell\dot\theta\cos\theta,\quad
+        !!    p_\theta = m_2\ell^2\dot\theta + m_2\ell\dot x\cos\theta $$
+        class(cart_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: p(self%ndof)
+        real(dp) :: c
+
+        associate (m1 => self%m1, m2 => self%m2, l => self%l)
+            c = cos(q(2))
+            p(1) = (m1 + m2)*v(1) + m2*l*v(2)*c
+            p(2) = m2*l*(l*v(2) + v(1)*c)
+        end associate
+    end subroutine momenta
+
+    pure subroutine velocities(self, t, q, p, v)
+        !! \(M^{-1}p\), with \(\det M = m_2\ell^2\,(m_1 + m_2\sin^2\theta) > 0\).
+        class(cart_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), p(self%ndof)
+        real(dp), intent(out) :: v(self%ndof)
+        real(dp) :: c, d
+
+        associate (m1 => self%m1, m2 => self%m2, l => self%l)
+            c = cos(q(2))
+            d = m1 + m2*sin(q(2))**2
+            v(1) = (p(1) - c*p(2)/l)/d
+            v(2) = ((m1 + m2)/m2*p(2)/l - c*p(1))/(l*d)
+        end associate
+    end subroutine velocities
+
+    pure subroutine forces(self, t, q, v, f)
+        !! $$ f_x = 0,\quad f_\theta = -m_2\ell\,(\dot x\dot\theta + g)\sin\theta $$
+        class(cart_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: f(self%ndof)
+
+        f(1) = 0.0_dp
+        f(2) = -self%m2*self%l*(v(1)*v(2) + self%g)*sin(q(2))
+    end subroutine forces
 
     pure function energy(self, t, q, v) result(e)
         !! $$ E = \tfrac12(m_1+m_2)\dot x^2 + \tfrac12 m_2\ell^2\dot\theta^2
