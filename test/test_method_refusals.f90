@@ -25,12 +25,12 @@ contains
         !! sums that cannot be compensated, methods that do not exist.
         call check_refusal("verlet", 3, "verlet is for forces that depend on positions only, "// &
                            "and here they depend on velocities; these methods work: rk4, "// &
-                           "stormer_verlet, midpoint")
+                           "stormer_verlet, midpoint, gauss16")
         call check_refusal("kahan_li8", 8, "kahan_li8 is for forces that depend on positions "// &
                            "only, and here they depend on velocities; these methods work: rk4, "// &
                            "stormer_verlet, midpoint, boris")
         call check_refusal("boris", 2, "boris is for charges in magnetic fields; these methods "// &
-                           "work: rk4, stormer_verlet, midpoint, verlet, ")
+                           "work: rk4, stormer_verlet, midpoint, gauss16, verlet, ")
         call check_refusal("midpoint", 7, "midpoint is for systems with a Hamiltonian, and "// &
                            "here there are non-holonomic constraints; these methods work: rk4")
         call check_absence("midpoint", .true., "compensated", "midpoint has no compensated sums;")

@@ -6,6 +6,7 @@ module lagrangia_methods
     use lagrangia_composition, only: nth_composition
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_gauss, only: gauss_t, new_gauss16
     use lagrangia_integrator, only: integrator_t
     use lagrangia_rk4, only: new_rk4, rk4_t
     use lagrangia_system, only: system_t
@@ -18,16 +19,17 @@ module lagrangia_methods
 contains
 
     subroutine nth_integrator(i, integrator)
-        !! Entry `i` of the methods; not allocated beyond the end.
+        !! Entry `i` of the methods of fixed step; not allocated beyond the end.
         integer, intent(in) :: i
         class(integrator_t), allocatable, intent(out) :: integrator
-        integer, parameter :: others = 4
+        integer, parameter :: others = 5
 
         select case (i)
         case (1); call place_rk4()
         case (2); call place_stormer_verlet()
         case (3); call place_midpoint()
         case (4); call place_boris()
+        case (5); call place_gauss16()
         case default; call nth_composition(i - others, integrator)
         end select
     contains
@@ -51,6 +53,13 @@ contains
             call new_boris(method)
             allocate (integrator, source=method)
         end subroutine place_boris
+
+        subroutine place_gauss16()
+            type(gauss_t) :: method
+
+            call new_gauss16(method)
+            allocate (integrator, source=method)
+        end subroutine place_gauss16
 
         subroutine place_rk4()
             type(rk4_t) :: method
