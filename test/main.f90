@@ -16,8 +16,8 @@ module suites
     use test_driven_pendulum, only: driven_pendulum_suite
     use test_elliptic, only: elliptic_suite
     use test_errors, only: errors_suite
-    use test_gauge, only: gauge_suite
     use test_exact_maps, only: exact_maps_suite
+    use test_gauge, only: gauge_suite
     use test_gsl, only: gsl_suite
     use test_harness, only: harness_suite
     use test_harness_order, only: harness_order_suite

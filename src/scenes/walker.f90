@@ -1,9 +1,9 @@
 module lagrangia_walker
     !! Paths for the principles, by the methods of the catalogue.
-    use lagrangia_catalogue, only: new_integrator
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_methods, only: new_integrator
     use lagrangia_path_maker, only: path_maker_t
     use lagrangia_system, only: system_t
     implicit none (type, external)
