@@ -10,6 +10,7 @@ module suites
     use test_compositions, only: compositions_suite
     use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
+    use test_constraints, only: constraints_suite
     use test_dop853, only: dop853_suite
     use test_dop853_coefficients, only: dop853_coefficients_suite
     use test_double_pendulum, only: double_pendulum_suite
@@ -72,6 +73,7 @@ contains
         call suite%addTest(compositions_suite())
         call suite%addTest(console_suite())
         call suite%addTest(constant_accelerations_suite())
+        call suite%addTest(constraints_suite())
         call suite%addTest(dop853_suite())
         call suite%addTest(dop853_coefficients_suite())
         call suite%addTest(double_pendulum_suite())
