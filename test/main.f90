@@ -12,6 +12,7 @@ module suites
     use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
     use test_dense_run, only: dense_run_suite
+    use test_constraints, only: constraints_suite
     use test_dop853, only: dop853_suite
     use test_dop853_coefficients, only: dop853_coefficients_suite
     use test_double_pendulum, only: double_pendulum_suite
@@ -25,6 +26,8 @@ module suites
     use test_gauss_adaptive, only: gauss_adaptive_suite
     use test_gauss_dense, only: gauss_dense_suite
     use test_gauss_tables, only: gauss_tables_suite
+    use test_exact_maps, only: exact_maps_suite
+    use test_gauge, only: gauge_suite
     use test_gsl, only: gsl_suite
     use test_harness, only: harness_suite
     use test_harness_order, only: harness_order_suite
@@ -84,6 +87,7 @@ contains
         call suite%addTest(console_suite())
         call suite%addTest(constant_accelerations_suite())
         call suite%addTest(dense_run_suite())
+        call suite%addTest(constraints_suite())
         call suite%addTest(dop853_suite())
         call suite%addTest(dop853_coefficients_suite())
         call suite%addTest(double_pendulum_suite())
