@@ -32,12 +32,14 @@ module suites
     use test_output_failures, only: output_failures_suite
     use test_output_file, only: output_file_suite
     use test_pendulum, only: pendulum_suite
+    use test_plan, only: plan_suite
     use test_processes, only: processes_suite
     use test_quadrature, only: quadrature_suite
     use test_rheonomic, only: rheonomic_suite
     use test_rolling_disk, only: rolling_disk_suite
     use test_rolling_disk_reference, only: rolling_disk_reference_suite
     use test_rotating_reference, only: rotating_reference_suite
+    use test_run, only: run_suite
     use test_scene_files, only: scene_files_suite
     use test_sinc, only: sinc_suite
     use test_systems, only: systems_suite
@@ -84,12 +86,14 @@ contains
         call suite%addTest(output_failures_suite())
         call suite%addTest(output_file_suite())
         call suite%addTest(pendulum_suite())
+        call suite%addTest(plan_suite())
         call suite%addTest(processes_suite())
         call suite%addTest(quadrature_suite())
         call suite%addTest(rheonomic_suite())
         call suite%addTest(rolling_disk_suite())
         call suite%addTest(rolling_disk_reference_suite())
         call suite%addTest(rotating_reference_suite())
+        call suite%addTest(run_suite())
         call suite%addTest(scene_files_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(systems_suite())
