@@ -18,6 +18,7 @@ module suites
     use test_harness, only: harness_suite
     use test_harness_order, only: harness_order_suite
     use test_hyperdual, only: hyperdual_suite
+    use test_lanes, only: lanes_suite
     use test_lapack, only: lapack_suite
     use test_method_structure, only: method_structure_suite
     use test_methods, only: methods_suite
@@ -72,6 +73,7 @@ contains
         call suite%addTest(exact_maps_suite())
         call suite%addTest(gsl_suite())
         call suite%addTest(hyperdual_suite())
+        call suite%addTest(lanes_suite())
         call suite%addTest(lapack_suite())
         call suite%addTest(method_structure_suite())
         call suite%addTest(methods_suite())

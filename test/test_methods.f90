@@ -44,6 +44,8 @@ contains
 
         do i = 1, size(method_names())
             taken = 0
+            call nth_integrator(i, method)
+            if (method%order > 8) cycle  ! rounding hides such orders here: see the method's suite
             do k = 1, problems
                 call nth_integrator(i, method)
                 call new_problem(k, system, q, v)
@@ -228,12 +230,12 @@ contains
         !! sums that cannot be compensated, methods that do not exist.
         call check_refusal("verlet", 3, "verlet is for forces that depend on positions only, "// &
                            "and here they depend on velocities; these methods work: rk4, "// &
-                           "stormer_verlet, midpoint")
+                           "stormer_verlet, midpoint, gauss16")
         call check_refusal("kahan_li8", 8, "kahan_li8 is for forces that depend on positions "// &
                            "only, and here they depend on velocities; these methods work: rk4, "// &
                            "stormer_verlet, midpoint, boris")
         call check_refusal("boris", 2, "boris is for charges in magnetic fields; these methods "// &
-                           "work: rk4, stormer_verlet, midpoint, verlet, ")
+                           "work: rk4, stormer_verlet, midpoint, gauss16, verlet, ")
         call check_refusal("midpoint", 7, "midpoint is for systems with a Hamiltonian, and "// &
                            "here there are non-holonomic constraints; these methods work: rk4")
         call check_absence("boris", .true., "compensated", "boris has no compensated sums; "// &

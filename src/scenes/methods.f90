@@ -6,6 +6,8 @@ module lagrangia_methods
     use lagrangia_composition, only: nth_composition
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_gauss, only: gauss_t, new_gauss16
+    use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
     use lagrangia_integrator, only: integrator_t
     use lagrangia_rk4, only: new_rk4, rk4_t
     use lagrangia_system, only: system_t
@@ -17,17 +19,20 @@ module lagrangia_methods
 
 contains
 
-    subroutine nth_integrator(i, integrator)
-        !! Entry `i` of the methods; not allocated beyond the end.
+    subroutine nth_integrator(i, integrator, adaptive)
+        !! Entry `i` of the methods; not allocated beyond the end. With `adaptive` the form that
+        !! chooses its steps by a tolerance, where a method has both forms.
         integer, intent(in) :: i
         class(integrator_t), allocatable, intent(out) :: integrator
-        integer, parameter :: others = 4
+        logical, intent(in), optional :: adaptive
+        integer, parameter :: others = 5
 
         select case (i)
         case (1); call place_rk4()
         case (2); call place_stormer_verlet()
         case (3); call place_midpoint()
         case (4); call place_boris()
+        case (5); call place_gauss16()
         case default; call nth_composition(i - others, integrator)
         end select
     contains
@@ -52,6 +57,21 @@ contains
             allocate (integrator, source=method)
         end subroutine place_boris
 
+        subroutine place_gauss16()
+            type(gauss_t) :: fixed
+            type(gauss_adaptive_t) :: free
+
+            if (present(adaptive)) then
+                if (adaptive) then
+                    call new_gauss16_adaptive(free)
+                    allocate (integrator, source=free)
+                    return
+                end if
+            end if
+            call new_gauss16(fixed)
+            allocate (integrator, source=fixed)
+        end subroutine place_gauss16
+
         subroutine place_rk4()
             type(rk4_t) :: method
 
@@ -60,19 +80,20 @@ contains
         end subroutine place_rk4
     end subroutine nth_integrator
 
-    subroutine new_integrator(name, integrator, error, compensated)
-        !! The method called `name`, with compensated sums if that is asked for.
+    subroutine new_integrator(name, integrator, error, compensated, adaptive)
+        !! The method called `name`, with compensated sums if that is asked for; with `adaptive`
+        !! the form that chooses its steps by a tolerance, where it has both.
         character(*), intent(in) :: name
         class(integrator_t), allocatable, intent(out) :: integrator
         type(error_t), allocatable, intent(out) :: error
-        logical, intent(in), optional :: compensated
+        logical, intent(in), optional :: compensated, adaptive
         class(integrator_t), allocatable :: plain
         integer :: i
 
         i = 0
         do
             i = i + 1
-            call nth_integrator(i, integrator)
+            call nth_integrator(i, integrator, adaptive)
             if (.not. allocated(integrator)) exit
             if (integrator%name == name) exit
         end do

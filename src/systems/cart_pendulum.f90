@@ -10,7 +10,7 @@ module lagrangia_cart_pendulum
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-), sin
     use lagrangia_kinds, only: dp
-    use lagrangia_system, only: check_parameters, system_t
+    use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
     public :: cart_pendulum_t
@@ -25,6 +25,7 @@ module lagrangia_cart_pendulum
         procedure :: describe
         procedure :: configure
         procedure :: accelerations
+        procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
         procedure :: momenta
@@ -207,4 +208,21 @@ contains
         r(1, 2) = q(1) + self%l*sin(q(2))
         r(2, 2) = -self%l*cos(q(2))
     end subroutine positions
+
+    pure subroutine accelerations_lanes(self, t, q, v, a)
+        !! `accelerations`, in all lanes at once.
+        class(cart_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+        real(dp) :: s(lanes), c(lanes), d(lanes)
+
+        associate (m1 => self%m1, m2 => self%m2, l => self%l, g => self%g, &
+                   theta_dot => v(:, 2))
+            s = sin(q(:, 2))
+            c = cos(q(:, 2))
+            d = m1 + m2*s**2
+            a(:, 1) = m2*s*(l*theta_dot**2 + g*c)/d
+            a(:, 2) = -s*((m1 + m2)*g + m2*l*theta_dot**2*c)/(l*d)
+        end associate
+    end subroutine accelerations_lanes
 end module lagrangia_cart_pendulum

@@ -11,7 +11,7 @@ module lagrangia_charged_particle
     use lagrangia_gyrating_system, only: gyrating_system_t
     use lagrangia_hyperdual, only: dot_product, hyperdual_t, operator(*), operator(+), operator(-)
     use lagrangia_kinds, only: dp
-    use lagrangia_system, only: check_parameters
+    use lagrangia_system, only: check_parameters, lanes
     use lagrangia_vectors, only: cross, length
     implicit none (type, external)
     private
@@ -29,6 +29,7 @@ module lagrangia_charged_particle
         procedure :: configure
         procedure :: accelerations
         procedure :: split_accelerations
+        procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
         procedure :: quantity => momentum_or_speed
@@ -248,4 +249,17 @@ contains
 
         r(:, 1) = q
     end subroutine positions
+
+    pure subroutine accelerations_lanes(self, t, q, v, a)
+        !! `accelerations`, in all lanes at once.
+        class(charged_particle_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+
+        associate (m => self%m, e => self%charge, b => self%magnetic, k => self%trap)
+            a(:, 1) = (e*(self%electric(1) + v(:, 2)*b(3) - v(:, 3)*b(2)) - k*q(:, 1))/m
+            a(:, 2) = (e*(self%electric(2) + v(:, 3)*b(1) - v(:, 1)*b(3)) - k*q(:, 2))/m
+            a(:, 3) = (e*(self%electric(3) + v(:, 1)*b(2) - v(:, 2)*b(1)) - k*q(:, 3))/m
+        end associate
+    end subroutine accelerations_lanes
 end module lagrangia_charged_particle

@@ -9,7 +9,7 @@ module lagrangia_double_pendulum
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-), sin
     use lagrangia_kinds, only: dp
-    use lagrangia_system, only: check_parameters, system_t
+    use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
     public :: double_pendulum_t
@@ -25,6 +25,7 @@ module lagrangia_double_pendulum
         procedure :: describe
         procedure :: configure
         procedure :: accelerations
+        procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
         procedure :: momenta
@@ -239,4 +240,24 @@ contains
         r(1, 2) = r(1, 1) + self%l2*sin(q(2))
         r(2, 2) = r(2, 1) - self%l2*cos(q(2))
     end subroutine positions
+
+    pure subroutine accelerations_lanes(self, t, q, v, a)
+        !! `accelerations`, in all lanes at once.
+        class(double_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+        real(dp) :: s(lanes), c(lanes), s1(lanes), s2(lanes), d(lanes)
+
+        associate (m1 => self%m1, m2 => self%m2, m => self%m1 + self%m2, &
+                   l1 => self%l1, l2 => self%l2, g => self%g)
+            s = q(:, 1) - q(:, 2)
+            c = cos(s)
+            s = sin(s)
+            s1 = sin(q(:, 1))
+            s2 = sin(q(:, 2))
+            d = m1 + m2*s**2
+            a(:, 1) = (-m2*s*(l1*v(:, 1)**2*c + l2*v(:, 2)**2) - m*g*s1 + m2*g*s2*c)/(l1*d)
+            a(:, 2) = (m*l1*v(:, 1)**2*s + m2*l2*v(:, 2)**2*s*c + m*g*(s1*c - s2))/(l2*d)
+        end associate
+    end subroutine accelerations_lanes
 end module lagrangia_double_pendulum

@@ -9,7 +9,7 @@ module lagrangia_pendulum
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-), sin
     use lagrangia_kinds, only: dp
-    use lagrangia_system, only: check_parameters, system_t
+    use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
     public :: pendulum_t
@@ -23,6 +23,7 @@ module lagrangia_pendulum
         procedure :: describe
         procedure :: configure
         procedure :: accelerations
+        procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
         procedure :: momenta
@@ -159,4 +160,13 @@ contains
         r(1, 1) = self%l*sin(q(1))
         r(2, 1) = -self%l*cos(q(1))
     end subroutine positions
+
+    pure subroutine accelerations_lanes(self, t, q, v, a)
+        !! `accelerations`, in all lanes at once.
+        class(pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+
+        a(:, 1) = -self%g/self%l*sin(q(:, 1))
+    end subroutine accelerations_lanes
 end module lagrangia_pendulum

@@ -12,8 +12,10 @@ module lagrangia_system
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: system_t, system_box_t
+    public :: system_t, system_box_t, lanes
     public :: check_parameter, check_parameters, default_values
+
+    integer, parameter :: lanes = 8  !! states that `accelerations_lanes` takes at once
 
     type, abstract :: system_t
         integer :: ndof = 0                  !! number of coordinates
@@ -25,6 +27,7 @@ module lagrangia_system
         procedure(describe_i), deferred :: describe
         procedure(configure_i), deferred :: configure
         procedure(accelerations_i), deferred :: accelerations
+        procedure :: accelerations_lanes => each_lane
         procedure(lagrangian_i), deferred :: lagrangian
         procedure(energy_i), deferred :: energy
         procedure :: momenta => momenta_of_lagrangian
@@ -165,6 +168,24 @@ contains
             qq(i)%d1 = 0.0_dp
         end do
     end subroutine forces_of_lagrangian
+
+    pure subroutine each_lane(self, t, q, v, a)
+        !! `accelerations` of several states, lane by lane. A system may do better: the same
+        !! equations as whole-array statements, with sin and cos each in its own, so that the
+        !! compiler calls the vector ones. Those are good to 4 ulp, so the last digits differ.
+        class(system_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+        real(dp) :: x(self%ndof), x_dot(self%ndof), x_ddot(self%ndof)
+        integer :: i
+
+        do i = 1, lanes
+            x = q(i, :)
+            x_dot = v(i, :)
+            call self%accelerations(t(i), x, x_dot, x_ddot)
+            a(i, :) = x_ddot
+        end do
+    end subroutine each_lane
 
     pure function no_quantity(self, i, t, q, v) result(value)
         !! Entry `i` of the quantities in the description: here there are none.
