@@ -5,6 +5,7 @@ module suites
     use test_cart_pendulum, only: cart_pendulum_suite
     use test_charged_particle, only: charged_particle_suite
     use test_charged_particle_reference, only: charged_particle_reference_suite
+    use test_columns, only: columns_suite
     use test_compensated, only: compensated_suite
     use test_compositions, only: compositions_suite
     use test_console, only: console_suite
@@ -30,6 +31,7 @@ module suites
     use test_npy, only: npy_suite
     use test_number_text, only: number_text_suite
     use test_oscillator, only: oscillator_suite
+    use test_outcome, only: outcome_suite
     use test_output_failures, only: output_failures_suite
     use test_output_file, only: output_file_suite
     use test_pendulum, only: pendulum_suite
@@ -60,8 +62,9 @@ contains
         call suite%addTest(harness_order_suite())
         call suite%addTest(canonical_suite())
         call suite%addTest(cart_pendulum_suite())
-        call suite%addTest(charged_particle_suite())
         call suite%addTest(charged_particle_reference_suite())
+        call suite%addTest(charged_particle_suite())
+        call suite%addTest(columns_suite())
         call suite%addTest(compensated_suite())
         call suite%addTest(compositions_suite())
         call suite%addTest(console_suite())
@@ -77,14 +80,15 @@ contains
         call suite%addTest(lapack_suite())
         call suite%addTest(method_structure_suite())
         call suite%addTest(methods_suite())
-        call suite%addTest(namelist_suite())
         call suite%addTest(namelist_file_suite())
         call suite%addTest(namelist_limits_suite())
         call suite%addTest(namelist_refusals_suite())
+        call suite%addTest(namelist_suite())
         call suite%addTest(namelist_values_suite())
         call suite%addTest(npy_suite())
         call suite%addTest(number_text_suite())
         call suite%addTest(oscillator_suite())
+        call suite%addTest(outcome_suite())
         call suite%addTest(output_failures_suite())
         call suite%addTest(output_file_suite())
         call suite%addTest(pendulum_suite())
@@ -92,8 +96,8 @@ contains
         call suite%addTest(processes_suite())
         call suite%addTest(quadrature_suite())
         call suite%addTest(rheonomic_suite())
-        call suite%addTest(rolling_disk_suite())
         call suite%addTest(rolling_disk_reference_suite())
+        call suite%addTest(rolling_disk_suite())
         call suite%addTest(rotating_reference_suite())
         call suite%addTest(run_suite())
         call suite%addTest(scene_files_suite())

@@ -66,8 +66,8 @@ contains
     subroutine steps_beyond_counting_are_refused()
         !! 1e15 steps can be counted, and no more.
         call check_plan(0.0_dp, 1.0_dp, 1e15_dp, 1000000000000000_i8)
-        call check_no_plan(0.0_dp, 1.0_dp, 1.001e15_dp, "duration/dt = 1001000000000000.0 steps "// &
-                           "are too many to count")
+        call check_no_plan(0.0_dp, 1.0_dp, 1.001e15_dp, "duration/dt = 1001000000000000.0 "// &
+                           "steps are too many to count")
         call check_no_plan(0.0_dp, 1e-300_dp, 1e300_dp, "duration/dt = inf steps are too many")
     end subroutine steps_beyond_counting_are_refused
 
