@@ -7,7 +7,7 @@ module lagrangia_integrator
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: integrator_t, integrator_box_t, dense_integrator_t
+    public :: integrator_t, integrator_box_t, dense_integrator_t, dense_integrator_box_t
 
     type, abstract :: integrator_t
         character(name_length) :: name = ""
@@ -45,6 +45,12 @@ module lagrangia_integrator
         procedure(step_i), deferred :: step
         procedure(state_at_i), deferred :: state_at
     end type dense_integrator_t
+
+    type :: dense_integrator_box_t
+        !! A place for one of any kind. gfortran 12 also needs it here: modules that make the
+        !! dispatch table of `dense_integrator_t` for themselves disagree about its order.
+        class(dense_integrator_t), allocatable :: item
+    end type dense_integrator_box_t
 
     abstract interface
         pure subroutine prepare_i(self, system, error)

@@ -2,6 +2,9 @@ module lagrangia_catalogue
     !! Names and types: the only module that knows every system, method and closed form.
     use lagrangia_atwood, only: atwood_t
     use lagrangia_atwood_reference, only: atwood_reference_t, new_atwood_reference
+    use lagrangia_bouncing_ball, only: bouncing_ball_t
+    use lagrangia_bouncing_ball_reference, only: bouncing_ball_reference_t, &
+        new_bouncing_ball_reference
     use lagrangia_cart_pendulum, only: cart_pendulum_t
     use lagrangia_cart_pendulum_reference, only: cart_pendulum_reference_t, &
         new_cart_pendulum_reference
@@ -61,6 +64,7 @@ contains
         case (9); allocate (rotating_wire_t :: system)
         case (10); allocate (rotating_hoop_t :: system)
         case (11); allocate (driven_pendulum_t :: system)
+        case (12); allocate (bouncing_ball_t :: system)
         case default; return
         end select
         call system%describe(d)
@@ -143,6 +147,13 @@ contains
                 type(driven_pendulum_reference_t) :: closed_form
 
                 call new_driven_pendulum_reference(closed_form, system, t0, q0, v0, found)
+                if (found) allocate (reference, source=closed_form)
+            end block
+        type is (bouncing_ball_t)
+            block
+                type(bouncing_ball_reference_t) :: closed_form
+
+                call new_bouncing_ball_reference(closed_form, system, t0, q0, v0, found)
                 if (found) allocate (reference, source=closed_form)
             end block
         end select

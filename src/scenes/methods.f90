@@ -7,7 +7,6 @@ module lagrangia_methods
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_gauss, only: gauss_t, new_gauss16
-    use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
     use lagrangia_integrator, only: integrator_t
     use lagrangia_rk4, only: new_rk4, rk4_t
     use lagrangia_system, only: system_t
@@ -19,12 +18,10 @@ module lagrangia_methods
 
 contains
 
-    subroutine nth_integrator(i, integrator, adaptive)
-        !! Entry `i` of the methods; not allocated beyond the end. With `adaptive` the form that
-        !! chooses its steps by a tolerance, where a method has both forms.
+    subroutine nth_integrator(i, integrator)
+        !! Entry `i` of the methods of fixed step; not allocated beyond the end.
         integer, intent(in) :: i
         class(integrator_t), allocatable, intent(out) :: integrator
-        logical, intent(in), optional :: adaptive
         integer, parameter :: others = 5
 
         select case (i)
@@ -58,18 +55,10 @@ contains
         end subroutine place_boris
 
         subroutine place_gauss16()
-            type(gauss_t) :: fixed
-            type(gauss_adaptive_t) :: free
+            type(gauss_t) :: method
 
-            if (present(adaptive)) then
-                if (adaptive) then
-                    call new_gauss16_adaptive(free)
-                    allocate (integrator, source=free)
-                    return
-                end if
-            end if
-            call new_gauss16(fixed)
-            allocate (integrator, source=fixed)
+            call new_gauss16(method)
+            allocate (integrator, source=method)
         end subroutine place_gauss16
 
         subroutine place_rk4()
@@ -80,20 +69,19 @@ contains
         end subroutine place_rk4
     end subroutine nth_integrator
 
-    subroutine new_integrator(name, integrator, error, compensated, adaptive)
-        !! The method called `name`, with compensated sums if that is asked for; with `adaptive`
-        !! the form that chooses its steps by a tolerance, where it has both.
+    subroutine new_integrator(name, integrator, error, compensated)
+        !! The method called `name`, with compensated sums if that is asked for.
         character(*), intent(in) :: name
         class(integrator_t), allocatable, intent(out) :: integrator
         type(error_t), allocatable, intent(out) :: error
-        logical, intent(in), optional :: compensated, adaptive
+        logical, intent(in), optional :: compensated
         class(integrator_t), allocatable :: plain
         integer :: i
 
         i = 0
         do
             i = i + 1
-            call nth_integrator(i, integrator, adaptive)
+            call nth_integrator(i, integrator)
             if (.not. allocated(integrator)) exit
             if (integrator%name == name) exit
         end do
