@@ -8,6 +8,7 @@ module suites
     use test_charged_particle, only: charged_particle_suite
     use test_charged_particle_reference, only: charged_particle_reference_suite
     use test_columns, only: columns_suite
+    use test_command_line, only: command_line_suite
     use test_compensated, only: compensated_suite
     use test_compositions, only: compositions_suite
     use test_console, only: console_suite
@@ -49,6 +50,7 @@ module suites
     use test_output_failures, only: output_failures_suite
     use test_output_file, only: output_file_suite
     use test_pendulum, only: pendulum_suite
+    use test_period, only: period_suite
     use test_plan, only: plan_suite
     use test_principles, only: principles_suite
     use test_processes, only: processes_suite
@@ -60,6 +62,7 @@ module suites
     use test_rotating_reference, only: rotating_reference_suite
     use test_run, only: run_suite
     use test_scene_files, only: scene_files_suite
+    use test_shadow, only: shadow_suite
     use test_sinc, only: sinc_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
@@ -83,13 +86,14 @@ contains
         call suite%addTest(charged_particle_reference_suite())
         call suite%addTest(charged_particle_suite())
         call suite%addTest(columns_suite())
+        call suite%addTest(command_line_suite())
         call suite%addTest(compensated_suite())
         call suite%addTest(compositions_suite())
         call suite%addTest(console_suite())
         call suite%addTest(constant_accelerations_suite())
         call suite%addTest(dense_run_suite())
-        call suite%addTest(dop853_suite())
         call suite%addTest(dop853_coefficients_suite())
+        call suite%addTest(dop853_suite())
         call suite%addTest(double_pendulum_suite())
         call suite%addTest(driven_pendulum_suite())
         call suite%addTest(elliptic_suite())
@@ -97,15 +101,15 @@ contains
         call suite%addTest(events_suite())
         call suite%addTest(exact_maps_suite())
         call suite%addTest(gauge_suite())
-        call suite%addTest(gauss_suite())
         call suite%addTest(gauss_adaptive_suite())
         call suite%addTest(gauss_dense_suite())
+        call suite%addTest(gauss_suite())
         call suite%addTest(gauss_tables_suite())
         call suite%addTest(gsl_suite())
         call suite%addTest(hyperdual_suite())
         call suite%addTest(lanes_suite())
-        call suite%addTest(lapack_suite())
         call suite%addTest(lapack_band_suite())
+        call suite%addTest(lapack_suite())
         call suite%addTest(least_time_suite())
         call suite%addTest(method_refusals_suite())
         call suite%addTest(method_structure_suite())
@@ -122,6 +126,7 @@ contains
         call suite%addTest(output_failures_suite())
         call suite%addTest(output_file_suite())
         call suite%addTest(pendulum_suite())
+        call suite%addTest(period_suite())
         call suite%addTest(plan_suite())
         call suite%addTest(principles_suite())
         call suite%addTest(processes_suite())
@@ -133,6 +138,7 @@ contains
         call suite%addTest(rotating_reference_suite())
         call suite%addTest(run_suite())
         call suite%addTest(scene_files_suite())
+        call suite%addTest(shadow_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(text_suite())

@@ -187,11 +187,13 @@ contains
         call system%configure([2.0_dp, 3.0_dp], error)
         call refused(system, [character(8) :: "t", "x", "x_dt"], 3, &
                      "unknown column 'x_dt'; did you mean 'x_dot'?")
-        call refused(system, [character(8) :: "velocity"], 1, "unknown column 'velocity'; "// &
-                     "oscillator has t, x, x_dot, x_ddot, energy, energy_drift, force, p_x, x_mass")
+        call refused(system, [character(8) :: "velocity"], 1, &
+                     "unknown column 'velocity'; oscillator has t, x, x_dot, x_ddot, energy, "// &
+                     "energy_drift, force, p_x, x_mass")
         call refused(system, [character(8) :: "x", "t", "x"], 3, "the column is there already")
-        call refused(system, [character(8) :: "t", "error"], 2, "column 'error': oscillator has "// &
-                     "no closed form from this start; with expect_error it is estimated")
+        call refused(system, [character(8) :: "t", "error"], 2, &
+                     "column 'error': oscillator has no closed form from this start; with "// &
+                     "expect_error it is estimated")
         call driven%configure([1.0_dp, 2.0_dp, 9.81_dp, 0.1_dp, 30.0_dp], error)
         call refused(driven, [character(16) :: "energy_drift"], 1, "column 'energy_drift': the "// &
                      "energy of this driven_pendulum is not conserved, for L contains the time")
