@@ -13,8 +13,8 @@ module suites
     use test_compositions, only: compositions_suite
     use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
-    use test_dense_run, only: dense_run_suite
     use test_constraints, only: constraints_suite
+    use test_dense_run, only: dense_run_suite
     use test_dop853, only: dop853_suite
     use test_dop853_coefficients, only: dop853_coefficients_suite
     use test_double_pendulum, only: double_pendulum_suite
@@ -28,8 +28,6 @@ module suites
     use test_gauss_adaptive, only: gauss_adaptive_suite
     use test_gauss_dense, only: gauss_dense_suite
     use test_gauss_tables, only: gauss_tables_suite
-    use test_exact_maps, only: exact_maps_suite
-    use test_gauge, only: gauge_suite
     use test_gsl, only: gsl_suite
     use test_harness, only: harness_suite
     use test_harness_order, only: harness_order_suite
@@ -87,19 +85,18 @@ contains
         call suite%addTest(bouncing_ball_suite())
         call suite%addTest(canonical_suite())
         call suite%addTest(cart_pendulum_suite())
-        call suite%addTest(charged_particle_reference_suite())
         call suite%addTest(charged_particle_suite())
+        call suite%addTest(charged_particle_reference_suite())
         call suite%addTest(columns_suite())
         call suite%addTest(command_line_suite())
         call suite%addTest(compensated_suite())
         call suite%addTest(compositions_suite())
         call suite%addTest(console_suite())
         call suite%addTest(constant_accelerations_suite())
-        call suite%addTest(dense_run_suite())
         call suite%addTest(constraints_suite())
+        call suite%addTest(dense_run_suite())
         call suite%addTest(dop853_suite())
         call suite%addTest(dop853_coefficients_suite())
-        call suite%addTest(dop853_suite())
         call suite%addTest(double_pendulum_suite())
         call suite%addTest(driven_pendulum_suite())
         call suite%addTest(elliptic_suite())
@@ -107,23 +104,23 @@ contains
         call suite%addTest(events_suite())
         call suite%addTest(exact_maps_suite())
         call suite%addTest(gauge_suite())
+        call suite%addTest(gauss_suite())
         call suite%addTest(gauss_adaptive_suite())
         call suite%addTest(gauss_dense_suite())
-        call suite%addTest(gauss_suite())
         call suite%addTest(gauss_tables_suite())
         call suite%addTest(gsl_suite())
         call suite%addTest(hyperdual_suite())
         call suite%addTest(lanes_suite())
-        call suite%addTest(lapack_band_suite())
         call suite%addTest(lapack_suite())
+        call suite%addTest(lapack_band_suite())
         call suite%addTest(least_time_suite())
         call suite%addTest(method_refusals_suite())
         call suite%addTest(method_structure_suite())
         call suite%addTest(methods_suite())
+        call suite%addTest(namelist_suite())
         call suite%addTest(namelist_file_suite())
         call suite%addTest(namelist_limits_suite())
         call suite%addTest(namelist_refusals_suite())
-        call suite%addTest(namelist_suite())
         call suite%addTest(namelist_values_suite())
         call suite%addTest(npy_suite())
         call suite%addTest(number_text_suite())
@@ -138,8 +135,8 @@ contains
         call suite%addTest(processes_suite())
         call suite%addTest(quadrature_suite())
         call suite%addTest(rheonomic_suite())
-        call suite%addTest(rolling_disk_reference_suite())
         call suite%addTest(rolling_disk_suite())
+        call suite%addTest(rolling_disk_reference_suite())
         call suite%addTest(roots_suite())
         call suite%addTest(rotating_reference_suite())
         call suite%addTest(run_suite())
