@@ -46,6 +46,7 @@ module suites
     use test_roots, only: roots_suite
     use test_rotating_reference, only: rotating_reference_suite
     use test_scene_files, only: scene_files_suite
+    use test_scene_steps, only: scene_steps_suite
     use test_sinc, only: sinc_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
@@ -98,6 +99,7 @@ contains
         call suite%addTest(processes_suite())
         call suite%addTest(roots_suite())
         call suite%addTest(events_suite())
+        call suite%addTest(scene_steps_suite())
         call suite%addTest(dense_run_suite())
         call suite%addTest(quadrature_suite())
         call suite%addTest(rheonomic_suite())
