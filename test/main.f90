@@ -1,6 +1,7 @@
 module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
+    use test_action, only: action_suite
     use test_bouncing_ball, only: bouncing_ball_suite
     use test_canonical, only: canonical_suite
     use test_cart_pendulum, only: cart_pendulum_suite
@@ -19,12 +20,20 @@ module suites
     use test_errors, only: errors_suite
     use test_events, only: events_suite
     use test_exact_maps, only: exact_maps_suite
+    use test_gauge, only: gauge_suite
+    use test_gauss, only: gauss_suite
+    use test_gauss_adaptive, only: gauss_adaptive_suite
+    use test_gauss_dense, only: gauss_dense_suite
+    use test_gauss_tables, only: gauss_tables_suite
     use test_gsl, only: gsl_suite
     use test_harness, only: harness_suite
     use test_harness_order, only: harness_order_suite
     use test_hyperdual, only: hyperdual_suite
     use test_lanes, only: lanes_suite
     use test_lapack, only: lapack_suite
+    use test_lapack_band, only: lapack_band_suite
+    use test_least_time, only: least_time_suite
+    use test_method_refusals, only: method_refusals_suite
     use test_method_structure, only: method_structure_suite
     use test_methods, only: methods_suite
     use test_namelist, only: namelist_suite
@@ -38,6 +47,7 @@ module suites
     use test_output_failures, only: output_failures_suite
     use test_output_file, only: output_file_suite
     use test_pendulum, only: pendulum_suite
+    use test_principles, only: principles_suite
     use test_processes, only: processes_suite
     use test_quadrature, only: quadrature_suite
     use test_rheonomic, only: rheonomic_suite
@@ -63,6 +73,7 @@ contains
         suite = TestSuite("lagrangia")
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
+        call suite%addTest(action_suite())
         call suite%addTest(bouncing_ball_suite())
         call suite%addTest(canonical_suite())
         call suite%addTest(cart_pendulum_suite())
@@ -79,10 +90,14 @@ contains
         call suite%addTest(elliptic_suite())
         call suite%addTest(errors_suite())
         call suite%addTest(exact_maps_suite())
+        call suite%addTest(gauge_suite())
         call suite%addTest(gsl_suite())
         call suite%addTest(hyperdual_suite())
         call suite%addTest(lanes_suite())
         call suite%addTest(lapack_suite())
+        call suite%addTest(lapack_band_suite())
+        call suite%addTest(least_time_suite())
+        call suite%addTest(method_refusals_suite())
         call suite%addTest(method_structure_suite())
         call suite%addTest(methods_suite())
         call suite%addTest(namelist_suite())
@@ -96,6 +111,7 @@ contains
         call suite%addTest(output_failures_suite())
         call suite%addTest(output_file_suite())
         call suite%addTest(pendulum_suite())
+        call suite%addTest(principles_suite())
         call suite%addTest(processes_suite())
         call suite%addTest(roots_suite())
         call suite%addTest(events_suite())
@@ -109,6 +125,11 @@ contains
         call suite%addTest(scene_files_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(systems_suite())
+        call suite%addTest(lanes_suite())
+        call suite%addTest(gauss_tables_suite())
+        call suite%addTest(gauss_suite())
+        call suite%addTest(gauss_dense_suite())
+        call suite%addTest(gauss_adaptive_suite())
         call suite%addTest(text_suite())
     end function load_tests
 end module suites

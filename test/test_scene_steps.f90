@@ -84,7 +84,8 @@ contains
         call refused(pendulum//adaptive//"dt = 0.1", "dt = 0.1: method 'dop853' chooses its "// &
                      "steps: give tolerance and samples instead")
         call refused(pendulum//"method = 'gauss16', tolerance = 1e-9, dt = 0.1", &
-                     "tolerance = 1e-9: give either dt, for steps of that length, or tolerance, for steps that keep to it")
+                     "tolerance = 1e-9: give either dt, for steps of that length, or "// &
+                     "tolerance, for steps that keep to it")
         call refused(pendulum//adaptive//"every = 7", "every = 7: counts steps of dt; with a "// &
                      "tolerance give samples")
         call refused(pendulum//adaptive//"tolerance = 1e-17", "tolerance = 1e-17: is below the "// &

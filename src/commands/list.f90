@@ -89,8 +89,8 @@ contains
                 k = k + 1
                 call nth_adaptive(k, adaptive)
                 if (.not. allocated(adaptive)) exit
-                call put(adaptive%name, "order "//to_text(adaptive%order)// &
-                         ", by tolerance: "//adaptive%title)
+                call put(adaptive%name, "order "//to_text(adaptive%order)//", steps by "// &
+                         "tolerance: "//adaptive%title)
             end do
         end subroutine list_methods
 

@@ -201,7 +201,8 @@ contains
         real(dp) :: ratio, scale
         real(dp), dimension(size(modes, 1), size(modes, 2)) :: residual
 
-        residual = matmul(stiffness, modes) - matmul(inertia, modes)*spread(omega2, 1, size(modes, 1))
+        residual = matmul(stiffness, modes) - &
+                   matmul(inertia, modes)*spread(omega2, 1, size(modes, 1))
         scale = norm1(stiffness)*norm1(modes)*size(omega2)*epsilon(scale)
         ratio = 0.0_dp
         if (scale > 0.0_dp) ratio = norm1(residual)/scale

@@ -102,7 +102,8 @@ contains
         if (allocated(error)) return
         if (size(scene%q) /= system%ndof) then
             call refuse_value(tree, "scene", "q", to_text(size(scene%q))//" values, but "// &
-                              to_text(system%ndof)//trim(merge(" is ", " are", system%ndof == 1))// &
+                              to_text(system%ndof)// &
+                              trim(merge(" is ", " are", system%ndof == 1))// &
                               " needed: "//coordinates(d), error)
             return
         end if
