@@ -29,7 +29,7 @@ contains
         character(name_length), allocatable :: names(:)
 
         call new_adaptive(trim(scene%method), method)
-        names = method_names()
+        allocate (names, source=method_names())
         if (.not. allocated(method)) then
             call refuse_fixed(tree, trim(scene%method), names, error)
             return
@@ -82,7 +82,7 @@ contains
         type(error_t), allocatable :: found
         character(name_length), allocatable :: adaptive(:)
 
-        adaptive = adaptive_names()
+        allocate (adaptive, source=adaptive_names())
         if (.not. any(fixed == name)) then
             call refuse_name("method", name, [character(name_length) :: fixed, &
                                               pack(adaptive, .not. listed(adaptive, fixed))], found)
