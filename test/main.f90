@@ -63,8 +63,8 @@ module suites
     use test_rotating_reference, only: rotating_reference_suite
     use test_run, only: run_suite
     use test_scene_files, only: scene_files_suite
-    use test_shadow, only: shadow_suite
     use test_scene_steps, only: scene_steps_suite
+    use test_shadow, only: shadow_suite
     use test_sinc, only: sinc_suite
     use test_small_oscillations, only: small_oscillations_suite
     use test_systems, only: systems_suite
@@ -134,10 +134,6 @@ contains
         call suite%addTest(plan_suite())
         call suite%addTest(principles_suite())
         call suite%addTest(processes_suite())
-        call suite%addTest(roots_suite())
-        call suite%addTest(events_suite())
-        call suite%addTest(scene_steps_suite())
-        call suite%addTest(dense_run_suite())
         call suite%addTest(quadrature_suite())
         call suite%addTest(rheonomic_suite())
         call suite%addTest(rolling_disk_suite())
@@ -146,6 +142,7 @@ contains
         call suite%addTest(rotating_reference_suite())
         call suite%addTest(run_suite())
         call suite%addTest(scene_files_suite())
+        call suite%addTest(scene_steps_suite())
         call suite%addTest(shadow_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(small_oscillations_suite())
