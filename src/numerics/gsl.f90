@@ -1,5 +1,5 @@
 module lagrangia_gsl
-    !! The one module that touches the GNU Scientific Library.
+    !! The GNU Scientific Library, touched here and in `lagrangia_gsl_odeiv` only.
     !!
     !! GSL's error handler would abort the program: it is switched off before the first call, and
     !! every status is checked.
@@ -9,7 +9,7 @@ module lagrangia_gsl
     use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
-    public :: jacobi_sn_cn_dn
+    public :: gsl_reason, jacobi_sn_cn_dn, silence_gsl
 
     interface
         function gsl_set_error_handler_off() bind(c) result(old_handler)
@@ -70,20 +70,20 @@ contains
             call fail(error, "elljac: no digit is right this close to modulus 1", status_library)
             return
         end if
-        call silence_handler()
+        call silence_gsl()
         status = gsl_sf_elljac_e(u, m, sn, cn, dn)
-        if (status /= 0) call fail(error, "elljac: GSL says: "//reason(status), status_library)
+        if (status /= 0) call fail(error, "elljac: GSL says: "//gsl_reason(status), status_library)
     end subroutine jacobi_sn_cn_dn
 
-    subroutine silence_handler()
+    subroutine silence_gsl()
         type(c_ptr) :: old_handler
 
         if (handler_is_off) return
         old_handler = gsl_set_error_handler_off()
         handler_is_off = .true.
-    end subroutine silence_handler
+    end subroutine silence_gsl
 
-    function reason(status) result(message)
+    function gsl_reason(status) result(message)
         !! GSL's own words for a status.
         integer(c_int), intent(in) :: status
         character(:), allocatable :: message
@@ -96,5 +96,5 @@ contains
         do i = 1, length
             message(i:i) = text(i)
         end do
-    end function reason
+    end function gsl_reason
 end module lagrangia_gsl
