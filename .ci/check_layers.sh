@@ -75,7 +75,7 @@ function examine(statement, head, word, used) {
         return
     }
     if (pass == 1) {
-        if (statement ~ /extends *\( *system_t *\)/) concrete_system[name] = 1
+        if (statement ~ /extends *\( *[a-z_]*system_t *\)/ && statement !~ /abstract/) concrete_system[name] = 1
         if (statement !~ /abstract/ && statement ~ /extends *\( *integrator_t *\)/) concrete_integrator[name] = 1
         return
     }

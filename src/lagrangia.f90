@@ -16,8 +16,7 @@ module lagrangia
     !!     call new_integrator("rk4", integrator, error)
     !!     call new_plan(plan, 0.0_dp, 1e-3_dp, 20.0_dp, 10_i8, error)
     !!     call run(system, integrator, plan, nobody, q, v, error)
-    use lagrangia_catalogue, only: method_names, new_integrator, new_reference, new_system, &
-                                   system_names
+    use lagrangia_catalogue, only: new_reference, new_system, system_names
     use lagrangia_description, only: conserved, coordinate, description_t, nonnegative, number, &
                                      parameter_t, point, point_t, positive, quantity, &
                                      quantity_t, vector
@@ -30,6 +29,7 @@ module lagrangia
     use lagrangia_kinds, only: dp, i8
     use lagrangia_lagrange, only: accelerations_from_lagrangian, energy_from_lagrangian, &
                                   euler_lagrange_t, expand_lagrangian
+    use lagrangia_methods, only: method_names, new_integrator
     use lagrangia_observer, only: observer_box_t, observer_t
     use lagrangia_reference, only: reference_t
     use lagrangia_run, only: new_plan, plan_t, run

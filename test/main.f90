@@ -1,22 +1,41 @@
 module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
+    use test_action, only: action_suite
+    use test_bouncing_ball, only: bouncing_ball_suite
+    use test_canonical, only: canonical_suite
     use test_cart_pendulum, only: cart_pendulum_suite
     use test_charged_particle, only: charged_particle_suite
     use test_charged_particle_reference, only: charged_particle_reference_suite
+    use test_compensated, only: compensated_suite
+    use test_compositions, only: compositions_suite
     use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
-    use test_discrete_maps, only: discrete_maps_suite
+    use test_dense_run, only: dense_run_suite
+    use test_dop853, only: dop853_suite
+    use test_dop853_coefficients, only: dop853_coefficients_suite
     use test_double_pendulum, only: double_pendulum_suite
     use test_driven_pendulum, only: driven_pendulum_suite
     use test_elliptic, only: elliptic_suite
     use test_errors, only: errors_suite
+    use test_events, only: events_suite
+    use test_exact_maps, only: exact_maps_suite
+    use test_gauge, only: gauge_suite
+    use test_gauss, only: gauss_suite
+    use test_gauss_adaptive, only: gauss_adaptive_suite
+    use test_gauss_dense, only: gauss_dense_suite
+    use test_gauss_tables, only: gauss_tables_suite
     use test_gsl, only: gsl_suite
     use test_harness, only: harness_suite
     use test_harness_order, only: harness_order_suite
     use test_hyperdual, only: hyperdual_suite
+    use test_lanes, only: lanes_suite
     use test_lapack, only: lapack_suite
-    use test_method_orders, only: method_orders_suite
+    use test_lapack_band, only: lapack_band_suite
+    use test_least_time, only: least_time_suite
+    use test_method_refusals, only: method_refusals_suite
+    use test_method_structure, only: method_structure_suite
+    use test_methods, only: methods_suite
     use test_namelist, only: namelist_suite
     use test_namelist_file, only: namelist_file_suite
     use test_namelist_limits, only: namelist_limits_suite
@@ -28,11 +47,13 @@ module suites
     use test_output_failures, only: output_failures_suite
     use test_output_file, only: output_file_suite
     use test_pendulum, only: pendulum_suite
+    use test_principles, only: principles_suite
     use test_processes, only: processes_suite
     use test_quadrature, only: quadrature_suite
     use test_rheonomic, only: rheonomic_suite
     use test_rolling_disk, only: rolling_disk_suite
     use test_rolling_disk_reference, only: rolling_disk_reference_suite
+    use test_roots, only: roots_suite
     use test_rotating_reference, only: rotating_reference_suite
     use test_scene_files, only: scene_files_suite
     use test_sinc, only: sinc_suite
@@ -51,20 +72,33 @@ contains
         suite = TestSuite("lagrangia")
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
+        call suite%addTest(action_suite())
+        call suite%addTest(bouncing_ball_suite())
+        call suite%addTest(canonical_suite())
         call suite%addTest(cart_pendulum_suite())
         call suite%addTest(charged_particle_suite())
         call suite%addTest(charged_particle_reference_suite())
+        call suite%addTest(compensated_suite())
+        call suite%addTest(compositions_suite())
         call suite%addTest(console_suite())
         call suite%addTest(constant_accelerations_suite())
-        call suite%addTest(discrete_maps_suite())
+        call suite%addTest(dop853_suite())
+        call suite%addTest(dop853_coefficients_suite())
         call suite%addTest(double_pendulum_suite())
         call suite%addTest(driven_pendulum_suite())
         call suite%addTest(elliptic_suite())
         call suite%addTest(errors_suite())
+        call suite%addTest(exact_maps_suite())
+        call suite%addTest(gauge_suite())
         call suite%addTest(gsl_suite())
         call suite%addTest(hyperdual_suite())
+        call suite%addTest(lanes_suite())
         call suite%addTest(lapack_suite())
-        call suite%addTest(method_orders_suite())
+        call suite%addTest(lapack_band_suite())
+        call suite%addTest(least_time_suite())
+        call suite%addTest(method_refusals_suite())
+        call suite%addTest(method_structure_suite())
+        call suite%addTest(methods_suite())
         call suite%addTest(namelist_suite())
         call suite%addTest(namelist_file_suite())
         call suite%addTest(namelist_limits_suite())
@@ -76,7 +110,11 @@ contains
         call suite%addTest(output_failures_suite())
         call suite%addTest(output_file_suite())
         call suite%addTest(pendulum_suite())
+        call suite%addTest(principles_suite())
         call suite%addTest(processes_suite())
+        call suite%addTest(roots_suite())
+        call suite%addTest(events_suite())
+        call suite%addTest(dense_run_suite())
         call suite%addTest(quadrature_suite())
         call suite%addTest(rheonomic_suite())
         call suite%addTest(rolling_disk_suite())
@@ -85,6 +123,11 @@ contains
         call suite%addTest(scene_files_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(systems_suite())
+        call suite%addTest(lanes_suite())
+        call suite%addTest(gauss_tables_suite())
+        call suite%addTest(gauss_suite())
+        call suite%addTest(gauss_dense_suite())
+        call suite%addTest(gauss_adaptive_suite())
         call suite%addTest(text_suite())
     end function load_tests
 end module suites

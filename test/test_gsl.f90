@@ -1,16 +1,24 @@
 module test_gsl
-    !! GSL's `elljac` behind our door: right, or refused.
+    !! GSL's `elljac` and Brent's root finder behind our door: right, or refused.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_elliptic, only: jacobi
     use lagrangia_errors, only: error_t, status_library, status_numbers
-    use lagrangia_gsl, only: jacobi_sn_cn_dn
+    use lagrangia_gsl, only: find_root, function_t, jacobi_sn_cn_dn
     use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
     public :: gsl_suite
 
     real(dp), parameter :: eps = epsilon(1.0_dp)
+
+    type, extends(function_t) :: power_t
+        !! \(x^n - c\).
+        integer :: n
+        real(dp) :: c
+    contains
+        procedure :: value => power_value
+    end type power_t
 
 contains
 
@@ -21,6 +29,8 @@ contains
         suite = TestSuite("gsl")
         call suite%addTest(TestMethod("agrees_where_it_can", agrees_where_it_can))
         call suite%addTest(TestMethod("refuses_the_rest", refuses_the_rest))
+        call suite%addTest(TestMethod("finds_roots", finds_roots))
+        call suite%addTest(TestMethod("refuses_what_has_no_root", refuses_what_has_no_root))
     end function gsl_suite
 
     subroutine agrees_where_it_can()
@@ -70,4 +80,55 @@ contains
             call assertEqual(status_numbers, error%status)
         end if
     end subroutine refuses_the_rest
+
+    subroutine finds_roots()
+        !! To two roundings, of tiny and of large numbers, falling and rising, and at an end.
+        real(dp) :: root
+        type(error_t), allocatable :: error
+
+        call find_root(power_t(3, 2.0_dp), 0.0_dp, 5.0_dp, root, error)
+        call assertFalse(allocated(error))
+        call assertEqual(2.0_dp**(1.0_dp/3.0_dp), root, tolerance=4.0_dp*eps)
+        call find_root(power_t(2, 3e-20_dp), -1.0_dp, 0.0_dp, root, error)
+        call assertFalse(allocated(error))
+        call assertEqual(-sqrt(3e-20_dp), root, tolerance=4.0_dp*eps*1.8e-10_dp)
+        call find_root(power_t(1, 1e10_dp), 1e-5_dp, 1e12_dp, root, error)
+        call assertEqual(1e10_dp, root, tolerance=4.0_dp*eps*1e10_dp)
+        call find_root(power_t(1, 0.0_dp), 0.0_dp, 1.0_dp, root, error)
+        call assertFalse(allocated(error))
+        call assertEqual(0.0_dp, root, tolerance=0.0_dp)
+    end subroutine finds_roots
+
+    subroutine refuses_what_has_no_root()
+        !! One sign, ends in the wrong order, no number at one end.
+        real(dp) :: root
+        type(error_t), allocatable :: error
+
+        call find_root(power_t(2, -1.0_dp), -1.0_dp, 1.0_dp, root, error)
+        call expect("root: the function has one sign at both ends")
+        call find_root(power_t(2, 5.0_dp), -1.0_dp, 1.0_dp, root, error)
+        call expect("root: the function has one sign at both ends")
+        call find_root(power_t(1, 0.5_dp), 1.0_dp, 0.0_dp, root, error)
+        call expect("root: two ends, in order, and finite values there are needed")
+        call find_root(power_t(-1, 0.5_dp), 0.0_dp, 5.0_dp, root, error)
+        call expect("root: two ends, in order, and finite values there are needed")
+    contains
+        subroutine expect(message)
+            character(*), intent(in) :: message
+
+            call assertTrue(allocated(error), message)
+            if (.not. allocated(error)) return
+            call assertEqual(message, error%message)
+            call assertEqual(status_numbers, error%status)
+            call assertEqual(0.0_dp, root)
+        end subroutine expect
+    end subroutine refuses_what_has_no_root
+
+    pure function power_value(self, x) result(y)
+        class(power_t), intent(in) :: self
+        real(dp), intent(in) :: x
+        real(dp) :: y
+
+        y = x**self%n - self%c
+    end function power_value
 end module test_gsl

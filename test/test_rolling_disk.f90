@@ -145,7 +145,7 @@ contains
         !! a^da = R cos(theta) dx^dphi^dtheta, which does not vanish.
         type(rolling_disk_t) :: disk
         type(hyperdual_t) :: q(4), rows(2, 4), drift(2)
-        real(dp) :: da(4, 4), theta
+        real(dp) :: da(4, 4), values(2, 4), theta
         integer :: i
 
         call build_uniform(disk, 1.7_dp, 0.6_dp, 0.0_dp)
@@ -156,8 +156,9 @@ contains
             call disk%constraint_rows(hyperdual(0.0_dp), q, rows, drift)
             da(i, :) = rows(1, :)%d1
         end do
-        call assertEqual([1.0_dp, 0.0_dp, -0.6_dp*sin(theta), 0.0_dp], rows(1, :)%re, 1e-15_dp)
-        call assertEqual([0.0_dp, 1.0_dp, 0.6_dp*cos(theta), 0.0_dp], rows(2, :)%re, 1e-15_dp)
+        values = rows%re
+        call assertEqual([1.0_dp, 0.0_dp, -0.6_dp*sin(theta), 0.0_dp], [values(1, :)], 1e-15_dp)
+        call assertEqual([0.0_dp, 1.0_dp, 0.6_dp*cos(theta), 0.0_dp], [values(2, :)], 1e-15_dp)
         call assertEqual(-0.6_dp*cos(theta), da(4, 3), 1e-15_dp)
         associate (a => rows(1, :)%re)
             call assertEqual(0.6_dp*cos(theta), a(1)*(da(3, 4) - da(4, 3)) &

@@ -1,11 +1,13 @@
 module test_scene_files
     !! Every shipped scene runs within its own tolerances and comes back from its own echo; wrong
     !! scenes are refused in these words.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_catalogue, only: system_names
     use lagrangia_command_line, only: word_t
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, status_numbers
+    use lagrangia_json, only: json_number, json_string
     use lagrangia_kinds, only: dp
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: from_half_step, outcome_t
@@ -31,6 +33,7 @@ contains
         call suite%addTest(TestMethod("every_echo_is_the_scene", every_echo_is_the_scene))
         call suite%addTest(TestMethod("wrong_scenes_are_refused", wrong_scenes_are_refused))
         call suite%addTest(TestMethod("overrides_override", overrides_override))
+        call suite%addTest(TestMethod("json_has_no_nan", json_has_no_nan))
         call suite%addTest(TestMethod("an_estimate_says_so", an_estimate_says_so))
         call suite%addTest(TestMethod("what_is_not_asked_is_not_computed", &
                                       what_is_not_asked_is_not_computed))
@@ -71,14 +74,16 @@ contains
         type(error_t), allocatable :: error
         class(system_t), allocatable :: system
         type(scene_t) :: scene, again
+        type(word_t) :: later(1)
         type(description_t) :: d
         character(scene_line_length), allocatable :: lines(:)
         character(:), allocatable :: text
         integer :: i, k
 
+        later(1)%text = "scene%t0=0.3"  ! a default does not show whether it is echoed
         call shipped_scenes(paths, error)
         do i = 1, size(paths)
-            call read_scene(paths(i)%text, [word_t ::], scene, system, error)
+            call read_scene(paths(i)%text, later, scene, system, error)
             call system%describe(d)
             allocate (lines, source=scene_lines(scene, d))
             text = ""
@@ -109,9 +114,11 @@ contains
                     "dt = 0: a number greater than 0 is needed, in s")
         call refuse("&scene system='pendulum' dt=2 duration=1 q=1 /", "s.nml:1:29: &scene: "// &
                     "dt = 2: is longer than the whole run, duration = 1.0")
-        call refuse("&scene system='pendulum' dt=1e-2 duration=1 q=1,2 /", "s.nml:1:47: &scene: "// &
+        call refuse("&scene system='pendulum' dt=1e-2 duration=1 q=1,2 /", "s.nml:1:47: "// &
+                    "&scene: "// &
                     "q = 1: 2 values, but 1 is needed: theta")
-        call refuse(good//"&pendulum lenght=2 /", "s.nml:1:60: &pendulum: unknown key 'lenght'; "// &
+        call refuse(good//"&pendulum lenght=2 /", "s.nml:1:60: &pendulum: unknown key "// &
+                    "'lenght'; "// &
                     "allowed: m, l, g")
         call refuse(good//"&pendulum l=-2 /", "s.nml:1:62: &pendulum: l = -2: greater than 0.0 "// &
                     "is needed")
@@ -123,10 +130,12 @@ contains
                     "s.nml:1:61: &scene: columns = 'thet': unknown column 'thet'; did you mean "// &
                     "'theta'?")
         call refuse("&scene system='pendulum' dt=1e-2 duration=1 q=1 samples=7 /", &
-                    "s.nml:1:57: &scene: samples = 7: does not divide the 100 steps; every = 14 "// &
+                    "s.nml:1:57: &scene: samples = 7: does not divide the 100 steps; every = "// &
+                    "14 "// &
                     "gives about as many")
         call refuse("&scene system='pendulum' dt=1e-2 duration=1 q=1 output='../a' /", &
-                    "s.nml:1:56: &scene: output = '../a': a file name below the output folder is "// &
+                    "s.nml:1:56: &scene: output = '../a': a file name below the output "// &
+                    "folder is "// &
                     "needed: letters, digits, . _ - / and blanks, not absolute, without '..', "// &
                     "not ending in .gp")
         call refuse("&scene system='pendulum' dt=1e-2 duration=1 q=1 expect_period=1 /", &
@@ -136,7 +145,8 @@ contains
                     "column 'energy_drift': the energy of this driven_pendulum is not "// &
                     "conserved, for L contains the time")
         call refuse("&scene system='double_pendulum' method='verlet' dt=1e-2 duration=1 q=1,2 /", &
-                    "s.nml:1:40: &scene: method = 'verlet': verlet is for forces that depend on "// &
+                    "s.nml:1:40: &scene: method = 'verlet': verlet is for forces that depend "// &
+                    "on "// &
                     "positions only")
         call refuse("&scene system='rolling_disk' dt=1e-2 duration=1 q=4*0 v=1,2,3,4 /", &
                     "s.nml:1:57: &scene: v = 1")
@@ -155,6 +165,13 @@ contains
         call assertEqual(message, error%message(:min(len(message), len(error%message))))
         call assertEqual(2, error%status)
     end subroutine refuse
+
+    subroutine json_has_no_nan()
+        !! Numbers with 17 digits, strings escaped, `null` for what is not a number.
+        call assertEqual("1.0000000000000001E-001", json_number(0.1_dp))
+        call assertEqual("null", json_number(ieee_value(1.0_dp, ieee_quiet_nan)))
+        call assertEqual('"a\"b\\c\u0009."', json_string('a"b\c'//achar(9)//"."))
+    end subroutine json_has_no_nan
 
     subroutine overrides_override()
         !! `--set` changes the scene's and the system's values.
@@ -209,7 +226,8 @@ contains
         call assertEqual(400, int(outcome%evaluations))
         call assertEqual(0, int(outcome%energy_evaluations))
         call assertEqual(11, int(outcome%rows))
-        call perform("&scene system='pendulum' dt=3e-2 duration=1 every=10 q=1 columns='energy' /", &
+        call perform("&scene system='pendulum' dt=3e-2 duration=1 every=10 q=1 "// &
+                     "columns='energy' /", &
                      outcome, error)
         call assertEqual(34, int(outcome%steps))
         call assertEqual(5, int(outcome%energy_evaluations))

@@ -1,12 +1,13 @@
 module lagrangia_contestants
     !! Everybody who takes part: all methods of the catalogue, GSL's, and the closed forms. What is
     !! listed in the catalogue tomorrow is measured tomorrow.
-    use lagrangia_catalogue, only: nth_integrator
+    use lagrangia_adaptive_methods, only: nth_adaptive
     use lagrangia_contestant, only: contestant_box_t
     use lagrangia_description, only: name_length
     use lagrangia_gsl_contestants, only: gsl_contestant_t, new_gsl_contestant
     use lagrangia_gsl_odeiv, only: gsl_methods
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
+    use lagrangia_methods, only: nth_integrator
     use lagrangia_our_contestants, only: adaptive_contestant_t, fixed_contestant_t, &
         formula_contestant_t, new_adaptive_contestant, new_fixed_contestant, new_formula_contestant
     implicit none (type, external)
@@ -21,6 +22,7 @@ contains
         character(*), intent(in) :: chosen(:)
         type(contestant_box_t), allocatable, intent(out) :: boxes(:)
         class(integrator_t), allocatable :: method
+        class(dense_integrator_t), allocatable :: adaptive
         type(contestant_box_t), allocatable :: room(:)
         integer :: i, n
 
@@ -31,7 +33,14 @@ contains
             i = i + 1
             call nth_integrator(i, method)
             if (.not. allocated(method)) exit
-            call add_ours(method)
+            if (wanted(method%name)) call add_fixed()
+        end do
+        i = 0
+        do
+            i = i + 1
+            call nth_adaptive(i, adaptive)
+            if (.not. allocated(adaptive)) exit
+            if (wanted(adaptive%name)) call add_adaptive()
         end do
         do i = 1, size(gsl_methods)
             call add_gsl(trim(gsl_methods(i)))
@@ -49,22 +58,21 @@ contains
             wanted = size(chosen) == 0 .or. any(chosen == name)
         end function wanted
 
-        subroutine add_ours(method)
-            class(integrator_t), intent(in) :: method
-            type(fixed_contestant_t) :: by_step
-            type(adaptive_contestant_t) :: by_tolerance
+        subroutine add_fixed()
+            type(fixed_contestant_t) :: contestant
 
-            if (.not. wanted(method%name)) return
-            call new_fixed_contestant(by_step, method)
+            call new_fixed_contestant(contestant, method)
             n = n + 1
-            allocate (room(n)%item, source=by_step)
-            select type (method)
-            class is (dense_integrator_t)
-                call new_adaptive_contestant(by_tolerance, method)
-                n = n + 1
-                allocate (room(n)%item, source=by_tolerance)
-            end select
-        end subroutine add_ours
+            allocate (room(n)%item, source=contestant)
+        end subroutine add_fixed
+
+        subroutine add_adaptive()
+            type(adaptive_contestant_t) :: contestant
+
+            call new_adaptive_contestant(contestant, adaptive)
+            n = n + 1
+            allocate (room(n)%item, source=contestant)
+        end subroutine add_adaptive
 
         subroutine add_gsl(name)
             character(*), intent(in) :: name

@@ -1,7 +1,7 @@
 module lagrangia_step_cost
     !! What one step costs: of every method on every system, and of the contracts themselves.
     use lagrangia_bench_problems, only: bench_problem_t
-    use lagrangia_bench_report, only: cell_t, new_report, number_cell, report_t, word_cell
+    use lagrangia_bench_table, only: cell_t, new_bench_table, number_cell, bench_table_t, word_cell
     use lagrangia_catalogue, only: new_system
     use lagrangia_concrete_loops, only: rk4_double_pendulum, rk4_pendulum
     use lagrangia_contestant, only: contestant_box_t, contestant_t, knob_step
@@ -23,13 +23,13 @@ module lagrangia_step_cost
 
 contains
 
-    subroutine measure_steps(systems, contestants, plan, watcher, report, error)
+    subroutine measure_steps(systems, contestants, plan, watcher, table, error)
         !! Nanoseconds a step, and evaluations, of those that take fixed steps.
         character(*), intent(in) :: systems(:)
         type(contestant_box_t), intent(inout) :: contestants(:)
         type(effort_t), intent(in) :: plan
         class(observer_t), pointer, intent(in) :: watcher
-        type(report_t), intent(out) :: report
+        type(bench_table_t), intent(out) :: table
         type(error_t), allocatable, intent(out) :: error
         type(bench_problem_t), target :: problem
         real(dp), allocatable :: cost(:, :)
@@ -53,14 +53,14 @@ contains
                 if (cost(i, k) >= 0.0_dp) evaluations(k) = contestants(k)%item%evaluations*dt/duration
             end do
         end do
-        call new_report(report, "step_ns", "one step, ns (dt = 1e-3 s; - : the method refuses "// &
+        call new_bench_table(table, "step_ns", "one step, ns (dt = 1e-3 s; - : the method refuses "// &
                         "the system)", [character(name_length) :: "method", "evaluations", systems])
         do k = 1, size(contestants)
             if (.not. any(cost(:, k) >= 0.0_dp)) cycle
             cells(1) = word_cell(contestants(k)%item%name)
             cells(2) = number_cell(evaluations(k), 3)
             cells(3:) = number_cell(cost(:, k), 3)
-            call report%add(cells)
+            call table%add(cells)
         end do
     end subroutine measure_steps
 
@@ -92,10 +92,10 @@ contains
         call contestant%solve(problem, q, v, error)
     end subroutine time_steps
 
-    subroutine measure_dispatch(plan, report, error)
+    subroutine measure_dispatch(plan, table, error)
         !! RK4 through the contracts, the same loop compiled for the concrete type, and GSL's.
         type(effort_t), intent(in) :: plan
-        type(report_t), intent(out) :: report
+        type(bench_table_t), intent(out) :: table
         type(error_t), allocatable, intent(out) :: error
         character(name_length), parameter :: systems(2) = [character(name_length) :: &
             "pendulum", "double_pendulum"]
@@ -104,7 +104,7 @@ contains
         real(dp) :: samples(2*plan%rounds, 3), ns(3)
         integer :: i, round
 
-        call new_report(report, "dispatch", "RK4, one step, ns: through the contracts, compiled "// &
+        call new_bench_table(table, "dispatch", "RK4, one step, ns: through the contracts, compiled "// &
                         "for the concrete type, GSL's", [character(name_length) :: "system", &
                         "contracts", "concrete", "gsl_rk4", "contracts/concrete", "contracts/gsl"])
         call new_contestants(["rk4"], ours)
@@ -118,7 +118,7 @@ contains
                 call time_steps(gsl(1)%item, problem, plan, samples(round, 3))
             end do
             ns = [median(samples(:, 1)), median(samples(:, 2)), median(samples(:, 3))]*nanoseconds
-            call report%add([word_cell(systems(i)), number_cell(ns, 3), &
+            call table%add([word_cell(systems(i)), number_cell(ns, 3), &
                              number_cell(ratio(ns(1), ns(2:3)), 3)])
         end do
     end subroutine measure_dispatch

@@ -32,6 +32,8 @@ module lagrangia_registry
                   "set output format plot json quiet"), &
         command_t("run", "SCENE...", "the same for .nml files, or shipped scenes by name", -1, &
                   "set output format plot json quiet"), &
+        command_t("principle", "[NAME]", "both sides of a variational principle, in numbers", 1, &
+                  "output plot json"), &
         command_t("list", "[systems|methods|scenes]", "what there is, one a line", 1, ""), &
         command_t("describe", "SYSTEM", "coordinates, parameters, L, equations, invariants", 1, "")]
 

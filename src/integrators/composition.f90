@@ -1,38 +1,125 @@
 module lagrangia_composition
-    !! Symmetric compositions of position Verlet steps: symplectic, time-reversible.
+    !! Symmetric splitting methods: symplectic, time-reversible, for forces of positions only.
     !!
-    !! One step of length \(h\) is drift \(h/2\), kick \(h\), drift \(h/2\); a method is a row of
-    !! fractions \(\gamma_s\), \(\sum\gamma_s = 1\). Source: Verlet (1967); Hairer, Lubich &
-    !! Wanner, *Geometric Numerical Integration*, 2nd ed., secs. I.1.4 and V.3.
+    !! A method is a row of drifts and kicks, fractions of the step: most are Verlet steps by
+    !! fractions \(\gamma_s\), \(\sum\gamma_s = 1\), each drift, kick, drift in the position form
+    !! and kick, drift, kick in the velocity form. Source: Hairer, Lubich & Wanner, *Geometric
+    !! Numerical Integration*, 2nd ed., secs. I.1.4, V.3; compensated sums: sec. VIII.5.
+    use lagrangia_composition_table, only: nth_row, row_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_integrator, only: integrator_t
-    use lagrangia_kinds, only: dp, i8
+    use lagrangia_kinds, only: dp, i8, qp
+    use lagrangia_summation, only: add
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: composition_t, new_verlet
+    public :: nth_composition
 
-    type, extends(integrator_t) :: composition_t
+    type, abstract, extends(integrator_t) :: composition_t
         private
-        real(dp), allocatable :: gamma(:)  !! fractions of the step
+        integer :: row = 0                          !! of the table
+        real(dp), allocatable :: drift(:), kick(:)  !! fractions of the step
+        real(dp), allocatable :: node(:)            !! of the evaluations, fractions of the step
         real(dp), allocatable :: a(:)
+        real(dp), allocatable :: q_low(:), v_low(:) !! what did not fit into q and v
+        real(dp), allocatable :: q_end(:), v_end(:) !! where `a` and the low parts belong: the
+        real(dp) :: t_end = 0.0_dp                  !! state that the latest call has returned
     contains
         procedure :: prepare
-        procedure :: advance
     end type composition_t
+
+    type, extends(composition_t) :: position_form_t
+        !! Drift, kick, drift. On the oscillator the single step conserves
+        !! \((1-\omega^2h^2/4)\,v^2 + \omega^2x^2\) and is stable for \(\omega h < 2\).
+    contains
+        procedure :: advance => advance_positions
+        procedure :: compensated => compensate_positions
+    end type position_form_t
+
+    type, extends(composition_t) :: velocity_form_t
+        !! Kick, drift, kick. The last evaluation of a step is the first of the next one.
+    contains
+        procedure :: advance => advance_velocities
+        procedure :: compensated => compensate_velocities
+    end type velocity_form_t
+
+    type, extends(position_form_t) :: compensated_positions_t
+        !! The same with compensated sums.
+    contains
+        procedure :: advance => advance_positions_compensated
+    end type compensated_positions_t
+
+    type, extends(velocity_form_t) :: compensated_velocities_t
+        !! The same with compensated sums.
+    contains
+        procedure :: advance => advance_velocities_compensated
+    end type compensated_velocities_t
 
 contains
 
-    pure subroutine new_verlet(self)
-        !! Position Verlet (drift, kick, drift). On the oscillator it is stable for
-        !! \(\omega h < 2\) and conserves \((1-\omega^2h^2/4)\,v^2 + \omega^2x^2\).
-        type(composition_t), intent(out) :: self
+    subroutine nth_composition(i, method)
+        !! Row `i` of the table as a method; not allocated beyond its end.
+        integer, intent(in) :: i
+        class(integrator_t), allocatable, intent(out) :: method
+        type(position_form_t) :: positions
+        type(velocity_form_t) :: velocities
+        type(row_t) :: row
 
-        self%name = "verlet"
-        self%title = "position Verlet, order 2, symplectic, forces of positions only (Verlet 1967)"
-        self%order = 2
-        self%gamma = [1.0_dp]
-    end subroutine new_verlet
+        call nth_row(i, row)
+        if (row%order == 0) return
+        if (row%kick_first) then
+            call set_row(velocities, i)
+            allocate (method, source=velocities)
+        else
+            call set_row(positions, i)
+            allocate (method, source=positions)
+        end if
+    end subroutine nth_composition
+
+    subroutine compensate_positions(self, variant)
+        !! See `integrator_t`.
+        class(position_form_t), intent(in) :: self
+        class(integrator_t), allocatable, intent(out) :: variant
+        type(compensated_positions_t) :: method
+
+        call set_row(method, self%row)
+        allocate (variant, source=method)
+    end subroutine compensate_positions
+
+    subroutine compensate_velocities(self, variant)
+        !! See `integrator_t`.
+        class(velocity_form_t), intent(in) :: self
+        class(integrator_t), allocatable, intent(out) :: variant
+        type(compensated_velocities_t) :: method
+
+        call set_row(method, self%row)
+        allocate (variant, source=method)
+    end subroutine compensate_velocities
+
+    pure subroutine set_row(self, i)
+        !! The row, rounded.
+        class(composition_t), intent(inout) :: self
+        integer, intent(in) :: i
+        type(row_t) :: row
+        real(qp), allocatable :: node(:)
+        integer :: s
+
+        call nth_row(i, row)
+        self%row = i
+        self%name = row%name
+        self%title = row%title
+        self%order = row%order
+        self%energy_order = row%order
+        self%symplectic = .true.
+        self%reversible = .true.
+        self%drift = real(row%drift, dp)
+        self%kick = real(row%kick, dp)
+        allocate (node, source=row%drift)
+        do s = 2, size(node)
+            node(s) = node(s - 1) + row%drift(s)
+        end do
+        self%node = real(node, dp)
+    end subroutine set_row
 
     pure subroutine prepare(self, system, error)
         !! Refuses forces that depend on the velocities: there the order would drop to one.
@@ -43,36 +130,156 @@ contains
 
         if (system%velocity_forces) then
             call fail(error, trim(self%name)//" is for forces that depend on positions only, "// &
-                      "and here they depend on velocities; method = 'rk4' works", key="method")
+                      "and here they depend on velocities", key="method")
             return
         end if
         state = 0.0_dp
         self%evaluations = 0
         self%a = state
+        self%q_low = state
+        self%v_low = state
+        state = huge(1.0_dp)
+        self%q_end = state
+        self%v_end = state
     end subroutine prepare
 
-    pure subroutine advance(self, system, t0, dt, first, steps, q, v)
-        !! See `integrator_t`. One evaluation a stage, and nothing carried between calls.
-        class(composition_t), intent(inout) :: self
+    pure subroutine advance_positions(self, system, t0, dt, first, steps, q, v)
+        !! See `integrator_t`. Nothing is carried between calls.
+        class(position_form_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t0, dt
         integer(i8), intent(in) :: first, steps
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
-        real(dp) :: h, now
+        real(dp) :: t
         integer(i8) :: k
-        integer :: s
+        integer :: s, stages
 
+        stages = size(self%kick)
         do k = first, first + steps - 1
-            now = t0 + k*dt
-            do s = 1, size(self%gamma)
-                h = self%gamma(s)*dt
-                q = q + 0.5_dp*h*v
-                call system%accelerations(now + 0.5_dp*h, q, v, self%a)
-                v = v + h*self%a
-                q = q + 0.5_dp*h*v
-                now = now + h
+            t = t0 + k*dt
+            do s = 1, stages
+                q = q + self%drift(s)*dt*v
+                call system%accelerations(t + self%node(s)*dt, q, v, self%a)
+                v = v + self%kick(s)*dt*self%a
             end do
+            q = q + self%drift(stages + 1)*dt*v
         end do
-        self%evaluations = self%evaluations + steps*size(self%gamma)
-    end subroutine advance
+        self%evaluations = self%evaluations + steps*stages
+    end subroutine advance_positions
+
+    pure subroutine advance_velocities(self, system, t0, dt, first, steps, q, v)
+        !! See `integrator_t`. Carried between calls: the accelerations at the last state.
+        class(velocity_form_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t0, dt
+        integer(i8), intent(in) :: first, steps
+        real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+        real(dp) :: t
+        integer(i8) :: k
+        integer :: s, stages
+
+        call resume_accelerations(self, system, t0 + first*dt, q, v)
+        stages = size(self%drift)
+        do k = first, first + steps - 1
+            t = t0 + k*dt
+            do s = 1, stages - 1
+                v = v + self%kick(s)*dt*self%a
+                q = q + self%drift(s)*dt*v
+                call system%accelerations(t + self%node(s)*dt, q, v, self%a)
+            end do
+            v = v + self%kick(stages)*dt*self%a
+            q = q + self%drift(stages)*dt*v
+            call system%accelerations(t0 + (k + 1)*dt, q, v, self%a)
+            v = v + self%kick(stages + 1)*dt*self%a
+        end do
+        self%evaluations = self%evaluations + steps*stages
+        call remember(self, t0 + (first + steps)*dt, q, v)
+    end subroutine advance_velocities
+
+    pure subroutine advance_positions_compensated(self, system, t0, dt, first, steps, q, v)
+        !! See `integrator_t`. Carried between calls: the low parts of the last state.
+        class(compensated_positions_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t0, dt
+        integer(i8), intent(in) :: first, steps
+        real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+        real(dp) :: t
+        integer(i8) :: k
+        integer :: s, stages
+
+        call resume(self, q, v)
+        stages = size(self%kick)
+        do k = first, first + steps - 1
+            t = t0 + k*dt
+            do s = 1, stages
+                call add(q, self%q_low, self%drift(s)*dt*v)
+                call system%accelerations(t + self%node(s)*dt, q, v, self%a)
+                call add(v, self%v_low, self%kick(s)*dt*self%a)
+            end do
+            call add(q, self%q_low, self%drift(stages + 1)*dt*v)
+        end do
+        self%evaluations = self%evaluations + steps*stages
+        call remember(self, t0 + (first + steps)*dt, q, v)
+    end subroutine advance_positions_compensated
+
+    pure subroutine advance_velocities_compensated(self, system, t0, dt, first, steps, q, v)
+        !! See `integrator_t`. Carried between calls: accelerations and low parts.
+        class(compensated_velocities_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t0, dt
+        integer(i8), intent(in) :: first, steps
+        real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+        real(dp) :: t
+        integer(i8) :: k
+        integer :: s, stages
+
+        call resume(self, q, v)
+        call resume_accelerations(self, system, t0 + first*dt, q, v)
+        stages = size(self%drift)
+        do k = first, first + steps - 1
+            t = t0 + k*dt
+            do s = 1, stages - 1
+                call add(v, self%v_low, self%kick(s)*dt*self%a)
+                call add(q, self%q_low, self%drift(s)*dt*v)
+                call system%accelerations(t + self%node(s)*dt, q, v, self%a)
+            end do
+            call add(v, self%v_low, self%kick(stages)*dt*self%a)
+            call add(q, self%q_low, self%drift(stages)*dt*v)
+            call system%accelerations(t0 + (k + 1)*dt, q, v, self%a)
+            call add(v, self%v_low, self%kick(stages + 1)*dt*self%a)
+        end do
+        self%evaluations = self%evaluations + steps*stages
+        call remember(self, t0 + (first + steps)*dt, q, v)
+    end subroutine advance_velocities_compensated
+
+    pure subroutine resume(self, q, v)
+        !! Forget the low parts unless the state is the one that they belong to.
+        class(composition_t), intent(inout) :: self
+        real(dp), intent(in) :: q(:), v(:)
+
+        if (all(abs(q - self%q_end) <= 0.0_dp) .and. all(abs(v - self%v_end) <= 0.0_dp)) return
+        self%q_low = 0.0_dp
+        self%v_low = 0.0_dp
+    end subroutine resume
+
+    pure subroutine resume_accelerations(self, system, t, q, v)
+        !! Evaluate the accelerations unless those at hand belong to this time and place.
+        class(velocity_form_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+
+        if (all(abs(q - self%q_end) <= 0.0_dp) .and. abs(t - self%t_end) <= 0.0_dp) return
+        call system%accelerations(t, q, v, self%a)
+        self%evaluations = self%evaluations + 1
+    end subroutine resume_accelerations
+
+    pure subroutine remember(self, t, q, v)
+        !! What is carried belongs to this state.
+        class(composition_t), intent(inout) :: self
+        real(dp), intent(in) :: t, q(:), v(:)
+
+        self%t_end = t
+        self%q_end = q
+        self%v_end = v
+    end subroutine remember
 end module lagrangia_composition

@@ -4,18 +4,26 @@ module lagrangia_integrator
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: integrator_t, integrator_box_t, dense_integrator_t
+    public :: integrator_t, integrator_box_t, dense_integrator_t, dense_integrator_box_t
 
     type, abstract :: integrator_t
         character(name_length) :: name = ""
         character(line_length) :: title = ""  !! a few words and the source
         integer :: order = 0
-        integer(i8) :: evaluations = 0        !! of accelerations, since `prepare`
+        integer :: energy_order = 0           !! of its error, which stays bounded; 0: it may drift
+        logical :: symplectic = .false.       !! a step is a canonical map of (q, p)
+        logical :: reversible = .false.       !! a step back undoes a step, but for rounding
+        logical :: keeps_speed = .false.      !! |v| where a uniform magnetic field acts alone
+        integer(i8) :: evaluations = 0        !! of accelerations or forces, since `prepare`
+        character(line_length) :: trouble = ""  !! why `advance` gave NaN, where the method knows
     contains
         procedure(prepare_i), deferred :: prepare
         procedure(advance_i), deferred :: advance
+        procedure :: compensated => no_compensated
+        procedure :: properties
     end type integrator_t
 
     type :: integrator_box_t
@@ -38,6 +46,12 @@ module lagrangia_integrator
         procedure(state_at_i), deferred :: state_at
     end type dense_integrator_t
 
+    type :: dense_integrator_box_t
+        !! A place for one of any kind. gfortran 12 also needs it here: modules that make the
+        !! dispatch table of `dense_integrator_t` for themselves disagree about its order.
+        class(dense_integrator_t), allocatable :: item
+    end type dense_integrator_box_t
+
     abstract interface
         pure subroutine prepare_i(self, system, error)
             !! Refuse a system that the method is not made for, or get ready to step it.
@@ -51,6 +65,7 @@ module lagrangia_integrator
         pure subroutine advance_i(self, system, t0, dt, first, steps, q, v)
             !! Take the steps `first`, ..., `first + steps - 1` of a run: step `k` starts at
             !! `t0 + k*dt`, so that a run gives the same bytes however it is cut into blocks.
+            !! A step that cannot be taken leaves a state of NaN, and the reason in `trouble`.
             import :: integrator_t, system_t, dp, i8
             implicit none (type, external)
             class(integrator_t), intent(inout) :: self
@@ -91,4 +106,24 @@ module lagrangia_integrator
             real(dp), intent(out) :: q(:), v(:)
         end subroutine state_at_i
     end interface
+
+contains
+
+    subroutine no_compensated(self, variant)
+        !! The same method with compensated sums; not allocated where there is none.
+        class(integrator_t), intent(in) :: self
+        class(integrator_t), allocatable, intent(out) :: variant
+    end subroutine no_compensated
+
+    pure function properties(self) result(text)
+        !! What the method preserves, in words.
+        class(integrator_t), intent(in) :: self
+        character(:), allocatable :: text
+
+        text = "order "//to_text(self%order)
+        if (self%energy_order > 0) text = text//", energy "//to_text(self%energy_order)
+        if (self%symplectic) text = text//", symplectic"
+        if (self%reversible) text = text//", reversible"
+        if (self%keeps_speed) text = text//", keeps |v| in a magnetic field"
+    end function properties
 end module lagrangia_integrator

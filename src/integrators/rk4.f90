@@ -7,6 +7,7 @@ module lagrangia_rk4
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_summation, only: add
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -20,7 +21,19 @@ module lagrangia_rk4
     contains
         procedure :: prepare
         procedure :: advance
+        procedure :: compensated
     end type rk4_t
+
+    type, extends(rk4_t) :: compensated_rk4_t
+        !! The same with compensated sums (Hairer, Lubich & Wanner, sec. VIII.5). The low parts
+        !! belong to the state that the latest call has returned.
+        private
+        real(dp), allocatable :: q_low(:), v_low(:)
+        real(dp), allocatable :: q_end(:), v_end(:)
+    contains
+        procedure :: prepare => prepare_compensated
+        procedure :: advance => advance_compensated
+    end type compensated_rk4_t
 
 contains
 
@@ -28,10 +41,27 @@ contains
         !! Any system will do.
         type(rk4_t), intent(out) :: self
 
-        self%name = "rk4"
-        self%title = "classical Runge-Kutta, order 4, any system (Kutta 1901)"
-        self%order = 4
+        call set_up(self)
     end subroutine new_rk4
+
+    pure subroutine set_up(self)
+        !! Its name and order, for both variants.
+        class(rk4_t), intent(inout) :: self
+
+        self%name = "rk4"
+        self%title = "classical Runge-Kutta, any system (Kutta 1901)"
+        self%order = 4
+    end subroutine set_up
+
+    subroutine compensated(self, variant)
+        !! See `integrator_t`.
+        class(rk4_t), intent(in) :: self
+        class(integrator_t), allocatable, intent(out) :: variant
+        type(compensated_rk4_t) :: method
+
+        call set_up(method)
+        allocate (variant, source=method)
+    end subroutine compensated
 
     pure subroutine prepare(self, system, error)
         !! Never fails.
@@ -52,32 +82,76 @@ contains
         self%a4 = state
     end subroutine prepare
 
+    pure subroutine prepare_compensated(self, system, error)
+        !! Never fails.
+        class(compensated_rk4_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        type(error_t), allocatable, intent(out) :: error
+
+        call self%rk4_t%prepare(system, error)
+        self%q_low = self%q
+        self%v_low = self%q
+        self%q_end = self%q
+        self%v_end = self%q
+    end subroutine prepare_compensated
+
+    pure subroutine stages(self, system, t, dt, q, v)
+        !! The accelerations and velocities of the four stages; those of the first are `v`.
+        class(rk4_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, dt, q(system%ndof), v(system%ndof)
+        real(dp) :: half
+
+        half = 0.5_dp*dt
+        call system%accelerations(t, q, v, self%a1)
+        self%q = q + half*v
+        self%v2 = v + half*self%a1
+        call system%accelerations(t + half, self%q, self%v2, self%a2)
+        self%q = q + half*self%v2
+        self%v3 = v + half*self%a2
+        call system%accelerations(t + half, self%q, self%v3, self%a3)
+        self%q = q + dt*self%v3
+        self%v4 = v + dt*self%a3
+        call system%accelerations(t + dt, self%q, self%v4, self%a4)
+    end subroutine stages
+
     pure subroutine advance(self, system, t0, dt, first, steps, q, v)
-        !! See `integrator_t`.
+        !! See `integrator_t`. Nothing is carried between calls.
         class(rk4_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t0, dt
         integer(i8), intent(in) :: first, steps
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
-        real(dp) :: t, half
         integer(i8) :: k
 
-        half = 0.5_dp*dt
         do k = first, first + steps - 1
-            t = t0 + k*dt
-            call system%accelerations(t, q, v, self%a1)
-            self%q = q + half*v
-            self%v2 = v + half*self%a1
-            call system%accelerations(t + half, self%q, self%v2, self%a2)
-            self%q = q + half*self%v2
-            self%v3 = v + half*self%a2
-            call system%accelerations(t + half, self%q, self%v3, self%a3)
-            self%q = q + dt*self%v3
-            self%v4 = v + dt*self%a3
-            call system%accelerations(t + dt, self%q, self%v4, self%a4)
+            call stages(self, system, t0 + k*dt, dt, q, v)
             q = q + dt/6.0_dp*(v + 2.0_dp*(self%v2 + self%v3) + self%v4)
             v = v + dt/6.0_dp*(self%a1 + 2.0_dp*(self%a2 + self%a3) + self%a4)
         end do
         self%evaluations = self%evaluations + 4*steps
     end subroutine advance
+
+    pure subroutine advance_compensated(self, system, t0, dt, first, steps, q, v)
+        !! See `integrator_t`. Carried between calls: the low parts of the last state.
+        class(compensated_rk4_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t0, dt
+        integer(i8), intent(in) :: first, steps
+        real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+        integer(i8) :: k
+
+        if (any(abs(q - self%q_end) > 0.0_dp) .or. any(abs(v - self%v_end) > 0.0_dp)) then
+            self%q_low = 0.0_dp
+            self%v_low = 0.0_dp
+        end if
+        do k = first, first + steps - 1
+            call stages(self, system, t0 + k*dt, dt, q, v)
+            call add(q, self%q_low, dt/6.0_dp*(v + 2.0_dp*(self%v2 + self%v3) + self%v4))
+            call add(v, self%v_low, dt/6.0_dp*(self%a1 + 2.0_dp*(self%a2 + self%a3) + self%a4))
+        end do
+        self%q_end = q
+        self%v_end = v
+        self%evaluations = self%evaluations + 4*steps
+    end subroutine advance_compensated
 end module lagrangia_rk4

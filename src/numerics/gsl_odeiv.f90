@@ -5,8 +5,8 @@ module lagrangia_gsl_odeiv
     !! The error handler is off and every status is checked.
     !! Source: GSL reference manual 2.7, ordinary differential equations.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_funptr, c_int, c_loc, c_long, &
-        c_null_funptr, c_null_ptr, c_ptr, c_size_t
+    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_funptr, &
+        c_int, c_loc, c_long, c_null_funptr, c_null_ptr, c_ptr, c_size_t
     use lagrangia_errors, only: error_t, fail, status_library, status_numbers
     use lagrangia_gsl, only: gsl_reason, silence_gsl
     use lagrangia_kinds, only: dp, i8
@@ -40,15 +40,26 @@ module lagrangia_gsl_odeiv
         procedure :: free
     end type gsl_driver_t
 
-    type(c_ptr), bind(c, name="gsl_odeiv2_step_rk4") :: gsl_odeiv2_step_rk4
-    type(c_ptr), bind(c, name="gsl_odeiv2_step_rkck") :: gsl_odeiv2_step_rkck
-    type(c_ptr), bind(c, name="gsl_odeiv2_step_rk8pd") :: gsl_odeiv2_step_rk8pd
-    type(c_ptr), bind(c, name="gsl_odeiv2_step_bsimp") :: gsl_odeiv2_step_bsimp
-    protected :: gsl_odeiv2_step_rk4, gsl_odeiv2_step_rkck, gsl_odeiv2_step_rk8pd, &
-        gsl_odeiv2_step_bsimp
-
     ! allow(assumed-size): C takes the address of the first element
     interface
+        subroutine step_rk4() bind(c, name="gsl_odeiv2_step_rk4")
+            !! Not to be called, nor are the next three: GSL's variable that names the method, as
+            !! `brent` in `lagrangia_gsl`.
+            implicit none (type, external)
+        end subroutine step_rk4
+
+        subroutine step_rkck() bind(c, name="gsl_odeiv2_step_rkck")
+            implicit none (type, external)
+        end subroutine step_rkck
+
+        subroutine step_rk8pd() bind(c, name="gsl_odeiv2_step_rk8pd")
+            implicit none (type, external)
+        end subroutine step_rk8pd
+
+        subroutine step_bsimp() bind(c, name="gsl_odeiv2_step_bsimp")
+            implicit none (type, external)
+        end subroutine step_bsimp
+
         function gsl_odeiv2_driver_alloc_y_new(system, method, first_step, absolute, relative) &
             bind(c) result(driver)
             import :: c_double, c_ptr
@@ -107,14 +118,15 @@ contains
         type(c_ptr), intent(in) :: context      !! what both get as their last argument
         real(dp), intent(in) :: first_step, tolerance
         type(error_t), allocatable, intent(out) :: error
-        type(c_ptr) :: stepper
+        type(c_funptr) :: address
+        type(c_ptr), pointer :: stepper
 
         call self%free()
         select case (method)
-        case ("rk4"); stepper = gsl_odeiv2_step_rk4
-        case ("rkck"); stepper = gsl_odeiv2_step_rkck
-        case ("rk8pd"); stepper = gsl_odeiv2_step_rk8pd
-        case ("bsimp"); stepper = gsl_odeiv2_step_bsimp
+        case ("rk4"); address = c_funloc(step_rk4)
+        case ("rkck"); address = c_funloc(step_rkck)
+        case ("rk8pd"); address = c_funloc(step_rk8pd)
+        case ("bsimp"); address = c_funloc(step_bsimp)
         case default
             call fail(error, "odeiv2: GSL has no method '"//method//"' that is known here")
             return
@@ -124,6 +136,7 @@ contains
             return
         end if
         call silence_gsl()
+        call c_f_pointer(transfer(address, c_null_ptr), stepper)
         allocate (self%system)
         self%system = gsl_system_t(rates, jacobian, int(n, c_size_t), context)
         self%driver = gsl_odeiv2_driver_alloc_y_new(c_loc(self%system), stepper, first_step, &

@@ -151,8 +151,10 @@ contains
         type(column_t), intent(in) :: all(:)
         type(error_t), allocatable, intent(out) :: error
         character(:), allocatable :: near
+        character(name_length) :: names(size(all))
 
-        near = nearest_name(name, all%name)
+        names = all%name
+        near = nearest_name(name, names)
         if (name == "error") then
             call fail(error, "column 'error': "//trim(d%name)//" has no closed form from this "// &
                       "start; with expect_error it is estimated")
@@ -163,7 +165,7 @@ contains
             call fail(error, "unknown column "//quoted(name)//"; did you mean '"//near//"'?")
         else
             call fail(error, "unknown column "//quoted(name)//"; "//trim(d%name)//" has "// &
-                      join(all%name, ", "))
+                      join(names, ", "))
         end if
     end subroutine refuse
 

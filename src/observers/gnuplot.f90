@@ -10,6 +10,10 @@ module lagrangia_gnuplot
     implicit none (type, external)
     private
     public :: panel_t, gnuplot_script, new_panels
+    public :: curves, dots
+
+    character(*), parameter :: curves = "lines lw 1.5"
+    character(*), parameter :: dots = "points pt 7 ps 0.5"
 
     integer, parameter :: most_curves = 8
 
@@ -103,18 +107,22 @@ contains
         end subroutine find
     end subroutine read_panel
 
-    function gnuplot_script(file, reading, title, names, units, low, high, panels) result(text)
+    function gnuplot_script(file, reading, title, names, units, low, high, panels, style) &
+        result(text)
         !! The script for `file`, a bare name beside the script; its pictures are `NAME.png`, ...
         character(*), intent(in) :: file       !! data file
         character(*), intent(in) :: reading    !! how gnuplot reads it: words behind the file name
         character(*), intent(in) :: title, names(:), units(:)
         real(dp), intent(in) :: low(:), high(:)  !! range of each column
         type(panel_t), intent(in) :: panels(:)
-        character(:), allocatable :: text
+        character(*), intent(in), optional :: style  !! `curves`, which is the default, or `dots`
+        character(:), allocatable :: text, how
         type(lines_t) :: script
         character(:), allocatable :: height
         integer :: i, dot
 
+        how = curves
+        if (present(style)) how = style
         dot = index(file, ".", back=.true.)
         height = to_text(60 + 300*size(panels))
         if (size(panels) == 1) height = "560"
@@ -186,7 +194,7 @@ contains
             do k = 1, panel%curves
                 if (k > 1) line = line//", data "
                 line = line//reading//"using "//to_text(panel%x)//":"//to_text(panel%y(k))// &
-                       " with lines lw 1.5 title '"// &
+                       " with "//how//" title '"// &
                        label(names(panel%y(k)), units(panel%y(k)))//"'"
             end do
             call script%add(line)

@@ -11,6 +11,7 @@ module lagrangia_observer
     contains
         procedure(observe_i), deferred :: observe
         procedure :: tick => no_tick
+        procedure :: meet => no_meet
     end type observer_t
 
     type :: observer_box_t
@@ -37,4 +38,13 @@ contains
         class(observer_t), intent(inout) :: self
         integer(i8), intent(in) :: done, steps
     end subroutine no_tick
+
+    subroutine no_meet(self, system, event, t, q, v, error)
+        !! Event number `event` of the run has happened; after an impact, with the state after it.
+        class(observer_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: event
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        type(error_t), allocatable, intent(out) :: error
+    end subroutine no_meet
 end module lagrangia_observer

@@ -42,7 +42,8 @@ contains
             call self%reference%state_at(t, truth, ignored)
             deviation = distance(q, truth)
         else if (allocated(self%shadow)) then
-            call self%shadow%estimate(system, t, q, deviation)
+            call self%shadow%estimate(system, t, q, deviation, error)
+            if (allocated(error)) return
         end if
         if (.not. allocated(self%row)) then
             allocate (self%row(size(self%columns%items)))

@@ -1,23 +1,28 @@
 module lagrangia_shadow
-    !! The same run at half the step, in step with the run itself: where no closed form exists,
-    !! their distance estimates the error (Richardson; Hairer, Nørsett & Wanner, sec. II.4).
+    !! The same run at half the step, or at a hundredth of the tolerance, in step with the run
+    !! itself: where no closed form exists, their distance estimates the error (Richardson;
+    !! Hairer, Nørsett & Wanner, sec. II.4).
     use lagrangia_errors, only: error_t
-    use lagrangia_integrator, only: integrator_t
+    use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: shadow_t, distance
+    public :: shadow_t, distance, least_tolerance
+
+    real(dp), parameter :: least_tolerance = 1e-15_dp  !! below, all is rounding
 
     type :: shadow_t
         private
         class(integrator_t), allocatable :: integrator
+        class(dense_integrator_t), allocatable :: adaptive
         real(dp) :: t0 = 0.0_dp
         real(dp) :: h = 0.0_dp        !! half the step of the run
         integer(i8) :: done = 0       !! half steps taken
         real(dp), allocatable :: q(:), v(:)
     contains
         procedure :: start
+        procedure :: start_adaptive
         procedure :: estimate
     end type shadow_t
 
@@ -47,15 +52,45 @@ contains
         self%v = v
     end subroutine start
 
-    subroutine estimate(self, system, t, q, error)
-        !! Go to time `t` and estimate the error of the run's coordinates `q` there.
+    subroutine start_adaptive(self, integrator, system, t0, t_end, q, v, error)
+        !! Get ready with an adaptive integrator of the run's kind.
+        class(shadow_t), intent(inout) :: self
+        class(dense_integrator_t), intent(in) :: integrator
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t0, t_end, q(system%ndof), v(system%ndof)
+        type(error_t), allocatable, intent(out) :: error
+
+        allocate (self%adaptive, source=integrator)
+        self%adaptive%tolerance = max(least_tolerance, 0.01_dp*integrator%tolerance)
+        call self%adaptive%prepare(system, error)
+        if (allocated(error)) return
+        call self%adaptive%start(system, t0, q, v, t_end)
+        self%q = q
+        self%v = v
+    end subroutine start_adaptive
+
+    subroutine estimate(self, system, t, q, deviation, error)
+        !! Go to time `t` and estimate the error of the run's coordinates `q` there. Fails where
+        !! the tighter tolerance cannot be had.
         class(shadow_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t, q(system%ndof)
-        real(dp), intent(out) :: error
+        real(dp), intent(out) :: deviation
+        type(error_t), allocatable, intent(out) :: error
         integer(i8) :: steps
         real(dp) :: now, rest
 
+        deviation = 0.0_dp
+        if (allocated(self%adaptive)) then
+            do while (self%adaptive%t_new < t)
+                call self%adaptive%step(system, error)
+                if (allocated(error)) call error%add_context("the run that estimates the error")
+                if (allocated(error)) return
+            end do
+            call self%adaptive%state_at(t, self%q, self%v)
+            deviation = distance(q, self%q)
+            return
+        end if
         steps = 2*int((t - self%t0)/(2.0_dp*self%h)*(1.0_dp + epsilon(t)) + 1e-6_dp, i8) - self%done
         call self%integrator%advance(system, self%t0, self%h, self%done, steps, self%q, self%v)
         self%done = self%done + steps
@@ -64,7 +99,7 @@ contains
         if (rest > 1e-6_dp*self%h) then
             call self%integrator%advance(system, now, rest, 0_i8, 2_i8, self%q, self%v)
         end if
-        error = distance(q, self%q)*2.0_dp**self%integrator%order &
-                /(2.0_dp**self%integrator%order - 1.0_dp)
+        deviation = distance(q, self%q)*2.0_dp**self%integrator%order &
+                    /(2.0_dp**self%integrator%order - 1.0_dp)
     end subroutine estimate
 end module lagrangia_shadow

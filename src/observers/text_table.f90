@@ -8,7 +8,7 @@ module lagrangia_text_table
     private
     public :: text_table_t
 
-    integer, parameter :: counts_width = 140  !! room for the line that is known at the end
+    integer, parameter :: counts_width = 240  !! room for the line that is known at the end
 
     type, extends(table_t) :: text_table_t
         integer(i8), private :: counts_at = 0     !! offset of that line, bytes

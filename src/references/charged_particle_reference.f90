@@ -1,9 +1,10 @@
 module lagrangia_charged_particle_reference
     !! A charge in uniform fields, free or in an isotropic trap, in closed form.
-    use lagrangia_charged_particle, only: charged_particle_t, cross, length
+    use lagrangia_charged_particle, only: charged_particle_t
     use lagrangia_kinds, only: dp
     use lagrangia_reference, only: reference_t
     use lagrangia_sinc, only: sinc
+    use lagrangia_vectors, only: cross, length
     implicit none (type, external)
     private
     public :: charged_particle_reference_t, new_charged_particle_reference

@@ -2,20 +2,21 @@ module lagrangia_catalogue
     !! Names and types: the only module that knows every system, method and closed form.
     use lagrangia_atwood, only: atwood_t
     use lagrangia_atwood_reference, only: atwood_reference_t, new_atwood_reference
+    use lagrangia_bouncing_ball, only: bouncing_ball_t
+    use lagrangia_bouncing_ball_reference, only: bouncing_ball_reference_t, &
+        new_bouncing_ball_reference
     use lagrangia_cart_pendulum, only: cart_pendulum_t
     use lagrangia_cart_pendulum_reference, only: cart_pendulum_reference_t, &
         new_cart_pendulum_reference
     use lagrangia_charged_particle, only: charged_particle_t
     use lagrangia_charged_particle_reference, only: charged_particle_reference_t, &
         new_charged_particle_reference
-    use lagrangia_composition, only: composition_t, new_verlet
     use lagrangia_description, only: description_t, name_length
     use lagrangia_double_pendulum, only: double_pendulum_t
     use lagrangia_driven_pendulum, only: driven_pendulum_t
     use lagrangia_driven_pendulum_reference, only: driven_pendulum_reference_t, &
         new_driven_pendulum_reference
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_oscillator_reference, only: oscillator_reference_t, &
@@ -23,7 +24,6 @@ module lagrangia_catalogue
     use lagrangia_pendulum, only: pendulum_t
     use lagrangia_pendulum_reference, only: pendulum_reference_t, new_pendulum_reference
     use lagrangia_reference, only: reference_t
-    use lagrangia_rk4, only: new_rk4, rk4_t
     use lagrangia_rolling_disk, only: rolling_disk_t
     use lagrangia_rolling_disk_reference, only: rolling_disk_reference_t, &
         new_rolling_disk_reference
@@ -40,8 +40,8 @@ module lagrangia_catalogue
     implicit none (type, external)
     private
     public :: new_system, nth_system, system_names
-    public :: new_integrator, nth_integrator, method_names
     public :: new_reference
+    public :: refuse_name
 
 contains
 
@@ -64,37 +64,12 @@ contains
         case (9); allocate (rotating_wire_t :: system)
         case (10); allocate (rotating_hoop_t :: system)
         case (11); allocate (driven_pendulum_t :: system)
+        case (12); allocate (bouncing_ball_t :: system)
         case default; return
         end select
         call system%describe(d)
         call system%configure(default_values(d), error)
     end subroutine nth_system
-
-    subroutine nth_integrator(i, integrator)
-        !! Entry `i` of the methods; not allocated beyond the end.
-        integer, intent(in) :: i
-        class(integrator_t), allocatable, intent(out) :: integrator
-
-        select case (i)
-        case (1); call place_rk4()
-        case (2); call place_verlet()
-        case default; return
-        end select
-    contains
-        subroutine place_rk4()
-            type(rk4_t) :: method
-
-            call new_rk4(method)
-            allocate (integrator, source=method)
-        end subroutine place_rk4
-
-        subroutine place_verlet()
-            type(composition_t) :: method
-
-            call new_verlet(method)
-            allocate (integrator, source=method)
-        end subroutine place_verlet
-    end subroutine nth_integrator
 
     subroutine new_reference(system, t0, q0, v0, reference)
         !! The closed form of the motion that starts at `(q0, v0)`; not allocated if none is known.
@@ -174,6 +149,13 @@ contains
                 call new_driven_pendulum_reference(closed_form, system, t0, q0, v0, found)
                 if (found) allocate (reference, source=closed_form)
             end block
+        type is (bouncing_ball_t)
+            block
+                type(bouncing_ball_reference_t) :: closed_form
+
+                call new_bouncing_ball_reference(closed_form, system, t0, q0, v0, found)
+                if (found) allocate (reference, source=closed_form)
+            end block
         end select
     end subroutine new_reference
 
@@ -193,25 +175,8 @@ contains
             call system%describe(d)
             if (d%name == name) return
         end do
-        call refuse("system", name, system_names(), error)
+        call refuse_name("system", name, system_names(), error)
     end subroutine new_system
-
-    subroutine new_integrator(name, integrator, error)
-        !! The method called `name`.
-        character(*), intent(in) :: name
-        class(integrator_t), allocatable, intent(out) :: integrator
-        type(error_t), allocatable, intent(out) :: error
-        integer :: i
-
-        i = 0
-        do
-            i = i + 1
-            call nth_integrator(i, integrator)
-            if (.not. allocated(integrator)) exit
-            if (integrator%name == name) return
-        end do
-        call refuse("method", name, method_names(), error)
-    end subroutine new_integrator
 
     function system_names() result(names)
         !! The names of all systems.
@@ -231,23 +196,7 @@ contains
         end do
     end function system_names
 
-    function method_names() result(names)
-        !! The names of all methods.
-        character(name_length), allocatable :: names(:)
-        class(integrator_t), allocatable :: integrator
-        integer :: i
-
-        allocate (names(0))
-        i = 0
-        do
-            i = i + 1
-            call nth_integrator(i, integrator)
-            if (.not. allocated(integrator)) exit
-            names = [character(name_length) :: names, integrator%name]
-        end do
-    end function method_names
-
-    pure subroutine refuse(kind, name, names, error)
+    pure subroutine refuse_name(kind, name, names, error)
         !! There is no such name: say which one is near, or which ones there are.
         character(*), intent(in) :: kind, name, names(:)
         type(error_t), allocatable, intent(out) :: error
@@ -259,5 +208,5 @@ contains
         else
             call fail(error, "unknown "//kind//" "//quoted(name)//"; there are "//join(names, ", "))
         end if
-    end subroutine refuse
+    end subroutine refuse_name
 end module lagrangia_catalogue

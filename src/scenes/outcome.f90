@@ -12,8 +12,9 @@ module lagrangia_outcome
 
     character(*), parameter :: scorecard_legend = &
         "drift: the largest change of an invariant, relative to its start or natural size"// &
-        new_line("a")//"error: the largest, absolute below 1 and relative above; exact: against "// &
-        "a closed form,"//new_line("a")//"estimate: against the same run at half the step"
+        new_line("a")//"error: the largest, absolute below 1 and relative above; exact: "// &
+        "against a closed"//new_line("a")//"form, estimate: against the same run at half the "// &
+        "step or a hundredth of the tolerance"
 
     integer, parameter :: from_closed_form = 1, from_half_step = 2
 
@@ -30,6 +31,7 @@ module lagrangia_outcome
         real(dp) :: t = 0.0_dp
         real(dp), allocatable :: q(:), v(:)
         integer(i8) :: steps = 0, evaluations = 0, energy_evaluations = 0, rows = 0
+        integer(i8) :: rejected = 0                 !! steps that were tried and taken back
         type(measure_t), allocatable :: drifts(:)   !! of the invariants
         type(measure_t), allocatable :: others(:)   !! `error`, `period`, ...
         integer :: error_from = 0                   !! 0: no error known

@@ -1,20 +1,25 @@
 module lagrangia_play
     !! One scene from its data to its data file, picture and row of the scorecard.
-    use lagrangia_catalogue, only: new_integrator, new_reference
+    use lagrangia_catalogue, only: new_reference
     use lagrangia_columns, only: new_columns
+    use lagrangia_dense_run, only: run_dense
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail, status_numbers
+    use lagrangia_event_files, only: finish_event_file, open_event_file
+    use lagrangia_event_record, only: event_record_t
+    use lagrangia_events, only: event_box_t
     use lagrangia_gnuplot, only: new_panels, panel_t
-    use lagrangia_integrator, only: integrator_t
+    use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_box_t, observer_t
     use lagrangia_outcome, only: from_closed_form, from_half_step, measure_t, outcome_t
     use lagrangia_period, only: period_t
     use lagrangia_record, only: record_t
     use lagrangia_reference, only: reference_t
-    use lagrangia_run, only: new_plan, plan_t, run
+    use lagrangia_run, only: plan_t, run
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_files, only: abandon_files, finish_files, open_files
+    use lagrangia_staging, only: stage_events, stage_method, stage_shadow
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -29,6 +34,9 @@ module lagrangia_play
         type(record_t) :: record
         type(period_t) :: period
         type(panel_t), allocatable :: panels(:)
+        type(event_box_t), allocatable :: events(:)
+        type(event_record_t) :: event_record
+        type(panel_t), allocatable :: event_panels(:)
         type(outcome_t) :: outcome
     end type performance_t
 
@@ -42,14 +50,9 @@ contains
         type(error_t), allocatable, intent(out) :: error
 
         call begin_outcome(scene, p%outcome)
-        call new_plan(p%plan, scene%t0, scene%dt, scene%duration, scene%every, error)
+        call stage_method(scene, system, p%plan, p%integrator, error)
         if (allocated(error)) return
-        call new_integrator(trim(scene%method), p%integrator, error)
-        if (allocated(error)) then
-            error%key = "method"
-            return
-        end if
-        call p%integrator%prepare(system, error)
+        call stage_events(scene, system, p%events, p%event_record, p%event_panels, error)
         if (allocated(error)) return
         call new_reference(system, scene%t0, scene%q, scene%v, p%reference)
         call new_record(scene, system, p, error)
@@ -70,7 +73,7 @@ contains
         type(outcome_t), intent(out) :: outcome
         type(error_t), allocatable, intent(out) :: error
         type(performance_t), target :: p
-        type(observer_box_t) :: observers(3)
+        type(observer_box_t) :: observers(4)
         type(error_t), allocatable :: file_error
         integer :: n
 
@@ -80,6 +83,12 @@ contains
         if (folder /= "") then
             call open_files(scene, system, folder, format, p%record, outcome%file, error)
             if (allocated(error)) return
+            if (size(p%events) > 0) call open_event_file(scene, system, folder, format, p%events, &
+                                                         p%event_record, error)
+            if (allocated(error)) then
+                call abandon_files(p%record)
+                return
+            end if
         end if
         n = 0
         if (size(p%record%columns%items) > 0) call join(p%record)
@@ -87,6 +96,7 @@ contains
             call find_coordinate(system, scene%period_of, p%period%coordinate)
             call join(p%period)
         end if
+        if (size(p%events) > 0) call join(p%event_record)
         if (associated(watcher)) call join(watcher)
         call timed_run(system, p, observers(:n), outcome, error)
         if (allocated(error)) then
@@ -94,10 +104,18 @@ contains
             outcome%t = p%record%time
             if (error%status /= status_numbers) then
                 call abandon_files(p%record)
+                if (allocated(p%event_record%table)) call p%event_record%table%file%abandon()
                 return
             end if
         end if
         call take_measures(scene, p, outcome)
+        if (allocated(p%event_record%table)) then
+            call finish_event_file(scene, folder, format, p%event_record, p%event_panels, &
+                                   file_error)
+            if (allocated(file_error) .and. .not. allocated(error)) then
+                call move_alloc(file_error, error)
+            end if
+        end if
         call finish_files(scene, folder, format, p%record, p%panels, outcome, file_error)
         if (allocated(file_error) .and. .not. allocated(error)) call move_alloc(file_error, error)
     contains
@@ -121,12 +139,25 @@ contains
         if (p%plan%rest > 0.0_dp) outcome%remark = " (the last one shortened to "// &
             to_text(p%plan%rest)//" s)"
         call system_clock(start, rate)
-        call run(system, p%integrator, p%plan, observers, outcome%q, outcome%v, error)
+        outcome%steps = p%plan%steps + merge(1, 0, p%plan%rest > 0.0_dp)
+        outcome%t = p%plan%t0 + p%plan%duration
+        if (p%plan%equal > 0 .or. size(p%events) > 0) then
+            select type (method => p%integrator)
+            class is (dense_integrator_t)
+                call run_dense(system, method, p%plan, p%events, observers, outcome%q, outcome%v, &
+                               outcome%t, error)
+                outcome%steps = method%accepted
+                outcome%rejected = method%rejected
+                if (.not. allocated(error) .and. outcome%t < p%plan%t0 + p%plan%duration) then
+                    outcome%remark = " (stopped by an event at t = "//to_text(outcome%t)//" s)"
+                end if
+            end select
+        else
+            call run(system, p%integrator, p%plan, observers, outcome%q, outcome%v, error)
+        end if
         call system_clock(finish)
         outcome%seconds = real(finish - start, dp)/real(rate, dp)
-        outcome%steps = p%plan%steps + merge(1, 0, p%plan%rest > 0.0_dp)
         outcome%evaluations = p%integrator%evaluations
-        outcome%t = p%plan%t0 + p%plan%duration
     end subroutine timed_run
 
     pure subroutine begin_outcome(scene, outcome)
@@ -171,8 +202,7 @@ contains
             else if (any(scene%expectations%name == "error")) then
                 p%outcome%error_from = from_half_step
                 allocate (p%record%shadow)
-                call p%record%shadow%start(p%integrator, system, p%plan%t0, p%plan%dt, scene%q, &
-                                           scene%v, error)
+                call stage_shadow(scene, system, p%plan, p%integrator, p%record%shadow, error)
                 if (allocated(error)) return
             end if
         end if

@@ -6,22 +6,28 @@ module lagrangia_run
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_box_t
+    use lagrangia_stepwise, only: whole_steps
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: plan_t, new_plan, run
+    public :: plan_t, new_plan, new_sampled_plan, run
 
     integer(i8), parameter :: longest_block = 1024  !! steps between two looks at signals
 
     type :: plan_t
-        !! A grid of times: whole steps, and perhaps a shorter one that lands on the end.
+        !! A grid of times: whole steps, and perhaps a shorter one that lands on the end; or, where
+        !! a method chooses its steps, only samples.
         real(dp) :: t0 = 0.0_dp
         real(dp) :: dt = 0.0_dp
         real(dp) :: duration = 0.0_dp
         integer(i8) :: steps = 0      !! whole steps
         real(dp) :: rest = 0.0_dp     !! length of the last, shortened step; 0 if there is none
         integer(i8) :: every = 1      !! steps between samples
+        integer(i8) :: equal = 0      !! so many samples at equal times; 0: as the steps have it
+    contains
+        procedure :: samples
+        procedure :: sample_time
     end type plan_t
 
 contains
@@ -33,7 +39,6 @@ contains
         integer(i8), intent(in) :: every  !! steps between samples
         type(error_t), allocatable, intent(out) :: error
         real(dp) :: count
-        integer(i8) :: whole
 
         count = duration/dt
         if (count > 1e15_dp) then
@@ -50,14 +55,51 @@ contains
         plan%dt = dt
         plan%duration = duration
         plan%every = every
-        whole = nint(count, i8)
-        if (abs(count - whole) <= 8.0_dp*epsilon(count)*max(1.0_dp, count)) then
-            plan%steps = whole
-        else
-            plan%steps = int(count, i8)
-            plan%rest = duration - plan%steps*dt
-        end if
+        call whole_steps(duration, dt, plan%steps, plan%rest)
     end subroutine new_plan
+
+    pure subroutine new_sampled_plan(plan, t0, duration, samples, error)
+        !! So many samples after that of the start; fails where they cannot be told apart.
+        type(plan_t), intent(out) :: plan
+        real(dp), intent(in) :: t0, duration
+        integer(i8), intent(in) :: samples
+        type(error_t), allocatable, intent(out) :: error
+
+        if (duration/samples < 4.0_dp*spacing(abs(t0) + duration)) then
+            call fail(error, "so many samples cannot be told apart near t = "// &
+                      to_text(t0 + duration)//" s", key="samples")
+            return
+        end if
+        plan%t0 = t0
+        plan%duration = duration
+        plan%equal = samples
+    end subroutine new_sampled_plan
+
+    pure function samples(self) result(count)
+        !! Number of the last sample; that of the start is 0.
+        class(plan_t), intent(in) :: self
+        integer(i8) :: count
+
+        count = self%equal
+        if (count > 0) return
+        count = self%steps/self%every
+        if (mod(self%steps, self%every) /= 0 .or. self%rest > 0.0_dp) count = count + 1
+    end function samples
+
+    pure function sample_time(self, k) result(t)
+        !! Time of sample `k`, s; the last is exactly the end.
+        class(plan_t), intent(in) :: self
+        integer(i8), intent(in) :: k
+        real(dp) :: t
+
+        if (k == self%samples()) then
+            t = self%t0 + self%duration
+        else if (self%equal > 0) then
+            t = self%t0 + self%duration*(real(k, dp)/real(self%equal, dp))
+        else
+            t = self%t0 + k*self%every*self%dt
+        end if
+    end function sample_time
 
     subroutine run(system, integrator, plan, observers, q, v, error)
         !! Integrate from `t0` over `duration`, showing every sample and the end to `observers`.
@@ -72,6 +114,10 @@ contains
         real(dp) :: q_good(system%ndof), v_good(system%ndof)
         integer(i8) :: done, block_end
 
+        if (system%contacts > 0) then
+            call fail(error, "unilateral constraints need a run that looks for impacts: run_dense")
+            return
+        end if
         call integrator%prepare(system, error)
         if (allocated(error)) return
         done = 0
@@ -101,11 +147,14 @@ contains
 
         subroutine show(t)
             real(dp), intent(in) :: t
+            character(:), allocatable :: why
             integer :: i
 
             if (.not. (all(ieee_is_finite(q)) .and. all(ieee_is_finite(v)))) then
-                call fail(error, "the state is not finite at t = "//to_text(t)//" s: the step "// &
-                          "dt = "//to_text(plan%dt)//" s is too long, or the motion diverges", &
+                why = trim(integrator%trouble)
+                if (why == "") why = "the step dt = "//to_text(plan%dt)//" s is too long, or "// &
+                                     "the motion diverges"
+                call fail(error, "the state is not finite at t = "//to_text(t)//" s: "//why, &
                           status_numbers)
                 q = q_good
                 v = v_good

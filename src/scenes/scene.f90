@@ -21,13 +21,19 @@ module lagrangia_scene
         character(200) :: title = ""
         character(name_length) :: system = ""
         character(name_length) :: method = "rk4"
+        logical :: compensated = .false.           !! sums that keep what rounding drops
         character(200) :: output = ""              !! below the output folder
         real(dp) :: t0 = 0.0_dp, dt = 0.0_dp, duration = 0.0_dp  !! s
         integer(i8) :: every = 1
+        real(dp) :: tolerance = 0.0_dp             !! above 0: the method chooses its steps,
+        integer(i8) :: samples = 0                 !! and there are so many samples
         real(dp), allocatable :: q(:), v(:)        !! at `t0`
         real(dp), allocatable :: parameters(:)     !! in the order of the system's description
         character(name_length), allocatable :: columns(:)
         character(200), allocatable :: plots(:)    !! panels: `'y'`, `'x:y'`, `'t:y1+y2'`
+        character(120), allocatable :: events(:)   !! `'theta = 0.5 rising'`
+        character(name_length), allocatable :: event_columns(:)
+        character(200), allocatable :: event_plots(:)
         character(name_length) :: period_of = ""   !! a coordinate whose period is measured
         type(expectation_t), allocatable :: expectations(:)
     end type scene_t
@@ -39,7 +45,6 @@ contains
         type(scene_t), intent(in) :: scene
         type(description_t), intent(in) :: d
         character(scene_line_length), allocatable :: lines(:)
-        character(:), allocatable :: list
         integer :: i, first
 
         allocate (lines(0))
@@ -47,24 +52,26 @@ contains
         call add("  title = "//text_value(scene%title))
         call add("  system = "//text_value(scene%system))
         call add("  method = "//text_value(scene%method))
+        if (scene%compensated) call add("  compensated = .true.")
         call add("  t0 = "//to_text(scene%t0))
-        call add("  dt = "//to_text(scene%dt))
-        call add("  duration = "//to_text(scene%duration))
-        call add("  every = "//to_text(scene%every))
+        if (scene%tolerance > 0.0_dp) then
+            call add("  tolerance = "//to_text(scene%tolerance))
+            call add("  duration = "//to_text(scene%duration))
+            call add("  samples = "//to_text(scene%samples))
+        else
+            call add("  dt = "//to_text(scene%dt))
+            call add("  duration = "//to_text(scene%duration))
+            call add("  every = "//to_text(scene%every))
+        end if
         call add("  q = "//numbers(scene%q))
         call add("  v = "//numbers(scene%v))
-        list = ""
-        do i = 1, size(scene%columns)
-            if (i > 1) list = list//", "
-            list = list//text_value(scene%columns(i))
-        end do
-        call add("  columns = "//list)
-        list = ""
-        do i = 1, size(scene%plots)
-            if (i > 1) list = list//", "
-            list = list//text_value(scene%plots(i))
-        end do
-        if (list /= "") call add("  plot = "//list)
+        call add("  columns = "//texts(scene%columns))
+        if (size(scene%plots) > 0) call add("  plot = "//texts(scene%plots))
+        if (allocated(scene%events)) then
+            if (size(scene%events) > 0) call add("  event = "//texts(scene%events))
+            call add("  event_columns = "//texts(scene%event_columns))
+            if (size(scene%event_plots) > 0) call add("  event_plot = "//texts(scene%event_plots))
+        end if
         if (scene%period_of /= "") call add("  period_of = "//text_value(scene%period_of))
         do i = 1, size(scene%expectations)
             call add("  expect_"//trim(scene%expectations(i)%name)//" = "// &
@@ -102,6 +109,19 @@ contains
             text = text//to_text(values(i))
         end do
     end function numbers
+
+    pure function texts(values) result(text)
+        !! `'t', 'theta'`.
+        character(*), intent(in) :: values(:)
+        character(:), allocatable :: text
+        integer :: i
+
+        text = ""
+        do i = 1, size(values)
+            if (i > 1) text = text//", "
+            text = text//text_value(values(i))
+        end do
+    end function texts
 
     pure function text_value(text) result(value)
         !! Between single quotes, those within doubled.

@@ -12,13 +12,14 @@ module lagrangia_scene_files
     use lagrangia_record, only: record_t
     use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
     use lagrangia_system, only: system_t
+    use lagrangia_table, only: table_t
     use lagrangia_text, only: quoted, to_text
     use lagrangia_text_table, only: text_table_t
     use lagrangia_version, only: build_text, version
     implicit none (type, external)
     private
     public :: check_format, open_files, finish_files, abandon_files, draw, &
-              script_path
+              script_path, data_path, new_table
 
     character(4), parameter :: formats(3) = ["text", "csv ", "npy "]
     character(4), parameter :: endings(3) = [".dat", ".csv", ".npy"]
@@ -33,6 +34,18 @@ contains
         if (any(formats == format)) return
         call fail(error, "unknown format "//quoted(format)//"; there are text, csv, npy")
     end subroutine check_format
+
+    subroutine new_table(format, table)
+        !! A table of that format, not yet opened.
+        character(*), intent(in) :: format
+        class(table_t), allocatable, intent(out) :: table
+
+        select case (format)
+        case ("text"); allocate (text_table_t :: table)
+        case ("csv"); allocate (csv_table_t :: table)
+        case default; allocate (npy_table_t :: table)
+        end select
+    end subroutine new_table
 
     pure function data_path(folder, output, format) result(path)
         !! `folder/output`, with the format's ending where `output` has none.
@@ -89,11 +102,7 @@ contains
         type(description_t) :: d
         logical :: itself
 
-        select case (format)
-        case ("text"); allocate (text_table_t :: record%table)
-        case ("csv"); allocate (csv_table_t :: record%table)
-        case default; allocate (npy_table_t :: record%table)
-        end select
+        call new_table(format, record%table)
         path = data_path(folder, trim(scene%output), format)
         itself = same_file(path, scene%source)
         if (.not. itself) itself = same_file(script_path(path), scene%source)
@@ -121,10 +130,13 @@ contains
         type(outcome_t), intent(in) :: outcome
         type(error_t), allocatable, intent(out) :: error
         type(output_file_t) :: script
-        character(:), allocatable :: path
+        character(:), allocatable :: path, rejected
 
         if (.not. allocated(record%table)) return
-        call record%table%finish("steps: "//to_text(outcome%steps)//outcome%remark// &
+        rejected = ""
+        if (scene%tolerance > 0) rejected = " accepted, "//to_text(outcome%rejected)// &
+                                                 " rejected"
+        call record%table%finish("steps: "//to_text(outcome%steps)//rejected//outcome%remark// &
                                  ", force evaluations: "//to_text(outcome%evaluations)// &
                                  ", energy evaluations: "//to_text(outcome%energy_evaluations)// &
                                  ", rows: "//to_text(outcome%rows), error)

@@ -4,9 +4,10 @@ module lagrangia_scene_keys
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_namelist, only: get_integer, get_real, get_reals, get_string, get_strings, &
-                                  has_key, namelist_t, refuse_value
+    use lagrangia_namelist, only: get_integer, get_logical, get_real, get_reals, get_string, &
+                                  get_strings, has_key, namelist_t, refuse_value
     use lagrangia_scene, only: expectation_t, scene_t
+    use lagrangia_scene_tolerance, only: read_tolerance
     use lagrangia_system, only: system_t
     use lagrangia_text, only: join, to_text
     implicit none (type, external)
@@ -14,15 +15,16 @@ module lagrangia_scene_keys
     public :: keys, key_length, expectation_keys, read_columns, read_state, read_times
 
     character(name_length), parameter :: keys(*) = [character(name_length) :: &
-        "title", "system", "method", "t0", "dt", "duration", "every", "samples", "q", "v", &
-        "columns", "plot", "period_of", "output"]
+        "title", "system", "method", "compensated", "t0", "dt", "tolerance", "duration", "every", &
+        "samples", "q", "v", "columns", "plot", "event", "event_columns", "event_plot", &
+        "period_of", "output"]
     integer, parameter :: key_length = name_length + len("expect_")
     integer, parameter :: most = 10000  !! values of one key
 
 contains
 
     subroutine read_times(tree, scene, error)
-        !! Method, step, duration, samples.
+        !! Method, how it adds, step, duration, samples.
         type(namelist_t), intent(inout) :: tree
         type(scene_t), intent(inout) :: scene
         type(error_t), allocatable, intent(out) :: error
@@ -32,12 +34,16 @@ contains
         if (allocated(error)) return
         call get_string(tree, "scene", "method", scene%method, error)
         if (allocated(error)) return
+        call get_logical(tree, "scene", "compensated", scene%compensated, error)
+        if (allocated(error)) return
         call get_real(tree, "scene", "t0", scene%t0, error)
         if (allocated(error)) return
-        call get_positive("dt", scene%dt)
+        call read_tolerance(tree, scene, error)
+        if (allocated(error)) return
+        if (scene%tolerance <= 0.0_dp) call get_positive("dt", scene%dt)
         if (allocated(error)) return
         call get_positive("duration", scene%duration)
-        if (allocated(error)) return
+        if (allocated(error) .or. scene%tolerance > 0.0_dp) return
         if (scene%dt > scene%duration) then
             call refuse_value(tree, "scene", "dt", "is longer than the whole run, duration = "// &
                               to_text(scene%duration), error)
@@ -96,7 +102,8 @@ contains
         if (allocated(error)) return
         if (size(scene%q) /= system%ndof) then
             call refuse_value(tree, "scene", "q", to_text(size(scene%q))//" values, but "// &
-                              to_text(system%ndof)//trim(merge(" is ", " are", system%ndof == 1))// &
+                              to_text(system%ndof)// &
+                              trim(merge(" is ", " are", system%ndof == 1))// &
                               " needed: "//coordinates(d), error)
             return
         end if
@@ -129,6 +136,8 @@ contains
         allocate (scene%plots(0))
         call get_strings(tree, "scene", "plot", 1, 8, scene%plots, error)
         if (allocated(error)) return
+        call read_events(tree, system, scene, error)
+        if (allocated(error)) return
         call get_string(tree, "scene", "period_of", scene%period_of, error)
         if (allocated(error)) return
         if (scene%period_of /= "" .and. .not. any(d%coordinates%name == scene%period_of)) then
@@ -156,6 +165,44 @@ contains
             "a file name below the output folder is needed: letters, digits, . _ - / and "// &
             "blanks, not absolute, without '..', not ending in .gp", error)
     end subroutine read_columns
+
+    subroutine read_events(tree, system, scene, error)
+        !! What is looked for, and what is written down there; nothing if there is no event.
+        type(namelist_t), intent(inout) :: tree
+        class(system_t), intent(in) :: system
+        type(scene_t), intent(inout) :: scene
+        type(error_t), allocatable, intent(out) :: error
+        logical :: wanted
+
+        allocate (scene%events(0), scene%event_plots(0))
+        call get_strings(tree, "scene", "event", 1, 8, scene%events, error)
+        if (allocated(error)) return
+        wanted = size(scene%events) > 0 .or. system%contacts > 0
+        scene%event_columns = pack(scene%columns, .not. of_the_run(scene%columns))
+        call get_event_key("event_columns")
+        if (allocated(error)) return
+        call get_strings(tree, "scene", "event_columns", 1, most, scene%event_columns, error)
+        if (allocated(error)) return
+        call get_event_key("event_plot")
+        if (allocated(error)) return
+        call get_strings(tree, "scene", "event_plot", 1, 8, scene%event_plots, error)
+        if (.not. wanted) deallocate (scene%events)
+    contains
+        subroutine get_event_key(key)
+            character(*), intent(in) :: key
+
+            if (wanted .or. .not. has_key(tree, "scene", key)) return
+            call refuse_value(tree, "scene", key, "there is no event to write down", error)
+        end subroutine get_event_key
+    end subroutine read_events
+
+    elemental function of_the_run(name) result(yes)
+        !! A column that is more than a function of the state.
+        character(*), intent(in) :: name
+        logical :: yes
+
+        yes = name == "error" .or. index(name, "_drift") > 0
+    end function of_the_run
 
     pure function coordinates(d) result(text)
         !! Their names in order.

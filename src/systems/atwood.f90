@@ -9,7 +9,7 @@ module lagrangia_atwood
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(+), operator(-)
     use lagrangia_kinds, only: dp
-    use lagrangia_system, only: check_parameters, system_t
+    use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
     public :: atwood_t
@@ -26,6 +26,7 @@ module lagrangia_atwood
         procedure :: describe
         procedure :: configure
         procedure :: accelerations
+        procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
         procedure :: quantity => energy_or_force
@@ -204,4 +205,13 @@ contains
         r(1, 2)%re = self%radius
         r(2, 2) = 0.5_dp*self%support_acceleration*t**2 + q(1)
     end subroutine positions
+
+    pure subroutine accelerations_lanes(self, t, q, v, a)
+        !! `accelerations`, in all lanes at once.
+        class(atwood_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+
+        a(:, 1) = (self%m1 - self%m2)*(self%g + self%support_acceleration)/inertia(self)
+    end subroutine accelerations_lanes
 end module lagrangia_atwood

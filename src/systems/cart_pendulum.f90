@@ -10,7 +10,7 @@ module lagrangia_cart_pendulum
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-), sin
     use lagrangia_kinds, only: dp
-    use lagrangia_system, only: check_parameters, system_t
+    use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
     public :: cart_pendulum_t
@@ -25,8 +25,12 @@ module lagrangia_cart_pendulum
         procedure :: describe
         procedure :: configure
         procedure :: accelerations
+        procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
+        procedure :: momenta
+        procedure :: velocities
+        procedure :: forces
         procedure :: quantity => momentum_or_force
         procedure :: positions
     end type cart_pendulum_t
@@ -120,6 +124,46 @@ contains
         end associate
     end function lagrangian
 
+    pure subroutine momenta(self, t, q, v, p)
+        !! $$ p_x = (m_1+m_2)\dot x + m_2\ell\dot\theta\cos\theta,\quad
+        !!    p_\theta = m_2\ell^2\dot\theta + m_2\ell\dot x\cos\theta $$
+        class(cart_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: p(self%ndof)
+        real(dp) :: c
+
+        associate (m1 => self%m1, m2 => self%m2, l => self%l)
+            c = cos(q(2))
+            p(1) = (m1 + m2)*v(1) + m2*l*v(2)*c
+            p(2) = m2*l*(l*v(2) + v(1)*c)
+        end associate
+    end subroutine momenta
+
+    pure subroutine velocities(self, t, q, p, v)
+        !! \(M^{-1}p\), with \(\det M = m_2\ell^2\,(m_1 + m_2\sin^2\theta) > 0\).
+        class(cart_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), p(self%ndof)
+        real(dp), intent(out) :: v(self%ndof)
+        real(dp) :: c, d
+
+        associate (m1 => self%m1, m2 => self%m2, l => self%l)
+            c = cos(q(2))
+            d = m1 + m2*sin(q(2))**2
+            v(1) = (p(1) - c*p(2)/l)/d
+            v(2) = ((m1 + m2)/m2*p(2)/l - c*p(1))/(l*d)
+        end associate
+    end subroutine velocities
+
+    pure subroutine forces(self, t, q, v, f)
+        !! $$ f_x = 0,\quad f_\theta = -m_2\ell\,(\dot x\dot\theta + g)\sin\theta $$
+        class(cart_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: f(self%ndof)
+
+        f(1) = 0.0_dp
+        f(2) = -self%m2*self%l*(v(1)*v(2) + self%g)*sin(q(2))
+    end subroutine forces
+
     pure function energy(self, t, q, v) result(e)
         !! $$ E = \tfrac12(m_1+m_2)\dot x^2 + \tfrac12 m_2\ell^2\dot\theta^2
         !!      + m_2\ell\dot x\dot\theta\cos\theta - m_2 g\ell\cos\theta $$
@@ -164,4 +208,21 @@ contains
         r(1, 2) = q(1) + self%l*sin(q(2))
         r(2, 2) = -self%l*cos(q(2))
     end subroutine positions
+
+    pure subroutine accelerations_lanes(self, t, q, v, a)
+        !! `accelerations`, in all lanes at once.
+        class(cart_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+        real(dp) :: s(lanes), c(lanes), d(lanes)
+
+        associate (m1 => self%m1, m2 => self%m2, l => self%l, g => self%g, &
+                   theta_dot => v(:, 2))
+            s = sin(q(:, 2))
+            c = cos(q(:, 2))
+            d = m1 + m2*s**2
+            a(:, 1) = m2*s*(l*theta_dot**2 + g*c)/d
+            a(:, 2) = -s*((m1 + m2)*g + m2*l*theta_dot**2*c)/(l*d)
+        end associate
+    end subroutine accelerations_lanes
 end module lagrangia_cart_pendulum

@@ -8,14 +8,16 @@ module lagrangia_charged_particle
     use lagrangia_description, only: conserved, coordinate, description_t, nonnegative, number, &
                                      point, positive, quantity, vector
     use lagrangia_errors, only: error_t
+    use lagrangia_gyrating_system, only: gyrating_system_t
     use lagrangia_hyperdual, only: dot_product, hyperdual_t, operator(*), operator(+), operator(-)
     use lagrangia_kinds, only: dp
-    use lagrangia_system, only: check_parameters, system_t
+    use lagrangia_system, only: check_parameters, lanes
+    use lagrangia_vectors, only: cross, length
     implicit none (type, external)
     private
-    public :: charged_particle_t, cross, length
+    public :: charged_particle_t
 
-    type, extends(system_t) :: charged_particle_t
+    type, extends(gyrating_system_t) :: charged_particle_t
         !! Coordinates: \(x\), \(y\), \(z\), m, from the centre of the trap.
         real(dp) :: m = 1.0_dp                                  !! kg
         real(dp) :: charge = 1.0_dp                             !! e, C
@@ -26,6 +28,8 @@ module lagrangia_charged_particle
         procedure :: describe
         procedure :: configure
         procedure :: accelerations
+        procedure :: split_accelerations
+        procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
         procedure :: quantity => momentum_or_speed
@@ -33,10 +37,6 @@ module lagrangia_charged_particle
         procedure :: axis
         procedure :: centre
     end type charged_particle_t
-
-    interface cross
-        module procedure cross_real, cross_real_hyperdual
-    end interface cross
 
 contains
 
@@ -178,6 +178,16 @@ contains
         end associate
     end subroutine accelerations
 
+    pure subroutine split_accelerations(self, t, q, a, omega)
+        !! $$ a = (eE - kr)/m,\qquad \omega = eB/m $$
+        class(charged_particle_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(3)
+        real(dp), intent(out) :: a(3), omega(3)
+
+        a = (self%charge*self%electric - self%trap*q)/self%m
+        omega = self%charge/self%m*self%magnetic
+    end subroutine split_accelerations
+
     pure function lagrangian(self, t, q, v) result(l)
         !! $$ L = \tfrac12 mv^2 + e\,E\cdot r + e\,A\cdot v - \tfrac12 kr^2,\qquad
         !!    A = \tfrac12 B\times r $$
@@ -240,28 +250,16 @@ contains
         r(:, 1) = q
     end subroutine positions
 
-    pure function length(a)
-        !! \(|a|\): gfortran's `norm2` underflows below 1e-154.
-        real(dp), intent(in) :: a(3)
-        real(dp) :: length
+    pure subroutine accelerations_lanes(self, t, q, v, a)
+        !! `accelerations`, in all lanes at once.
+        class(charged_particle_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
 
-        length = hypot(hypot(a(1), a(2)), a(3))
-    end function length
-
-    pure function cross_real(a, b) result(c)
-        !! \(a\times b\).
-        real(dp), intent(in) :: a(3), b(3)
-        real(dp) :: c(3)
-
-        c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
-    end function cross_real
-
-    pure function cross_real_hyperdual(a, b) result(c)
-        !! \(a\times b\).
-        real(dp), intent(in) :: a(3)
-        type(hyperdual_t), intent(in) :: b(3)
-        type(hyperdual_t) :: c(3)
-
-        c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
-    end function cross_real_hyperdual
+        associate (m => self%m, e => self%charge, b => self%magnetic, k => self%trap)
+            a(:, 1) = (e*(self%electric(1) + v(:, 2)*b(3) - v(:, 3)*b(2)) - k*q(:, 1))/m
+            a(:, 2) = (e*(self%electric(2) + v(:, 3)*b(1) - v(:, 1)*b(3)) - k*q(:, 2))/m
+            a(:, 3) = (e*(self%electric(3) + v(:, 1)*b(2) - v(:, 2)*b(1)) - k*q(:, 3))/m
+        end associate
+    end subroutine accelerations_lanes
 end module lagrangia_charged_particle

@@ -9,7 +9,7 @@ module lagrangia_double_pendulum
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-), sin
     use lagrangia_kinds, only: dp
-    use lagrangia_system, only: check_parameters, system_t
+    use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
     public :: double_pendulum_t
@@ -25,8 +25,12 @@ module lagrangia_double_pendulum
         procedure :: describe
         procedure :: configure
         procedure :: accelerations
+        procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
+        procedure :: momenta
+        procedure :: velocities
+        procedure :: forces
         procedure :: quantity => momentum_or_tension
         procedure :: positions
     end type double_pendulum_t
@@ -137,6 +141,54 @@ contains
         end associate
     end function lagrangian
 
+    pure subroutine momenta(self, t, q, v, p)
+        !! $$ p_1 = (m_1+m_2)\ell_1^2\dot\theta_1 + m_2\ell_1\ell_2\dot\theta_2\cos\Delta,\quad
+        !!    p_2 = m_2\ell_2^2\dot\theta_2 + m_2\ell_1\ell_2\dot\theta_1\cos\Delta $$
+        class(double_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: p(self%ndof)
+        real(dp) :: c
+
+        associate (m => self%m1 + self%m2, m2 => self%m2, l1 => self%l1, l2 => self%l2)
+            c = cos(q(1) - q(2))
+            p(1) = l1*(m*l1*v(1) + m2*l2*v(2)*c)
+            p(2) = m2*l2*(l2*v(2) + l1*v(1)*c)
+        end associate
+    end subroutine momenta
+
+    pure subroutine velocities(self, t, q, p, v)
+        !! \(M^{-1}p\), with \(\det M = m_2\ell_1^2\ell_2^2\,(m_1 + m_2\sin^2\Delta) > 0\).
+        class(double_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), p(self%ndof)
+        real(dp), intent(out) :: v(self%ndof)
+        real(dp) :: c, d, u1, u2
+
+        associate (m1 => self%m1, m2 => self%m2, l1 => self%l1, l2 => self%l2)
+            c = cos(q(1) - q(2))
+            d = m1 + m2*sin(q(1) - q(2))**2
+            u1 = p(1)/l1
+            u2 = p(2)/l2
+            v(1) = (u1 - c*u2)/(l1*d)
+            v(2) = ((m1 + m2)/m2*u2 - c*u1)/(l2*d)
+        end associate
+    end subroutine velocities
+
+    pure subroutine forces(self, t, q, v, f)
+        !! $$ f_{1,2} = \mp m_2\ell_1\ell_2\dot\theta_1\dot\theta_2\sin\Delta
+        !!    - (m_1+m_2)g\ell_1\sin\theta_1\ \text{or}\ m_2 g\ell_2\sin\theta_2 $$
+        class(double_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: f(self%ndof)
+        real(dp) :: turn
+
+        associate (m => self%m1 + self%m2, m2 => self%m2, l1 => self%l1, l2 => self%l2, &
+                   g => self%g)
+            turn = m2*l1*l2*v(1)*v(2)*sin(q(1) - q(2))
+            f(1) = -turn - m*g*l1*sin(q(1))
+            f(2) = turn - m2*g*l2*sin(q(2))
+        end associate
+    end subroutine forces
+
     pure function energy(self, t, q, v) result(e)
         !! $$ E = \tfrac12(m_1+m_2)\ell_1^2\dot\theta_1^2 + \tfrac12 m_2\ell_2^2\dot\theta_2^2
         !!      + m_2\ell_1\ell_2\dot\theta_1\dot\theta_2\cos(\theta_1-\theta_2)
@@ -188,4 +240,24 @@ contains
         r(1, 2) = r(1, 1) + self%l2*sin(q(2))
         r(2, 2) = r(2, 1) - self%l2*cos(q(2))
     end subroutine positions
+
+    pure subroutine accelerations_lanes(self, t, q, v, a)
+        !! `accelerations`, in all lanes at once.
+        class(double_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+        real(dp) :: s(lanes), c(lanes), s1(lanes), s2(lanes), d(lanes)
+
+        associate (m1 => self%m1, m2 => self%m2, m => self%m1 + self%m2, &
+                   l1 => self%l1, l2 => self%l2, g => self%g)
+            s = q(:, 1) - q(:, 2)
+            c = cos(s)
+            s = sin(s)
+            s1 = sin(q(:, 1))
+            s2 = sin(q(:, 2))
+            d = m1 + m2*s**2
+            a(:, 1) = (-m2*s*(l1*v(:, 1)**2*c + l2*v(:, 2)**2) - m*g*s1 + m2*g*s2*c)/(l1*d)
+            a(:, 2) = (m*l1*v(:, 1)**2*s + m2*l2*v(:, 2)**2*s*c + m*g*(s1*c - s2))/(l2*d)
+        end associate
+    end subroutine accelerations_lanes
 end module lagrangia_double_pendulum

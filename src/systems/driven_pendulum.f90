@@ -14,7 +14,7 @@ module lagrangia_driven_pendulum
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-), sin
     use lagrangia_kinds, only: dp
-    use lagrangia_system, only: check_parameters, system_t
+    use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
     public :: driven_pendulum_t
@@ -30,6 +30,7 @@ module lagrangia_driven_pendulum
         procedure :: describe
         procedure :: configure
         procedure :: accelerations
+        procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
         procedure :: quantity => energy_or_force
@@ -197,4 +198,18 @@ contains
         r(1, 1) = self%l*sin(q(1))
         r(2, 1) = self%amplitude*cos(self%drive_frequency*t) - self%l*cos(q(1))
     end subroutine positions
+
+    pure subroutine accelerations_lanes(self, t, q, v, a)
+        !! `accelerations`, in all lanes at once.
+        class(driven_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+        real(dp) :: s(lanes), c(lanes)
+
+        associate (w => self%drive_frequency)
+            s = sin(q(:, 1))
+            c = cos(w*t)
+            a(:, 1) = -(self%g - self%amplitude*w**2*c)/self%l*s
+        end associate
+    end subroutine accelerations_lanes
 end module lagrangia_driven_pendulum

@@ -8,7 +8,7 @@ module lagrangia_oscillator
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(-)
     use lagrangia_kinds, only: dp
-    use lagrangia_system, only: check_parameters, system_t
+    use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
     public :: oscillator_t
@@ -21,6 +21,7 @@ module lagrangia_oscillator
         procedure :: describe
         procedure :: configure
         procedure :: accelerations
+        procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
         procedure :: quantity => force_or_momentum
@@ -123,4 +124,13 @@ contains
         r = hyperdual_t()
         r(1, 1) = q(1)
     end subroutine positions
+
+    pure subroutine accelerations_lanes(self, t, q, v, a)
+        !! `accelerations`, in all lanes at once.
+        class(oscillator_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+
+        a(:, 1) = -self%k/self%m*q(:, 1)
+    end subroutine accelerations_lanes
 end module lagrangia_oscillator

@@ -9,7 +9,7 @@ module lagrangia_pendulum
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-), sin
     use lagrangia_kinds, only: dp
-    use lagrangia_system, only: check_parameters, system_t
+    use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
     public :: pendulum_t
@@ -23,8 +23,12 @@ module lagrangia_pendulum
         procedure :: describe
         procedure :: configure
         procedure :: accelerations
+        procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
+        procedure :: momenta
+        procedure :: velocities
+        procedure :: forces
         procedure :: quantity => momentum_or_tension
         procedure :: positions
     end type pendulum_t
@@ -95,6 +99,33 @@ contains
         l = 0.5_dp*self%m*self%l**2*v(1)**2 + self%m*self%g*self%l*cos(q(1))
     end function lagrangian
 
+    pure subroutine momenta(self, t, q, v, p)
+        !! \(p = m\ell^2\dot\theta\).
+        class(pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: p(self%ndof)
+
+        p(1) = self%m*self%l**2*v(1)
+    end subroutine momenta
+
+    pure subroutine velocities(self, t, q, p, v)
+        !! \(\dot\theta = p/(m\ell^2)\).
+        class(pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), p(self%ndof)
+        real(dp), intent(out) :: v(self%ndof)
+
+        v(1) = p(1)/(self%m*self%l**2)
+    end subroutine velocities
+
+    pure subroutine forces(self, t, q, v, f)
+        !! \(f = -mg\ell\sin\theta\).
+        class(pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: f(self%ndof)
+
+        f(1) = -self%m*self%g*self%l*sin(q(1))
+    end subroutine forces
+
     pure function energy(self, t, q, v) result(e)
         !! $$ E = \tfrac12 m\ell^2\dot\theta^2 - m g\ell\cos\theta $$
         class(pendulum_t), intent(in) :: self
@@ -129,4 +160,13 @@ contains
         r(1, 1) = self%l*sin(q(1))
         r(2, 1) = -self%l*cos(q(1))
     end subroutine positions
+
+    pure subroutine accelerations_lanes(self, t, q, v, a)
+        !! `accelerations`, in all lanes at once.
+        class(pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+
+        a(:, 1) = -self%g/self%l*sin(q(:, 1))
+    end subroutine accelerations_lanes
 end module lagrangia_pendulum

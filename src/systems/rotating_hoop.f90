@@ -10,7 +10,7 @@ module lagrangia_rotating_hoop
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-), sin
     use lagrangia_kinds, only: dp
-    use lagrangia_system, only: check_parameters, system_t
+    use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
     public :: rotating_hoop_t
@@ -25,6 +25,7 @@ module lagrangia_rotating_hoop
         procedure :: describe
         procedure :: configure
         procedure :: accelerations
+        procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
         procedure :: quantity => energy_or_torque
@@ -161,4 +162,16 @@ contains
         r(2, 1) = self%r*sin(q(1))*sin(self%omega*t)
         r(3, 1) = -self%r*cos(q(1))
     end subroutine positions
+
+    pure subroutine accelerations_lanes(self, t, q, v, a)
+        !! `accelerations`, in all lanes at once.
+        class(rotating_hoop_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+        real(dp) :: s(lanes), c(lanes)
+
+        s = sin(q(:, 1))
+        c = cos(q(:, 1))
+        a(:, 1) = s*(self%omega**2*c - self%g/self%r)
+    end subroutine accelerations_lanes
 end module lagrangia_rotating_hoop

@@ -9,7 +9,7 @@ module lagrangia_rotating_wire
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), sin
     use lagrangia_kinds, only: dp
-    use lagrangia_system, only: check_parameters, system_t
+    use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
     public :: rotating_wire_t
@@ -22,6 +22,7 @@ module lagrangia_rotating_wire
         procedure :: describe
         procedure :: configure
         procedure :: accelerations
+        procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
         procedure :: quantity => energy_or_force
@@ -136,4 +137,13 @@ contains
         r(1, 1) = q(1)*cos(self%omega*t)
         r(2, 1) = q(1)*sin(self%omega*t)
     end subroutine positions
+
+    pure subroutine accelerations_lanes(self, t, q, v, a)
+        !! `accelerations`, in all lanes at once.
+        class(rotating_wire_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+
+        a(:, 1) = self%omega**2*q(:, 1)
+    end subroutine accelerations_lanes
 end module lagrangia_rotating_wire

@@ -4,16 +4,18 @@ module lagrangia_system
     !! The state is the pair \((q, v)\), \(v = \dot q\). A system says what it is (`describe`),
     !! takes its parameters (`configure`), and gives its equations of motion twice: as the page
     !! has them (`accelerations`), and as the Lagrangian that they were derived from.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
     use lagrangia_description, only: description_t, name_length, parameter_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
+    use lagrangia_parameters, only: check_parameter, default_values
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: system_t, system_box_t
+    public :: system_t, system_box_t, lanes
     public :: check_parameter, check_parameters, default_values
+
+    integer, parameter :: lanes = 8  !! states that `accelerations_lanes` takes at once
 
     type, abstract :: system_t
         integer :: ndof = 0                  !! number of coordinates
@@ -21,16 +23,23 @@ module lagrangia_system
         logical :: time_dependent = .false.  !! the Lagrangian contains the time
         integer :: constraints = 0           !! rows of non-holonomic constraints
         integer :: cyclic = 0                !! index of a cyclic coordinate, 0 if none
+        integer :: contacts = 0              !! unilateral constraints: each has a gap and impacts
     contains
         procedure(describe_i), deferred :: describe
         procedure(configure_i), deferred :: configure
         procedure(accelerations_i), deferred :: accelerations
+        procedure :: accelerations_lanes => each_lane
         procedure(lagrangian_i), deferred :: lagrangian
         procedure(energy_i), deferred :: energy
+        procedure :: momenta => momenta_of_lagrangian
+        procedure :: velocities => velocities_of_lagrangian
+        procedure :: forces => forces_of_lagrangian
         procedure :: quantity => no_quantity
         procedure :: positions => no_positions
         procedure :: constraint_rows => no_constraint_rows
         procedure :: complete_velocities
+        procedure :: gap => no_gap
+        procedure :: impact => no_impact
     end type system_t
 
     type :: system_box_t
@@ -90,6 +99,97 @@ module lagrangia_system
 
 contains
 
+    pure subroutine momenta_of_lagrangian(self, t, q, v, p)
+        !! Canonical momenta \(p = \partial L/\partial\dot q\). A system may give its own formulae.
+        class(system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: p(self%ndof)
+        type(hyperdual_t) :: tt, qq(self%ndof), vv(self%ndof), l
+        integer :: i
+
+        tt%re = t
+        qq%re = q
+        vv%re = v
+        do i = 1, self%ndof
+            vv(i)%d1 = 1.0_dp
+            l = self%lagrangian(tt, qq, vv)
+            p(i) = l%d1
+            vv(i)%d1 = 0.0_dp
+        end do
+    end subroutine momenta_of_lagrangian
+
+    pure subroutine velocities_of_lagrangian(self, t, q, p, v)
+        !! The inverse of `momenta`. \(L\) is of degree two in the velocities, as it is in all
+        !! the lectures: \(p = M\dot q + b\), solved by elimination; \(M\) is positive definite.
+        class(system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), p(self%ndof)
+        real(dp), intent(out) :: v(self%ndof)
+        type(hyperdual_t) :: tt, qq(self%ndof), vv(self%ndof), l
+        real(dp) :: mass(self%ndof, self%ndof), share
+        integer :: i, j
+
+        tt%re = t
+        qq%re = q
+        do i = 1, self%ndof
+            vv(i)%d1 = 1.0_dp
+            do j = 1, self%ndof
+                vv(j)%d2 = 1.0_dp
+                l = self%lagrangian(tt, qq, vv)
+                mass(i, j) = l%d12
+                vv(j)%d2 = 0.0_dp
+            end do
+            v(i) = p(i) - l%d1
+            vv(i)%d1 = 0.0_dp
+        end do
+        do i = 1, self%ndof
+            do j = i + 1, self%ndof
+                share = mass(j, i)/mass(i, i)
+                v(j) = v(j) - share*v(i)
+                mass(j, i:) = mass(j, i:) - share*mass(i, i:)
+            end do
+        end do
+        do i = self%ndof, 1, -1
+            v(i) = (v(i) - dot_product(mass(i, i + 1:), v(i + 1:)))/mass(i, i)
+        end do
+    end subroutine velocities_of_lagrangian
+
+    pure subroutine forces_of_lagrangian(self, t, q, v, f)
+        !! Generalised forces \(\partial L/\partial q\), which change the momenta.
+        class(system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: f(self%ndof)
+        type(hyperdual_t) :: tt, qq(self%ndof), vv(self%ndof), l
+        integer :: i
+
+        tt%re = t
+        qq%re = q
+        vv%re = v
+        do i = 1, self%ndof
+            qq(i)%d1 = 1.0_dp
+            l = self%lagrangian(tt, qq, vv)
+            f(i) = l%d1
+            qq(i)%d1 = 0.0_dp
+        end do
+    end subroutine forces_of_lagrangian
+
+    pure subroutine each_lane(self, t, q, v, a)
+        !! `accelerations` of several states, lane by lane. A system may do better: the same
+        !! equations as whole-array statements, with sin and cos each in its own, so that the
+        !! compiler calls the vector ones. Those are good to 4 ulp, so the last digits differ.
+        class(system_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+        real(dp) :: x(self%ndof), x_dot(self%ndof), x_ddot(self%ndof)
+        integer :: i
+
+        do i = 1, lanes
+            x = q(i, :)
+            x_dot = v(i, :)
+            call self%accelerations(t(i), x, x_dot, x_ddot)
+            a(i, :) = x_ddot
+        end do
+    end subroutine each_lane
+
     pure function no_quantity(self, i, t, q, v) result(value)
         !! Entry `i` of the quantities in the description: here there are none.
         class(system_t), intent(in) :: self
@@ -135,28 +235,26 @@ contains
         v = given
     end subroutine complete_velocities
 
-    pure subroutine check_parameter(p, error)
-        !! Refuse a parameter whose value is outside its domain or not finite.
-        type(parameter_t), intent(in) :: p
-        type(error_t), allocatable, intent(out) :: error
-        logical :: good
-        integer :: i
+    pure function no_gap(self, i, t, q, v) result(value)
+        !! Unilateral constraint `i` is \(gap \ge 0\): where the gap falls through zero there is
+        !! an impact. Here there are none.
+        class(system_t), intent(in) :: self
+        integer, intent(in) :: i
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: value
 
-        do i = 1, p%count
-            if (len_trim(p%computed) > 0 .and. ieee_is_nan(p%value(i))) cycle
-            good = ieee_is_finite(p%value(i)) .and. p%value(i) <= p%upper
-            if (p%open_lower) then
-                good = good .and. p%value(i) > p%lower
-            else
-                good = good .and. p%value(i) >= p%lower
-            end if
-            if (.not. good) then
-                call fail(error, trim(p%name)//" = "//to_text(p%value(i))// &
-                          " is not allowed: "//p%domain())
-                return
-            end if
-        end do
-    end subroutine check_parameter
+        value = 1.0_dp
+    end function no_gap
+
+    pure subroutine no_impact(self, i, t, q, v)
+        !! What happens where gap `i` falls through zero: velocities jump, and the coordinates are
+        !! set onto the constraint, which rounding may have missed. A system that would go on to
+        !! meet it ever sooner must stay there, with accelerations that hold it.
+        class(system_t), intent(in) :: self
+        integer, intent(in) :: i
+        real(dp), intent(in) :: t
+        real(dp), intent(inout) :: q(self%ndof), v(self%ndof)
+    end subroutine no_impact
 
     pure subroutine check_parameters(self, values, error)
         !! Refuse `values` that are too many, too few or outside their domains.
@@ -185,16 +283,4 @@ contains
             end if
         end do
     end subroutine check_parameters
-
-    pure function default_values(d) result(values)
-        !! The parameters of a description as the flat list that `configure` takes.
-        type(description_t), intent(in) :: d
-        real(dp), allocatable :: values(:)
-        integer :: i
-
-        allocate (values(0))
-        do i = 1, size(d%parameters)
-            values = [values, d%parameters(i)%value(:d%parameters(i)%count)]
-        end do
-    end function default_values
 end module lagrangia_system

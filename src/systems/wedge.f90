@@ -9,7 +9,7 @@ module lagrangia_wedge
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(+), operator(-)
     use lagrangia_kinds, only: dp
-    use lagrangia_system, only: check_parameters, system_t
+    use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
     public :: wedge_t
@@ -26,6 +26,7 @@ module lagrangia_wedge
         procedure :: describe
         procedure :: configure
         procedure :: accelerations
+        procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
         procedure :: quantity => momentum_or_force
@@ -186,4 +187,20 @@ contains
         r(2, 1) = -sin(self%alpha)*q(1)
         r(1, 2) = q(2)
     end subroutine positions
+
+    pure subroutine accelerations_lanes(self, t, q, v, a)
+        !! `accelerations`, in all lanes at once.
+        class(wedge_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+        real(dp) :: s, c, d
+
+        associate (m => self%m_block, big => self%m_wedge, g => self%g)
+            s = sin(self%alpha)
+            c = cos(self%alpha)
+            d = big + m*s**2
+            a(:, 1) = (big + m)*g*s/d
+            a(:, 2) = -m*g*s*c/d
+        end associate
+    end subroutine accelerations_lanes
 end module lagrangia_wedge

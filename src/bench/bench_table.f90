@@ -1,12 +1,12 @@
-module lagrangia_bench_report
+module lagrangia_bench_table
     !! Tables of results: lines for people, objects for programs (JSON), from the same cells.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_json, only: json_number, json_string
     use lagrangia_kinds, only: dp, i8
     implicit none (type, external)
     private
-    public :: cell_t, report_t, report_box_t
-    public :: count_cell, new_report, number_cell, short, word_cell
+    public :: cell_t, bench_table_t, bench_table_box_t
+    public :: count_cell, new_bench_table, number_cell, short, word_cell
 
     integer, parameter :: most_columns = 24, width = 72
 
@@ -20,7 +20,7 @@ module lagrangia_bench_report
         type(cell_t) :: cells(most_columns)
     end type row_t
 
-    type :: report_t
+    type :: bench_table_t
         !! One table.
         character(width) :: name = ""                  !! key of its rows in JSON
         character(200) :: title = ""
@@ -33,17 +33,17 @@ module lagrangia_bench_report
         procedure :: head
         procedure :: line
         procedure :: object
-    end type report_t
+    end type bench_table_t
 
-    type :: report_box_t
-        type(report_t), allocatable :: item
-    end type report_box_t
+    type :: bench_table_box_t
+        type(bench_table_t), allocatable :: item
+    end type bench_table_box_t
 
 contains
 
-    pure subroutine new_report(self, name, title, names)
+    pure subroutine new_bench_table(self, name, title, names)
         !! A table without rows.
-        type(report_t), intent(out) :: self
+        type(bench_table_t), intent(out) :: self
         character(*), intent(in) :: name, title, names(:)
 
         self%name = name
@@ -51,11 +51,11 @@ contains
         self%columns = size(names)
         self%names(:size(names)) = names
         allocate (self%row(16))
-    end subroutine new_report
+    end subroutine new_bench_table
 
     pure subroutine add(self, cells)
         !! One more row.
-        class(report_t), intent(inout) :: self
+        class(bench_table_t), intent(inout) :: self
         type(cell_t), intent(in) :: cells(:)
         type(row_t), allocatable :: longer(:)
 
@@ -70,7 +70,7 @@ contains
 
     pure function column_width(self, k) result(most)
         !! What column `k` needs.
-        class(report_t), intent(in) :: self
+        class(bench_table_t), intent(in) :: self
         integer, intent(in) :: k
         integer :: most, i
 
@@ -82,7 +82,7 @@ contains
 
     pure function head(self) result(text)
         !! The titles over the columns.
-        class(report_t), intent(in) :: self
+        class(bench_table_t), intent(in) :: self
         character(:), allocatable :: text
         integer :: k
 
@@ -95,7 +95,7 @@ contains
 
     pure function line(self, i) result(text)
         !! Row `i`.
-        class(report_t), intent(in) :: self
+        class(bench_table_t), intent(in) :: self
         integer, intent(in) :: i
         character(:), allocatable :: text
         integer :: k
@@ -110,7 +110,7 @@ contains
 
     pure function is_word(self, k) result(word)
         !! Column `k` holds words.
-        class(report_t), intent(in) :: self
+        class(bench_table_t), intent(in) :: self
         integer, intent(in) :: k
         logical :: word
 
@@ -134,7 +134,7 @@ contains
 
     pure function object(self, i) result(json)
         !! Row `i` as a JSON object; its first key tells the table.
-        class(report_t), intent(in) :: self
+        class(bench_table_t), intent(in) :: self
         integer, intent(in) :: i
         character(:), allocatable :: json
         integer :: k
@@ -201,4 +201,4 @@ contains
         if (index(text, "E") > 0) text(index(text, "E"):index(text, "E")) = "e"
         if (text(1:1) == ".") text = "0"//text
     end function short
-end module lagrangia_bench_report
+end module lagrangia_bench_table

@@ -1,0 +1,223 @@
+module lagrangia_dop853
+    !! The explicit Runge-Kutta method of order 8(5,3) of Dormand and Prince: adaptive, with dense
+    !! output of order 7, for any system.
+    !!
+    !! Source: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.:
+    !! secs. II.4 (starting step, PI step control), II.6 (dense output), II.10 (error estimate).
+    use lagrangia_dop853_stages, only: extra_stages, scaled_error, slope, stages
+    use lagrangia_errors, only: error_t, fail, status_numbers
+    use lagrangia_integrator, only: dense_integrator_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: dop853_t, new_dop853
+
+    real(dp), parameter :: safety = 0.9_dp
+    real(dp), parameter :: shrink = 0.333_dp, grow = 6.0_dp  !! limits of one change of step
+    real(dp), parameter :: beta = 0.04_dp                    !! share of the previous error
+    real(dp), parameter :: alpha = 1.0_dp/8.0_dp - 0.2_dp*beta
+
+    type, extends(dense_integrator_t) :: dop853_t
+        private
+        real(dp) :: h = 0.0_dp                 !! step to try next, s
+        real(dp) :: last_error = 1e-4_dp       !! of the latest accepted step, in tolerances
+        real(dp), allocatable :: y(:), y0(:)   !! states (q, v) at the ends of the step
+        real(dp), allocatable :: work(:)
+        real(dp), allocatable :: k(:, :)       !! its slopes at the stages
+        real(dp), allocatable :: dense(:, :)   !! coefficients of the dense output
+    contains
+        procedure :: prepare
+        procedure :: advance
+        procedure :: start
+        procedure :: step
+        procedure :: state_at
+    end type dop853_t
+
+contains
+
+    pure subroutine new_dop853(self)
+        !! Any system will do.
+        type(dop853_t), intent(out) :: self
+
+        self%name = "dop853"
+        self%title = "explicit Runge-Kutta, order 8(5,3), any system (Dormand & Prince 1989)"
+        self%order = 8
+    end subroutine new_dop853
+
+    pure subroutine prepare(self, system, error)
+        !! Never fails.
+        class(dop853_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        type(error_t), allocatable, intent(out) :: error
+        real(dp) :: slopes(2*system%ndof, 17)
+
+        slopes = 0.0_dp
+        self%y = slopes(:, 1)
+        self%y0 = slopes(:, 1)
+        self%work = slopes(:, 1)
+        self%k = slopes
+        self%dense = transpose(slopes(:, :7))
+        self%evaluations = 0
+        self%accepted = 0
+        self%rejected = 0
+    end subroutine prepare
+
+    pure subroutine advance(self, system, t0, dt, first, steps, q, v)
+        !! See `integrator_t`: steps of fixed length, with the solution of order 8.
+        class(dop853_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t0, dt
+        integer(i8), intent(in) :: first, steps
+        real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+        integer(i8) :: i
+
+        self%y(:system%ndof) = q
+        self%y(system%ndof + 1:) = v
+        do i = first, first + steps - 1
+            self%y0 = self%y
+            call slope(system, system%ndof, t0 + i*dt, self%y0, self%k(:, 1))
+            call stages(system, system%ndof, t0 + i*dt, dt, self%y0, self%k, self%y)
+        end do
+        self%evaluations = self%evaluations + 12*steps
+        q = self%y(:system%ndof)
+        v = self%y(system%ndof + 1:)
+    end subroutine advance
+
+    pure subroutine start(self, system, t0, q, v, t_end)
+        !! See `dense_integrator_t`. The first step: as long as a step of Euler's that would err
+        !! little, and as the change of the slope over it allows. Two evaluations.
+        class(dop853_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t0, q(system%ndof), v(system%ndof), t_end
+        real(dp) :: size_y, size_slope, change
+
+        self%t_old = t0
+        self%t_new = t0
+        self%t_end = t_end
+        self%last_error = 1e-4_dp
+        self%y(:system%ndof) = q
+        self%y(system%ndof + 1:) = v
+        self%y0 = self%y
+        self%dense = 0.0_dp
+        call slope(system, system%ndof, t0, self%y, self%k(:, 1))
+        size_y = norm(self%tolerance, self%y, self%y, self%y)
+        size_slope = norm(self%tolerance, self%k(:, 1), self%y, self%y)
+        self%h = 1e-6_dp
+        if (min(size_y, size_slope) > 1e-5_dp) self%h = 0.01_dp*size_y/size_slope
+        self%h = min(self%h, t_end - t0)
+        self%work = self%y + self%h*self%k(:, 1)
+        call slope(system, system%ndof, t0 + self%h, self%work, self%k(:, 2))
+        self%k(:, 3) = self%k(:, 2) - self%k(:, 1)
+        change = max(norm(self%tolerance, self%k(:, 3), self%y, self%y)/self%h, size_slope)
+        if (change > 1e-15_dp) then
+            self%h = min(100.0_dp*self%h, (0.01_dp/change)**(1.0_dp/8.0_dp))
+        else
+            self%h = max(1e-6_dp, 1e-3_dp*self%h)
+        end if
+        self%h = max(self%h, 1024.0_dp*spacing(t0))  ! a step that is too long will be rejected
+        self%evaluations = self%evaluations + 2
+    end subroutine start
+
+    pure subroutine step(self, system, error)
+        !! See `dense_integrator_t`. Eleven evaluations for the step, one for the slope at its end,
+        !! which is the next one's first stage, and three for its dense output.
+        class(dop853_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        type(error_t), allocatable, intent(out) :: error
+        real(dp) :: h, scaled
+        logical :: last, retry
+
+        self%y0 = self%y
+        self%t_old = self%t_new
+        retry = .false.
+        do
+            h = self%h
+            last = self%t_old + 1.01_dp*h >= self%t_end
+            if (last) h = self%t_end - self%t_old
+            if (.not. self%t_old + 0.1_dp*h > self%t_old) exit
+            call stages(system, system%ndof, self%t_old, h, self%y0, self%k, self%y)
+            self%evaluations = self%evaluations + 11
+            scaled = scaled_error(h, self%tolerance, self%k, self%y0, self%y)
+            if (scaled <= 1.0_dp) then
+                self%accepted = self%accepted + 1
+                call finish(self, system, h)
+                self%t_new = self%t_old + h
+                if (last) self%t_new = self%t_end
+                h = h/max(1.0_dp/grow, min(1.0_dp/shrink, &
+                    scaled**alpha/(safety*self%last_error**beta)))
+                if (retry) h = min(h, self%h)
+                self%h = h
+                self%last_error = max(scaled, 1e-4_dp)
+                return
+            end if
+            self%rejected = self%rejected + 1
+            retry = .true.
+            if (scaled < huge(scaled)) then
+                self%h = h/min(1.0_dp/shrink, scaled**alpha/safety)
+            else
+                self%h = 0.1_dp*h  ! no number came out
+            end if
+        end do
+        self%y = self%y0
+        self%t_new = self%t_old
+        call fail(error, "no step is small enough at t = "//to_text(self%t_old)//" s for the "// &
+                  "tolerance "//to_text(self%tolerance)//": the motion is singular there, or "// &
+                  "the tolerance too small", status_numbers)
+    end subroutine step
+
+    pure function norm(tolerance, x, y0, y) result(size_x)
+        !! Root mean square of `x`, in units of the tolerance at states `y0` and `y`.
+        real(dp), intent(in) :: tolerance, x(:), y0(:), y(:)
+        real(dp) :: size_x
+        integer :: i
+
+        size_x = 0.0_dp
+        do i = 1, size(x)
+            size_x = size_x + (x(i)/max(1.0_dp, abs(y0(i)), abs(y(i))))**2
+        end do
+        size_x = sqrt(size_x/size(x))/tolerance
+    end function norm
+
+    pure subroutine finish(self, system, h)
+        !! The slope at the end of an accepted step, and the coefficients of its dense output.
+        class(dop853_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: h
+
+        call extra_stages(system, system%ndof, self%t_old, h, self%y0, self%y, self%k, &
+                          self%dense, self%work)
+        self%k(:, 1) = self%k(:, 17)
+        self%evaluations = self%evaluations + 4
+    end subroutine finish
+
+    pure subroutine state_at(self, t, q, v)
+        !! See `dense_integrator_t`.
+        class(dop853_t), intent(in) :: self
+        real(dp), intent(in) :: t
+        real(dp), intent(out) :: q(:), v(:)
+        real(dp) :: s, r, y
+        integer :: i, n
+
+        n = size(q)
+        if (t >= self%t_new) then
+            q = self%y(:n)
+            v = self%y(n + 1:)
+            return
+        end if
+        s = (t - self%t_old)/(self%t_new - self%t_old)
+        r = 1.0_dp - s
+        do i = 1, 2*n
+            associate (f => self%dense(:, i))
+                y = self%y0(i) + s*(f(1) + r*(f(2) + s*(f(3) + r*(f(4) + s*(f(5) &
+                                                                 + r*(f(6) + s*f(7)))))))
+            end associate
+            if (i <= n) then
+                q(i) = y
+            else
+                v(i - n) = y
+            end if
+        end do
+    end subroutine state_at
+end module lagrangia_dop853

@@ -1,0 +1,147 @@
+module lagrangia_dop853_stages
+    !! The stages of one step of `dop853`. Its tables are full of zeros: the sums below have no
+    !! others than their non-zero terms.
+    !!
+    !! Slope 1 is that at the step's start, the others are kept as their differences from it:
+    !! `k(:, 2:16)`. Weights that reach 500 then only multiply what is small, and the sums of
+    !! their rows need not be exact. `k(:, 17)` is the slope at the step's end.
+    !!
+    !! Source: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.,
+    !! secs. II.5, II.6 and II.10.
+    use lagrangia_dop853_coefficients, only: a, b, c, d, e3, e5
+    use lagrangia_kinds, only: dp
+    use lagrangia_system, only: system_t
+    implicit none (type, external)
+    private
+    public :: slope, stages, extra_stages, scaled_error
+
+    real(dp), parameter :: by_stage(4, 16) = transpose(d)
+
+contains
+
+    pure subroutine slope(system, n, t, y, f)
+        !! The slope `f` of the state `y = (q, v)`.
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: n
+        real(dp), intent(in) :: t, y(2*n)
+        real(dp), intent(out) :: f(2*n)
+
+        f(:n) = y(n + 1:)
+        call system%accelerations(t, y(:n), y(n + 1:), f(n + 1:))
+    end subroutine slope
+
+    pure subroutine change(system, n, t, y, f1, f)
+        !! The slope of the state `y` less the slope `f1`.
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: n
+        real(dp), intent(in) :: t, y(2*n), f1(2*n)
+        real(dp), intent(out) :: f(2*n)
+
+        call system%accelerations(t, y(:n), y(n + 1:), f(n + 1:))
+        f(:n) = y(n + 1:) - f1(:n)
+        f(n + 1:) = f(n + 1:) - f1(n + 1:)
+    end subroutine change
+
+    pure subroutine stages(system, n, t, h, y0, k, y)
+        !! Slopes 2 to 12 of the step from `y0`, whose slope is the first, and its end `y`.
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: n
+        real(dp), intent(in) :: t, h, y0(2*n)
+        real(dp), intent(inout) :: k(2*n, 17)
+        real(dp), intent(out) :: y(2*n)
+
+        y = y0 + h*(c(2)*k(:, 1))
+        call change(system, n, t + c(2)*h, y, k(:, 1), k(:, 2))
+        y = y0 + h*(c(3)*k(:, 1) + a(2, 3)*k(:, 2))
+        call change(system, n, t + c(3)*h, y, k(:, 1), k(:, 3))
+        y = y0 + h*(c(4)*k(:, 1) + a(3, 4)*k(:, 3))
+        call change(system, n, t + c(4)*h, y, k(:, 1), k(:, 4))
+        y = y0 + h*(c(5)*k(:, 1) + a(3, 5)*k(:, 3) + a(4, 5)*k(:, 4))
+        call change(system, n, t + c(5)*h, y, k(:, 1), k(:, 5))
+        y = y0 + h*(c(6)*k(:, 1) + a(4, 6)*k(:, 4) + a(5, 6)*k(:, 5))
+        call change(system, n, t + c(6)*h, y, k(:, 1), k(:, 6))
+        y = y0 + h*(c(7)*k(:, 1) + a(4, 7)*k(:, 4) + a(5, 7)*k(:, 5) + a(6, 7)*k(:, 6))
+        call change(system, n, t + c(7)*h, y, k(:, 1), k(:, 7))
+        y = y0 + h*(c(8)*k(:, 1) + a(4, 8)*k(:, 4) + a(5, 8)*k(:, 5) + a(6, 8)*k(:, 6) &
+                    + a(7, 8)*k(:, 7))
+        call change(system, n, t + c(8)*h, y, k(:, 1), k(:, 8))
+        y = y0 + h*(c(9)*k(:, 1) + a(4, 9)*k(:, 4) + a(5, 9)*k(:, 5) + a(6, 9)*k(:, 6) &
+                    + a(7, 9)*k(:, 7) + a(8, 9)*k(:, 8))
+        call change(system, n, t + c(9)*h, y, k(:, 1), k(:, 9))
+        y = y0 + h*(c(10)*k(:, 1) + a(4, 10)*k(:, 4) + a(5, 10)*k(:, 5) + a(6, 10)*k(:, 6) &
+                    + a(7, 10)*k(:, 7) + a(8, 10)*k(:, 8) + a(9, 10)*k(:, 9))
+        call change(system, n, t + c(10)*h, y, k(:, 1), k(:, 10))
+        y = y0 + h*(c(11)*k(:, 1) + a(4, 11)*k(:, 4) + a(5, 11)*k(:, 5) + a(6, 11)*k(:, 6) &
+                    + a(7, 11)*k(:, 7) + a(8, 11)*k(:, 8) + a(9, 11)*k(:, 9) &
+                    + a(10, 11)*k(:, 10))
+        call change(system, n, t + c(11)*h, y, k(:, 1), k(:, 11))
+        y = y0 + h*(c(12)*k(:, 1) + a(4, 12)*k(:, 4) + a(5, 12)*k(:, 5) + a(6, 12)*k(:, 6) &
+                    + a(7, 12)*k(:, 7) + a(8, 12)*k(:, 8) + a(9, 12)*k(:, 9) &
+                    + a(10, 12)*k(:, 10) + a(11, 12)*k(:, 11))
+        call change(system, n, t + c(12)*h, y, k(:, 1), k(:, 12))
+        y = y0 + h*(k(:, 1) + b(6)*k(:, 6) + b(7)*k(:, 7) + b(8)*k(:, 8) + b(9)*k(:, 9) &
+                    + b(10)*k(:, 10) + b(11)*k(:, 11) + b(12)*k(:, 12))
+    end subroutine stages
+
+    pure subroutine extra_stages(system, n, t, h, y0, y1, k, dense, y)
+        !! Slopes 13 to 17; rows of `dense`: difference over the step, three corrections up to
+        !! the cubic Hermite polynomial, and four beyond.
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: n
+        real(dp), intent(in) :: t, h, y0(2*n), y1(2*n)
+        real(dp), intent(inout) :: k(2*n, 17)
+        real(dp), intent(out) :: dense(7, 2*n)
+        real(dp), intent(out) :: y(2*n)  !! room for a stage's state
+        real(dp) :: high(4)
+        integer :: i, j
+
+        call slope(system, n, t + h, y1, k(:, 17))
+        k(:, 13) = k(:, 17) - k(:, 1)
+        y = y0 + h*(c(14)*k(:, 1) + a(7, 14)*k(:, 7) + a(8, 14)*k(:, 8) + a(9, 14)*k(:, 9) &
+                    + a(10, 14)*k(:, 10) + a(11, 14)*k(:, 11) + a(12, 14)*k(:, 12) &
+                    + a(13, 14)*k(:, 13))
+        call change(system, n, t + c(14)*h, y, k(:, 1), k(:, 14))
+        y = y0 + h*(c(15)*k(:, 1) + a(6, 15)*k(:, 6) + a(7, 15)*k(:, 7) + a(8, 15)*k(:, 8) &
+                    + a(11, 15)*k(:, 11) + a(12, 15)*k(:, 12) + a(13, 15)*k(:, 13) &
+                    + a(14, 15)*k(:, 14))
+        call change(system, n, t + c(15)*h, y, k(:, 1), k(:, 15))
+        y = y0 + h*(c(16)*k(:, 1) + a(6, 16)*k(:, 6) + a(7, 16)*k(:, 7) + a(8, 16)*k(:, 8) &
+                    + a(9, 16)*k(:, 9) + a(13, 16)*k(:, 13) + a(14, 16)*k(:, 14) &
+                    + a(15, 16)*k(:, 15))
+        call change(system, n, t + c(16)*h, y, k(:, 1), k(:, 16))
+        dense(1, :) = y1 - y0
+        dense(2, :) = h*k(:, 1) - dense(1, :)
+        dense(3, :) = dense(1, :) - h*k(:, 17) - dense(2, :)
+        do i = 1, 2*n
+            high = 0.0_dp
+            do j = 6, 16
+                high = high + by_stage(:, j)*k(i, j)
+            end do
+            dense(4:7, i) = h*high
+        end do
+    end subroutine extra_stages
+
+    pure function scaled_error(h, tolerance, k, y0, y) result(scaled)
+        !! The estimated error of a step in units of the tolerance, \(O(h^8)\): the error of an
+        !! embedded solution of order 5, squared, over mostly that of one of order 3. A root mean
+        !! square over the components, absolute below 1 and relative above; huge if it is NaN.
+        real(dp), intent(in) :: h, tolerance, k(:, :), y0(:), y(:)
+        real(dp) :: scaled, fifth, third, weight, k5, k3
+        integer :: i
+
+        fifth = 0.0_dp
+        third = 0.0_dp
+        do i = 1, size(y)
+            k5 = e5(6)*k(i, 6) + e5(7)*k(i, 7) + e5(8)*k(i, 8) &
+                 + e5(9)*k(i, 9) + e5(10)*k(i, 10) + e5(11)*k(i, 11) + e5(12)*k(i, 12)
+            k3 = e3(6)*k(i, 6) + e3(7)*k(i, 7) + e3(8)*k(i, 8) &
+                 + e3(9)*k(i, 9) + e3(10)*k(i, 10) + e3(11)*k(i, 11) + e3(12)*k(i, 12)
+            weight = max(1.0_dp, abs(y0(i)), abs(y(i)))
+            fifth = fifth + (k5/weight)**2
+            third = third + (k3/weight)**2
+        end do
+        scaled = 0.0_dp
+        if (third > 0.0_dp) scaled = h/tolerance*fifth/sqrt(size(y)*(fifth + 0.01_dp*third))
+        if (.not. third + sum(abs(y)) <= huge(scaled)) scaled = huge(scaled)
+    end function scaled_error
+end module lagrangia_dop853_stages

@@ -1,0 +1,269 @@
+module lagrangia_gauss_adaptive
+    !! Gauss-Legendre collocation, order 16, that chooses its steps: fast at any tolerance.
+    !!
+    !! - *Error.* See `lagrangia_gauss_control`.
+    !! - *Iteration.* Sweeps end where what they would still change is a tenth of the tolerance.
+    !! - *Steps* are as long as the error allows, but not so long that sweeps converge slowly:
+    !!   a sweep wins a factor of about \((h/h_0)^2\), and \((1/h)/\log(h_0/h)\) sweeps a second
+    !!   are fewest where that factor is \(e^{-2}\). Where sweeps diverge the step is halved.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use lagrangia_errors, only: error_t, fail, status_numbers
+    use lagrangia_gauss_control, only: longer, measure, step_error, weigh
+    use lagrangia_gauss_dense, only: gauss_dense_t
+    use lagrangia_gauss_stages, only: gauss_stages_t
+    use lagrangia_gauss_tables, only: stages
+    use lagrangia_integrator, only: dense_integrator_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: gauss_adaptive_t, new_gauss16_adaptive
+
+    integer, parameter :: most_sweeps = 25
+    real(dp), parameter :: best_rate = exp(-2.0_dp)
+    real(dp), parameter :: noise = (64.0_dp*epsilon(1.0_dp))**2  !! of accelerations, squared
+    real(dp), parameter :: least_tolerance = 1e-14_dp
+    real(dp), parameter :: share = 0.1_dp  !! of the tolerance that the iteration may leave
+
+    type, extends(dense_integrator_t) :: gauss_adaptive_t
+        private
+        type(gauss_stages_t) :: s
+        type(gauss_dense_t) :: inside            !! the last step
+        real(dp) :: h = 0.0_dp                   !! length to try next, s
+        real(dp) :: rate = 1.0_dp                !! by which the last sweep changed the changes
+        real(dp) :: mean_rate = 1.0_dp           !! the same, averaged over the step's sweeps
+        logical :: slow = .false.                !! `mean_rate` is more than the best one
+        real(dp), allocatable :: weight(:)       !! 1/(wanted error of `f`), squared
+    contains
+        procedure :: prepare
+        procedure :: advance
+        procedure :: start
+        procedure :: step
+        procedure :: state_at
+    end type gauss_adaptive_t
+
+contains
+
+    pure subroutine new_gauss16_adaptive(self)
+        !! Any system will do.
+        type(gauss_adaptive_t), intent(out) :: self
+
+        self%name = "gauss16"
+        self%title = "Gauss-Legendre collocation by tolerance (Butcher 1964)"
+        self%order = 16
+    end subroutine new_gauss16_adaptive
+
+    pure subroutine prepare(self, system, error)
+        !! Refuses tolerances that rounding does not let it keep.
+        class(gauss_adaptive_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        type(error_t), allocatable, intent(out) :: error
+
+        if (.not. (self%tolerance >= least_tolerance .and. self%tolerance < 1.0_dp)) then
+            call fail(error, to_text(self%tolerance)//" is not allowed: gauss16 keeps "// &
+                      to_text(least_tolerance)//" and more, less than 1", key="tolerance")
+            return
+        end if
+        call self%s%prepare(system%ndof)
+        call self%inside%prepare(system%ndof)
+        self%weight = self%s%change
+        self%evaluations = 0
+        self%accepted = 0
+        self%rejected = 0
+        self%h = 0.0_dp
+    end subroutine prepare
+
+    pure subroutine advance(self, system, t0, dt, first, steps, q, v)
+        !! From `t0 + first*dt` to `t0 + (first + steps)*dt`, in steps of its own. Where it stood
+        !! there already, it goes on with the steps that it found right. NaN where none is, and
+        !! backwards.
+        class(gauss_adaptive_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t0, dt
+        integer(i8), intent(in) :: first, steps
+        real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+        real(dp) :: from, to
+        logical :: good
+
+        from = t0 + first*dt
+        to = t0 + (first + steps)*dt
+        if (self%h > 0.0_dp .and. same(from, self%t_new) .and. all(same(q, self%s%q)) &
+            .and. all(same(v, self%s%v))) then
+            self%t_end = to
+        else
+            call self%start(system, from, q, v, to)
+        end if
+        good = to >= from
+        do while (self%t_new < self%t_end .and. good)
+            call take_step(self, system, good)
+        end do
+        q = self%s%q
+        v = self%s%v
+        if (.not. good) v = ieee_value(1.0_dp, ieee_quiet_nan)
+    end subroutine advance
+
+    pure elemental function same(x, y)
+        !! Equal to the last bit, for numbers.
+        real(dp), intent(in) :: x, y
+        logical :: same
+
+        same = x <= y .and. x >= y
+    end function same
+
+    pure subroutine start(self, system, t0, q, v, t_end)
+        !! See `dense_integrator_t`. The first step moves the state by about a third of 1, or of
+        !! itself.
+        class(gauss_adaptive_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t0, q(system%ndof), v(system%ndof), t_end
+        real(dp) :: speed
+
+        call self%s%place(system, t0, q, v)
+        call self%inside%keep(t0, q, v)
+        self%evaluations = self%evaluations + 1
+        self%t_old = t0
+        self%t_new = t0
+        self%t_end = t_end
+        self%rate = best_rate
+        speed = maxval(abs(v)/max(1.0_dp, abs(q))) &
+                + maxval(abs(self%s%known(1, :))/max(1.0_dp, abs(v)))
+        self%h = (t_end - t0)/max(1.0_dp, 3.0_dp*speed*(t_end - t0))
+    end subroutine start
+
+    pure subroutine step(self, system, error)
+        !! See `dense_integrator_t`.
+        class(gauss_adaptive_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        type(error_t), allocatable, intent(out) :: error
+        logical :: good
+
+        do
+            call self%inside%keep(self%t_new, self%s%q, self%s%v)
+            call take_step(self, system, good)
+            if (.not. good) exit
+            call self%inside%fit(system, self%t_new, self%s%q, self%s%v, self%s%known, &
+                                 self%weight, good)
+            self%evaluations = self%evaluations + 2*stages*self%inside%sweeps
+            if (good) return
+            call take_back(self, system)
+        end do
+        call fail(error, "no step is small enough at t = "//to_text(self%t_new)// &
+                  " s: the motion diverges or is not smooth there", status_numbers)
+    end subroutine step
+
+    pure subroutine take_back(self, system)
+        !! Undo a step that went over something between its nodes; the next one is half as long.
+        type(gauss_adaptive_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+
+        self%h = 0.5_dp*(self%t_new - self%t_old)
+        self%t_new = self%t_old
+        self%accepted = self%accepted - 1
+        self%rejected = self%rejected + 1
+        call self%s%place(system, self%t_old, self%inside%q_old, self%inside%v_old)
+        self%evaluations = self%evaluations + 1
+        self%rate = best_rate
+    end subroutine take_back
+
+    pure subroutine take_step(self, system, good)
+        !! One accepted step, or none: then `good` is false.
+        class(gauss_adaptive_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        logical, intent(out) :: good
+        real(dp) :: h, to, error
+        integer :: sweeps
+        logical :: cut
+
+        do
+            to = next_time(self%t_new, self%h, self%t_end)
+            h = to - self%t_new
+            good = h > 4.0_dp*spacing(self%t_new)
+            if (.not. good) return
+            call self%s%guess(self%t_new, h)
+            call solve(self, system, sweeps, error, good)
+            self%evaluations = self%evaluations + stages*min(sweeps, most_sweeps)
+            if (good) exit
+            self%rejected = self%rejected + 1
+            if (error > 1.0_dp) then
+                self%h = h*longer(error)
+                call self%s%shorten()
+            else
+                self%h = 0.5_dp*h
+            end if
+        end do
+        call self%s%expand()
+        call self%s%finish()
+        self%accepted = self%accepted + 1
+        cut = h < 0.99_dp*self%h
+        self%t_old = self%t_new
+        self%t_new = to
+        h = h*min(2.0_dp, longer(error))
+        if (self%slow) h = min(h, (self%t_new - self%t_old)*sqrt(best_rate/self%mean_rate))
+        self%h = merge(max(self%h, h), h, cut)
+    end subroutine take_step
+
+    pure function next_time(t, h, t_end) result(to)
+        !! `t + h`, or less: the end is reached in two steps of one length rather than by a long
+        !! and a short one.
+        real(dp), intent(in) :: t, h, t_end
+        real(dp) :: to
+
+        if (t_end - t <= 1.01_dp*h) then
+            to = t_end
+        else if (t_end - t < 2.0_dp*h) then
+            to = t + 0.5_dp*(t_end - t)
+        else
+            to = t + h
+        end if
+    end function next_time
+
+    pure subroutine solve(self, system, sweeps, error, good)
+        !! Sweep until what is left changes the end of the step by less than a share of the
+        !! tolerance. Half-way there the error of the step can be told; `good` is false if it is
+        !! too large, or if the sweeps diverge.
+        type(gauss_adaptive_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        integer, intent(out) :: sweeps
+        real(dp), intent(out) :: error  !! in units of the tolerance; -1 if not known
+        logical, intent(out) :: good
+        real(dp) :: change, all, first, last
+
+        call weigh(self%s%n, self%s%h, self%tolerance, self%s%q, self%s%v, self%weight)
+        self%rate = min(0.5_dp, self%rate*(self%s%h/self%s%h_known)**2)
+        error = -1.0_dp
+        first = 1.0_dp
+        last = 1.0_dp
+        do sweeps = 1, most_sweeps
+            call self%s%sweep(system)
+            call measure(self%s%n, self%weight, self%s%change, self%s%size_of, change, all)
+            good = .false.
+            if (.not. change < huge(1.0_dp)) exit
+            if (sweeps == 1) then
+                first = change
+            else
+                self%rate = sqrt(change/last)
+            end if
+            last = max(change, tiny(1.0_dp))
+            good = change*self%rate**2 <= (share*(1.0_dp - self%rate))**2 .or. change <= noise*all
+            if (error < 0.0_dp .and. (good .or. change**5 < all**3)) then
+                call self%s%expand()
+                error = step_error(self%s%n, self%s%modes, self%weight)
+                good = good .and. error <= 1.0_dp
+                if (error > 1.0_dp) exit
+            end if
+            if (good .or. (sweeps > 4 .and. self%rate > 0.8_dp)) exit
+        end do
+        self%slow = change > first*best_rate**(2*(sweeps - 1))
+        if (self%slow) self%mean_rate = (change/first)**(0.5_dp/(sweeps - 1))
+    end subroutine solve
+
+    pure subroutine state_at(self, t, q, v)
+        !! See `dense_integrator_t`; of steps by `step`.
+        class(gauss_adaptive_t), intent(in) :: self
+        real(dp), intent(in) :: t
+        real(dp), intent(out) :: q(:), v(:)
+
+        call self%inside%at(t, q, v)
+    end subroutine state_at
+end module lagrangia_gauss_adaptive

@@ -1,0 +1,254 @@
+module lagrangia_gauss_dense
+    !! The solution inside a step of Gauss-Legendre collocation, to the accuracy of its ends.
+    !!
+    !! The collocation polynomial does not have it: with eight stages it is of order 9 inside the
+    !! step, where the ends are of order 16. So it is only the start here: the accelerations are
+    !! evaluated along it at 16 Chebyshev points (two times eight lanes), integrated twice, and
+    !! that is repeated until it changes less than the tolerance, two or three times. The sixteen
+    !! coefficients that are left then give the state anywhere, without evaluations.
+    !!
+    !! Chebyshev series: Mason & Handscomb, *Chebyshev Polynomials*, 2003, secs. 2.4 and 6.3.
+    use lagrangia_gauss_tables, only: legendre
+    use lagrangia_kinds, only: dp
+    use lagrangia_system, only: lanes, system_t
+    implicit none (type, external)
+    private
+    public :: gauss_dense_t
+
+    integer, parameter :: points = 2*lanes
+    integer, parameter :: most_sweeps = 10
+
+    type :: gauss_dense_t
+        real(dp) :: t = 0.0_dp, h = 1.0_dp            !! start and length of the step, s
+        real(dp), allocatable :: q_old(:), v_old(:)   !! state at its start
+        real(dp), allocatable :: q_new(:), v_new(:)   !! and at its end
+        integer :: sweeps = 0                         !! of the last `fit`, 16 evaluations each
+        real(dp) :: t_at(points, 0:points + 1) = 0.0_dp    !! \(T_k\) at the points
+        real(dp), allocatable :: f(:, :)              !! accelerations at the points
+        real(dp), allocatable :: a(:, :)              !! their Chebyshev coefficients
+        real(dp), allocatable :: v(:, :), q(:, :)     !! those of velocities and coordinates
+        real(dp), allocatable :: q_lane(:, :), v_lane(:, :), f_lane(:, :)
+    contains
+        procedure :: prepare
+        procedure :: keep
+        procedure :: fit
+        procedure :: at
+    end type gauss_dense_t
+
+contains
+
+    pure subroutine prepare(self, n)
+        !! Allocate for `n` degrees of freedom.
+        class(gauss_dense_t), intent(inout) :: self
+        integer, intent(in) :: n
+        real(dp), parameter :: pi = acos(-1.0_dp)
+        real(dp) :: state(n), block(lanes, n), cosine(0:4*points - 1)
+        integer :: j, k
+
+        state = 0.0_dp
+        block = 0.0_dp
+        self%q_old = state
+        self%v_old = state
+        self%q_new = state
+        self%v_new = state
+        self%q_lane = block
+        self%v_lane = block
+        self%f_lane = block
+        if (allocated(self%f)) deallocate (self%f, self%a, self%v, self%q)
+        allocate (self%f(points, n), source=0.0_dp)
+        allocate (self%a(0:points + 1, n), self%v(0:points + 1, n), self%q(0:points + 1, n), &
+                  source=0.0_dp)
+        do k = 0, 4*points - 1
+            cosine(k) = cos(k*pi/(2*points))
+        end do
+        do k = 0, points + 1
+            do j = 1, points
+                self%t_at(j, k) = cosine(mod((2*j - 1)*k, 4*points))
+            end do
+        end do
+    end subroutine prepare
+
+    pure subroutine keep(self, t, q, v)
+        !! Remember the start of a step. Until `fit` nothing more is known.
+        class(gauss_dense_t), intent(inout) :: self
+        real(dp), intent(in) :: t, q(:), v(:)
+
+        self%t = t
+        self%h = 0.0_dp
+        self%q_old(:) = q
+        self%v_old(:) = v
+        self%q_new(:) = q
+        self%v_new(:) = v
+    end subroutine keep
+
+    pure subroutine fit(self, system, t_new, q_new, v_new, modes, weight, good)
+        !! The step ended at `t_new` in `(q_new, v_new)`, with these Legendre coefficients of the
+        !! accelerations. `weight`, squared, measures accelerations in units of the tolerance.
+        !! Not `good` where the accelerations are not finite all along the step.
+        class(gauss_dense_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t_new
+        real(dp), intent(in) :: q_new(system%ndof), v_new(system%ndof)
+        real(dp), intent(in) :: modes(lanes, system%ndof), weight(system%ndof)
+        logical, intent(out) :: good
+        real(dp) :: change, last, rate, difference(2)
+        integer :: d, sweep
+
+        self%h = t_new - self%t
+        self%q_new(:) = q_new
+        self%v_new(:) = v_new
+        call from_modes(self, system%ndof, modes)
+        last = 0.0_dp
+        rate = 0.05_dp
+        do sweep = 1, most_sweeps
+            do d = 1, system%ndof
+                call integrate(self, d)
+            end do
+            call evaluate(self, system, weight, change)
+            good = change < huge(1.0_dp)
+            if (.not. good) return
+            if (sweep > 1) rate = min(0.5_dp, change/last)
+            if (change*rate <= 1.0_dp) exit
+            last = change
+        end do
+        do d = 1, system%ndof
+            call integrate(self, d)
+        end do
+        do d = 1, system%ndof
+            difference(1) = (v_new(d) - sum(self%v(:, d)))/self%h
+            difference(2) = (q_new(d) - sum(self%q(:, d)))/self%h**2
+            self%a(0, d) = self%a(0, d) + difference(1)
+            self%a(1, d) = self%a(1, d) + 3.0_dp*difference(1) - 6.0_dp*difference(2)
+            call integrate_series(self, d)
+        end do
+    end subroutine fit
+
+    pure subroutine from_modes(self, n, modes)
+        !! Accelerations of the collocation polynomial at the points.
+        type(gauss_dense_t), intent(inout) :: self
+        integer, intent(in) :: n
+        real(dp), intent(in) :: modes(lanes, n)
+        real(dp) :: x(lanes), p(lanes, lanes)
+        integer :: d, group, i
+
+        self%sweeps = 0
+        do group = 0, lanes, lanes
+            x = 0.5_dp + 0.5_dp*self%t_at(group + 1:group + lanes, 1)
+            p = legendre(x)
+            do d = 1, n
+                do i = 1, lanes
+                    self%f(group + i, d) = dot_product(p(i, :), modes(:, d))
+                end do
+            end do
+        end do
+    end subroutine from_modes
+
+    pure subroutine integrate(self, d)
+        !! Series of accelerations, velocities and coordinates from the accelerations.
+        type(gauss_dense_t), intent(inout) :: self
+        integer, intent(in) :: d
+        integer :: k
+
+        do k = 0, points - 1
+            self%a(k, d) = 2.0_dp/points*dot_product(self%t_at(:, k), self%f(:, d))
+        end do
+        self%a(0, d) = 0.5_dp*self%a(0, d)
+        call integrate_series(self, d)
+    end subroutine integrate
+
+    pure subroutine integrate_series(self, d)
+        !! Series of velocities and coordinates from that of the accelerations.
+        type(gauss_dense_t), intent(inout) :: self
+        integer, intent(in) :: d
+
+        call antiderivative(0.5_dp*self%h, self%a(:, d), self%v_old(d), self%v(:, d))
+        call antiderivative(0.5_dp*self%h, self%v(:, d), self%q_old(d), self%q(:, d))
+    end subroutine integrate_series
+
+    pure subroutine antiderivative(scale, c, start, b)
+        !! \(b = \mathrm{start} + \mathrm{scale}\int_{-1} c\).
+        real(dp), intent(in) :: scale, c(0:points + 1), start
+        real(dp), intent(out) :: b(0:points + 1)
+        integer :: k
+
+        b(1) = scale*(c(0) - 0.5_dp*c(2))
+        do k = 2, points
+            b(k) = scale*(c(k - 1) - c(k + 1))/(2*k)
+        end do
+        b(points + 1) = scale*c(points)/(2*(points + 1))
+        b(0) = start + sum(b(1::2)) - sum(b(2::2))
+    end subroutine antiderivative
+
+    pure subroutine evaluate(self, system, weight, change)
+        !! The accelerations at the points along the present motion, and by how much, root mean
+        !! square, in units of the tolerance, they differ from what they were.
+        type(gauss_dense_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: weight(system%ndof)
+        real(dp), intent(out) :: change
+        real(dp) :: times(lanes)
+        integer :: d, group, k
+
+        change = 0.0_dp
+        do group = 0, lanes, lanes
+            times = self%t + 0.5_dp*self%h*(1.0_dp + self%t_at(group + 1:group + lanes, 1))
+            self%q_lane(:, :) = 0.0_dp
+            self%v_lane(:, :) = 0.0_dp
+            do d = 1, system%ndof
+                do k = points + 1, 0, -1
+                    self%q_lane(:, d) = self%q_lane(:, d) &
+                                        + self%q(k, d)*self%t_at(group + 1:group + lanes, k)
+                    self%v_lane(:, d) = self%v_lane(:, d) &
+                                        + self%v(k, d)*self%t_at(group + 1:group + lanes, k)
+                end do
+            end do
+            call system%accelerations_lanes(times, self%q_lane, self%v_lane, self%f_lane)
+            do d = 1, system%ndof
+                change = change + weight(d)*sum((self%f_lane(:, d) &
+                                                 - self%f(group + 1:group + lanes, d))**2)
+                self%f(group + 1:group + lanes, d) = self%f_lane(:, d)
+            end do
+        end do
+        change = sqrt(change/points)
+        self%sweeps = self%sweeps + 1
+    end subroutine evaluate
+
+    pure subroutine at(self, t, q, v)
+        !! The state at `t`; at the ends of the step, and beyond, the ends themselves.
+        class(gauss_dense_t), intent(in) :: self
+        real(dp), intent(in) :: t
+        real(dp), intent(out) :: q(:), v(:)
+        real(dp) :: x
+        integer :: d
+
+        if (t <= self%t) then
+            q = self%q_old
+            v = self%v_old
+        else if (t >= self%t + self%h) then
+            q = self%q_new
+            v = self%v_new
+        else
+            x = 2.0_dp*(t - self%t)/self%h - 1.0_dp
+            do d = 1, size(q)
+                q(d) = series(self%q(:, d), x)
+                v(d) = series(self%v(:, d), x)
+            end do
+        end if
+    end subroutine at
+
+    pure function series(c, x) result(y)
+        !! Clenshaw's sum of \(c_k T_k(x)\).
+        real(dp), intent(in) :: c(0:points + 1), x
+        real(dp) :: y, b1, b2, b
+        integer :: k
+
+        b1 = 0.0_dp
+        b2 = 0.0_dp
+        do k = points + 1, 1, -1
+            b = 2.0_dp*x*b1 - b2 + c(k)
+            b2 = b1
+            b1 = b
+        end do
+        y = x*b1 - b2 + c(0)
+    end function series
+end module lagrangia_gauss_dense

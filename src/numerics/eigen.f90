@@ -1,0 +1,218 @@
+module lagrangia_eigen
+    !! Eigenproblems of small oscillations, with every check that LAPACK leaves to its callers.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_errors, only: error_t, fail, status_library
+    use lagrangia_kinds, only: dp
+    use lagrangia_lapack_eigen, only: dgejsv, dggev, dsygv, dsygvd
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: normal_modes, modes_from_factors, gyroscopic_modes, residual_ratio
+
+    integer, parameter :: small = 32  !! up to here dsygv is the faster one
+
+contains
+
+    pure subroutine normal_modes(stiffness, inertia, omega2, modes, error)
+        !! Solve \(K u = \omega^2 M u\) with \(u^\top M u = 1\), \(\omega^2\) ascending; of each
+        !! mode the component that is largest in magnitude is positive.
+        !!
+        !! Source: Landau & Lifshitz, *Mechanics*, 3rd ed., sec. 23; LAPACK `dsygv`, `dsygvd`.
+        real(dp), intent(in) :: stiffness(:, :)             !! \(K\), symmetric, (n, n)
+        real(dp), intent(in) :: inertia(:, :)               !! \(M\), positive definite, (n, n)
+        real(dp), allocatable, intent(out) :: omega2(:)     !! squared frequencies, (n), s^-2
+        real(dp), allocatable, intent(out) :: modes(:, :)   !! column j belongs to `omega2(j)`
+        type(error_t), allocatable, intent(out) :: error    !! what is wrong with K or M
+        real(dp), allocatable :: factor(:, :), work(:)
+        integer, allocatable :: iwork(:)
+        real(dp) :: size_wanted(1)
+        integer :: n, info, integers_wanted(1)
+
+        call check_matrix(stiffness, "K", error)
+        if (allocated(error)) return
+        call check_matrix(inertia, "M", error)
+        if (allocated(error)) return
+        n = size(stiffness, 1)
+        if (size(inertia, 1) /= n) then
+            call fail(error, "K has "//to_text(n)//" rows, M has "//to_text(size(inertia, 1)))
+            return
+        end if
+        allocate (omega2(n), modes(n, n), factor(n, n))
+        modes = stiffness
+        factor = inertia
+        if (n <= small) then
+            allocate (work(max(1, 34*n)))
+            call dsygv(1, "V", "L", n, modes, n, factor, n, omega2, work, size(work), info)
+        else
+            call dsygvd(1, "V", "L", n, modes, n, factor, n, omega2, size_wanted, -1, &
+                        integers_wanted, -1, info)
+            allocate (work(int(size_wanted(1))), iwork(integers_wanted(1)))
+            call dsygvd(1, "V", "L", n, modes, n, factor, n, omega2, work, size(work), iwork, &
+                        size(iwork), info)
+        end if
+        if (info > n) then
+            call fail(error, "M is not positive definite: its leading minor of order "// &
+                      to_text(info - n)//" is not", status_library)
+        else if (info /= 0) then
+            call fail(error, "LAPACK found no eigenvalues (info = "//to_text(info)//")", &
+                      status_library)
+        end if
+        if (allocated(error)) then
+            deallocate (omega2, modes)
+            return
+        end if
+        call orient(modes)
+    end subroutine normal_modes
+
+    pure subroutine check_matrix(a, name, error)
+        !! Square, not empty, finite, symmetric to rounding.
+        real(dp), intent(in) :: a(:, :)
+        character(*), intent(in) :: name
+        type(error_t), allocatable, intent(out) :: error
+        integer :: i, j
+
+        if (size(a, 1) /= size(a, 2) .or. size(a) == 0) then
+            call fail(error, name//" is "//to_text(size(a, 1))//" by "//to_text(size(a, 2))// &
+                      ": a square matrix is needed")
+            return
+        end if
+        do j = 1, size(a, 2)
+            do i = 1, j
+                if (.not. (ieee_is_finite(a(i, j)) .and. ieee_is_finite(a(j, i)))) then
+                    call fail(error, name//"("//to_text(i)//", "//to_text(j)//") is not finite")
+                else if (abs(a(i, j) - a(j, i)) > 8.0_dp*epsilon(a)*max(abs(a(i, j)), &
+                                                                      abs(a(j, i)))) then
+                    call fail(error, name//" is not symmetric: "//name//"("//to_text(i)//", "// &
+                              to_text(j)//") = "//to_text(a(i, j))//", "//name//"("//to_text(j)// &
+                              ", "//to_text(i)//") = "//to_text(a(j, i)))
+                end if
+                if (allocated(error)) return
+            end do
+        end do
+    end subroutine check_matrix
+
+    pure subroutine orient(modes)
+        !! Signs vary with the BLAS: let the largest component be positive (the first of equals).
+        real(dp), intent(inout) :: modes(:, :)
+        integer :: j, k
+
+        do j = 1, size(modes, 2)
+            k = findloc(abs(modes(:, j)) >= (1.0_dp - 1e-8_dp)*maxval(abs(modes(:, j))), .true., 1)
+            if (k > 0) then
+                if (modes(k, j) < 0.0_dp) modes(:, j) = -modes(:, j)
+            end if
+        end do
+    end subroutine orient
+
+    pure subroutine modes_from_factors(root, inverse, omega2, modes, error)
+        !! The same for \(K = S^\top S\), \(M = (WW^\top)^{-1}\): the frequencies are the singular
+        !! values of \(SW\), each to a few ulp however the masses and lengths are graded, where
+        !! `dsygv` loses the small ones. Rows that `S` lacks are zero modes, exactly.
+        !!
+        !! Source: Drmač & Veselić, SIAM J. Matrix Anal. Appl. 29 (2008) 1322; LAPACK `dgejsv`.
+        real(dp), intent(in) :: root(:, :)                  !! \(S\), (rank, n), rank <= n
+        real(dp), intent(in) :: inverse(:, :)               !! \(W\), (n, n): \(W^\top M W = 1\)
+        real(dp), allocatable, intent(out) :: omega2(:), modes(:, :)
+        type(error_t), allocatable, intent(out) :: error
+        real(dp), allocatable :: product(:, :), sigma(:), u(:, :), v(:, :), work(:)
+        integer, allocatable :: iwork(:)
+        real(dp) :: scale
+        integer :: n, rank, info, j
+
+        n = size(inverse, 1)
+        rank = size(root, 1)
+        allocate (product(n, rank), sigma(rank), u(n, n), v(rank, rank), iwork(n + 3*n))
+        allocate (work(max(7, 6*n + 2*n*n + 2*n + n)))
+        product = transpose(matmul(root, inverse))
+        if (.not. all(ieee_is_finite(product))) then
+            call fail(error, "the factors of K and M are not finite", status_library)
+            return
+        end if
+        call dgejsv("F", "F", "V", "N", "N", "N", n, rank, product, n, sigma, u, n, v, rank, work, &
+                    size(work), iwork, info)
+        if (info /= 0) then
+            call fail(error, "LAPACK found no singular values (info = "//to_text(info)//")", &
+                      status_library)
+            return
+        end if
+        scale = work(1)/work(2)
+        allocate (omega2(n), modes(n, n))
+        omega2 = 0.0_dp
+        do j = 1, rank
+            omega2(n + 1 - j) = (scale*sigma(j))**2
+            modes(:, n + 1 - j) = matmul(inverse, u(:, j))
+        end do
+        do j = rank + 1, n
+            modes(:, n + 1 - j) = matmul(inverse, u(:, j))
+        end do
+        call orient(modes)
+    end subroutine modes_from_factors
+
+    pure subroutine gyroscopic_modes(stiffness, gyroscopic, inertia, lambda, modes, error)
+        !! Solve \((\lambda^2 M + \lambda G + K)u = 0\) in first-order form: n eigenvalues
+        !! \(\lambda\), one of each pair \(\pm\), in ascending order of \(|\mathrm{Im}\,\lambda|\).
+        !!
+        !! Source: Tisseur & Meerbergen, SIAM Review 43 (2001) 235; LAPACK `dggev`.
+        real(dp), intent(in) :: stiffness(:, :), gyroscopic(:, :), inertia(:, :)
+        complex(dp), allocatable, intent(out) :: lambda(:), modes(:, :)
+        type(error_t), allocatable, intent(out) :: error
+        real(dp), dimension(2*size(stiffness, 1), 2*size(stiffness, 1)) :: a, b, vectors
+        real(dp), dimension(2*size(stiffness, 1)) :: re, im, beta
+        real(dp) :: left(1, 1), work(40*size(stiffness, 1) + 100)
+        logical :: taken(2*size(stiffness, 1))
+        integer :: n, i, j, k, info
+
+        call check_matrix(stiffness, "K", error)
+        if (allocated(error)) return
+        call check_matrix(inertia, "M", error)
+        if (allocated(error)) return
+        n = size(stiffness, 1)
+        a = 0.0_dp
+        b = 0.0_dp
+        do i = 1, n
+            a(i, n + i) = 1.0_dp
+            b(i, i) = 1.0_dp
+        end do
+        a(n + 1:, :n) = -stiffness
+        a(n + 1:, n + 1:) = -gyroscopic
+        b(n + 1:, n + 1:) = inertia
+        call dggev("N", "V", 2*n, a, 2*n, b, 2*n, re, im, beta, left, 1, vectors, 2*n, work, &
+                   size(work), info)
+        if (info /= 0 .or. any(abs(beta) <= 0.0_dp)) then
+            call fail(error, "LAPACK found no frequencies (info = "//to_text(info)//"): M is "// &
+                      "singular?", status_library)
+            return
+        end if
+        allocate (lambda(n), modes(n, n))
+        taken = im < 0.0_dp .or. (abs(im) <= 0.0_dp .and. re < 0.0_dp)
+        do k = 1, n
+            j = minloc(abs(im/beta), 1, .not. taken)
+            taken(j) = .true.
+            lambda(k) = cmplx(re(j), im(j), dp)/beta(j)
+            modes(:, k) = cmplx(vectors(:n, j), 0.0_dp, dp)
+            if (im(j) > 0.0_dp) modes(:, k) = cmplx(vectors(:n, j), vectors(:n, j + 1), dp)
+        end do
+    end subroutine gyroscopic_modes
+
+    pure function residual_ratio(stiffness, inertia, omega2, modes) result(ratio)
+        !! LAPACK's own measure \(\|KZ - MZ\Lambda\|/(\|K\|\,\|Z\|\,n\,\epsilon)\) in the 1-norm:
+        !! below 30 or so where all is well.
+        real(dp), intent(in) :: stiffness(:, :), inertia(:, :), omega2(:), modes(:, :)
+        real(dp) :: ratio, scale
+        real(dp), dimension(size(modes, 1), size(modes, 2)) :: residual
+
+        residual = matmul(stiffness, modes) - &
+                   matmul(inertia, modes)*spread(omega2, 1, size(modes, 1))
+        scale = norm1(stiffness)*norm1(modes)*size(omega2)*epsilon(scale)
+        ratio = 0.0_dp
+        if (scale > 0.0_dp) ratio = norm1(residual)/scale
+    end function residual_ratio
+
+    pure function norm1(a) result(norm)
+        !! The largest sum of magnitudes in a column.
+        real(dp), intent(in) :: a(:, :)
+        real(dp) :: norm
+
+        norm = maxval(sum(abs(a), 1))
+    end function norm1
+end module lagrangia_eigen

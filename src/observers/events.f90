@@ -1,0 +1,196 @@
+module lagrangia_events
+    !! Events: where a function of \((t, q, v)\) goes through zero, and what follows from it.
+    !!
+    !! An event is seen as a change of sign between two of eight places in a step and located on
+    !! the dense output to round-off. So a function that touches zero without crossing is no event,
+    !! nor are two crossings within an eighth of a step (a graze); no change of sign is no error.
+    !! A zero at the very start counts by how the function leaves it: not, for where it came from
+    !! is not known. Only a gap that closes at once is an impact at once.
+    use lagrangia_columns, only: columns_t, new_columns
+    use lagrangia_description, only: line_length, name_length
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_kinds, only: dp
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: event_t, event_box_t, column_event_t, contact_event_t
+    public :: new_column_event, new_contact_event
+
+    integer, parameter :: word_length = 64
+
+    type, abstract :: event_t
+        character(line_length) :: label = ""
+        integer :: direction = 0        !! 1: rising, -1: falling, 0: any
+        logical :: terminal = .false.   !! the run ends here
+        logical :: one_sided = .false.  !! an impact: the function cannot become negative
+    contains
+        procedure(value_i), deferred :: value
+        procedure :: impact => no_impact
+    end type event_t
+
+    type :: event_box_t
+        !! A place for one event of any kind.
+        class(event_t), allocatable :: item
+    end type event_box_t
+
+    abstract interface
+        function value_i(self, system, t, q, v) result(value)
+            !! The function whose zeros are looked for.
+            import :: event_t, system_t, dp
+            implicit none (type, external)
+            class(event_t), intent(inout) :: self
+            class(system_t), intent(in) :: system
+            real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+            real(dp) :: value
+        end function value_i
+    end interface
+
+    type, extends(event_t) :: column_event_t
+        !! A column reaches a level.
+        type(columns_t), private :: column
+        real(dp), private :: level = 0.0_dp
+    contains
+        procedure :: value => column_above_level
+    end type column_event_t
+
+    type, extends(event_t) :: contact_event_t
+        !! A gap of the system closes.
+        integer, private :: contact = 1
+    contains
+        procedure :: value => gap
+        procedure :: impact => contact_impact
+    end type contact_event_t
+
+contains
+
+    subroutine no_impact(self, system, t, q, v)
+        !! What the event does to the state: most do nothing.
+        class(event_t), intent(in) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t
+        real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+    end subroutine no_impact
+
+    subroutine new_column_event(self, text, system, error)
+        !! An event as a scene has it: `NAME [= LEVEL] [rising|falling] [stop]`, where `NAME` is a
+        !! column: `'theta = 0.5 rising'`, `'tension stop'`.
+        type(column_event_t), intent(out) :: self
+        character(*), intent(in) :: text
+        class(system_t), intent(in) :: system
+        type(error_t), allocatable, intent(out) :: error
+        character(word_length) :: words(7)
+        character(name_length) :: name(1)
+        integer :: i, count, status
+
+        call split(text, words, count)
+        if (count < 1) then
+            call fail(error, "an event needs a column, as in "//example())
+            return
+        end if
+        self%label = text
+        if (words(1) == "error" .or. index(words(1), "_drift") > 0) then
+            call fail(error, "'"//trim(words(1))//"' is no function of the state alone")
+            return
+        end if
+        name(1) = words(1)(:name_length)
+        call new_columns(self%column, name, system, .false., error)
+        if (allocated(error)) return
+        i = 2
+        if (words(i) == "=") then
+            read (words(i + 1), *, iostat=status) self%level
+            if (status /= 0 .or. verify(trim(words(i + 1)), "+-.0123456789eEdD") > 0 &
+                .or. .not. abs(self%level) <= huge(self%level) .or. i == count) then
+                call fail(error, "a number is needed behind '=', as in "//example())
+                return
+            end if
+            i = i + 2
+        end if
+        do i = i, count
+            select case (words(i))
+            case ("rising"); self%direction = 1
+            case ("falling"); self%direction = -1
+            case ("stop"); self%terminal = .true.
+            case default
+                call fail(error, "'"//trim(words(i))//"' is none of rising, falling, stop; an "// &
+                          "event looks like "//example())
+                return
+            end select
+        end do
+    end subroutine new_column_event
+
+    pure function example() result(text)
+        !! What an event looks like.
+        character(:), allocatable :: text
+
+        text = "event = 'theta = 0.5 rising' or event = 'tension falling stop'"
+    end function example
+
+    pure subroutine split(text, words, count)
+        !! Words between blanks, and every `=` is one; what is too much lies behind the last.
+        character(*), intent(in) :: text
+        character(word_length), intent(out) :: words(:)
+        integer, intent(out) :: count
+        character(1) :: letter
+        integer :: i
+        logical :: within
+
+        words = ""
+        count = 0
+        within = .false.
+        do i = 1, len_trim(text)
+            letter = text(i:i)
+            if (letter == " ") then
+                within = .false.
+                cycle
+            end if
+            if (.not. within .or. letter == "=") count = count + 1
+            if (count > size(words)) count = size(words)
+            words(count) = trim(words(count))//letter
+            within = letter /= "="
+        end do
+    end subroutine split
+
+    function column_above_level(self, system, t, q, v) result(value)
+        !! The column less the level.
+        class(column_event_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        real(dp) :: value, row(1)
+
+        call self%column%evaluate(system, t, q, v, 0.0_dp, row)
+        value = row(1) - self%level
+    end function column_above_level
+
+    pure subroutine new_contact_event(self, contact)
+        !! Contact number `contact` of a system.
+        type(contact_event_t), intent(out) :: self
+        integer, intent(in) :: contact
+
+        self%label = "impact"
+        if (contact > 1) self%label = "impact "//to_text(contact)
+        self%contact = contact
+        self%direction = -1
+        self%one_sided = .true.
+    end subroutine new_contact_event
+
+    function gap(self, system, t, q, v) result(value)
+        !! See `system_t`.
+        class(contact_event_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        real(dp) :: value
+
+        value = system%gap(self%contact, t, q, v)
+    end function gap
+
+    subroutine contact_impact(self, system, t, q, v)
+        !! See `system_t`.
+        class(contact_event_t), intent(in) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t
+        real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+
+        call system%impact(self%contact, t, q, v)
+    end subroutine contact_impact
+end module lagrangia_events

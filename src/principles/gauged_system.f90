@@ -1,0 +1,180 @@
+module lagrangia_gauged_system
+    !! A system with \(L' = L + dF/dt\) in place of \(L\): another Lagrangian, the same motion.
+    use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t
+    use lagrangia_hyperdual, only: cos, exp, hyperdual_t, operator(*), operator(**), operator(+), &
+                                   operator(-), sin
+    use lagrangia_kinds, only: dp
+    use lagrangia_system, only: system_t
+    implicit none (type, external)
+    private
+    public :: gauge_t, gauged_system_t, family_t, member_names
+
+    type, abstract :: gauge_t
+        !! \(F\) and, written out by hand, \(dF/dt\).
+    contains
+        procedure(value_i), deferred :: value
+        procedure(rate_i), deferred :: rate
+    end type gauge_t
+
+    abstract interface
+        pure function value_i(self, t, q) result(f)
+            !! \(F(q, t)\), J s.
+            import :: gauge_t, hyperdual_t
+            implicit none (type, external)
+            class(gauge_t), intent(in) :: self
+            type(hyperdual_t), intent(in) :: t, q(:)
+            type(hyperdual_t) :: f
+        end function value_i
+
+        pure function rate_i(self, t, q, v) result(f_dot)
+            !! \(\sum_k\dot q_k\,\partial F/\partial q_k + \partial F/\partial t\), J.
+            import :: gauge_t, hyperdual_t
+            implicit none (type, external)
+            class(gauge_t), intent(in) :: self
+            type(hyperdual_t), intent(in) :: t, q(:), v(:)
+            type(hyperdual_t) :: f_dot
+        end function rate_i
+    end interface
+
+    character(14), parameter :: member_names(3) = ["s^2           ", "t sin(s)      ", &
+                                                   "exp(-t/2) s^3 "]
+
+    type, extends(gauge_t) :: family_t
+        !! \(f(s, t)\) with \(s = q_1 + q_2/2 + q_3/3 + \dots\).
+        integer :: member = 1  !! of `member_names`
+    contains
+        procedure :: value => family_value
+        procedure :: rate => family_rate
+    end type family_t
+
+    type, extends(system_t) :: gauged_system_t
+        !! Everything is the plain system's but the Lagrangian.
+        class(system_t), allocatable :: plain
+        class(gauge_t), allocatable :: gauge
+    contains
+        procedure :: set
+        procedure :: describe
+        procedure :: configure
+        procedure :: accelerations
+        procedure :: lagrangian
+        procedure :: energy
+        procedure :: constraint_rows
+    end type gauged_system_t
+
+contains
+
+    pure function family_value(self, t, q) result(f)
+        !! See `gauge_t`.
+        class(family_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(:)
+        type(hyperdual_t) :: f, s
+
+        s = weighted(q)
+        select case (self%member)
+        case (1); f = s**2
+        case (2); f = t*sin(s)
+        case default; f = exp(-0.5_dp*t)*s**3
+        end select
+    end function family_value
+
+    pure function family_rate(self, t, q, v) result(f_dot)
+        !! See `gauge_t`.
+        class(family_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(:), v(:)
+        type(hyperdual_t) :: f_dot, s, s_dot
+
+        s = weighted(q)
+        s_dot = weighted(v)
+        select case (self%member)
+        case (1); f_dot = 2.0_dp*s*s_dot
+        case (2); f_dot = t*cos(s)*s_dot + sin(s)
+        case default; f_dot = exp(-0.5_dp*t)*(3.0_dp*s**2*s_dot - 0.5_dp*s**3)
+        end select
+    end function family_rate
+
+    pure function weighted(q) result(s)
+        !! \(q_1 + q_2/2 + q_3/3 + \dots\).
+        type(hyperdual_t), intent(in) :: q(:)
+        type(hyperdual_t) :: s
+        integer :: i
+
+        s = q(1)
+        do i = 2, size(q)
+            s = s + q(i)*(1.0_dp/i)
+        end do
+    end function weighted
+
+    subroutine set(self, plain, gauge)
+        !! Put `gauge` on top of `plain`.
+        class(gauged_system_t), intent(inout) :: self
+        class(system_t), intent(in) :: plain
+        class(gauge_t), intent(in) :: gauge
+
+        if (allocated(self%plain)) deallocate (self%plain)
+        if (allocated(self%gauge)) deallocate (self%gauge)
+        allocate (self%plain, source=plain)
+        allocate (self%gauge, source=gauge)
+        self%ndof = plain%ndof
+        self%constraints = plain%constraints
+        self%velocity_forces = plain%velocity_forces
+        self%time_dependent = .true.
+        self%cyclic = 0
+    end subroutine set
+
+    pure subroutine describe(self, d)
+        !! See `system_t`.
+        class(gauged_system_t), intent(in) :: self
+        type(description_t), intent(out) :: d
+
+        call self%plain%describe(d)
+    end subroutine describe
+
+    pure subroutine configure(self, values, error)
+        !! The plain system's parameters.
+        class(gauged_system_t), intent(inout) :: self
+        real(dp), intent(in) :: values(:)
+        type(error_t), allocatable, intent(out) :: error
+
+        call self%plain%configure(values, error)
+    end subroutine configure
+
+    pure subroutine accelerations(self, t, q, v, a)
+        !! As they were: that is the claim.
+        class(gauged_system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: a(self%ndof)
+
+        call self%plain%accelerations(t, q, v, a)
+    end subroutine accelerations
+
+    pure function lagrangian(self, t, q, v) result(l)
+        !! $$ L' = L + \frac{dF}{dt} $$
+        class(gauged_system_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t) :: l
+
+        l = self%plain%lagrangian(t, q, v) + self%gauge%rate(t, q, v)
+    end function lagrangian
+
+    pure function energy(self, t, q, v) result(e)
+        !! $$ h' = h - \frac{\partial F}{\partial t} $$
+        class(gauged_system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: e
+        type(hyperdual_t) :: f, qq(self%ndof)
+
+        qq%re = q
+        f = self%gauge%value(hyperdual_t(t, 1.0_dp, 0.0_dp, 0.0_dp), qq)
+        e = self%plain%energy(t, q, v) - f%d1
+    end function energy
+
+    pure subroutine constraint_rows(self, t, q, rows, drift)
+        !! The plain system's.
+        class(gauged_system_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof)
+        type(hyperdual_t), intent(out) :: rows(:, :), drift(:)
+
+        call self%plain%constraint_rows(t, q, rows, drift)
+    end subroutine constraint_rows
+end module lagrangia_gauged_system

@@ -1,0 +1,145 @@
+module lagrangia_dense_run
+    !! The loop of a method with dense output: samples and events lie between its steps.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_crossings, only: watch_t
+    use lagrangia_errors, only: error_t, fail, status_numbers
+    use lagrangia_events, only: event_box_t
+    use lagrangia_integrator, only: dense_integrator_t
+    use lagrangia_interrupt, only: interrupt_status
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_observer, only: observer_box_t
+    use lagrangia_run, only: plan_t
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: run_dense
+
+    integer, parameter :: most_at_once = 100  !! impacts at one time
+
+contains
+
+    subroutine run_dense(system, method, plan, events, observers, q, v, ended, error)
+        !! Integrate from `plan%t0` over `plan%duration`, showing the samples of the plan and the
+        !! end to `observers`, and every event. The number of samples costs no evaluations.
+        !!
+        !! A run that fails shows what was good; `q` and `v` are then the last good sample.
+        class(system_t), intent(in) :: system
+        class(dense_integrator_t), intent(inout) :: method
+        type(plan_t), intent(in) :: plan
+        type(event_box_t), intent(inout) :: events(:)
+        type(observer_box_t), intent(in) :: observers(:)
+        real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+        real(dp), intent(out) :: ended  !! time of the last sample, s
+        type(error_t), allocatable, intent(out) :: error
+        type(watch_t) :: watch
+        real(dp) :: t_end
+        integer(i8) :: shown, last
+        integer :: impacts
+        logical :: stopped, restarted
+
+        t_end = plan%t0 + plan%duration
+        last = plan%samples()
+        shown = 0
+        impacts = 0
+        ended = plan%t0
+        stopped = .false.
+        call method%prepare(system, error)
+        if (allocated(error)) return
+        call method%start(system, plan%t0, q, v, t_end)
+        call watch%start(events, system, plan%t0, q, v)
+        call show(plan%t0, watch%q, watch%v)
+        do while (method%t_new < t_end .and. .not. (stopped .or. allocated(error)))
+            call method%step(system, error)
+            if (allocated(error)) exit
+            restarted = .false.
+            do while (.not. (stopped .or. restarted .or. allocated(error)))
+                call watch%next(events, system, method, error)
+                if (allocated(error) .or. watch%which == 0) exit
+                call show_samples(watch%t)
+                if (allocated(error)) exit
+                call meet()
+            end do
+            if (allocated(error)) exit
+            if (.not. (stopped .or. restarted)) call show_samples(method%t_new)
+            if (.not. allocated(error)) call look_around()
+        end do
+    contains
+        subroutine meet()
+            !! An event: its impact, and whether the run ends or starts again.
+            real(dp) :: before(2*system%ndof)
+            integer :: i
+
+            associate (event => events(watch%which)%item)
+                before = [watch%q, watch%v]
+                call event%impact(system, watch%t, watch%q, watch%v)
+                restarted = event%one_sided .or. any(abs(before - [watch%q, watch%v]) > 0.0_dp)
+                do i = 1, size(observers)
+                    call observers(i)%item%meet(system, watch%which, watch%t, watch%q, watch%v, &
+                                                error)
+                    if (allocated(error)) return
+                end do
+                stopped = event%terminal
+                restarted = restarted .and. watch%t < t_end
+            end associate
+            if (stopped) then
+                if (watch%t > ended) call show(watch%t, watch%q, watch%v)
+            else if (restarted) then
+                impacts = merge(impacts + 1, 0, watch%t <= method%t_old)
+                if (impacts > most_at_once) then
+                    call fail(error, "impacts do not end at t = "//to_text(watch%t)//" s", &
+                              status_numbers)
+                    return
+                end if
+                call method%start(system, watch%t, watch%q, watch%v, t_end)
+                call watch%start(events, system, watch%t, watch%q, watch%v)
+            end if
+        end subroutine meet
+
+        subroutine show_samples(t)
+            !! All that are due up to `t`.
+            real(dp), intent(in) :: t
+            real(dp) :: now, q_now(system%ndof), v_now(system%ndof)
+
+            do while (shown <= last .and. .not. allocated(error))
+                now = plan%sample_time(shown)
+                if (now > t) exit
+                call method%state_at(now, q_now, v_now)
+                call show(now, q_now, v_now)
+            end do
+        end subroutine show_samples
+
+        subroutine show(t, q_now, v_now)
+            !! One sample, which is kept if it is finite.
+            real(dp), intent(in) :: t, q_now(:), v_now(:)
+            integer :: i
+
+            if (.not. (all(ieee_is_finite(q_now)) .and. all(ieee_is_finite(v_now)))) then
+                call fail(error, "the state is not finite at t = "//to_text(t)//" s: the "// &
+                          "motion diverges, or the step is too long", status_numbers)
+                return
+            end if
+            q = q_now
+            v = v_now
+            ended = t
+            shown = shown + 1
+            do i = 1, size(observers)
+                call observers(i)%item%observe(system, t, q, v, error)
+                if (allocated(error)) return
+            end do
+        end subroutine show
+
+        subroutine look_around()
+            !! Signals, and whoever watches the run go on.
+            integer :: i
+
+            if (interrupt_status() /= 0) then
+                call fail(error, "interrupted", interrupt_status())
+                return
+            end if
+            do i = 1, size(observers)
+                call observers(i)%item%tick(shown, last)
+            end do
+        end subroutine look_around
+    end subroutine run_dense
+end module lagrangia_dense_run

@@ -1,0 +1,87 @@
+module test_lanes
+    !! The accelerations of eight states at once are those of the eight states.
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertGreaterThan
+    use lagrangia_catalogue, only: nth_system
+    use lagrangia_description, only: description_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_system, only: lanes, system_t
+    use plain_system, only: plain_system_t
+    use random_states, only: draw_parameters, draw_state, restart_random
+    implicit none (type, external)
+    private
+    public :: lanes_suite
+
+contains
+
+    function lanes_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("lanes")
+        call suite%addTest(TestMethod("lanes_are_single_states", lanes_are_single_states))
+        call suite%addTest(TestMethod("a_system_needs_no_kernel", a_system_needs_no_kernel))
+    end function lanes_suite
+
+    subroutine lanes_are_single_states()
+        !! For every system, at random parameters and states. The vector sin and cos of glibc are
+        !! good to 4 ulp; behind them stand some ten operations and a difference of terms that
+        !! are larger than the result: up to 100 epsilon of the largest acceleration.
+        real(dp), parameter :: rounding = 100.0_dp*epsilon(1.0_dp)
+        class(system_t), allocatable :: system
+        type(description_t) :: d
+        real(dp), allocatable :: q(:, :), v(:, :), a(:, :), each(:, :), x(:), x_dot(:), x_ddot(:)
+        real(dp) :: t(lanes)
+        integer :: i, j, draw
+
+        call restart_random()
+        i = 0
+        do
+            i = i + 1
+            call nth_system(i, system)
+            if (.not. allocated(system)) exit
+            call system%describe(d)
+            do draw = 1, 40
+                call draw_parameters(system, edges=mod(draw, 4) == 0)
+                allocate (q(lanes, system%ndof), v(lanes, system%ndof))
+                allocate (a(lanes, system%ndof), each(lanes, system%ndof), x_ddot(system%ndof))
+                do j = 1, lanes
+                    call draw_state(system, t(j), x, x_dot)
+                    q(j, :) = x
+                    v(j, :) = x_dot
+                    call system%accelerations(t(j), x, x_dot, x_ddot)
+                    each(j, :) = x_ddot
+                end do
+                call system%accelerations_lanes(t, q, v, a)
+                do j = 1, lanes
+                    call assertEqual(each(j, :), a(j, :), &
+                                     rounding*max(1.0_dp, maxval(abs(each(j, :)))), &
+                                     trim(d%name)//": lanes")
+                end do
+                deallocate (q, v, a, each, x_ddot)
+                if (anyExceptions()) return
+            end do
+        end do
+        call assertGreaterThan(i, 11, message="systems checked")
+    end subroutine lanes_are_single_states
+
+    subroutine a_system_needs_no_kernel()
+        !! The contract's own loop: the same operations, so equal to the last bit.
+        type(plain_system_t) :: system
+        real(dp) :: t(lanes), q(lanes, 2), v(lanes, 2), a(lanes, 2), each(2), x(2), x_dot(2)
+        integer :: i
+
+        do i = 1, lanes
+            t(i) = 0.3_dp*i
+            q(i, :) = [0.7_dp*i, -1.1_dp*i]
+            v(i, :) = [0.2_dp - i, 0.4_dp*i]
+        end do
+        system%ndof = 2
+        call system%accelerations_lanes(t, q, v, a)
+        do i = 1, lanes
+            x = q(i, :)
+            x_dot = v(i, :)
+            call system%accelerations(t(i), x, x_dot, each)
+            call assertEqual(each, a(i, :), 0.0_dp, "lanes")
+        end do
+    end subroutine a_system_needs_no_kernel
+end module test_lanes

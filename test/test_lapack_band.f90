@@ -1,0 +1,128 @@
+module test_lapack_band
+    !! Band systems are solved or refused; negative eigenvalues are counted.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
+    use lagrangia_errors, only: error_t, status_library
+    use lagrangia_kinds, only: dp
+    use lagrangia_lapack_band, only: count_negative, solve_band
+    use lagrangia_richardson, only: extrapolated
+    implicit none (type, external)
+    private
+    public :: lapack_band_suite
+
+    real(dp), parameter :: pi = acos(-1.0_dp)
+
+contains
+
+    function lapack_band_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("lapack_band")
+        call suite%addTest(TestMethod("solves_two_diagonals_each_side", &
+                                      solves_two_diagonals_each_side))
+        call suite%addTest(TestMethod("refuses_bad_bands", refuses_bad_bands))
+        call suite%addTest(TestMethod("counts_negative_eigenvalues", counts_negative_eigenvalues))
+        call suite%addTest(TestMethod("refuses_bad_tridiagonals", refuses_bad_tridiagonals))
+        call suite%addTest(TestMethod("extrapolates_even_powers", extrapolates_even_powers))
+    end function lapack_band_suite
+
+    subroutine solves_two_diagonals_each_side()
+        !! Whole numbers, unsymmetric, so that a transposed band gives something else.
+        real(dp) :: matrix(5, 5), band(5, 5), x(5), truth(5)
+        type(error_t), allocatable :: error
+        integer :: i, j
+
+        matrix = 0.0_dp
+        band = 0.0_dp
+        do j = 1, 5
+            do i = max(1, j - 2), min(5, j + 2)
+                matrix(i, j) = 7.0_dp*merge(1, 0, i == j) + i - 3*j + i*j**2
+                band(3 + i - j, j) = matrix(i, j)
+            end do
+        end do
+        truth = [2.0_dp, -1.0_dp, 3.0_dp, 5.0_dp, -4.0_dp]
+        call solve_band(band, matmul(matrix, truth), x, error)
+        call assertFalse(allocated(error))
+        call assertEqual(truth, x, 1e-12_dp)
+    end subroutine solves_two_diagonals_each_side
+
+    subroutine refuses_bad_bands()
+        !! Each by its message.
+        real(dp) :: x(2)
+        type(error_t), allocatable :: error
+
+        call solve_band(reshape([0.0_dp, 1.0_dp, 2.0_dp, 2.0_dp, 4.0_dp, 0.0_dp], [3, 2]), &
+                        [1.0_dp, 1.0_dp], x, error)
+        call expect("band system: the matrix is singular")
+        call solve_band(reshape([0.0_dp, 1.0_dp, 2.0_dp, 2.0_dp], [2, 2]), [1.0_dp, 1.0_dp], x, &
+                        error)
+        call expect("band system: shapes do not match")
+        call solve_band(reshape([1.0_dp, 2.0_dp], [1, 2]), &
+                        [1.0_dp, ieee_value(1.0_dp, ieee_quiet_nan)], x, error)
+        call expect("band system: not every coefficient is finite")
+    contains
+        subroutine expect(message)
+            character(*), intent(in) :: message
+
+            call assertTrue(allocated(error), message)
+            if (anyExceptions()) return
+            call assertEqual(message, error%message)
+            call assertEqual(status_library, error%status)
+            call assertEqual([0.0_dp, 0.0_dp], x)
+        end subroutine expect
+    end subroutine refuses_bad_bands
+
+    subroutine counts_negative_eigenvalues()
+        !! \(2 - 2\cos(n\pi/(N + 1)) - s\): the eigenvalues of the shifted second difference.
+        integer, parameter :: n = 40
+        real(dp) :: off(n - 1), diagonal(n), shift, first(1), none(0)
+        type(error_t), allocatable :: error
+        integer :: negative, k, j
+
+        off = -1.0_dp
+        do k = 0, n
+            shift = 2.0_dp - 2.0_dp*cos((k + 0.5_dp)*pi/(n + 1))
+            diagonal = 2.0_dp - shift
+            call count_negative(diagonal, off, negative, error)
+            call assertFalse(allocated(error))
+            call assertEqual(count([(j < k + 0.5_dp, j=1, n)]), negative)
+        end do
+        first = -1e-300_dp
+        none = 0.0_dp
+        call count_negative(first, none, negative, error)
+        call assertEqual(1, negative)
+        first = 0.0_dp
+        call count_negative(first, none, negative, error)
+        call assertEqual(0, negative)
+        call count_negative(none, none, negative, error)
+        call assertEqual(0, negative)
+        call assertFalse(allocated(error))
+    end subroutine counts_negative_eigenvalues
+
+    subroutine refuses_bad_tridiagonals()
+        !! Each by its message.
+        type(error_t), allocatable :: error
+        integer :: negative
+
+        call count_negative([1.0_dp, 2.0_dp], [1.0_dp, 1.0_dp], negative, error)
+        call assertTrue(allocated(error))
+        if (anyExceptions()) return
+        call assertEqual("tridiagonal matrix: shapes do not match", error%message)
+        call count_negative([1.0_dp, ieee_value(1.0_dp, ieee_quiet_nan)], [1.0_dp], negative, error)
+        call assertTrue(allocated(error))
+        if (anyExceptions()) return
+        call assertEqual("tridiagonal matrix: not every element is finite", error%message)
+    end subroutine refuses_bad_tridiagonals
+
+    subroutine extrapolates_even_powers()
+        !! \(3 - 2h^2 + 5h^4 - h^6\) at four steps is known at none; at three it is not.
+        real(dp) :: values(4), h(4)
+
+        h = [0.8_dp, 0.4_dp, 0.2_dp, 0.1_dp]
+        values = 3.0_dp - 2.0_dp*h**2 + 5.0_dp*h**4 - h**6
+        call assertEqual(3.0_dp, extrapolated(values), 1e-14_dp)
+        call assertTrue(abs(extrapolated(values(:3)) - 3.0_dp) > 1e-6_dp)
+        call assertEqual(values(1), extrapolated(values(:1)), 0.0_dp)
+    end subroutine extrapolates_even_powers
+end module test_lapack_band

@@ -1,0 +1,255 @@
+module test_methods
+    !! Walks over the methods: each is what it declares to be. A new one is tested the day it is
+    !! listed, on every problem below that it takes.
+    use funit, only: TestMethod, TestSuite, assertEqual, assertGreaterThan, assertLessThan, &
+                     assertTrue
+    use lagrangia_catalogue, only: new_reference, new_system, nth_system
+    use lagrangia_errors, only: error_t
+    use lagrangia_integrator, only: integrator_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_methods, only: method_names, new_integrator, nth_integrator
+    use lagrangia_reference, only: reference_t
+    use lagrangia_system, only: system_t
+    use method_problems, only: new_problem, problems, refuses
+    implicit none (type, external)
+    private
+    public :: methods_suite
+
+contains
+
+    function methods_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("methods")
+        call suite%addTest(TestMethod("orders_are_as_declared", orders_are_as_declared))
+        call suite%addTest(TestMethod("energy_stays_where_declared", energy_stays_where_declared))
+        call suite%addTest(TestMethod("cuts_change_no_byte", cuts_change_no_byte))
+        call suite%addTest(TestMethod("carried_forces_belong_to_their_time", &
+                                      carried_forces_belong_to_their_time))
+        call suite%addTest(TestMethod("stability_ends_where_it_must", stability_ends_where_it_must))
+    end function methods_suite
+
+    subroutine orders_are_as_declared()
+        !! Error against the closed form, and swing of the energy, from one number of steps and
+        !! twice as many. The first is the smallest power of two, from 32 on, whose error is small
+        !! enough for the leading term to rule. The energy error of `blanes_moan6` is near rounding
+        !! before it does: there it is seen from one side only.
+        class(integrator_t), allocatable :: method
+        class(system_t), allocatable :: system
+        character(:), allocatable :: name
+        real(dp), allocatable :: q(:), v(:)
+        real(dp), parameter :: rounding = 1e-13_dp  !! of the energy
+        real(dp) :: error(2), swing(2), small, order
+        integer :: i, k, taken
+        integer(i8) :: steps
+
+        do i = 1, size(method_names())
+            taken = 0
+            call nth_integrator(i, method)
+            if (method%order > 8) cycle  ! rounding hides such orders here: see the method's suite
+            do k = 1, problems
+                call nth_integrator(i, method)
+                call new_problem(k, system, q, v)
+                if (refuses(method, system)) cycle
+                taken = taken + 1
+                name = trim(method%name)//describe(k)
+                small = merge(10.0_dp**(-4 - method%order), 1e-6_dp, method%order < 6)
+                steps = 16
+                do
+                    steps = 2*steps
+                    call run(method, system, q, v, steps, error(1), swing(1))
+                    if (error(1) < small .or. steps > 100000) exit
+                end do
+                call run(method, system, q, v, 2*steps, error(2), swing(2))
+                call assertEqual(real(method%order, dp), log(error(1)/error(2))/log(2.0_dp), &
+                                 0.1_dp, name//": order")
+                if (method%energy_order == 0 .or. swing(1) < rounding) cycle
+                order = log(swing(1)/swing(2))/log(2.0_dp)
+                call assertGreaterThan(order, method%energy_order - 0.1_dp, &
+                                       message=name//": energy error of no lower order")
+                if (swing(2) > 10.0_dp*rounding) call assertLessThan(order, &
+                    method%energy_order + 0.1_dp, message=name//": nor of a higher one")
+            end do
+            call assertGreaterThan(taken, 0, message=trim(method%name)//": problems taken")
+        end do
+    end subroutine orders_are_as_declared
+
+    subroutine energy_stays_where_declared()
+        !! In a run ten times as long the energy swings no farther; elsewhere it drifts.
+        class(integrator_t), allocatable :: method
+        class(system_t), allocatable :: system
+        real(dp), allocatable :: q(:), v(:)
+        character(:), allocatable :: name
+        real(dp), parameter :: rounding = 1e-13_dp  !! a random walk of 2000 steps, with room
+        real(dp) :: error, swing(2)
+        integer :: i, k
+
+        do i = 1, size(method_names())
+            do k = 1, problems
+                call nth_integrator(i, method)
+                call new_problem(k, system, q, v)
+                if (refuses(method, system)) cycle
+                name = trim(method%name)//describe(k)
+                call run(method, system, q, v, 200_i8, error, swing(1), 20.0_dp)
+                call run(method, system, q, v, 2000_i8, error, swing(2), 200.0_dp)
+                if (method%energy_order > 0) then
+                    call assertLessThan(swing(2), 1.2_dp*swing(1) + rounding, &
+                                        message=name//": energy stays")
+                else
+                    call assertGreaterThan(swing(2), 2.0_dp*swing(1), &
+                                           message=name//": energy drifts")
+                end if
+            end do
+        end do
+    end subroutine energy_stays_where_declared
+
+    function describe(k) result(text)
+        !! Which problem.
+        integer, intent(in) :: k
+        character(:), allocatable :: text
+        character, parameter :: digits(9) = ["1", "2", "3", "4", "5", "6", "7", "8", "9"]
+
+        text = ", problem "//digits(k)
+    end function describe
+
+    subroutine run(method, system, q0, v0, steps, error, swing, time)
+        !! From `t = 0` in `steps` steps to `time`, 3 s: distance from the closed form at the
+        !! end, and largest relative change of the energy on the way.
+        class(integrator_t), intent(inout) :: method
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: q0(:), v0(:)
+        integer(i8), intent(in) :: steps
+        real(dp), intent(out) :: error, swing
+        real(dp), intent(in), optional :: time
+        class(reference_t), allocatable :: reference
+        type(error_t), allocatable :: refusal
+        real(dp), dimension(size(q0)) :: q, v, q_true, v_true
+        real(dp) :: duration, e0
+        integer(i8) :: k
+
+        duration = 3.0_dp
+        if (present(time)) duration = time
+        call method%prepare(system, refusal)
+        q = q0
+        v = v0
+        e0 = system%energy(0.0_dp, q, v)
+        swing = 0.0_dp
+        do k = 0, steps - 1
+            call method%advance(system, 0.0_dp, duration/steps, k, 1_i8, q, v)
+            swing = max(swing, abs(system%energy(0.0_dp, q, v)/e0 - 1.0_dp))
+        end do
+        call new_reference(system, 0.0_dp, q0, v0, reference)
+        call reference%state_at(duration, q_true, v_true)
+        error = max(maxval(abs(q - q_true)), maxval(abs(v - v_true)))
+    end subroutine run
+
+    subroutine cuts_change_no_byte()
+        !! Nor does it count more evaluations, with compensated sums or without.
+        class(integrator_t), allocatable :: method, variant
+        class(system_t), allocatable :: system
+        real(dp), allocatable :: q(:), v(:)
+        integer :: i, k
+
+        do i = 1, size(method_names())
+            do k = 1, problems
+                call nth_integrator(i, method)
+                call new_problem(k, system, q, v)
+                if (refuses(method, system)) cycle
+                call cut(method, system, q, v)
+                call method%compensated(variant)
+                if (.not. allocated(variant)) cycle
+                call assertEqual(method%name, variant%name, message="name of the variant")
+                call cut(variant, system, q, v)
+            end do
+        end do
+    end subroutine cuts_change_no_byte
+
+    subroutine cut(method, system, q0, v0)
+        !! 300 steps at once, and in pieces; a second run like the first.
+        class(integrator_t), intent(inout) :: method
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: q0(:), v0(:)
+        integer(i8), parameter :: pieces(5) = [0_i8, 1_i8, 2_i8, 100_i8, 300_i8]
+        real(dp), dimension(size(q0)) :: q, v, q_cut, v_cut
+        integer(i8) :: evaluations
+        integer :: i, repetition
+
+        if (refuses(method, system)) return
+        q = q0
+        v = v0
+        call method%advance(system, 0.3_dp, 0.01_dp, 0_i8, 300_i8, q, v)
+        evaluations = method%evaluations
+        call assertGreaterThan(evaluations, 0_i8, message=trim(method%name)//": evaluations")
+        do repetition = 1, 2
+            if (refuses(method, system)) return
+            q_cut = q0
+            v_cut = v0
+            do i = 2, size(pieces)
+                call method%advance(system, 0.3_dp, 0.01_dp, pieces(i - 1), &
+                                    pieces(i) - pieces(i - 1), q_cut, v_cut)
+            end do
+            call assertEqual(q, q_cut, message=trim(method%name)//": q of a run that was cut")
+            call assertEqual(v, v_cut, message=trim(method%name)//": v of a run that was cut")
+            call assertTrue(evaluations == method%evaluations, trim(method%name)//": evaluations")
+        end do
+    end subroutine cut
+
+    subroutine carried_forces_belong_to_their_time()
+        !! The same place at another time is another force.
+        class(integrator_t), allocatable :: method, fresh
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        real(dp), dimension(1) :: q, v, q_fresh, v_fresh
+
+        call new_system("driven_pendulum", system, error)
+        call new_integrator("velocity_verlet", method, error)
+        call new_integrator("velocity_verlet", fresh, error)
+        call method%prepare(system, error)
+        call fresh%prepare(system, error)
+        q = 1.0_dp
+        v = 0.5_dp
+        call method%advance(system, 0.0_dp, 0.01_dp, 0_i8, 10_i8, q, v)
+        q_fresh = q
+        v_fresh = v
+        call method%advance(system, 0.7_dp, 0.01_dp, 0_i8, 10_i8, q, v)
+        call fresh%advance(system, 0.7_dp, 0.01_dp, 0_i8, 10_i8, q_fresh, v_fresh)
+        call assertEqual(q_fresh, q, message="q")
+        call assertEqual(v_fresh, v, message="v")
+    end subroutine carried_forces_belong_to_their_time
+
+    subroutine stability_ends_where_it_must()
+        !! On the oscillator, in 2000 steps: Verlet at 2, Runge-Kutta at the square root of 8.
+        call check_limit("verlet", 2.0_dp)
+        call check_limit("velocity_verlet", 2.0_dp)
+        call check_limit("stormer_verlet", 2.0_dp)
+        call check_limit("rk4", sqrt(8.0_dp))
+    end subroutine stability_ends_where_it_must
+
+    subroutine check_limit(name, limit)
+        !! The method `name` stays bounded up to \(\omega h =\) `limit`, and not beyond.
+        character(*), intent(in) :: name
+        real(dp), intent(in) :: limit
+        class(integrator_t), allocatable :: method
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        real(dp) :: q(1), v(1)
+        integer :: k
+
+        call new_integrator(name, method, error)
+        call nth_system(1, system)
+        call system%configure([2.0_dp, 4.5_dp], error)  ! omega = 1.5
+        do k = -1, 1, 2
+            q = 1.0_dp
+            v = 0.0_dp
+            call method%prepare(system, error)
+            call method%advance(system, 0.0_dp, (1.0_dp + 0.01_dp*k)*limit/1.5_dp, 0_i8, 2000_i8, &
+                                q, v)
+            if (k < 0) then
+                call assertLessThan(abs(q(1)), 100.0_dp, message=name//": stable")
+            else
+                call assertGreaterThan(abs(q(1)), 1e10_dp, message=name//": unstable")
+            end if
+        end do
+    end subroutine check_limit
+end module test_methods

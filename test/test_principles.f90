@@ -1,0 +1,99 @@
+module test_principles
+    !! Every principle of the command: all statements hold, every negative control fails.
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
+                     assertGreaterThan, assertLessThanOrEqual, assertTrue
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_principle, only: principle_names, principle_report, statement_line
+    use lagrangia_report, only: report_t, statement_t
+    implicit none (type, external)
+    private
+    public :: principles_suite
+
+contains
+
+    function principles_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("principles")
+        call suite%addTest(TestMethod("all_is_as_it_must_be", all_is_as_it_must_be))
+        call suite%addTest(TestMethod("rows_are_judged", rows_are_judged))
+        call suite%addTest(TestMethod("refuses_unknown_names", refuses_unknown_names))
+    end function principles_suite
+
+    subroutine all_is_as_it_must_be()
+        !! Statements hold; controls fail by far more than rounding; each line fits the screen.
+        character(16), allocatable :: names(:)
+        type(report_t) :: report
+        type(error_t), allocatable :: error
+        integer :: i, k
+
+        allocate (names, source=principle_names())
+        do i = 1, size(names)
+            call principle_report(trim(names(i)), report, error)
+            call assertFalse(allocated(error), trim(names(i)))
+            if (anyExceptions()) return
+            call assertGreaterThan(count(.not. report%rows%control), 5, message=trim(names(i)))
+            call assertGreaterThan(count(report%rows%control), 0, message=trim(names(i)))
+            do k = 1, size(report%rows)
+                associate (row => report%rows(k))
+                    call assertTrue(row%as_it_must(), trim(names(i))//": "//row%name)
+                    if (row%control) call assertGreaterThan(row%difference, &
+                        max(1e3_dp*row%bound, 1e-6_dp), message="control: "//row%name)
+                    call assertLessThanOrEqual(len(statement_line(row)), 100, message=row%name)
+                    call assertLessThanOrEqual(len_trim(row%name), len(row%name) - 1, &
+                                               message=row%name)
+                    call assertLessThanOrEqual(len_trim(row%heading), len(row%heading) - 1, &
+                                               message=row%heading)
+                end associate
+            end do
+            do k = 1, size(report%notes)
+                call assertLessThanOrEqual(len_trim(report%notes(k)), len(report%notes) - 1, &
+                                           message=report%notes(k))
+            end do
+            if (report%picture%file == "") cycle
+            call assertEqual(size(report%picture%names), size(report%picture%values, 1), &
+                             trim(names(i))//": columns")
+            call assertTrue(all(abs(report%picture%values) < huge(1.0_dp)), trim(names(i)))
+        end do
+    end subroutine all_is_as_it_must_be
+
+    subroutine rows_are_judged()
+        !! NaN holds nothing, and is not what a control must give either.
+        type(report_t) :: report
+        real(dp) :: nan, differences(3)
+
+        nan = 0.0_dp
+        nan = nan/nan
+        call report%begin("")
+        call report%equal("close", 1.0_dp, 1.5_dp, 0.5_dp)
+        call report%equal("far", 1.0_dp, 1.6_dp, 0.5_dp)
+        call report%equal("nothing", nan, 1.0_dp, 0.5_dp)
+        call report%equal("nothing", nan, 1.0_dp, 0.5_dp, control=.true.)
+        call report%equal("control that holds", 1.0_dp, 1.0_dp, 0.5_dp, control=.true.)
+        call report%equal("control that fails", 1.0_dp, 2.0_dp, 0.5_dp, control=.true.)
+        call report%at_least("more", 3.0_dp, 2.0_dp, 0.5_dp)
+        call report%at_least("a little less", 1.75_dp, 2.0_dp, 0.5_dp)
+        call report%at_least("less", 1.0_dp, 2.0_dp, 0.5_dp)
+        call assertTrue(all(report%rows%as_it_must() .eqv. [.true., .false., .false., .false., &
+                                                             .false., .true., .true., .true., &
+                                                             .false.]))
+        call assertEqual(5, report%misses())
+        differences = report%rows(7:)%difference
+        call assertEqual([0.0_dp, 0.25_dp, 1.0_dp], differences, 1e-15_dp)
+        call assertTrue(index(statement_line(report%rows(2)), "FAILS !") > 0)
+        call assertTrue(index(statement_line(report%rows(5)), "HOLDS !") > 0)
+    end subroutine rows_are_judged
+
+    subroutine refuses_unknown_names()
+        !! With the nearest one there is.
+        type(report_t) :: report
+        type(error_t), allocatable :: error
+
+        call principle_report("acton", report, error)
+        call assertTrue(allocated(error))
+        if (anyExceptions()) return
+        call assertEqual("unknown principle 'acton'; did you mean 'action'?", error%message)
+    end subroutine refuses_unknown_names
+end module test_principles
