@@ -57,16 +57,20 @@ contains
         type(error_t), allocatable, intent(out) :: error
         type(namelist_t) :: tree
         character(:), allocatable :: text, group
-        character(name_length) :: system
+        character(name_length) :: system, groups(size(problem_names))
         real(dp), allocatable :: parameters(:)
+        integer :: i
 
         group = lower(name)
+        do i = 1, size(groups)
+            groups(i) = lower(problem_names(i))
+        end do
         read_group: block
             call read_whole_file(path, text, error)
             if (allocated(error)) exit read_group
             call parse_namelist(text, path, tree, error)
             if (allocated(error)) exit read_group
-            call refuse_unknown_groups(tree, lower(problem_names), error)
+            call refuse_unknown_groups(tree, groups, error)
             if (allocated(error)) exit read_group
             call get_string(tree, group, "system", system, error, required=.true.)
             if (allocated(error)) exit read_group

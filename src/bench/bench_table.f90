@@ -3,9 +3,10 @@ module lagrangia_bench_table
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_json, only: json_number, json_string
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_precision_curve, only: not_known
     implicit none (type, external)
     private
-    public :: cell_t, bench_table_t, bench_table_box_t
+    public :: bench_table_t, cell_t
     public :: count_cell, new_bench_table, number_cell, short, word_cell
 
     integer, parameter :: most_columns = 24, width = 72
@@ -13,6 +14,7 @@ module lagrangia_bench_table
     type :: cell_t
         character(width) :: shown = ""   !! to people
         character(width) :: json = ""    !! to programs
+        real(dp) :: value = 0.0_dp       !! to ourselves
         logical :: word = .false.        !! stands to the left
     end type cell_t
 
@@ -33,11 +35,8 @@ module lagrangia_bench_table
         procedure :: head
         procedure :: line
         procedure :: object
+        procedure :: value
     end type bench_table_t
-
-    type :: bench_table_box_t
-        type(bench_table_t), allocatable :: item
-    end type bench_table_box_t
 
 contains
 
@@ -147,6 +146,24 @@ contains
         json = json//"}"
     end function object
 
+    pure function value(self, row, column) result(number)
+        !! The number in `column` of the first row that begins with the word `row`; NaN if there
+        !! is none.
+        class(bench_table_t), intent(in) :: self
+        character(*), intent(in) :: row, column
+        real(dp) :: number
+        integer :: i, k
+
+        number = not_known()
+        k = findloc(self%names(:self%columns) == column, .true., 1)
+        if (k == 0) return
+        do i = 1, self%rows
+            if (self%row(i)%cells(1)%shown /= row) cycle
+            number = self%row(i)%cells(k)%value
+            return
+        end do
+    end function value
+
     elemental function word_cell(text) result(cell)
         !! A name.
         character(*), intent(in) :: text
@@ -162,6 +179,7 @@ contains
         integer(i8), intent(in) :: number
         type(cell_t) :: cell
 
+        cell%value = real(number, dp)
         write (cell%shown, "(i0)") number
         cell%json = cell%shown
     end function count_cell
@@ -172,6 +190,7 @@ contains
         integer, intent(in) :: digits
         type(cell_t) :: cell
 
+        cell%value = number
         cell%shown = short(number, digits)
         cell%json = json_number(number)
     end function number_cell
@@ -188,7 +207,7 @@ contains
         text = "-"
         if (.not. ieee_is_finite(number)) return
         exponent = 0
-        if (abs(number) > 0.0_dp) exponent = floor(log10(abs(number)))
+        if (abs(number) > 0.0_dp) exponent = floor(log10(abs(number)*(1.0_dp + epsilon(number))))
         if (exponent < -3 .or. exponent > 8) then
             write (layout, "(a, i0, a)") "(es20.", digits - 1, "e2)"
         else
@@ -198,6 +217,7 @@ contains
         write (buffer, layout) number
         text = trim(adjustl(buffer))
         if (text(len(text):) == ".") text = text(:len(text) - 1)
+        if (index(text, ".E") > 0) text = text(:index(text, ".E") - 1)//text(index(text, ".E") + 1:)
         if (index(text, "E") > 0) text(index(text, "E"):index(text, "E")) = "e"
         if (text(1:1) == ".") text = "0"//text
     end function short

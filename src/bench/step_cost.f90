@@ -135,7 +135,7 @@ contains
         integer :: i, count
 
         call problem%system%describe(d)
-        p = default_values(d)
+        allocate (p, source=default_values(d))
         steps = nint(duration/dt, i8)
         count = repetitions(1e-7_dp*steps, plan%shortest)
         start = ticks_now()
