@@ -160,7 +160,7 @@ contains
         call assertEqual("12.3", short(12.34_dp, 3))
         call assertEqual("0.0312", short(0.03123_dp, 3))
         call assertEqual("1.2e-13", short(1.23e-13_dp, 2))
-        call assertEqual("1e-06", short(1e-6_dp, 1))
+        call assertEqual("1e-6", short(1e-6_dp, 1))
         call assertEqual("0.00", short(0.0_dp, 3))
         call assertEqual("-0.50", short(-0.5_dp, 2))
         call assertEqual("1000", short(1000.0_dp, 3))

@@ -151,7 +151,7 @@ def charged_exact(p, q, v, t):
 
 # name, title, system, parameters, q, v, duration, (steps, order) twice, closed form
 PROBLEMS = [
-    ("oscillator", "oscillator, 32 periods", oscillator, [2.0, 8.0], [1.0], [0.4], 100.0,
+    ("oscillator", "32 periods", oscillator, [2.0, 8.0], [1.0], [0.4], 100.0,
      (50, 80), (80, 60), oscillator_exact),
     ("p1", "double pendulum, regular", double_pendulum, [1.0, 1.0, 1.0, 1.0, 9.81], [0.5, 0.8],
      [0.0, 0.0], 100.0, (2000, 50), (3000, 40), None),

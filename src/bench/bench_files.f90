@@ -20,8 +20,10 @@ module lagrangia_bench_files
     character(*), parameter :: file_name = "bench.dat"
     integer, parameter :: header_length = 200
     character(*), parameter :: blank_lines = new_line("a")//new_line("a")
-    character(7), parameter :: colours(10) = ["#1f77b4", "#d62728", "#2ca02c", "#ff7f0e", &
-        "#9467bd", "#17becf", "#8c564b", "#e377c2", "#bcbd22", "#555555"]
+    integer, parameter :: width = 1300, panel = 390, top = 40  !! pixels of the picture
+    character(7), parameter :: colours(16) = ["#1f77b4", "#ff7f0e", "#d62728", "#2ca02c", &
+        "#9467bd", "#17becf", "#8c564b", "#e377c2", "#bcbd22", "#7f7f7f", "#393b79", "#ff9896", &
+        "#6b8e23", "#00a087", "#b8860b", "#8b008b"]
 
 contains
 
@@ -125,30 +127,48 @@ contains
         type(curve_t), intent(in) :: curves(:)
         character(:), allocatable :: text
         type(lines_t) :: script
-        integer :: across, down, height, keys, i
-        character(40) :: margins
+        integer :: across, down, height, i, legend
 
         across = merge(1, 2, size(problems) == 1)
         down = (size(problems) + across - 1)/across
-        keys = 24*((size(methods) + 4)/5) + 20  ! pixels of the legend
-        height = 60 + 380*down + keys
-        call begin_script(script, file_name, 1300, height, 30*down)
+        legend = 24*((size(methods) + 4)/5) + 16
+        height = top + panel*down + legend
+        call begin_script(script, file_name, width, height, 30*down)
         do i = 1, size(methods)
             call script%add(style(i, methods(i)))
         end do
         call script%add("set grid lc rgb '#cccccc' lw 0.6 lt 1")
-        call script%add("set logscale xy; set format '10^{%L}'; set termoption enhanced")
-        write (margins, "(f6.4, a, f6.4, a)") (keys + 60.0)/height, ", ", 1.0 - 60.0/height
-        call script%add("set multiplot layout "//to_text(down)//","//to_text(across)// &
-                        " margins 0.07, 0.98, "//trim(margins)//" spacing 0.08, "// &
-                        short_real(90.0/height)//" title 'Run time against error at the end' "// &
-                        "noenhanced")
+        call script%add("set termoption enhanced; set logscale xy; set format '10^{%L}'")
+        call script%add("set xlabel 'time of a run [us]'; set ylabel 'largest error of q and v'")
+        call script%add("set multiplot title 'Run time against error at the end'")
         do i = 1, size(problems)
+            call place(modulo(i - 1, across), (i - 1)/across)
             call draw(i)
         end do
+        call draw_legend()
         call script%add("unset multiplot")
         text = script%text
     contains
+        subroutine place(column, row)
+            integer, intent(in) :: column, row
+            real :: left, upper
+
+            left = 90.0 + real((width - 10)*column)/across
+            upper = real(height - top - panel*row)
+            call put_margins(left, left + real(width - 10)/across - 110.0, upper - panel + 70.0, &
+                             upper - 20.0)
+        end subroutine place
+
+        subroutine put_margins(left, right, bottom, upper)
+            real, intent(in) :: left, right, bottom, upper  !! pixels
+            character(200) :: line
+
+            write (line, "(4(a, f6.4))") "set lmargin at screen ", left/width, &
+                "; set rmargin at screen ", right/width, "; set bmargin at screen ", &
+                bottom/height, "; set tmargin at screen ", upper/height
+            call script%add(trim(line))
+        end subroutine put_margins
+
         subroutine draw(which)
             integer, intent(in) :: which
             character(:), allocatable :: line
@@ -157,57 +177,58 @@ contains
             call script%add("set title '"//trim(problems(which)%name)//": "// &
                             trim(problems(which)%title)//", T = "// &
                             to_text(problems(which)%duration)//" s' noenhanced offset 0,-0.7")
-            call script%add("set xlabel 'time of a run [us]' noenhanced; "// &
-                            "set ylabel 'largest error of q and v' noenhanced offset 1,0")
-            call script%add("set xrange ["//limits(which)//"]; set yrange [1e-16:2]")
-            call script%add("unset key")
-            line = "plot "
-            if (which == 1) then
-                call script%add("set key at screen 0.5, screen "//short_real(keys/real(height))// &
-                                " center top horizontal maxcols 5 noenhanced samplen 3")
-                do k = 1, size(methods)
-                    line = line//"NaN with linespoints ls "//to_text(k)//" title '"// &
-                           trim(methods(k))//"', "
-                end do
-            end if
+            call script%add("set xrange ["//time_range(curves, which)//"]; set yrange [1e-16:2]")
+            line = ""
             do k = 1, size(curves)
                 if (curves(k)%problem_index /= which) cycle
+                if (line /= "") line = line//", "
                 line = line//"data index "//to_text(k - 1)//" using 6:($5 > 1.2e-16 ? $5 : "// &
                        "1.2e-16) with linespoints ls "// &
-                       to_text(findloc(methods, label(curves(k)), 1))//" notitle, "
+                       to_text(findloc(methods, label(curves(k)), 1))//" notitle"
             end do
-            call script%add(line(:len(line) - 2))
+            if (line /= "") call script%add("plot "//line)
         end subroutine draw
 
-        function limits(which) result(range)
-            integer, intent(in) :: which
-            character(:), allocatable :: range
-            real(dp) :: low, high
+        subroutine draw_legend()
+            character(:), allocatable :: line
             integer :: k
 
-            low = huge(low)
-            high = 0.0_dp
-            do k = 1, size(curves)
-                if (curves(k)%problem_index /= which) cycle
-                associate (p => curves(k)%points(:curves(k)%count))
-                    low = min(low, minval(p%seconds))
-                    high = max(high, maxval(p%seconds))
-                end associate
+            call put_margins(10.0, width - 10.0, 4.0, real(legend))
+            call script%add("unset logscale; unset border; unset tics; unset grid; unset title; "// &
+                            "unset xlabel; unset ylabel; set xrange [0:1]; set yrange [0:1]")
+            call script%add("set key center center horizontal maxcols 5 noenhanced samplen 3")
+            line = "plot "
+            do k = 1, size(methods)
+                if (k > 1) line = line//", "
+                line = line//"NaN with linespoints ls "//to_text(k)//" title '"// &
+                       trim(methods(k))//"'"
             end do
-            range = "*:*"
-            if (high <= 0.0_dp) return
-            range = to_text(10.0_dp**floor(log10(1e6_dp*low)))//":"// &
-                    to_text(10.0_dp**ceiling(log10(1e6_dp*high)))
-        end function limits
+            call script%add(line)
+        end subroutine draw_legend
     end function bench_script
 
-    pure function short_real(x) result(text)
-        !! A fraction of the picture.
-        real, intent(in) :: x
-        character(6) :: text
+    pure function time_range(curves, which) result(range)
+        !! Whole decades around the times of one problem, us.
+        type(curve_t), intent(in) :: curves(:)
+        integer, intent(in) :: which
+        character(:), allocatable :: range
+        real(dp) :: low, high
+        integer :: k
 
-        write (text, "(f6.4)") x
-    end function short_real
+        low = huge(low)
+        high = 0.0_dp
+        do k = 1, size(curves)
+            if (curves(k)%problem_index /= which) cycle
+            associate (p => curves(k)%points(:curves(k)%count))
+                low = min(low, minval(p%seconds))
+                high = max(high, maxval(p%seconds))
+            end associate
+        end do
+        range = "*:*"
+        if (high <= 0.0_dp) return
+        range = to_text(10.0_dp**floor(log10(1e6_dp*low)))//":"// &
+                to_text(10.0_dp**ceiling(log10(1e6_dp*high)))
+    end function time_range
 
     pure function style(i, method) result(line)
         !! Ours in colours, GSL's dashed and grey, the closed form a star.

@@ -5,7 +5,7 @@ module lagrangia_bench_problems
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
     use lagrangia_namelist, only: get_real, get_reals, get_string, namelist_t, parse_namelist, &
-                                  refuse_unknown_groups, refuse_unknown_keys
+                                  refuse_unknown_keys
     use lagrangia_namelist_file, only: read_whole_file
     use lagrangia_reference, only: reference_t
     use lagrangia_system, only: system_t
@@ -57,20 +57,14 @@ contains
         type(error_t), allocatable, intent(out) :: error
         type(namelist_t) :: tree
         character(:), allocatable :: text, group
-        character(name_length) :: system, groups(size(problem_names))
+        character(name_length) :: system
         real(dp), allocatable :: parameters(:)
-        integer :: i
 
         group = lower(name)
-        do i = 1, size(groups)
-            groups(i) = lower(problem_names(i))
-        end do
         read_group: block
             call read_whole_file(path, text, error)
             if (allocated(error)) exit read_group
             call parse_namelist(text, path, tree, error)
-            if (allocated(error)) exit read_group
-            call refuse_unknown_groups(tree, groups, error)
             if (allocated(error)) exit read_group
             call get_string(tree, group, "system", system, error, required=.true.)
             if (allocated(error)) exit read_group

@@ -4,6 +4,7 @@ module lagrangia_bench_table
     use lagrangia_json, only: json_number, json_string
     use lagrangia_kinds, only: dp, i8
     use lagrangia_precision_curve, only: not_known
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: bench_table_t, cell_t
@@ -218,7 +219,18 @@ contains
         text = trim(adjustl(buffer))
         if (text(len(text):) == ".") text = text(:len(text) - 1)
         if (index(text, ".E") > 0) text = text(:index(text, ".E") - 1)//text(index(text, ".E") + 1:)
-        if (index(text, "E") > 0) text(index(text, "E"):index(text, "E")) = "e"
+        if (index(text, "E") > 0) text = power(text, index(text, "E"))
         if (text(1:1) == ".") text = "0"//text
     end function short
+
+    pure function power(text, e) result(plain)
+        !! `1.2E-06` as `1.2e-6`; the `E` stands at `e`.
+        character(*), intent(in) :: text
+        integer, intent(in) :: e
+        character(:), allocatable :: plain
+        integer :: exponent
+
+        read (text(e + 1:), *) exponent
+        plain = text(:e - 1)//"e"//to_text(exponent)
+    end function power
 end module lagrangia_bench_table

@@ -22,7 +22,7 @@ contains
         logical, intent(in) :: quick
         type(effort_t) :: plan
 
-        if (quick) plan = effort_t(quick=.true., rounds=3, shortest=1e-3_dp, longest=0.01_dp, &
+        if (quick) plan = effort_t(quick=.true., rounds=3, shortest=1e-3_dp, longest=0.02_dp, &
                                    decades=2.0_dp)
     end function effort
 

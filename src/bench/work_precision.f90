@@ -17,6 +17,7 @@ module lagrangia_work_precision
     integer, parameter :: most_rungs = 48, most_rounds = 9
     real(dp), parameter :: longest_step = 2.0_dp        !! s: every problem turns in a few seconds
     real(dp), parameter :: loosest = 1e-2_dp, tightest = 1e-15_dp
+    integer, parameter :: attempts = 3                  !! before a run is called too long
     real(dp), parameter :: no_digit = 1.0_dp            !! an error that is not worth a point
 
     type :: point_t
@@ -98,7 +99,7 @@ contains
         type(error_t), allocatable :: error
         real(dp) :: q(problem%system%ndof), v(problem%system%ndof), setting, least, took
         integer(i8) :: start
-        integer :: idle, rung
+        integer :: attempt, idle, rung
 
         curve%problem = problem%name
         curve%method = contestant%name
@@ -109,11 +110,17 @@ contains
         do rung = 1, most_rungs
             call choose_setting(contestant, tolerances, plan, rung, setting)
             if (setting <= 0.0_dp) exit
-            call contestant%prepare(problem, setting, error)
-            if (allocated(error)) exit
-            start = ticks_now()
-            call contestant%solve(problem, q, v, error)
-            took = seconds_since(start)
+            if (contestant%knob == knob_step) setting = problem%duration/ &
+                ceiling(problem%duration/setting*(1.0_dp - epsilon(setting)), i8)
+            took = huge(took)
+            do attempt = 1, attempts
+                call contestant%prepare(problem, setting, error)
+                if (allocated(error)) return
+                start = ticks_now()
+                call contestant%solve(problem, q, v, error)
+                took = min(took, seconds_since(start))
+                if (took <= plan%longest .or. took > 10.0_dp*plan%longest) exit
+            end do
             if (took > plan%longest) exit
             if (allocated(error)) cycle
             associate (point => curve%points(curve%count + 1))
