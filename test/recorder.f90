@@ -12,9 +12,9 @@ module recorder
 
     type, extends(observer_t) :: recorder_t
         integer :: samples = 0, events = 0
-        real(dp) :: t(room) = 0.0_dp, q(room) = 0.0_dp, v(room) = 0.0_dp  !! first coordinate
-        integer :: event(room) = 0
-        real(dp) :: event_t(room) = 0.0_dp, event_q(room) = 0.0_dp, event_v(room) = 0.0_dp
+        real(dp), allocatable :: t(:), q(:), v(:)  !! of the first coordinate
+        integer, allocatable :: event(:)
+        real(dp), allocatable :: event_t(:), event_q(:), event_v(:)
     contains
         procedure :: observe
         procedure :: meet
@@ -28,6 +28,15 @@ contains
         real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
         type(error_t), allocatable, intent(out) :: error
 
+        if (.not. allocated(self%t)) then  ! the first sample comes before any event
+            allocate (self%t(room), source=0.0_dp)
+            allocate (self%event(room), source=0)
+            self%q = self%t
+            self%v = self%t
+            self%event_t = self%t
+            self%event_q = self%t
+            self%event_v = self%t
+        end if
         self%samples = self%samples + 1
         self%t(self%samples) = t
         self%q(self%samples) = q(1)

@@ -5,13 +5,13 @@ module test_bouncing_ball
     use lagrangia_bouncing_ball, only: bouncing_ball_t
     use lagrangia_bouncing_ball_reference, only: bouncing_ball_reference_t, &
                                                  new_bouncing_ball_reference
-    use lagrangia_catalogue, only: new_integrator
     use lagrangia_dense_run, only: run_dense
     use lagrangia_dop853, only: dop853_t, new_dop853
     use lagrangia_errors, only: error_t
     use lagrangia_events, only: contact_event_t, event_box_t, new_contact_event
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_methods, only: new_integrator
     use lagrangia_observer, only: observer_box_t
     use lagrangia_run, only: new_plan, new_sampled_plan, plan_t, run
     use lagrangia_stepwise, only: new_stepwise, stepwise_t
