@@ -2,6 +2,7 @@ module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
     use test_action, only: action_suite
+    use test_bench, only: bench_suite
     use test_bouncing_ball, only: bouncing_ball_suite
     use test_canonical, only: canonical_suite
     use test_cart_pendulum, only: cart_pendulum_suite
@@ -29,6 +30,7 @@ module suites
     use test_gauss_dense, only: gauss_dense_suite
     use test_gauss_tables, only: gauss_tables_suite
     use test_gsl, only: gsl_suite
+    use test_gsl_odeiv, only: gsl_odeiv_suite
     use test_harness, only: harness_suite
     use test_harness_order, only: harness_order_suite
     use test_hyperdual, only: hyperdual_suite
@@ -51,6 +53,7 @@ module suites
     use test_output_failures, only: output_failures_suite
     use test_output_file, only: output_file_suite
     use test_pendulum, only: pendulum_suite
+    use test_precision_curve, only: precision_curve_suite
     use test_period, only: period_suite
     use test_plan, only: plan_suite
     use test_principles, only: principles_suite
@@ -83,6 +86,7 @@ contains
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
         call suite%addTest(action_suite())
+        call suite%addTest(bench_suite())
         call suite%addTest(bouncing_ball_suite())
         call suite%addTest(canonical_suite())
         call suite%addTest(cart_pendulum_suite())
@@ -105,6 +109,7 @@ contains
         call suite%addTest(events_suite())
         call suite%addTest(exact_maps_suite())
         call suite%addTest(gauge_suite())
+        call suite%addTest(gsl_odeiv_suite())
         call suite%addTest(gauss_suite())
         call suite%addTest(gauss_adaptive_suite())
         call suite%addTest(gauss_dense_suite())
@@ -130,6 +135,7 @@ contains
         call suite%addTest(output_failures_suite())
         call suite%addTest(output_file_suite())
         call suite%addTest(pendulum_suite())
+        call suite%addTest(precision_curve_suite())
         call suite%addTest(period_suite())
         call suite%addTest(plan_suite())
         call suite%addTest(principles_suite())
