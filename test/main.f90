@@ -29,11 +29,13 @@ module suites
     use test_gauss_adaptive, only: gauss_adaptive_suite
     use test_gauss_dense, only: gauss_dense_suite
     use test_gauss_tables, only: gauss_tables_suite
+    use test_gnuplot, only: gnuplot_suite
     use test_gsl, only: gsl_suite
     use test_gsl_odeiv, only: gsl_odeiv_suite
     use test_harness, only: harness_suite
     use test_harness_order, only: harness_order_suite
     use test_hyperdual, only: hyperdual_suite
+    use test_integrator_orders, only: integrator_orders_suite
     use test_lanes, only: lanes_suite
     use test_lapack, only: lapack_suite
     use test_lapack_band, only: lapack_band_suite
@@ -114,8 +116,10 @@ contains
         call suite%addTest(gauss_adaptive_suite())
         call suite%addTest(gauss_dense_suite())
         call suite%addTest(gauss_tables_suite())
+        call suite%addTest(gnuplot_suite())
         call suite%addTest(gsl_suite())
         call suite%addTest(hyperdual_suite())
+        call suite%addTest(integrator_orders_suite())
         call suite%addTest(lanes_suite())
         call suite%addTest(lapack_suite())
         call suite%addTest(lapack_band_suite())
