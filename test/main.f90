@@ -55,9 +55,9 @@ module suites
     use test_output_failures, only: output_failures_suite
     use test_output_file, only: output_file_suite
     use test_pendulum, only: pendulum_suite
-    use test_precision_curve, only: precision_curve_suite
     use test_period, only: period_suite
     use test_plan, only: plan_suite
+    use test_precision_curve, only: precision_curve_suite
     use test_principles, only: principles_suite
     use test_processes, only: processes_suite
     use test_quadrature, only: quadrature_suite
@@ -111,13 +111,13 @@ contains
         call suite%addTest(events_suite())
         call suite%addTest(exact_maps_suite())
         call suite%addTest(gauge_suite())
-        call suite%addTest(gsl_odeiv_suite())
         call suite%addTest(gauss_suite())
         call suite%addTest(gauss_adaptive_suite())
         call suite%addTest(gauss_dense_suite())
         call suite%addTest(gauss_tables_suite())
         call suite%addTest(gnuplot_suite())
         call suite%addTest(gsl_suite())
+        call suite%addTest(gsl_odeiv_suite())
         call suite%addTest(hyperdual_suite())
         call suite%addTest(integrator_orders_suite())
         call suite%addTest(lanes_suite())
@@ -139,9 +139,9 @@ contains
         call suite%addTest(output_failures_suite())
         call suite%addTest(output_file_suite())
         call suite%addTest(pendulum_suite())
-        call suite%addTest(precision_curve_suite())
         call suite%addTest(period_suite())
         call suite%addTest(plan_suite())
+        call suite%addTest(precision_curve_suite())
         call suite%addTest(principles_suite())
         call suite%addTest(processes_suite())
         call suite%addTest(quadrature_suite())

@@ -76,14 +76,14 @@ contains
         do i = 2, size(gsl_methods)
             call solve("pendulum", trim(gsl_methods(i)), 0.0_dp, 1e-11_dp, [1.9_dp], [0.3_dp], &
                        5.0_dp, worst, evaluations)
-            call assertLessThan(worst, 1e-8_dp, trim(gsl_methods(i)))
+            call assertLessThan(worst, 1e-8_dp, message=trim(gsl_methods(i)))
             call solve("pendulum", trim(gsl_methods(i)), 0.0_dp, 1e-5_dp, [1.9_dp], [0.3_dp], &
                        5.0_dp, loose, evaluations)
-            call assertLessThan(worst, loose, trim(gsl_methods(i)))
+            call assertLessThan(worst, loose, message=trim(gsl_methods(i)))
             call solve("charged_particle", trim(gsl_methods(i)), 0.0_dp, 1e-11_dp, &
                        [0.1_dp, -0.2_dp, 0.3_dp], [0.7_dp, 0.4_dp, 0.1_dp], 5.0_dp, worst, &
                        evaluations)
-            call assertLessThan(worst, 1e-8_dp, trim(gsl_methods(i)))
+            call assertLessThan(worst, 1e-8_dp, message=trim(gsl_methods(i)))
         end do
     end subroutine adaptive_methods_are_right
 
