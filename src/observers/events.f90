@@ -112,8 +112,8 @@ contains
             case ("falling"); self%direction = -1
             case ("stop"); self%terminal = .true.
             case default
-                call fail(error, quoted(trim(words(i)))//" is none of rising, falling, stop; an "// &
-                          "event looks like "//example())
+                call fail(error, quoted(trim(words(i)))//" is none of rising, falling, stop; "// &
+                          "an event looks like "//example())
                 return
             end select
         end do

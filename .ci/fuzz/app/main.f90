@@ -134,7 +134,8 @@ contains
         type(scene_t), intent(in) :: scene
         real(dp), allocatable :: list(:)
 
-        list = [scene%dt, scene%tolerance, scene%duration, scene%t0, scene%q, scene%v, scene%parameters]
+        list = [scene%dt, scene%tolerance, scene%duration, scene%t0, scene%q, scene%v, &
+                scene%parameters]
     end function numbers
 
     subroutine try_words()
