@@ -5,7 +5,7 @@ module test_scene_files
     use lagrangia_catalogue, only: system_names
     use lagrangia_command_line, only: word_t
     use lagrangia_description, only: name_length
-    use lagrangia_errors, only: error_t, status_numbers
+    use lagrangia_errors, only: error_t, status_file, status_numbers
     use lagrangia_kinds, only: dp
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: from_half_step, outcome_t
@@ -31,6 +31,10 @@ contains
                                       what_is_not_asked_is_not_computed))
         call suite%addTest(TestMethod("a_blow_up_keeps_what_was_good", &
                                       a_blow_up_keeps_what_was_good))
+        call suite%addTest(TestMethod("a_column_that_overflows_ends_the_run", &
+                                      a_column_that_overflows_ends_the_run))
+        call suite%addTest(TestMethod("a_file_that_fails_is_a_failure", &
+                                      a_file_that_fails_is_a_failure))
     end function scene_files_suite
 
     subroutine every_scene_holds()
@@ -112,7 +116,7 @@ contains
         type(error_t), allocatable :: error
 
         call perform("&scene system='oscillator' method='verlet' dt=10 duration=10000 every=1 "// &
-                     "q=1 /", outcome, error)
+                     "q=1 columns='t','x' /", outcome, error)
         call assertTrue(allocated(error))
         if (.not. allocated(error)) return
         call assertEqual(status_numbers, error%status)
@@ -121,4 +125,45 @@ contains
         call assertTrue(abs(outcome%q(1)) < huge(1.0_dp))
         call assertEqual("failed", outcome%verdict())
     end subroutine a_blow_up_keeps_what_was_good
+
+    subroutine a_column_that_overflows_ends_the_run()
+        !! The energy does when the state is still finite: no such row is good, and no verdict on
+        !! a column with NaN is. State and time are those where it was seen.
+        type(outcome_t) :: outcome
+        type(error_t), allocatable :: error
+
+        call perform("&scene system='oscillator' method='verlet' dt=10 duration=10000 every=1 "// &
+                     "q=1 columns='t','energy','energy_drift' expect_energy_drift=1e300 /", &
+                     outcome, error)
+        call assertTrue(allocated(error), "it fails")
+        if (.not. allocated(error)) return
+        call assertEqual(status_numbers, error%status)
+        call assertEqual(1, index(error%message, "column 'energy' is not finite at t = "), &
+                         error%message)
+        call assertEqual("failed", outcome%verdict())
+        call assertEqual(10*int(outcome%rows), nint(outcome%t), "rows before it")
+        call assertTrue(abs(outcome%q(1)) > 1e150_dp .and. abs(outcome%q(1)) < huge(1.0_dp), &
+                        "the state is finite")
+        call assertTrue(outcome%drifts(1)%worst < huge(1.0_dp), "the worst of the good rows")
+    end subroutine a_column_that_overflows_ends_the_run
+
+    subroutine a_file_that_fails_is_a_failure()
+        !! Not a scene that holds, and there is no file to name.
+        class(system_t), allocatable :: system
+        class(observer_t), pointer :: nobody
+        type(scene_t) :: scene
+        type(outcome_t) :: outcome
+        type(error_t), allocatable :: error
+
+        nobody => null()
+        call parse_scene("&scene system='pendulum' dt=1e-2 duration=1 q=1 expect_error=1 /", &
+                         "s.nml", [word_t ::], scene, system, error)
+        call play(scene, system, "/dev/null", "text", nobody, outcome, error)
+        call assertTrue(allocated(error), "it fails")
+        if (.not. allocated(error)) return
+        call assertEqual(status_file, error%status)
+        call assertEqual("failed", outcome%verdict())
+        call assertEqual("", outcome%file)
+        call assertEqual(error%message, outcome%failure)
+    end subroutine a_file_that_fails_is_a_failure
 end module test_scene_files
