@@ -6,6 +6,7 @@ module suites
     use test_bouncing_ball, only: bouncing_ball_suite
     use test_canonical, only: canonical_suite
     use test_cart_pendulum, only: cart_pendulum_suite
+    use test_catalogue, only: catalogue_suite
     use test_charged_particle, only: charged_particle_suite
     use test_charged_particle_reference, only: charged_particle_reference_suite
     use test_columns, only: columns_suite
@@ -94,6 +95,7 @@ contains
         call suite%addTest(bouncing_ball_suite())
         call suite%addTest(canonical_suite())
         call suite%addTest(cart_pendulum_suite())
+        call suite%addTest(catalogue_suite())
         call suite%addTest(charged_particle_reference_suite())
         call suite%addTest(charged_particle_suite())
         call suite%addTest(columns_suite())
@@ -114,15 +116,15 @@ contains
         call suite%addTest(events_suite())
         call suite%addTest(exact_maps_suite())
         call suite%addTest(gauge_suite())
-        call suite%addTest(gauss_suite())
         call suite%addTest(gauss_adaptive_suite())
         call suite%addTest(gauss_dense_suite())
+        call suite%addTest(gauss_suite())
         call suite%addTest(gauss_suite())
         call suite%addTest(gauss_tables_suite())
         call suite%addTest(gnuplot_suite())
         call suite%addTest(gsl_odeiv_suite())
-        call suite%addTest(gsl_suite())
         call suite%addTest(gsl_odeiv_suite())
+        call suite%addTest(gsl_suite())
         call suite%addTest(hyperdual_suite())
         call suite%addTest(integrator_orders_suite())
         call suite%addTest(lanes_suite())
