@@ -6,6 +6,7 @@ module suites
     use test_bouncing_ball, only: bouncing_ball_suite
     use test_canonical, only: canonical_suite
     use test_cart_pendulum, only: cart_pendulum_suite
+    use test_catalogue, only: catalogue_suite
     use test_charged_particle, only: charged_particle_suite
     use test_charged_particle_reference, only: charged_particle_reference_suite
     use test_columns, only: columns_suite
@@ -20,6 +21,7 @@ module suites
     use test_dop853_coefficients, only: dop853_coefficients_suite
     use test_double_pendulum, only: double_pendulum_suite
     use test_driven_pendulum, only: driven_pendulum_suite
+    use test_echo, only: echo_suite
     use test_elliptic, only: elliptic_suite
     use test_errors, only: errors_suite
     use test_events, only: events_suite
@@ -69,6 +71,7 @@ module suites
     use test_run, only: run_suite
     use test_scene_files, only: scene_files_suite
     use test_scene_steps, only: scene_steps_suite
+    use test_scenes, only: scenes_suite
     use test_shadow, only: shadow_suite
     use test_sinc, only: sinc_suite
     use test_small_oscillations, only: small_oscillations_suite
@@ -92,8 +95,9 @@ contains
         call suite%addTest(bouncing_ball_suite())
         call suite%addTest(canonical_suite())
         call suite%addTest(cart_pendulum_suite())
-        call suite%addTest(charged_particle_suite())
+        call suite%addTest(catalogue_suite())
         call suite%addTest(charged_particle_reference_suite())
+        call suite%addTest(charged_particle_suite())
         call suite%addTest(columns_suite())
         call suite%addTest(command_line_suite())
         call suite%addTest(compensated_suite())
@@ -102,35 +106,38 @@ contains
         call suite%addTest(constant_accelerations_suite())
         call suite%addTest(constraints_suite())
         call suite%addTest(dense_run_suite())
-        call suite%addTest(dop853_suite())
         call suite%addTest(dop853_coefficients_suite())
+        call suite%addTest(dop853_suite())
         call suite%addTest(double_pendulum_suite())
         call suite%addTest(driven_pendulum_suite())
+        call suite%addTest(echo_suite())
         call suite%addTest(elliptic_suite())
         call suite%addTest(errors_suite())
         call suite%addTest(events_suite())
         call suite%addTest(exact_maps_suite())
         call suite%addTest(gauge_suite())
-        call suite%addTest(gauss_suite())
         call suite%addTest(gauss_adaptive_suite())
         call suite%addTest(gauss_dense_suite())
+        call suite%addTest(gauss_suite())
+        call suite%addTest(gauss_suite())
         call suite%addTest(gauss_tables_suite())
         call suite%addTest(gnuplot_suite())
-        call suite%addTest(gsl_suite())
         call suite%addTest(gsl_odeiv_suite())
+        call suite%addTest(gsl_odeiv_suite())
+        call suite%addTest(gsl_suite())
         call suite%addTest(hyperdual_suite())
         call suite%addTest(integrator_orders_suite())
         call suite%addTest(lanes_suite())
-        call suite%addTest(lapack_suite())
         call suite%addTest(lapack_band_suite())
+        call suite%addTest(lapack_suite())
         call suite%addTest(least_time_suite())
         call suite%addTest(method_refusals_suite())
         call suite%addTest(method_structure_suite())
         call suite%addTest(methods_suite())
-        call suite%addTest(namelist_suite())
         call suite%addTest(namelist_file_suite())
         call suite%addTest(namelist_limits_suite())
         call suite%addTest(namelist_refusals_suite())
+        call suite%addTest(namelist_suite())
         call suite%addTest(namelist_values_suite())
         call suite%addTest(npy_suite())
         call suite%addTest(number_text_suite())
@@ -146,13 +153,14 @@ contains
         call suite%addTest(processes_suite())
         call suite%addTest(quadrature_suite())
         call suite%addTest(rheonomic_suite())
-        call suite%addTest(rolling_disk_suite())
         call suite%addTest(rolling_disk_reference_suite())
+        call suite%addTest(rolling_disk_suite())
         call suite%addTest(roots_suite())
         call suite%addTest(rotating_reference_suite())
         call suite%addTest(run_suite())
         call suite%addTest(scene_files_suite())
         call suite%addTest(scene_steps_suite())
+        call suite%addTest(scenes_suite())
         call suite%addTest(shadow_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(small_oscillations_suite())

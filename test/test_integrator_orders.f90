@@ -100,7 +100,7 @@ contains
                     call go(method, system, q0, v0, k*steps, q, v)
                     errors(k) = max(maxval(abs(q - q_true)), maxval(abs(v - v_true)))
                 end do
-                if (errors(1) < 10.0_dp**(-7 - 0.25_dp*min(method%order, 6))) exit
+                if (errors(1) < 10.0_dp**(-min(3.0_dp + method%order, 8.5_dp))) exit
                 if (steps > 50000) exit
             end do
             call assertEqual(real(method%order, dp), log(errors(1)/errors(2))/log(2.0_dp), &

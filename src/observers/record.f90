@@ -1,13 +1,15 @@
 module lagrangia_record
     !! The observer that evaluates the columns, writes them down and remembers the worst.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_columns, only: columns_t
-    use lagrangia_errors, only: error_t
+    use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_t
     use lagrangia_reference, only: reference_t
     use lagrangia_shadow, only: distance, shadow_t
     use lagrangia_system, only: system_t
     use lagrangia_table, only: table_t
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: record_t
@@ -30,12 +32,14 @@ module lagrangia_record
 contains
 
     subroutine observe(self, system, t, q, v, error)
-        !! Evaluate, remember, write.
+        !! Evaluate, remember, write. A number that is none ends the run: it would be neither a
+        !! good row nor, since `min` and `max` pass over NaN, a bad verdict.
         class(record_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
         type(error_t), allocatable, intent(out) :: error
         real(dp) :: deviation, truth(system%ndof), ignored(system%ndof)
+        integer :: odd
 
         deviation = 0.0_dp
         if (allocated(self%reference)) then
@@ -50,11 +54,17 @@ contains
             allocate (self%low(size(self%row)), source=huge(t))
             allocate (self%high(size(self%row)), source=-huge(t))
         end if
+        self%time = t
         call self%columns%evaluate(system, t, q, v, deviation, self%row)
+        odd = findloc(ieee_is_finite(self%row), .false., 1)
+        if (odd > 0) then
+            call fail(error, "column '"//trim(self%columns%items(odd)%name)//"' is not finite "// &
+                      "at t = "//to_text(t)//" s", status_numbers)
+            return
+        end if
         self%low = min(self%low, self%row)
         self%high = max(self%high, self%row)
         if (allocated(self%table)) call self%table%row(self%row(:self%shown))
-        self%time = t
         self%rows = self%rows + 1
     end subroutine observe
 

@@ -73,6 +73,21 @@ contains
         class(observer_t), pointer, intent(in) :: watcher  !! hears the run go on; may be null
         type(outcome_t), intent(out) :: outcome
         type(error_t), allocatable, intent(out) :: error
+
+        call perform(scene, system, folder, format, watcher, outcome, error)
+        if (.not. allocated(error)) return
+        outcome%failure = error%message
+        if (error%status /= status_numbers) outcome%file = ""
+    end subroutine play
+
+    subroutine perform(scene, system, folder, format, watcher, outcome, error)
+        !! See `play`, which also says of a failure that it is one.
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        character(*), intent(in) :: folder, format
+        class(observer_t), pointer, intent(in) :: watcher
+        type(outcome_t), intent(out) :: outcome
+        type(error_t), allocatable, intent(out) :: error
         type(performance_t), target :: p
         type(observer_box_t) :: observers(4)
         type(error_t), allocatable :: file_error
@@ -101,8 +116,8 @@ contains
         if (associated(watcher)) call join(watcher)
         call timed_run(system, p, observers(:n), outcome, error)
         if (allocated(error)) then
-            outcome%failure = error%message
             outcome%t = p%record%time
+            if (p%record%rows == 0) outcome%t = scene%t0
             if (error%status /= status_numbers) then
                 call abandon_files(p%record)
                 if (allocated(p%event_record%table)) call p%event_record%table%file%abandon()
@@ -127,7 +142,7 @@ contains
             n = n + 1
             observers(n)%item => observer
         end subroutine join
-    end subroutine play
+    end subroutine perform
 
     subroutine timed_run(system, p, observers, outcome, error)
         !! The run itself, its final state and what it cost.

@@ -7,7 +7,8 @@ module lagrangia_scene
     private
     public :: scene_t, expectation_t, scene_lines, scene_line_length
 
-    integer, parameter :: scene_line_length = 512
+    integer, parameter :: scene_line_length = 512  !! what a single value may need
+    integer, parameter :: short_line = 100         !! a list goes on in the next line
 
     type :: expectation_t
         !! The scene's own tolerance: the column `name` stays within `limit`.
@@ -66,12 +67,12 @@ contains
         end if
         call add("  q = "//numbers(scene%q))
         call add("  v = "//numbers(scene%v))
-        call add("  columns = "//texts(scene%columns))
-        if (size(scene%plots) > 0) call add("  plot = "//texts(scene%plots))
+        call add_texts("columns", scene%columns)
+        call add_texts("plot", scene%plots)
         if (allocated(scene%events)) then
-            if (size(scene%events) > 0) call add("  event = "//texts(scene%events))
-            call add("  event_columns = "//texts(scene%event_columns))
-            if (size(scene%event_plots) > 0) call add("  event_plot = "//texts(scene%event_plots))
+            call add_texts("event", scene%events)
+            call add_texts("event_columns", scene%event_columns)
+            call add_texts("event_plot", scene%event_plots)
         end if
         if (scene%modes) call add("  modes = .true.")
         if (scene%period_of /= "") call add("  period_of = "//text_value(scene%period_of))
@@ -97,6 +98,25 @@ contains
 
             lines = [character(scene_line_length) :: lines, line]
         end subroutine add
+
+        subroutine add_texts(key, values)
+            !! `  columns = 't', 'theta'`, on as many lines as it takes; nothing without values.
+            character(*), intent(in) :: key, values(:)
+            character(:), allocatable :: line, item
+            integer :: i
+
+            line = "  "//key//" ="
+            do i = 1, size(values)
+                item = text_value(values(i))
+                if (i < size(values)) item = item//","
+                if (len(line) + len(item) > short_line .and. i > 1) then
+                    call add(line)
+                    line = "   "
+                end if
+                line = line//" "//item
+            end do
+            if (size(values) > 0) call add(line)
+        end subroutine add_texts
     end function scene_lines
 
     pure function numbers(values) result(text)
@@ -111,19 +131,6 @@ contains
             text = text//to_text(values(i))
         end do
     end function numbers
-
-    pure function texts(values) result(text)
-        !! `'t', 'theta'`.
-        character(*), intent(in) :: values(:)
-        character(:), allocatable :: text
-        integer :: i
-
-        text = ""
-        do i = 1, size(values)
-            if (i > 1) text = text//", "
-            text = text//text_value(values(i))
-        end do
-    end function texts
 
     pure function text_value(text) result(value)
         !! Between single quotes, those within doubled.

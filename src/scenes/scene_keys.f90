@@ -147,6 +147,11 @@ contains
                               coordinates(d), error)
             return
         end if
+        if (system%time_dependent .and. has_key(tree, "scene", "expect_energy_drift")) then
+            call refuse_value(tree, "scene", "expect_energy_drift", "the energy of this "// &
+                              trim(d%name)//" is not conserved, for L contains the time", error)
+            return
+        end if
         names = expectation_keys(system)
         allocate (scene%expectations(0))
         do i = 1, size(names)

@@ -1,0 +1,181 @@
+#!/usr/bin/env bash
+# The built program as a user types it: what it prints, the status it ends with, the files it leaves.
+# Give the program's path, or build it first: fpm build --profile release.
+set -u
+cd "$(dirname "$0")/.." || exit 2
+program=${1:-}
+if [ -z "$program" ]; then # the newest one; a release build by preference
+    for found in $(ls -t build/gfortran_*/app/lagrangia 2>/dev/null); do
+        program=${program:-$found}
+        if "$found" --version | grep -q ', optimised'; then
+            program=$found
+            break
+        fi
+    done
+fi
+[ -x "$program" ] || { echo "no program: fpm build --profile release"; exit 2; }
+program=$(realpath "$program")
+work=$(mktemp -d) || exit 2
+trap 'rm -rf "$work"' EXIT
+failures=0
+count=0
+
+check() { # check CLAIM COMMAND...: the claim holds if the command succeeds
+    count=$((count + 1))
+    if ("${@:2}") >/dev/null 2>&1; then
+        printf 'ok      %s\n' "$1"
+    else
+        printf 'FAILED  %s\n' "$1"
+        printf '        | %s\n' "status $status" "stdout: $(head -c 300 "$work/out")" "stderr: $(head -c 300 "$work/err")"
+        failures=$((failures + 1))
+    fi
+}
+
+run() { # run WORDS...: the program; its status, its stdout in $work/out, its stderr in $work/err
+    timeout 20 "$program" "$@" >"$work/out" 2>"$work/err" </dev/null
+    status=$?
+}
+
+one_line() { # one line on stderr, by us, and no backtrace
+    [ "$(wc -l <"$work/err")" -eq 1 ] && grep -q '^lagrangia: ' "$work/err" && ! grep -qi 'backtrace\|#0 ' "$work/err"
+}
+
+refuses() { # refuses STATUS TEXT WORDS...: one line on stderr with TEXT, nothing on stdout, this status
+    local text=$2
+    run "${@:3}"
+    check "status $1: ${*:3}" eval '[ $status -eq '"$1"' ] && one_line && [ ! -s "$work/out" ] && grep -qF -- "$text" "$work/err"'
+}
+
+leftovers() { # no temporary file anywhere below $work
+    [ -z "$(find "$work" -name '.lagrangia-*')" ]
+}
+
+json() { # json EXPRESSION: stdout is JSON, and the expression about it, in Python, is true
+    python3 -c 'import json, sys
+def no(text): raise ValueError(text)
+d = json.load(open(sys.argv[1]), parse_constant=no)
+sys.exit(0 if eval(sys.argv[2]) else 1)' "$work/out" "$1"
+}
+
+# The main job
+run --output "$work/all"
+check "main job: status 0" [ "$status" -eq 0 ]
+check "main job: nothing on stderr but remarks on steps" eval '! grep -v "steps (" "$work/err"'
+scenes=$(ls data/scenes/*.nml | wc -l)
+check "main job: a row a scene" eval '[ "$(grep -c " holds$" "$work/out")" -eq "$scenes" ]'
+check "main job: a data file and a script a scene" eval 'for f in data/scenes/*.nml; do f=${f##*/}; [ -s "$work/all/${f%.nml}.dat" ] && [ -s "$work/all/${f%.nml}.gp" ] || exit 1; done'
+check "main job: no temporary left" leftovers
+run --output "$work/again"
+check "the same bytes again" diff -r "$work/all" "$work/again"
+
+# run, its options
+run run cart_pendulum pendulum --output "$work/a b'c"
+check "run: two scenes, a folder with blank and quote" eval '[ $status -eq 0 ] && [ -s "$work/a b'"'"'c/pendulum.dat" ]'
+run run data/scenes/pendulum_separatrix.nml --output "$work/o" --set scene%plot=theta --set scene%duration=1 --set 'scene%output=my swing' --set scene%columns="'t','theta'" --set pendulum%l=2
+check "--set: scene, output with a blank, list, parameter" eval '[ $status -eq 0 ] && [ "$(grep -vc "^#" "$work/o/my swing.dat")" -eq 101 ] && grep -q "^#   l = 2.0$" "$work/o/my swing.dat"'
+check "text: the last header line names columns and units" eval '[ "$(grep "^#" "$work/o/my swing.dat" | tail -n 1)" = "# t[s] theta[rad]" ]'
+check "text: no time, date or place of the build" eval '! grep -E "20[0-9][0-9]-|[0-9]:[0-9]{2}:|$PWD|$HOME/" "$work/o/my swing.dat"'
+run run pendulum --format csv --output "$work/o"
+check "csv: a head and commas" eval '[ "$(head -n 1 "$work/o/pendulum.csv")" = "t,theta,energy_drift,error" ]'
+run run pendulum --format npy --output "$work/o"
+check "npy: NumPy's mark" eval '[ "$(head -c 6 "$work/o/pendulum.npy" | tail -c 5)" = NUMPY ]'
+run run pendulum --quiet --output "$work/o"
+check "--quiet: not a word" eval '[ $status -eq 0 ] && [ ! -s "$work/out" ] && [ ! -s "$work/err" ]'
+run run cart_pendulum atwood --json --output "$work/o"
+check "--json: the fields that were promised" json '[r["scene"] for r in d] == ["cart_pendulum", "atwood"] and all(set(r) >= set("scene system method t q v steps evaluations energy_drift error omega seconds verdict file".split()) for r in d)'
+check "--json: final state" json 'd[0]["t"] == 20 and len(d[0]["q"]) == 2 and abs(d[1]["q"][0] - 1.962*2) < 1e-12 and d[1]["error"] < 1e-13'
+run run rotating_hoop_rest driven_pendulum --json --output "$work/o"
+check "--json: null for what is not known" json 'd[0]["period"] is None and d[0]["energy_drift"] is None and d[1]["energy_drift"] is None and d[1]["error"] > 0'
+printf '%s\n' "&scene title='it''s \`touch $work/owned\` \$(touch $work/owned) \"; \\' system='pendulum' dt=1e-2 duration=1 q=1 /" >"$work/it's a swing.nml"
+run run "$work/it's a swing.nml" --set scene%output=swing --output "$work/o"
+check "a scene with blanks and a quote in its name" [ "$status" -eq 0 ]
+if command -v gnuplot >/dev/null; then
+    run run "$work/it's a swing.nml" --set scene%output=swing --output "$work/o" --plot=svg
+    check "--plot: a picture" eval '[ $status -eq 0 ] && grep -q "</svg>" "$work/o/swing.svg"'
+    check "--plot: a title is no command" [ ! -e "$work/owned" ]
+fi
+
+# words about
+run --help
+check "--help" eval '[ $status -eq 0 ] && grep -q "^usage: lagrangia" "$work/out" && [ ! -s "$work/err" ]'
+run run --help
+check "run --help" eval '[ $status -eq 0 ] && grep -q "^usage: lagrangia run SCENE" "$work/out"'
+run --version
+check "--version: version, compiler, build" eval '[ $status -eq 0 ] && grep -qE "^lagrangia [0-9.]+$" "$work/out" && grep -qE "GCC version .*optimised$" "$work/out"'
+run list
+check "list" eval '[ $status -eq 0 ] && grep -q "^systems$" "$work/out" && grep -q "^methods$" "$work/out" && grep -q "^scenes$" "$work/out"'
+run list scenes
+check "list scenes: one a line" eval '[ "$(wc -l <"$work/out")" -eq "$scenes" ]'
+systems=$("$program" list systems | cut -d' ' -f1)
+for system in $systems; do
+    run describe "$system"
+    [ "$status" -eq 0 ] && grep -q '^L =$' "$work/out" || { check "describe $system" false; }
+done
+check "describe: every system of the list" [ "$(wc -w <<<"$systems")" -ge 11 ]
+
+# status 1: a tolerance that does not hold
+run run pendulum --set scene%expect_error=1e-30 --output "$work/o"
+check "status 1: a tolerance is missed" eval '[ $status -eq 1 ] && one_line && grep -q "1 of 1 scenes did not hold" "$work/err" && grep -q "NOT error" "$work/out" && [ -s "$work/o/pendulum.dat" ]'
+
+# status 2: usage, scenes, parameters; before any file is touched
+refuses 2 "did you mean 'cart_pendulum'?" run cart_pendulm --output "$work/none"
+refuses 2 "did you mean 'columns'?" run pendulum --set scene%colums=t --output "$work/none"
+refuses 2 "unknown option '--quite'; did you mean '--quiet'?" --quite
+refuses 2 "unknown command 'rnu'; did you mean 'run'?" rnu
+refuses 2 "run what?" run
+refuses 2 "describe what?" describe
+refuses 2 "did you mean 'wedge'?" describe wegde
+refuses 2 "unknown format 'txt'" run pendulum --format txt
+refuses 2 "needs a value" run pendulum --set
+refuses 2 "these methods work" run cart_pendulum --set scene%method=verlet --output "$work/none"
+refuses 2 "alpha = 2: from 0.0 to pi/2 is needed" run wedge --set wedge%alpha=2 --output "$work/none"
+refuses 2 "another scene of this run writes the output" run pendulum pendulum_rotation --set scene%output=a --output "$work/none"
+check "status 2 leaves no folder" [ ! -e "$work/none" ]
+
+# status 3: the numbers fail; the good rows stay
+run run oscillator_verlet --set scene%dt=1.5 --set scene%duration=15000 --set scene%every=1 --output "$work/blown"
+check "status 3: the state overflows" eval '[ $status -eq 3 ] && grep -q "not finite at t = " "$work/err" && grep -q " failed$" "$work/out" && [ "$(grep -vc "^#" "$work/blown/oscillator_verlet.dat")" -gt 100 ]'
+check "status 3: no number in the file is odd" eval '! grep -v "^#" "$work/blown/oscillator_verlet.dat" | grep -qi "nan\|inf\|\*"'
+run run oscillator_verlet --json --set scene%dt=1.5 --set scene%duration=15000 --set scene%every=1 --output "$work/blown"
+check "status 3: --json is still JSON" json 'd[0]["verdict"] == "failed" and all(abs(x) < 1e308 for x in d[0]["q"])'
+
+# status 5: files
+refuses 5 "no such file" run "$work/none.nml"
+echo data >"$work/file"
+run run pendulum --output "$work/file"
+check "status 5: the output folder is a file" eval '[ $status -eq 5 ] && one_line && [ "$(cat "$work/file")" = data ]'
+run run pendulum --json --output "$work/file"
+check "status 5: --json says that it failed, and names no file" json 'd[0]["verdict"] == "failed" and d[0]["file"] is None'
+if [ -e /dev/full ]; then
+    "$program" list systems >/dev/full 2>"$work/err"
+    status=$?
+    check "status 5: stdout is full" eval '[ $status -eq 5 ] && one_line'
+fi
+"$program" list systems >&- 2>"$work/err"
+status=$?
+check "status 5: stdout is closed" eval '[ $status -eq 5 ] && one_line'
+mkdir "$work/kept"
+echo old >"$work/kept/pendulum.dat"
+(ulimit -f 8; "$program" run pendulum --output "$work/kept" >"$work/out" 2>"$work/err")
+status=$?
+check "status 5: the disk is full, and the old file unharmed" eval '[ $status -eq 5 ] && one_line && [ "$(cat "$work/kept/pendulum.dat")" = old ] && leftovers'
+
+# signals: in the middle of a long run
+interrupt() { # interrupt SIGNAL STATUS
+    "$program" run pendulum --set scene%duration=1e6 --set scene%every=1000 --output "$work/kept" >"$work/out" 2>"$work/err" &
+    local child=$! i
+    for i in $(seq 100); do # until its temporary file is there
+        [ -n "$(find "$work/kept" -name '.lagrangia-*')" ] && break
+        sleep 0.02
+    done
+    kill -"$1" "$child"
+    wait "$child"
+    status=$?
+    check "SIG$1: status $2, no file left, the old one unharmed" eval '[ $status -eq '"$2"' ] && one_line && leftovers && [ "$(cat "$work/kept/pendulum.dat")" = old ]'
+}
+set -m # else a shell lets its background jobs ignore SIGINT
+interrupt INT 130
+interrupt TERM 143
+
+echo "$count claims, $failures failed"
+exit $((failures > 0))
