@@ -136,21 +136,25 @@ contains
     end subroutine derivatives_are_differences
 
     subroutine verlet_is_stationary()
-        !! Half a step on, its points obey the discrete principle to rounding (16 roundings of
-        !! \(m\ell^2\theta/h^2\)); at whole steps, or with another mass in L, they do not.
+        !! The velocity form's points obey the discrete principle to rounding (16 roundings of
+        !! \(m\ell^2\theta/h^2\)); those of the position form half a step on, where it kicks, and
+        !! not at whole steps; with another step in L none do.
         type(pendulum_t) :: system
         type(walker_t) :: walker
         type(error_t), allocatable :: error
         real(dp), parameter :: h = 0.05_dp
-        real(dp) :: q(1, 200), v(1, 200), rounding
+        real(dp) :: q(1, 200), v(1, 200), points(1, 200), rounding
 
         call build(system, [1.3_dp, 0.7_dp, 9.81_dp])
         call walker%make("verlet", system, 0.0_dp, h, [0.4_dp], [5.0_dp], q, v, error)
         call assertFalse(allocated(error))
         rounding = 16.0_dp*epsilon(h)*1.3_dp*0.49_dp*maxval(abs(q))/h**2
         call assertLessThan(action_gradient(system, 0.0_dp, h, q + 0.5_dp*h*v), rounding)
+        call walker%make("velocity_verlet", system, 0.0_dp, h, [0.4_dp], [5.0_dp], points, v, error)
+        call assertFalse(allocated(error))
+        call assertLessThan(action_gradient(system, 0.0_dp, h, points), rounding)
         call assertGreaterThan(action_gradient(system, 0.0_dp, h, q), 1e9_dp*rounding)
-        call assertGreaterThan(action_gradient(system, 0.0_dp, 1.001_dp*h, q + 0.5_dp*h*v), &
+        call assertGreaterThan(action_gradient(system, 0.0_dp, 1.001_dp*h, points), &
                                1e9_dp*rounding)
     end subroutine verlet_is_stationary
 

@@ -4,7 +4,7 @@ module test_least_time
                      assertLessThan, assertRelativelyEqual
     use lagrangia_errors, only: error_t
     use lagrangia_graded_medium, only: graded_medium_t
-    use lagrangia_gsl, only: find_root
+    use lagrangia_gsl, only: brent_root
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: accelerations_from_lagrangian, energy_from_lagrangian
     use lagrangia_optical_paths, only: concave_mirror_t, elliptic_mirror_t, flat_mirror_t, &
@@ -83,7 +83,7 @@ contains
             call assertFalse(allocated(error))
             call assertEqual(s%n1*x/hypot(s%a, x), s%n2*(s%d - x)/hypot(s%b, s%d - x), 1e-14_dp)
             quartic%surface = s
-            call find_root(quartic, 0.0_dp, s%d, root, error)
+            call brent_root(quartic, 0.0_dp, s%d, root, error)
             call assertFalse(allocated(error))
             call assertEqual(x, root, 1e-13_dp)
         end do

@@ -6,6 +6,7 @@ module lagrangia_commands
     use lagrangia_errors, only: error_t
     use lagrangia_interrupt, only: catch_interrupts
     use lagrangia_list, only: list_command
+    use lagrangia_modes_command, only: modes_command
     use lagrangia_principle, only: principle_command
     use lagrangia_registry, only: check_line, commands, help_text, options
     use lagrangia_run_command, only: run_command
@@ -41,6 +42,7 @@ contains
             select case (commands(which)%name)
             case ("list"); call list_command(line, error)
             case ("describe"); call describe_command(line, error)
+            case ("modes"); call modes_command(line, error)
             case ("principle"); call principle_command(line, error)
             case default; call run_command(line, error)
             end select

@@ -4,6 +4,7 @@ module lagrangia_principle
     use lagrangia_catalogue, only: nth_system, system_names
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
+    use lagrangia_constraints, only: constraints_principle
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_gauge, only: gauge_principle
     use lagrangia_json, only: json_number, json_string
@@ -26,6 +27,7 @@ module lagrangia_principle
 
     type(principle_t), parameter :: principles(*) = [ &
         principle_t("action", "Hamilton: the actual path makes the action stationary"), &
+        principle_t("constraints", "holonomic or not, fixed or moving; degrees of freedom"), &
         principle_t("gauge", "uniqueness: L and L + dF/dt tell the same motion"), &
         principle_t("least-time", "Hero, Fermat: light takes a path of stationary time")]
 
@@ -77,6 +79,8 @@ contains
         select case (name)
         case ("action")
             call action_principle(walker, report, error)
+        case ("constraints")
+            call constraints_principle(walker, report, error)
         case ("gauge")
             call every_system(systems)
             call gauge_principle(systems, report, error)

@@ -9,7 +9,7 @@ module lagrangia_composition
     use lagrangia_errors, only: error_t, fail
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8, qp
-    use lagrangia_summation, only: add
+    use lagrangia_summation, only: add, add_pair
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -212,11 +212,12 @@ contains
         do k = first, first + steps - 1
             t = t0 + k*dt
             do s = 1, stages
-                call add(q, self%q_low, self%drift(s)*dt*v)
+                call add_pair(q, self%q_low, self%drift(s)*dt*v, self%drift(s)*dt*self%v_low)
                 call system%accelerations(t + self%node(s)*dt, q, v, self%a)
                 call add(v, self%v_low, self%kick(s)*dt*self%a)
             end do
-            call add(q, self%q_low, self%drift(stages + 1)*dt*v)
+            call add_pair(q, self%q_low, self%drift(stages + 1)*dt*v, &
+                          self%drift(stages + 1)*dt*self%v_low)
         end do
         self%evaluations = self%evaluations + steps*stages
         call remember(self, t0 + (first + steps)*dt, q, v)
@@ -240,11 +241,12 @@ contains
             t = t0 + k*dt
             do s = 1, stages - 1
                 call add(v, self%v_low, self%kick(s)*dt*self%a)
-                call add(q, self%q_low, self%drift(s)*dt*v)
+                call add_pair(q, self%q_low, self%drift(s)*dt*v, self%drift(s)*dt*self%v_low)
                 call system%accelerations(t + self%node(s)*dt, q, v, self%a)
             end do
             call add(v, self%v_low, self%kick(stages)*dt*self%a)
-            call add(q, self%q_low, self%drift(stages)*dt*v)
+            call add_pair(q, self%q_low, self%drift(stages)*dt*v, &
+                          self%drift(stages)*dt*self%v_low)
             call system%accelerations(t0 + (k + 1)*dt, q, v, self%a)
             call add(v, self%v_low, self%kick(stages + 1)*dt*self%a)
         end do

@@ -8,26 +8,10 @@ module lagrangia_gsl
         c_funptr, c_int, c_loc, c_ptr, c_size_t
     use lagrangia_errors, only: error_t, fail, status_library, status_numbers
     use lagrangia_kinds, only: dp
+    use lagrangia_roots, only: scalar_function_t
     implicit none (type, external)
     private
-    public :: function_t
-    public :: find_root, jacobi_sn_cn_dn
-
-    type, abstract :: function_t
-        !! A function of one variable; what else it depends on are components of its extension.
-    contains
-        procedure(value_i), deferred :: value
-    end type function_t
-
-    abstract interface
-        pure function value_i(self, x) result(y)
-            import :: dp, function_t
-            implicit none (type, external)
-            class(function_t), intent(in) :: self
-            real(dp), intent(in) :: x
-            real(dp) :: y
-        end function value_i
-    end interface
+    public :: brent_root, jacobi_sn_cn_dn
 
     type, bind(c) :: gsl_function_t
         !! GSL's own notion of a function: an address, and what to hand it beside `x`.
@@ -37,7 +21,7 @@ module lagrangia_gsl
 
     type :: box_t
         !! C knows no polymorphic pointers; it hands on the address of this.
-        class(function_t), pointer :: item => null()
+        class(scalar_function_t), pointer :: item => null()
     end type box_t
 
     interface
@@ -161,10 +145,10 @@ contains
         if (status /= 0) call fail(error, "elljac: GSL says: "//reason(status), status_library)
     end subroutine jacobi_sn_cn_dn
 
-    subroutine find_root(f, lower, upper, root, error)
+    subroutine brent_root(f, lower, upper, root, error)
         !! Where `f` vanishes between `lower` and `upper`, by Brent's method, as far as the rounding
         !! of `f` allows; fails unless its signs at the two ends differ.
-        class(function_t), target, intent(in) :: f
+        class(scalar_function_t), target, intent(inout) :: f
         real(dp), intent(in) :: lower, upper
         real(dp), intent(out) :: root
         type(error_t), allocatable, intent(out) :: error
@@ -174,17 +158,17 @@ contains
         type(c_ptr), pointer :: method
         integer(c_int) :: status
         integer :: i
-        real(dp) :: from, to
+        real(dp) :: from, to, f_lower, f_upper
 
         root = 0.0_dp
-        if (.not. (all(ieee_is_finite([lower, upper, f%value(lower), f%value(upper)])) &
-                   .and. lower < upper)) then
+        f_lower = f%value(lower)
+        f_upper = f%value(upper)
+        if (.not. (all(ieee_is_finite([lower, upper, f_lower, f_upper])) .and. lower < upper)) then
             call fail(error, "root: two ends, in order, and finite values there are needed", &
                       status_numbers)
             return
         end if
-        if (min(f%value(lower), f%value(upper)) > 0.0_dp .or. &
-            max(f%value(lower), f%value(upper)) < 0.0_dp) then
+        if (min(f_lower, f_upper) > 0.0_dp .or. max(f_lower, f_upper) < 0.0_dp) then
             call fail(error, "root: the function has one sign at both ends", status_numbers)
             return
         end if
@@ -213,7 +197,7 @@ contains
         else if (i > most_iterations) then
             call fail(error, "root: Brent's method does not converge", status_numbers)
         end if
-    end subroutine find_root
+    end subroutine brent_root
 
     function value_for_gsl(x, params) bind(c) result(y)
         !! What GSL calls.

@@ -2,9 +2,8 @@ module lagrangia_roots
     !! The root of a function between two points where its signs differ, to round-off.
     !!
     !! Chandrupatla's method: inverse quadratic interpolation where three points say that it is
-    !! safe, bisection elsewhere. GSL's solvers would do, but a program must name them by
-    !! variables of a C library (`gsl_root_fsolver_brent`), which Fortran cannot declare without
-    !! defining them: gfortran's definition hides the library's.
+    !! safe, bisection elsewhere. `brent_root` of `lagrangia_gsl` is GSL's; this one says on which
+    !! side of the root it ends, and no rounding of `f` makes it fail.
     !!
     !! Source: T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997) 145.
     use lagrangia_errors, only: error_t, fail, status_numbers

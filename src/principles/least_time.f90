@@ -5,7 +5,7 @@ module lagrangia_least_time
     !! longest one, an elliptic mirror makes all equal.
     use lagrangia_errors, only: error_t
     use lagrangia_graded_medium, only: graded_medium_t
-    use lagrangia_gsl, only: find_root
+    use lagrangia_gsl, only: brent_root
     use lagrangia_kinds, only: dp
     use lagrangia_optical_paths, only: concave_mirror_t, elliptic_mirror_t, flat_mirror_t, &
                                        optical_path_t, quartic_t, second_derivative, &
@@ -94,7 +94,7 @@ contains
         type(report_t), intent(inout) :: report
         real(dp), intent(out) :: x
         type(error_t), allocatable, intent(out) :: error
-        type(quartic_t), target :: snell
+        type(quartic_t) :: snell
         real(dp) :: root, straight
 
         x = 0.0_dp
@@ -102,7 +102,7 @@ contains
         call stationary_point(glass, 0.0_dp, glass%d, x, error)
         if (allocated(error)) return
         snell%surface = glass
-        call find_root(snell, 0.0_dp, glass%d, root, error)
+        call brent_root(snell, 0.0_dp, glass%d, root, error)
         if (allocated(error)) return
         associate (a => glass%a, b => glass%b, d => glass%d, n1 => glass%n1, n2 => glass%n2)
             call report%equal("crossing point, root of Snell's quartic  [m]", x, root, rounding)

@@ -2,16 +2,17 @@ module lagrangia_optical_paths
     use lagrangia_errors, only: error_t
     !! Optical paths from one point to another by way of a mirror or a surface, as functions of
     !! where the ray touches it.
-    use lagrangia_gsl, only: find_root, function_t
+    use lagrangia_gsl, only: brent_root
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-), sin, sqrt
     use lagrangia_kinds, only: dp
+    use lagrangia_roots, only: scalar_function_t
     implicit none (type, external)
     private
     public :: optical_path_t, flat_mirror_t, concave_mirror_t, elliptic_mirror_t, surface_t
     public :: quartic_t, second_derivative, stationary_point
 
-    type, abstract, extends(function_t) :: optical_path_t
+    type, abstract, extends(scalar_function_t) :: optical_path_t
         !! Its `value` is the path's derivative, which vanishes where the light goes.
     contains
         procedure(length_i), deferred :: length
@@ -60,7 +61,7 @@ module lagrangia_optical_paths
         procedure :: length => through_surface
     end type surface_t
 
-    type, extends(function_t) :: quartic_t
+    type, extends(scalar_function_t) :: quartic_t
         !! Snell's law squared and without fractions: its root is the crossing point too.
         type(surface_t) :: surface
     contains
@@ -69,9 +70,9 @@ module lagrangia_optical_paths
 
 contains
 
-    pure function derivative(self, x) result(y)
+    function derivative(self, x) result(y)
         !! Exact, by hyper-dual numbers.
-        class(optical_path_t), intent(in) :: self
+        class(optical_path_t), intent(inout) :: self
         real(dp), intent(in) :: x
         real(dp) :: y
         type(hyperdual_t) :: path
@@ -104,12 +105,14 @@ contains
 
     subroutine stationary_point(self, lower, upper, u, error)
         !! Where the derivative vanishes between `lower` and `upper`, by Brent's method.
-        class(optical_path_t), target, intent(in) :: self
+        class(optical_path_t), intent(in) :: self
         real(dp), intent(in) :: lower, upper
         real(dp), intent(out) :: u
         type(error_t), allocatable, intent(out) :: error
+        class(optical_path_t), allocatable :: path
 
-        call find_root(self, lower, upper, u, error)
+        allocate (path, source=self)
+        call brent_root(path, lower, upper, u, error)
     end subroutine stationary_point
 
     pure function by_flat_mirror(self, u) result(path)
@@ -154,10 +157,10 @@ contains
         path = self%n1*sqrt(self%a**2 + u**2) + self%n2*sqrt(self%b**2 + (self%d - u)**2)
     end function through_surface
 
-    pure function quartic(self, x) result(y)
+    function quartic(self, x) result(y)
         !! \((n_1^2-n_2^2)(x^4 - 2dx^3) + [n_1^2(b^2+d^2) - n_2^2(a^2+d^2)]x^2 + 2a^2dn_2^2x
         !! - a^2d^2n_2^2\).
-        class(quartic_t), intent(in) :: self
+        class(quartic_t), intent(inout) :: self
         real(dp), intent(in) :: x
         real(dp) :: y
 

@@ -221,7 +221,7 @@ contains
 
         line = left(scene, 26)//left(system, 17)//left(method, 8)//right(steps, 8)// &
                right(evaluations, 12)//"  "//left(drift, 23)//left(error, 18)//left(period, 14)// &
-               right(seconds, 7)//"  "//verdict
+               right(seconds, 8)//"  "//verdict
     end function cells
 
     pure function left(text, width) result(cell)

@@ -8,6 +8,7 @@ module lagrangia_system
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
+    use lagrangia_linearised, only: linearised_t
     use lagrangia_parameters, only: check_parameter, default_values
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -38,6 +39,7 @@ module lagrangia_system
         procedure :: positions => no_positions
         procedure :: constraint_rows => no_constraint_rows
         procedure :: complete_velocities
+        procedure :: linearise => nothing_by_hand
         procedure :: gap => no_gap
         procedure :: impact => no_impact
     end type system_t
@@ -189,6 +191,13 @@ contains
             a(i, :) = x_ddot
         end do
     end subroutine each_lane
+
+    pure subroutine nothing_by_hand(self, q, page)
+        !! The small oscillations about the equilibrium `q`, as derived by hand: here nothing is.
+        class(system_t), intent(in) :: self
+        real(dp), intent(in) :: q(self%ndof)
+        type(linearised_t), intent(out) :: page
+    end subroutine nothing_by_hand
 
     pure function no_quantity(self, i, t, q, v) result(value)
         !! Entry `i` of the quantities in the description: here there are none.

@@ -1,0 +1,290 @@
+module lagrangia_constraints
+    !! Holonomic or not, moving or not, and how many degrees of freedom: by computation.
+    !!
+    !! The notes call the disk nonholonomic because mixed partials differ. That shows only that the
+    !! form is not exact: \(y\,dx - x\,dy = 0\) fails the same test and is holonomic. What decides
+    !! is Frobenius' theorem: no integrating factor.
+    use lagrangia_double_pendulum, only: double_pendulum_t
+    use lagrangia_errors, only: error_t
+    use lagrangia_hyperdual, only: hyperdual, hyperdual_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_lapack_rank, only: matrix_rank
+    use lagrangia_lecture_constraints, only: classify, example_point, examples, &
+                                             lecture_constraint_t, new_constraint, radius, turning
+    use lagrangia_path_maker, only: path_maker_t
+    use lagrangia_report, only: report_t
+    use lagrangia_rolling_disk, only: rolling_disk_t
+    implicit none (type, external)
+    private
+    public :: constraints_principle
+    public :: loop_of_disk
+
+    real(dp), parameter :: rounding = 1e-13_dp  !! of a few operations on numbers of order 1
+
+contains
+
+    subroutine constraints_principle(maker, report, error)
+        !! All statements, and the picture.
+        class(path_maker_t), intent(in) :: maker
+        type(report_t), intent(out) :: report
+        type(error_t), allocatable, intent(out) :: error
+
+        call report%begin("constraints: which can be integrated to f(q, t) = c, and which move")
+        call exactness(report)
+        call integrability(report)
+        call moving(report)
+        call classes(report, error)
+        if (allocated(error)) return
+        call double_pendulum_configurations(report, error)
+        if (allocated(error)) return
+        call degrees_of_freedom(report, error)
+        if (allocated(error)) return
+        call disk_loop(maker, report, error)
+        if (allocated(error)) return
+        call report%note("d1: directions that are allowed; d2, d3: with those that mixing adds "// &
+                         "(Lie brackets).")
+        call report%note("Holonomic: d3 = d1. Where a constraint moves, the time is one more.")
+    end subroutine constraints_principle
+
+    subroutine exactness(report)
+        !! The notes' test, mixed partials; and why it does not decide.
+        type(report_t), intent(inout) :: report
+        real(dp) :: x(5)
+
+        x = example_point(4, 2)
+        call report%section("mixed partials, largest |dA_i/dq_j - dA_j/dq_i|: zero where exact")
+        call report%equal("double pendulum, f1", curl_of("double pendulum f1", 0), 0.0_dp, rounding)
+        call report%equal("double pendulum, f2", curl_of("double pendulum f2", 0), 0.0_dp, rounding)
+        call report%equal("Atwood's rope", curl_of("Atwood's rope", 0), 0.0_dp, rounding)
+        call report%equal("rotating wire, the time included", curl_of("rotating wire", 0), 0.0_dp, &
+                          rounding)
+        call report%equal("disk, dx - R sin(theta) dphi: R cos(theta)", &
+                          curl_of("disk, notes' dx", 0), radius*abs(cos(x(4))), rounding)
+        call report%equal("y dx - x dy = 0: 2", curl_of("y dx - x dy = 0", 0), 2.0_dp, rounding)
+        call report%equal("times 1/y^2: it is d(x/y), holonomic", &
+                          curl_of("y dx - x dy = 0", 2), 0.0_dp, rounding)
+        call report%equal("times 1/y: no integrating factor", curl_of("y dx - x dy = 0", 1), &
+                          0.0_dp, rounding, control=.true.)
+    contains
+        pure function curl_of(name, factor) result(largest)
+            character(*), intent(in) :: name
+            integer, intent(in) :: factor
+            real(dp) :: largest
+            type(lecture_constraint_t) :: constraint
+
+            call named(name, constraint)
+            constraint%factor = factor
+            largest = constraint%curl(example_point(constraint%coordinates, 2))
+        end function curl_of
+    end subroutine exactness
+
+    pure subroutine named(name, constraint)
+        !! The example of this name.
+        character(*), intent(in) :: name
+        type(lecture_constraint_t), intent(out) :: constraint
+
+        call new_constraint(constraint, examples(findloc(examples%name == name, .true., 1)))
+    end subroutine named
+
+    subroutine integrability(report)
+        !! Frobenius: da on what the constraints leave free, which no integrating factor changes.
+        type(report_t), intent(inout) :: report
+        type(lecture_constraint_t) :: forgetful
+        real(dp) :: x(5)
+
+        x = example_point(4, 2)
+        call report%section("Frobenius, largest da on allowed directions: zero where integrable")
+        call report%equal("y dx - x dy = 0", freedom_of("y dx - x dy = 0"), 0.0_dp, rounding)
+        call report%equal("rotating wire, the time included", freedom_of("rotating wire"), 0.0_dp, &
+                          rounding)
+        call report%equal("disk, steering locked", freedom_of("disk, steering locked"), 0.0_dp, &
+                          rounding)
+        call report%equal("disk, notes' dx: R cos(theta)", freedom_of("disk, notes' dx"), &
+                          radius*abs(cos(x(4))), rounding)
+        call report%equal("is the disk integrable?", freedom_of("disk, notes' dx"), 0.0_dp, &
+                          rounding, control=.true.)
+        call report%equal("dx - t dy = 0: 1", freedom_of("dx - t dy = 0"), 1.0_dp, rounding)
+        call named("dx - t dy = 0", forgetful)
+        forgetful%timed = .false.
+        call report%equal("dx - t dy = 0, the time forgotten", &
+                          forgetful%frobenius(example_point(2, 2)), 1.0_dp, rounding, &
+                          control=.true.)
+    contains
+        pure function freedom_of(name) result(largest)
+            character(*), intent(in) :: name
+            real(dp) :: largest
+            type(lecture_constraint_t) :: constraint
+
+            call named(name, constraint)
+            largest = constraint%frobenius(example_point(constraint%coordinates, 2))
+        end function freedom_of
+    end subroutine integrability
+
+    subroutine classes(report, error)
+        !! The verdicts, and the dimensions behind them.
+        type(report_t), intent(inout) :: report
+        type(error_t), allocatable, intent(out) :: error
+        type(lecture_constraint_t) :: constraint
+        character(26) :: verdict
+        integer :: i, growth, right
+
+        call report%section("classes as computed, with the growth of dimensions d1 d2 d3 as digits")
+        right = 0
+        do i = 1, size(examples)
+            call new_constraint(constraint, examples(i))
+            call classify(constraint, verdict, growth, error)
+            if (allocated(error)) return
+            if (verdict == examples(i)%class) right = right + 1
+            call report%equal(trim(examples(i)%name)//": "//verdict, real(growth, dp), &
+                              real(examples(i)%growth, dp), 0.0_dp)
+        end do
+        call report%equal("classes that are the lecture's", real(right, dp), &
+                          real(size(examples), dp), 0.0_dp)
+    end subroutine classes
+
+    subroutine moving(report)
+        !! Rheonomic: the coefficients or the surface move.
+        type(report_t), intent(inout) :: report
+        type(lecture_constraint_t) :: wire, rope
+        real(dp), parameter :: r = 2.0_dp, t = 0.4_dp
+
+        call report%section("scleronomic or rheonomic, largest |B|, |dA/dt|: zero where fixed")
+        call named("Atwood's rope", rope)
+        call report%equal("Atwood's rope", rope%motion(example_point(2, 2)), 0.0_dp, rounding)
+        call named("rotating wire", wire)
+        call report%equal("rotating wire at r = 2 m: B = -W r  [m/s]", &
+                          wire%motion([r*cos(turning*t), r*sin(turning*t), t]), turning*r, rounding)
+    end subroutine moving
+
+    subroutine double_pendulum_configurations(report, error)
+        !! f1 and f2 wherever the pendulum is; the notes' f2 is no constraint of it.
+        type(report_t), intent(inout) :: report
+        type(error_t), allocatable, intent(out) :: error
+        real(dp), parameter :: l1 = 0.9_dp, l2 = 1.7_dp
+        type(double_pendulum_t) :: pendulum
+        type(hyperdual_t) :: place(3, 2)
+        real(dp) :: f1, f2, wrong, r(3, 2)
+        integer :: k
+
+        call report%section("double pendulum, l1 = 0.9 m, l2 = 1.7 m: the worst of 20 places")
+        call pendulum%configure([1.3_dp, 0.7_dp, l1, l2, 9.81_dp], error)
+        if (allocated(error)) return
+        f1 = l1**2
+        f2 = l2**2
+        wrong = l2**2
+        do k = 1, 20
+            call pendulum%positions(hyperdual(0.0_dp), hyperdual([1.1_dp*k, 2.3_dp*k]), place)
+            r = place%re
+            call keep(f1, sum(r(:, 1)**2), l1**2)
+            call keep(f2, sum((r(:, 2) - r(:, 1))**2), l2**2)
+            call keep(wrong, sum(r(:, 2)**2), l2**2)
+        end do
+        call report%equal("f1 = x1^2 + y1^2 = l1^2  [m^2]", f1, l1**2, rounding)
+        call report%equal("f2 = (x2 - x1)^2 + (y2 - y1)^2 = l2^2  [m^2]", f2, l2**2, rounding)
+        call report%equal("the notes' f2 = x2^2 + y2^2 = l2^2  [m^2]", wrong, l2**2, rounding, &
+                          control=.true.)
+    end subroutine double_pendulum_configurations
+
+    pure subroutine keep(farthest, value, from)
+        !! The one of two that is farther from `from`.
+        real(dp), intent(inout) :: farthest
+        real(dp), intent(in) :: value, from
+
+        if (abs(value - from) > abs(farthest - from)) farthest = value
+    end subroutine keep
+
+    subroutine degrees_of_freedom(report, error)
+        !! 3n - k, k the number of independent rows of all constraints in Cartesian coordinates.
+        type(report_t), intent(inout) :: report
+        type(error_t), allocatable, intent(out) :: error
+        real(dp) :: two(4, 6), rope(5, 6), bead(2, 3)
+        integer :: k
+
+        call report%section("degrees of freedom, 3n - k, k: rank of all constraints of n particles")
+        two = 0.0_dp                               ! x1, y1, z1, x2, y2, z2
+        two(1, 3) = 1.0_dp                         ! z1 = 0
+        two(2, 6) = 1.0_dp                         ! z2 = 0
+        two(3, 1:2) = [0.6_dp, -0.7_dp]            ! f1
+        two(4, [1, 2, 4, 5]) = [-0.9_dp, 1.4_dp, 0.9_dp, -1.4_dp]  ! f2
+        call matrix_rank(two, k, error)
+        if (allocated(error)) return
+        call report%equal("double pendulum: 6 - 4", 6.0_dp - k, 2.0_dp, 0.0_dp)
+        rope = 0.0_dp                              ! both hang straight down, and share a rope
+        rope(1, 1) = 1.0_dp
+        rope(2, 3) = 1.0_dp
+        rope(3, 4) = 1.0_dp
+        rope(4, 6) = 1.0_dp
+        rope(5, [2, 5]) = 1.0_dp
+        call matrix_rank(rope, k, error)
+        if (allocated(error)) return
+        call report%equal("Atwood: 6 - 5", 6.0_dp - k, 1.0_dp, 0.0_dp)
+        bead(1, :) = [0.0_dp, 0.0_dp, 1.0_dp]
+        bead(2, :) = [-sin(0.6_dp), cos(0.6_dp), 0.0_dp]
+        call matrix_rank(bead, k, error)
+        if (allocated(error)) return
+        call report%equal("bead on the rotating wire: 3 - 2", 3.0_dp - k, 1.0_dp, 0.0_dp)
+        call matrix_rank(bead(:0, :), k, error)
+        if (allocated(error)) return
+        call report%equal("y > 0, an inequality: 3 - 0", 3.0_dp - k, 3.0_dp, 0.0_dp)
+    end subroutine degrees_of_freedom
+
+    subroutine disk_loop(maker, report, error)
+        !! Roll, steer, roll back, steer back: the angles are as before, the place is not.
+        class(path_maker_t), intent(in) :: maker
+        type(report_t), intent(inout) :: report
+        type(error_t), allocatable, intent(out) :: error
+        real(dp), parameter :: heading(2) = [0.4_dp, 1.5_dp], rolled = 5.0_dp  !! rad
+        real(dp), allocatable :: path(:, :)
+
+        call loop_of_disk(maker, heading, rolled, path, error)
+        if (allocated(error)) return
+        call report%section("disk, R = 0.3 m: roll by 5 rad, steer, roll back, steer back")
+        associate (last => path(:, size(path, 2)))
+            call report%equal("phi is as before  [rad]", last(4), 0.0_dp, rounding)
+            call report%equal("theta is as before  [rad]", last(5), heading(1), rounding)
+            call report%equal("x = -R (sin th2 - sin th1)(ph2 - ph1)  [m]", last(2), &
+                              -radius*(sin(heading(2)) - sin(heading(1)))*rolled, rounding)
+            call report%equal("y = R (cos th2 - cos th1)(ph2 - ph1)  [m]", last(3), &
+                              radius*(cos(heading(2)) - cos(heading(1)))*rolled, rounding)
+            call report%equal("is x as before?  [m]", last(2), 0.0_dp, &
+                              rounding, control=.true.)
+        end associate
+        report%picture%file = "principle_constraints"
+        report%picture%title = "A disk rolls, steers, rolls back, steers back, and is elsewhere"
+        report%picture%names = [character(32) :: "t", "x", "y", "phi", "theta"]
+        report%picture%units = [character(16) :: "s", "m", "m", "rad", "rad"]
+        report%picture%panels = [character(98) :: "x:y", "t:phi+theta"]
+        call move_alloc(path, report%picture%values)
+    end subroutine disk_loop
+
+    subroutine loop_of_disk(maker, heading, rolled, path, error)
+        !! Time, x, y, phi, theta along the loop, by RK4 on the rolling disk's equations.
+        class(path_maker_t), intent(in) :: maker
+        real(dp), intent(in) :: heading(2)  !! rad
+        real(dp), intent(in) :: rolled      !! rad
+        real(dp), allocatable, intent(out) :: path(:, :)
+        type(error_t), allocatable, intent(out) :: error
+        integer, parameter :: n = 50  !! steps of one second together
+        type(rolling_disk_t) :: disk
+        real(dp) :: q(4, n + 1), v(4, n + 1), start(4), speed(4), given(2, 4)
+        integer :: leg, k
+
+        call disk%configure([1.3_dp, radius, 0.06_dp, 0.03_dp, 9.81_dp, 0.0_dp], error)
+        if (allocated(error)) return
+        given = reshape([rolled, 0.0_dp, 0.0_dp, heading(2) - heading(1), -rolled, 0.0_dp, 0.0_dp, &
+                         heading(1) - heading(2)], [2, 4])
+        allocate (path(5, 4*n + 1))
+        start = [0.0_dp, 0.0_dp, 0.0_dp, heading(1)]
+        do leg = 1, 4
+            call disk%complete_velocities(0.0_dp, start, given(:, leg), speed, error)
+            if (allocated(error)) return
+            call maker%make("rk4", disk, 0.0_dp, 1.0_dp/n, start, speed, q, v, error)
+            if (allocated(error)) return
+            do k = 1, n + 1
+                path(1, (leg - 1)*n + k) = leg - 1 + (k - 1)/real(n, dp)
+                path(2:, (leg - 1)*n + k) = q(:, k)
+            end do
+            start = q(:, n + 1)
+        end do
+    end subroutine loop_of_disk
+end module lagrangia_constraints
