@@ -2,6 +2,7 @@ module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
     use test_action, only: action_suite
+    use test_bench, only: bench_suite
     use test_bouncing_ball, only: bouncing_ball_suite
     use test_canonical, only: canonical_suite
     use test_cart_pendulum, only: cart_pendulum_suite
@@ -13,8 +14,8 @@ module suites
     use test_compositions, only: compositions_suite
     use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
-    use test_dense_run, only: dense_run_suite
     use test_constraints, only: constraints_suite
+    use test_dense_run, only: dense_run_suite
     use test_dop853, only: dop853_suite
     use test_dop853_coefficients, only: dop853_coefficients_suite
     use test_dop853_steps, only: dop853_steps_suite
@@ -29,12 +30,13 @@ module suites
     use test_gauss_adaptive, only: gauss_adaptive_suite
     use test_gauss_dense, only: gauss_dense_suite
     use test_gauss_tables, only: gauss_tables_suite
-    use test_exact_maps, only: exact_maps_suite
-    use test_gauge, only: gauge_suite
+    use test_gnuplot, only: gnuplot_suite
     use test_gsl, only: gsl_suite
+    use test_gsl_odeiv, only: gsl_odeiv_suite
     use test_harness, only: harness_suite
     use test_harness_order, only: harness_order_suite
     use test_hyperdual, only: hyperdual_suite
+    use test_integrator_orders, only: integrator_orders_suite
     use test_lanes, only: lanes_suite
     use test_lapack, only: lapack_suite
     use test_lapack_band, only: lapack_band_suite
@@ -56,6 +58,7 @@ module suites
     use test_pendulum, only: pendulum_suite
     use test_period, only: period_suite
     use test_plan, only: plan_suite
+    use test_precision_curve, only: precision_curve_suite
     use test_principles, only: principles_suite
     use test_processes, only: processes_suite
     use test_quadrature, only: quadrature_suite
@@ -86,11 +89,12 @@ contains
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
         call suite%addTest(action_suite())
+        call suite%addTest(bench_suite())
         call suite%addTest(bouncing_ball_suite())
         call suite%addTest(canonical_suite())
         call suite%addTest(cart_pendulum_suite())
-        call suite%addTest(charged_particle_reference_suite())
         call suite%addTest(charged_particle_suite())
+        call suite%addTest(charged_particle_reference_suite())
         call suite%addTest(columns_suite())
         call suite%addTest(command_line_suite())
         call suite%addTest(compensated_suite())
@@ -109,23 +113,26 @@ contains
         call suite%addTest(events_suite())
         call suite%addTest(exact_maps_suite())
         call suite%addTest(gauge_suite())
+        call suite%addTest(gauss_suite())
         call suite%addTest(gauss_adaptive_suite())
         call suite%addTest(gauss_dense_suite())
-        call suite%addTest(gauss_suite())
         call suite%addTest(gauss_tables_suite())
+        call suite%addTest(gnuplot_suite())
         call suite%addTest(gsl_suite())
+        call suite%addTest(gsl_odeiv_suite())
         call suite%addTest(hyperdual_suite())
+        call suite%addTest(integrator_orders_suite())
         call suite%addTest(lanes_suite())
-        call suite%addTest(lapack_band_suite())
         call suite%addTest(lapack_suite())
+        call suite%addTest(lapack_band_suite())
         call suite%addTest(least_time_suite())
         call suite%addTest(method_refusals_suite())
         call suite%addTest(method_structure_suite())
         call suite%addTest(methods_suite())
+        call suite%addTest(namelist_suite())
         call suite%addTest(namelist_file_suite())
         call suite%addTest(namelist_limits_suite())
         call suite%addTest(namelist_refusals_suite())
-        call suite%addTest(namelist_suite())
         call suite%addTest(namelist_values_suite())
         call suite%addTest(npy_suite())
         call suite%addTest(number_text_suite())
@@ -136,12 +143,13 @@ contains
         call suite%addTest(pendulum_suite())
         call suite%addTest(period_suite())
         call suite%addTest(plan_suite())
+        call suite%addTest(precision_curve_suite())
         call suite%addTest(principles_suite())
         call suite%addTest(processes_suite())
         call suite%addTest(quadrature_suite())
         call suite%addTest(rheonomic_suite())
-        call suite%addTest(rolling_disk_reference_suite())
         call suite%addTest(rolling_disk_suite())
+        call suite%addTest(rolling_disk_reference_suite())
         call suite%addTest(roots_suite())
         call suite%addTest(rotating_reference_suite())
         call suite%addTest(run_suite())

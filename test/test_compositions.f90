@@ -14,11 +14,13 @@ module test_compositions
     private
     public :: compositions_suite
 
+    integer, parameter :: most_kicks = 18
+
     type :: tree_t
         !! One of Nystrom's trees; see `nystrom_defect`.
         integer :: order = 0
         real(qp) :: g = 0.0_qp
-        real(qp), allocatable :: phi(:)
+        real(qp) :: phi(most_kicks) = 0.0_qp
     end type tree_t
 
 contains
@@ -145,7 +147,8 @@ contains
         worst = 0.0_dp
         do i = 1, size(trees)
             if (trees(i)%order < lowest) cycle
-            worst = max(worst, real(abs(sum(row%kick*trees(i)%phi) - trees(i)%g), dp))
+            worst = max(worst, real(abs(sum(row%kick*trees(i)%phi(:size(row%kick))) &
+                                        - trees(i)%g), dp))
         end do
     end function nystrom_defect
 
@@ -155,17 +158,21 @@ contains
         real(qp), intent(in) :: phi(:), g, c(:), a(:, :)
         integer, intent(in) :: degree, first, order
         type(tree_t), allocatable, intent(inout) :: trees(:)
+        type(tree_t) :: tree
         integer :: k, known
 
         known = size(trees)
         if (degree + 1 == order) then
-            trees = [trees, tree_t(order, g/order, phi)]
+            tree%order = order
+            tree%g = g/order
+            tree%phi(:size(phi)) = phi
+            trees = [trees, tree]
             return
         end if
         if (first == 0) call extend_tree(phi*c, degree + 1, g, 0, order, c, a, trees)
         do k = max(first, 1), known
             if (degree + trees(k)%order + 2 > order) cycle
-            call extend_tree(phi*matmul(a, trees(k)%phi), degree + trees(k)%order + 1, &
+            call extend_tree(phi*matmul(a, trees(k)%phi(:size(phi))), degree + trees(k)%order + 1, &
                              g*trees(k)%g/(trees(k)%order + 1), k, order, c, a, trees)
         end do
     end subroutine extend_tree
