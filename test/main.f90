@@ -19,6 +19,7 @@ module suites
     use test_dense_run, only: dense_run_suite
     use test_dop853, only: dop853_suite
     use test_dop853_coefficients, only: dop853_coefficients_suite
+    use test_dop853_steps, only: dop853_steps_suite
     use test_double_pendulum, only: double_pendulum_suite
     use test_driven_pendulum, only: driven_pendulum_suite
     use test_echo, only: echo_suite
@@ -108,6 +109,7 @@ contains
         call suite%addTest(dense_run_suite())
         call suite%addTest(dop853_coefficients_suite())
         call suite%addTest(dop853_suite())
+        call suite%addTest(dop853_steps_suite())
         call suite%addTest(double_pendulum_suite())
         call suite%addTest(driven_pendulum_suite())
         call suite%addTest(echo_suite())

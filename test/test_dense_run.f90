@@ -29,6 +29,7 @@ contains
         call suite%addTest(TestMethod("more samples cost no evaluations", samples_are_free))
         call suite%addTest(TestMethod("samples lie where the plan has them", sample_times))
         call suite%addTest(TestMethod("events leave fixed steps as they are", same_steps))
+        call suite%addTest(TestMethod("as many steps are taken as the duration has", whole_steps))
         call suite%addTest(TestMethod("between fixed steps the error is of order 6", &
                                       interpolation_order))
     end function dense_run_suite
@@ -118,8 +119,31 @@ contains
         call assertEqual(5*134_i8 + 1, stepwise%evaluations, message="evaluations")
     end subroutine same_steps
 
+    subroutine whole_steps()
+        !! `n` steps of `duration/n` are `n`, whichever way the quotient and the product round.
+        type(pendulum_t) :: system
+        type(rk4_t) :: rk4
+        type(stepwise_t) :: method
+        type(error_t), allocatable :: error
+        real(dp), parameter :: duration = 0.7_dp
+        integer :: n
+
+        call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
+        call new_rk4(rk4)
+        do n = 1, 100
+            call new_stepwise(method, rk4, duration/n)
+            call method%prepare(system, error)
+            call method%start(system, 0.1_dp, [1.0_dp], [2.0_dp], 0.1_dp + duration)
+            do while (method%t_new < method%t_end)
+                call method%step(system, error)
+            end do
+            call assertEqual(n, int(method%accepted), message="steps")
+            call assertEqual(0.1_dp + duration, method%t_new, message="the end")
+        end do
+    end subroutine whole_steps
+
     subroutine interpolation_order()
-        !! One step of `dop853`, which is as good as exact here, and the quintic within it.
+        !! Two steps of `dop853`, which is as good as exact here, and the quintic in the second.
         type(pendulum_t) :: system
         type(pendulum_reference_t) :: reference
         type(dop853_t) :: exact
@@ -139,9 +163,10 @@ contains
             call method%prepare(system, error)
             call method%start(system, 0.0_dp, [1.0_dp], [0.5_dp], 1.0_dp)
             call method%step(system, error)
+            call method%step(system, error)
             do k = 1, 9
-                call method%state_at(0.1_dp*k*h, q, v)
-                call reference%state_at(0.1_dp*k*h, q_true, v_true)
+                call method%state_at((1 + 0.1_dp*k)*h, q, v)
+                call reference%state_at((1 + 0.1_dp*k)*h, q_true, v_true)
                 errors(1, i) = max(errors(1, i), abs(q(1) - q_true(1)))
                 errors(2, i) = max(errors(2, i), abs(v(1) - v_true(1)))
             end do

@@ -2,11 +2,17 @@ module test_events
     !! Events on the dense output, against closed forms.
     use event_runs, only: find
     use funit, only: anyExceptions, assertEqual, assertLessThan, assertTrue, TestMethod, TestSuite
+    use lagrangia_dense_run, only: run_dense
     use lagrangia_errors, only: error_t
-    use lagrangia_kinds, only: dp
+    use lagrangia_events, only: column_event_t, event_box_t, new_column_event
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_observer, only: observer_box_t
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_pendulum, only: pendulum_t
     use lagrangia_pendulum_reference, only: new_pendulum_reference, pendulum_reference_t
+    use lagrangia_rk4, only: new_rk4, rk4_t
+    use lagrangia_run, only: new_plan, plan_t
+    use lagrangia_stepwise, only: new_stepwise, stepwise_t
     use recorder, only: recorder_t
     implicit none (type, external)
     private
@@ -24,6 +30,8 @@ contains
         call suite%addTest(TestMethod("a direction is kept to", directions))
         call suite%addTest(TestMethod("several events in a step come in order", several))
         call suite%addTest(TestMethod("a zero at the start is no event", zero_at_start))
+        call suite%addTest(TestMethod("a zero just where signs are looked at counts once", &
+                                      zero_at_place))
         call suite%addTest(TestMethod("no change of sign is no error", no_change))
         call suite%addTest(TestMethod("a terminal event ends the run", terminal))
         call suite%addTest(TestMethod("a string goes slack where it should", slack))
@@ -129,6 +137,36 @@ contains
         call oscillate(["x_dot"], 1.0_dp, 0.0_dp, 7.0_dp, 1e-13_dp, record, ended)
         call assertEqual([pi, 2*pi], record%event_t(:2), 1e-12_dp, "turning points")
     end subroutine zero_at_start
+
+    subroutine zero_at_place()
+        !! Without gravity, with steps of 1: theta = t - 1/2 is zero at the fourth of the eight
+        !! places in a step, theta = t - 1 where two steps meet.
+        type(pendulum_t) :: system
+        type(rk4_t) :: rk4
+        type(stepwise_t) :: method
+        type(recorder_t), target :: record
+        type(column_event_t) :: event
+        type(event_box_t) :: events(2)
+        type(observer_box_t) :: observers(1)
+        type(plan_t) :: plan
+        type(error_t), allocatable :: error
+        real(dp) :: q(1), v(1), ended
+
+        call system%configure([1.0_dp, 1.0_dp, 0.0_dp], error)
+        call new_column_event(event, "theta = 0.5", system, error)
+        allocate (events(1)%item, source=event)
+        call new_column_event(event, "theta = 1", system, error)
+        allocate (events(2)%item, source=event)
+        observers(1)%item => record
+        call new_rk4(rk4)
+        call new_stepwise(method, rk4, 1.0_dp)
+        call new_plan(plan, 0.0_dp, 1.0_dp, 3.0_dp, 1_i8, error)
+        q = 0.0_dp
+        v = 1.0_dp
+        call run_dense(system, method, plan, events, observers, q, v, ended, error)
+        call assertEqual(2, record%events, message="number")
+        call assertEqual([0.5_dp, 1.0_dp], record%event_t(:2), epsilon(1.0_dp), "times")
+    end subroutine zero_at_place
 
     subroutine no_change()
         type(recorder_t) :: record

@@ -80,7 +80,6 @@ contains
                     if (allocated(error)) return
                 end do
                 stopped = event%terminal
-                restarted = restarted .and. watch%t < t_end
             end associate
             if (stopped) then
                 if (watch%t > ended) call show(watch%t, watch%q, watch%v)
