@@ -159,6 +159,8 @@ contains
                 setting = loosest*10.0_dp**(-plan%decades*(rung - 1))
                 if (setting < 0.9_dp*tightest) setting = 0.0_dp
             end if
+        case default
+            setting = 0.0_dp
         end select
     end subroutine choose_setting
 
