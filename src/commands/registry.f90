@@ -19,7 +19,7 @@ module lagrangia_registry
 
     type(option_t), parameter :: options(*) = [ &
         option_t("set", needs_value, "GROUP%KEY=VALUE", "override a scene's value; repeatable"), &
-        option_t("at", needs_value, "Q1,Q2,...", "the equilibrium (default: all zero, or near it)"), &
+        option_t("at", needs_value, "Q1,Q2,...", "the equilibrium (default: at or near zero)"), &
         option_t("output", needs_value, "DIR", "where data files go (default data/output)"), &
         option_t("format", needs_value, "text|csv|npy", "of the data files"), &
         option_t("plot", may_have_value, "svg|png", "draw the data files by gnuplot"), &
@@ -38,7 +38,7 @@ module lagrangia_registry
                   "set output format plot json quiet"), &
         command_t("run", "SCENE...", "the same for .nml files, or shipped scenes by name", -1, &
                   "set output format plot json quiet"), &
-        command_t("modes", "SYSTEM", "small oscillations: M, K, frequencies, shapes, closed form", 1, &
+        command_t("modes", "SYSTEM", "small oscillations: M, K, frequencies, shapes", 1, &
                   "set at output json quiet"), &
         command_t("principle", "[NAME]", "both sides of a variational principle, in numbers", 1, &
                   "output plot json"), &

@@ -75,8 +75,9 @@ contains
             call normal_modes(k, m, modes%omega2, modes%shapes, error)
         end if
         if (allocated(error)) return
-        if (modes%ratio < 0.0_dp .and. .not. any(abs(g) > 0.0_dp)) &
+        if (.not. any(abs(g) > 0.0_dp)) then
             modes%ratio = residual_ratio(k, m, modes%omega2, modes%shapes)
+        end if
         call put_labels(modes)
     end subroutine find_modes
 
@@ -92,8 +93,8 @@ contains
             call fail(error, "--at takes "//to_text(system%ndof)//" values for "//trim(d%name)// &
                       ", not "//to_text(size(start)))
         else if (system%constraints > 0) then
-            call fail(error, trim(d%name)//" has non-holonomic constraints: steady motions, but "// &
-                      "no modes about an equilibrium")
+            call fail(error, trim(d%name)//" has non-holonomic constraints: steady motions, "// &
+                      "but no modes about an equilibrium")
         else if (system%time_dependent) then
             call fail(error, "the Lagrangian of this "//trim(d%name)//" contains the time: it "// &
                       "has no equilibrium to oscillate about")
@@ -241,8 +242,9 @@ contains
         allocate (modes%omega2(n), modes%shapes(n, n))
         do j = 1, n
             modes%omega2(j) = aimag(lambda(j))**2
-            if (abs(real(lambda(j))) > 1e-7_dp*maxval(abs(lambda))) &
+            if (abs(real(lambda(j))) > 1e-7_dp*maxval(abs(lambda))) then
                 modes%omega2(j) = -real(lambda(j))**2
+            end if
             modes%shapes(:, j) = real(shapes(:, j), dp)
         end do
     end subroutine solve_gyroscopic
@@ -255,8 +257,9 @@ contains
 
         n = size(modes%omega2)
         threshold = 0.0_dp
-        if (.not. allocated(modes%page%root)) &
+        if (.not. allocated(modes%page%root)) then
             threshold = 16*n*epsilon(threshold)*maxval(abs(modes%omega2))
+        end if
         allocate (modes%label(n), source=is_oscillation)
         where (modes%omega2 < 0.0_dp) modes%label = is_unstable
         where (abs(modes%omega2) <= threshold) modes%label = is_zero_mode

@@ -18,7 +18,7 @@ module lagrangia_modes_files
 contains
 
     subroutine write_mode(system, modes, j, folder, error)
-        !! `SYSTEM_mode_J.dat`: the equilibrium plus a tenth of the shape times \(\cos\omega t\) over
+        !! `SYSTEM_mode_J.dat`: the equilibrium plus a tenth of the shape by \(\cos\omega t\) over
         !! a period, \(\cosh\) over two growth times, or \(t\) over one second of a zero mode.
         class(system_t), intent(in) :: system
         type(modes_t), intent(in) :: modes
