@@ -55,7 +55,7 @@ contains
         output%json = line%has("json")
         output%quiet = line%has("quiet")
         if (output%json) call put_line("[")
-        call output%say("build: "//build_text())
+        call output%say("build: "//build_text(brief=.true.))
         call output%say("processor: "//processor())
         call new_goals(goals)
         do i = 1, size(parts)
