@@ -171,9 +171,7 @@ contains
     function broken(t, y, rates, context) bind(c) result(status)
         !! A right-hand side that fails: GSL_EBADFUNC.
         real(c_double), value :: t
-        ! allow(assumed-size): C gives the address of the first element
         real(c_double), intent(in) :: y(*)
-        ! allow(assumed-size): as `y`
         real(c_double), intent(inout) :: rates(*)
         type(c_ptr), value :: context
         integer(c_int) :: status
