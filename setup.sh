@@ -2,7 +2,7 @@
 # Make this machine ready to build and run lagrangia; what is already there is left alone.
 #
 #   ./setup.sh          compiler, LAPACK, BLAS, GSL, gnuplot and fpm
-#   ./setup.sh --dev    the same, and the lint tools of .ci/run
+#   ./setup.sh --dev    the same, and the tools of .ci/run: two for lint, valgrind
 #
 # Debian and its relatives: missing libraries come from apt-get (as root, or through sudo), fpm and
 # the lint tools from pip into a virtual environment of their own. Elsewhere it says what to install.
@@ -83,6 +83,7 @@ find_missing() {
     if $dev; then
         tool_is_fine fortitude || missing_tools+=(fortitude)
         tool_is_fine findent || missing_tools+=(findent)
+        has valgrind || missing_packages+=(valgrind)
     fi
     if [ ${#missing_tools[@]} -gt 0 ] && [ -z "$(find_python)" ]; then
         missing_packages+=(python3-venv)

@@ -77,7 +77,7 @@ contains
         integer :: i, n
 
         lines(1) = "lagrangia "//version//": run time against error at the end"
-        lines(2) = "build: "//build_text()
+        lines(2) = "build: "//build_text(brief=.true.)
         lines(3) = "processor: "//processor()
         n = 3
         do i = 1, size(problems)
@@ -156,8 +156,7 @@ contains
             left = 90.0_dp + real((width - 10)*column, dp)/across
             upper = real(height - top - panel*row, dp)
             call put_margins(left, left + real(width - 10, dp)/across - 110.0_dp, &
-                    upper - panel + 70.0_dp, &
-                             upper - 20.0_dp)
+                             upper - panel + 70.0_dp, upper - 20.0_dp)
         end subroutine place
 
         subroutine put_margins(left, right, bottom, upper)
@@ -195,9 +194,8 @@ contains
             integer :: k
 
             call put_margins(10.0_dp, width - 10.0_dp, 4.0_dp, real(legend, dp))
-            call script%add("unset logscale; unset border; unset tics; unset grid; unset "// &
-                    "title; "// &
-                            "unset xlabel; unset ylabel; set xrange [0:1]; set yrange [0:1]")
+            call script%add("unset logscale; unset border; unset tics; unset grid; unset title")
+            call script%add("unset xlabel; unset ylabel; set xrange [0:1]; set yrange [0:1]")
             call script%add("set key center center horizontal maxcols 5 noenhanced samplen 3")
             line = "plot "
             do k = 1, size(methods)

@@ -68,6 +68,7 @@ contains
         real(dp), allocatable :: p(:), q(:), v(:)
         integer(i8) :: start
         real(dp) :: seconds
+        logical :: fresh
 
         call new_system(name, system, error)
         if (allocated(error)) return
@@ -84,7 +85,7 @@ contains
         if (allocated(error)) return
         allocate (q(system%ndof), source=0.1_dp)
         allocate (v(system%ndof), source=0.0_dp)
-        call forget_peak_memory()
+        call forget_peak_memory(fresh)
         start = ticks_now()
         call run(system, method, plan, nobody, q, v, error)
         seconds = seconds_since(start)
@@ -106,6 +107,7 @@ contains
         type(plan_t) :: plan
         real(dp) :: q(1), v(1), seconds
         integer(i8) :: start
+        logical :: fresh
 
         call new_system("pendulum", system, error)
         if (allocated(error)) return
@@ -122,7 +124,7 @@ contains
         v = 0.0_dp
         call record%table%file%open(folder//"/bench_rows.dat", error)
         if (allocated(error)) return
-        call forget_peak_memory()
+        call forget_peak_memory(fresh)
         start = ticks_now()
         call record%table%begin(["growth"], record%columns%names(size(names)), &
                                 record%columns%units(size(names)), error)

@@ -57,6 +57,7 @@ contains
         if (.not. associated(self%context)) allocate (self%context)
         self%context%system => problem%system
         self%context%evaluations = 0
+        if (allocated(self%context%work)) deallocate (self%context%work)
         if (allocated(self%y)) deallocate (self%y)
         allocate (self%y(2*problem%system%ndof))
         call self%driver%start(trim(self%method), size(self%y), c_funloc(gsl_rates), &

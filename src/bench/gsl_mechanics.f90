@@ -12,6 +12,7 @@ module lagrangia_gsl_mechanics
         !! What GSL hands back to the functions below.
         class(system_t), pointer :: system => null()
         integer(i8) :: evaluations = 0  !! of accelerations
+        real(dp), allocatable :: work(:, :)  !! (2*ndof, 4), of the Jacobian
     end type gsl_context_t
 
     ! allow(assumed-size): C gives the address of the first element
@@ -50,49 +51,49 @@ contains
 
         call c_f_pointer(context, self)
         n = self%system%ndof
+        if (.not. allocated(self%work)) allocate (self%work(2*n, 4))
         jacobian(1:4*n**2) = 0.0_dp
         time_rates(1:2*n) = 0.0_dp
         do i = 1, n
             jacobian(2*n*(i - 1) + n + i) = 1.0_dp
         end do
         do k = 1, merge(2*n, n, self%system%velocity_forces)
-            call add_column(self, n, k, t, y, jacobian)
+            call add_column(self, n, k, t, y, self%work, jacobian)
         end do
-        if (self%system%time_dependent) call add_time(self, n, t, y, time_rates)
+        if (self%system%time_dependent) call add_time(self, n, t, y, self%work, time_rates)
         status = gsl_success
     end function gsl_jacobian
 
-    subroutine add_column(self, n, k, t, y, jacobian)
+    subroutine add_column(self, n, k, t, y, work, jacobian)
         !! How the accelerations change with unknown `k`.
         type(gsl_context_t), intent(inout) :: self
         integer, intent(in) :: n, k
         real(dp), intent(in) :: t, y(2*n)
-        real(dp), intent(inout) :: jacobian(2*n, 2*n)  !! transposed: C has it by rows
-        real(dp) :: below(2*n), above(2*n), a(n), b(n)
+        real(dp), intent(inout) :: work(2*n, 4), jacobian(2*n, 2*n)  !! transposed: C has it by rows
 
-        below = y
-        above = y
-        below(k) = y(k) - width(y(k))
-        above(k) = y(k) + width(y(k))
-        call self%system%accelerations(t, below(:n), below(n + 1:), a)
-        call self%system%accelerations(t, above(:n), above(n + 1:), b)
-        jacobian(k, n + 1:) = (b - a)/(above(k) - below(k))
+        work(:, 1) = y
+        work(:, 2) = y
+        work(k, 1) = y(k) - width(y(k))
+        work(k, 2) = y(k) + width(y(k))
+        call self%system%accelerations(t, work(:n, 1), work(n + 1:, 1), work(:n, 3))
+        call self%system%accelerations(t, work(:n, 2), work(n + 1:, 2), work(:n, 4))
+        jacobian(k, n + 1:) = (work(:n, 4) - work(:n, 3))/(work(k, 2) - work(k, 1))
         self%evaluations = self%evaluations + 2
     end subroutine add_column
 
-    subroutine add_time(self, n, t, y, time_rates)
+    subroutine add_time(self, n, t, y, work, time_rates)
         !! How the accelerations change with the time.
         type(gsl_context_t), intent(inout) :: self
         integer, intent(in) :: n
         real(dp), intent(in) :: t, y(2*n)
-        real(dp), intent(inout) :: time_rates(2*n)
-        real(dp) :: below, above, a(n), b(n)
+        real(dp), intent(inout) :: work(2*n, 4), time_rates(2*n)
+        real(dp) :: below, above
 
         below = t - width(t)
         above = t + width(t)
-        call self%system%accelerations(below, y(:n), y(n + 1:), a)
-        call self%system%accelerations(above, y(:n), y(n + 1:), b)
-        time_rates(n + 1:) = (b - a)/(above - below)
+        call self%system%accelerations(below, y(:n), y(n + 1:), work(:n, 3))
+        call self%system%accelerations(above, y(:n), y(n + 1:), work(:n, 4))
+        time_rates(n + 1:) = (work(:n, 4) - work(:n, 3))/(above - below)
         self%evaluations = self%evaluations + 2
     end subroutine add_time
 

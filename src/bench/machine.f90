@@ -28,15 +28,18 @@ contains
         if (ios /= 0) megabytes = not_known()
     end function peak_memory
 
-    subroutine forget_peak_memory()
-        !! Let `peak_memory` start again from what is held now; does nothing where Linux refuses.
+    subroutine forget_peak_memory(done)
+        !! Let `peak_memory` start again from what is held now, unless Linux refuses.
+        logical, intent(out) :: done
         integer :: unit, ios
 
         open (newunit=unit, file="/proc/self/clear_refs", action="write", status="old", iostat=ios)
-        if (ios /= 0) return
+        done = ios == 0
+        if (.not. done) return
         write (unit, "(a)", iostat=ios) "5"
-        if (ios /= 0) continue
-        close (unit)
+        done = ios == 0
+        close (unit, iostat=ios)
+        done = done .and. ios == 0
     end subroutine forget_peak_memory
 
     function value_of(path, key) result(value)

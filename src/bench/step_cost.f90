@@ -50,13 +50,13 @@ contains
                     call time_steps(contestants(k)%item, problem, plan, samples(round))
                 end do
                 cost(i, k) = median(samples)*nanoseconds
-                if (cost(i, &
-                        k) >= 0.0_dp) evaluations(k) = contestants(k)%item%evaluations*dt/duration
+                if (cost(i, k) >= 0.0_dp) evaluations(k) = &
+                    contestants(k)%item%evaluations*dt/duration
             end do
         end do
-        call new_bench_table(table, "step_ns", "one step, ns (dt = 1e-3 s; - : the method "// &
-                "refuses "// &
-                        "the system)", [character(name_length) :: "method", "evaluations", systems])
+        call new_bench_table(table, "step_ns", "one step, ns (dt = 1e-3 s; -: the method "// &
+                             "refuses the system)", [character(name_length) :: "method", &
+                             "evaluations", systems])
         do k = 1, size(contestants)
             if (.not. any(cost(:, k) >= 0.0_dp)) cycle
             cells(1) = word_cell(contestants(k)%item%name)
@@ -107,9 +107,9 @@ contains
         integer :: i, round
 
         call new_bench_table(table, "dispatch", "RK4, one step, ns: through the contracts, "// &
-                "compiled "// &
-                        "for the concrete type, GSL's", [character(name_length) :: "system", &
-                        "contracts", "concrete", "gsl_rk4", "contracts/concrete", "contracts/gsl"])
+                             "compiled for the concrete type, GSL's", [character(name_length) :: &
+                             "system", "contracts", "concrete", "gsl_rk4", &
+                             "contracts/concrete", "contracts/gsl"])
         call new_contestants(["rk4"], ours)
         call new_contestants(["gsl_rk4"], gsl)
         do i = 1, size(systems)

@@ -1,8 +1,7 @@
 module lagrangia_work_precision
     !! Run time against error: each contestant over its steps or tolerances, on each problem.
     use lagrangia_bench_problems, only: bench_problem_t
-    use lagrangia_contestant, only: contestant_box_t, contestant_t, knob_none, knob_step, &
-                                    knob_tolerance
+    use lagrangia_contestant, only: contestant_box_t, contestant_t, knob_none, knob_step
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_interrupt, only: interrupt_status

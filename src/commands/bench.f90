@@ -55,7 +55,7 @@ contains
         output%json = line%has("json")
         output%quiet = line%has("quiet")
         if (output%json) call put_line("[")
-        call output%say("build: "//build_text())
+        call output%say("build: "//build_text(brief=.true.))
         call output%say("processor: "//processor())
         call new_goals(goals)
         do i = 1, size(parts)
@@ -76,7 +76,7 @@ contains
                 if (allocated(error)) exit
                 call output%show(table, progress)
                 call goals_of_growth(table, goals)
-            case default  ! output
+            case default
                 call measure_output(choice%folder, choice%plan, table, error)
                 if (allocated(error)) exit
                 call output%show(table, progress)
@@ -135,8 +135,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
 
         if (.not. optimised) call fail(error, "bench: this build is not optimised, and its "// &
-                "times "// &
-            "would mislead; 'fpm run --profile release -- bench' builds one that is")
+            "times would mislead; 'fpm run --profile release -- bench' builds one that is")
     end subroutine check_build
 
     subroutine show(self, table, progress)

@@ -32,6 +32,7 @@ module lagrangia_canonical
         real(dp), allocatable :: u(:), f(:) !! velocities and forces there
         real(dp), allocatable :: u1(:)      !! velocities at the start
         real(dp), allocatable :: next(:)    !! iterate
+        real(dp), allocatable :: size_of(:) !! what a change of it is compared with
     contains
         procedure :: prepare
         procedure :: advance
@@ -122,6 +123,7 @@ contains
         self%f = state
         self%u1 = state
         self%next = state
+        self%size_of = state
     end subroutine prepare
 
     pure subroutine advance(self, system, t0, dt, first, steps, q, v)
@@ -167,7 +169,8 @@ contains
         do
             call system%forces(t, q, self%u, self%f)
             self%next = self%p + half*self%f
-            call progress%judge(self%next, self%p_mid, abs(self%p) + abs(half*self%f), done, solved)
+            self%size_of = abs(self%p) + abs(half*self%f)
+            call progress%judge(self%next, self%p_mid, self%size_of, done, solved)
             self%p_mid = self%next
             call system%velocities(t, q, self%p_mid, self%u)
             if (done) exit
@@ -180,7 +183,8 @@ contains
         progress = progress_t()
         do
             self%next = q + half*(self%u1 + self%u)
-            call progress%judge(self%next, self%x, abs(q) + abs(half*self%u), done, solved)
+            self%size_of = abs(q) + abs(half*self%u)
+            call progress%judge(self%next, self%x, self%size_of, done, solved)
             self%x = self%next
             call system%velocities(t + h, self%x, self%p_mid, self%u)
             if (done) exit
@@ -206,12 +210,13 @@ contains
         self%p_mid = self%p
         do
             self%next = q + half*self%u
-            call progress%judge(self%next, self%x, abs(q) + abs(half*self%u), done, solved)
+            self%size_of = abs(q) + abs(half*self%u)
+            call progress%judge(self%next, self%x, self%size_of, done, solved)
             self%x = self%next
             call system%forces(t + half, self%x, self%u, self%f)
             self%next = self%p + half*self%f
-            call progress_p%judge(self%next, self%p_mid, abs(self%p) + abs(half*self%f), done_p, &
-                                  solved_p)
+            self%size_of = abs(self%p) + abs(half*self%f)
+            call progress_p%judge(self%next, self%p_mid, self%size_of, done_p, solved_p)
             self%p_mid = self%next
             call system%velocities(t + half, self%x, self%p_mid, self%u)
             if (done .and. done_p) exit

@@ -11,7 +11,7 @@ module lagrangia_bouncing_ball
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(-)
     use lagrangia_kinds, only: dp
-    use lagrangia_system, only: check_parameters, system_t
+    use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
     public :: bouncing_ball_t
@@ -25,6 +25,7 @@ module lagrangia_bouncing_ball
         procedure :: describe
         procedure :: configure
         procedure :: accelerations
+        procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
         procedure :: quantity => contact_force
@@ -90,6 +91,16 @@ contains
         a = -self%g
         if (q(1) <= 0.0_dp .and. abs(v(1)) <= 0.0_dp) a = 0.0_dp
     end subroutine accelerations
+
+    pure subroutine accelerations_lanes(self, t, q, v, a)
+        !! `accelerations`, in all lanes at once.
+        class(bouncing_ball_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+
+        a = -self%g
+        where (q <= 0.0_dp .and. abs(v) <= 0.0_dp) a = 0.0_dp
+    end subroutine accelerations_lanes
 
     pure function lagrangian(self, t, q, v) result(l)
         !! $$ L = \tfrac12 m\dot y^2 - m g y $$
