@@ -109,11 +109,12 @@ contains
             expected = "x_ddot is not that of L: its term without velocities counts "
         case (10)
             allocate (wedge_mutant_t :: system)
-            expected = "the equation of q1 is not that of L: its term without velocities counts "// &
-                       "m_block/m_wedge times"
+            expected = "the equation of q1 is not that of L: its term without velocities "// &
+                       "counts m_block/m_wedge times"
         case (11)
             allocate (system, source=disk_mutant_t(slip=1))
-            expected = "x_ddot is not that of L: the velocity term of constraint 1 counts -1 times"
+            expected = "x_ddot is not that of L: the velocity term of its constraints "// &
+                       "counts -1 times"
         case (12)
             allocate (system, source=disk_mutant_t(slip=2))
             expected = "phi_ddot is not that of L"

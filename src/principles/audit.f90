@@ -4,6 +4,7 @@ module lagrangia_audit
     !! Parameters and states are the same ones in every run. Every second draw puts parameters on
     !! the edge of their domain (no gravity, no spring), where further quantities are conserved.
     !! Velocities of a non-holonomic system are completed from the free ones.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use lagrangia_audit_equations, only: audit_accelerations, audit_constraints, audit_energy, &
                                          audit_lanes, audit_momenta, claim_accelerations
     use lagrangia_audit_motion, only: audit_gauss, audit_inertia, audit_rates, say_reactions
@@ -43,13 +44,15 @@ contains
         if (present(fixed)) all_free = .not. any(fixed)
         do i = 1, draws
             call random%parameters(system, mod(i, 2) == 0, values, error, fixed, given)
-            if (.not. allocated(error)) &
+            if (.not. allocated(error)) then
                 call audit_state(system, random, mod(i, 2) == 1, all_free, audit, error)
+            end if
             if (allocated(error)) then
                 call audit%judge("parameters and states are taken", 1.0_dp, 0.0_dp, 1.0_dp)
                 call audit%say("parameters and states are taken", error%message)
                 return
             end if
+            call audit_parameters(audit, system, values)
             row = audit%row_of(claim_accelerations)
             if (audit%findings(row)%holds .or. allocated(culprit)) cycle
             allocate (culprit, source=values)
@@ -61,6 +64,22 @@ contains
         end if
         call show_reactions(system, values, d, audit, given)
     end subroutine audit_system
+
+    subroutine audit_parameters(audit, system, values)
+        !! Each parameter goes where it belongs: the description reads them back.
+        type(audit_t), intent(inout) :: audit
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: values(:)
+        type(description_t) :: d
+        real(dp), allocatable :: read_back(:)
+        logical :: same
+
+        call system%describe(d)
+        allocate (read_back, source=default_values(d))
+        same = all(abs(read_back - values) <= 0.0_dp .or. ieee_is_nan(values))
+        call audit%judge("parameters are what was given", merge(0.0_dp, 1.0_dp, same), &
+                         epsilon(1.0_dp), 1.0_dp)
+    end subroutine audit_parameters
 
     subroutine show_reactions(system, values, d, audit, given)
         !! Tensions and normal forces at one state, with the defaults or the parameters given.

@@ -42,7 +42,7 @@ contains
 
         n = system%ndof
         allocate (in_equations(states, n, term_count(n) + n))
-        allocate (in_accelerations(states, n, term_count(n), n + system%constraints))
+        allocate (in_accelerations(states, n, term_count(n), n + 1))
         call system%describe(d)
         call collect(system, random, wrong, residual, in_accelerations, in_equations, error)
         remark = "the accelerations cannot be compared"
@@ -136,7 +136,7 @@ contains
         equation = (which - 1)/size(names) + 1
         term = which - (equation - 1)*size(names)
         if (equation > size(d%coordinates)) then
-            text = ": the velocity term of constraint "//to_text(equation - size(d%coordinates))
+            text = ": the velocity term of its constraints"
         else if (size(d%coordinates) == 1) then
             text = ": its "//trim(names(term))
         else

@@ -98,8 +98,8 @@ contains
 
     subroutine acceleration_terms(system, t, q, v, terms, error)
         !! What each term of each equation does to each acceleration, `terms(i, k, j)`: of term `k`
-        !! of equation `j` to \(\ddot q_i\). Beyond the terms of `equation_terms` there is one more
-        !! equation for every non-holonomic constraint, with its own velocity term as the first.
+        !! of equation `j` to \(\ddot q_i\). One equation more stands for the non-holonomic
+        !! constraints, with their velocity terms as its first.
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
         real(dp), allocatable, intent(out) :: terms(:, :, :)
@@ -115,7 +115,7 @@ contains
         allocate (matrix(all, all), right(all), solution(all))
         call expand_lagrangian(system, t, q, v, expanded)
         call equation_terms(system, t, q, v, forces)
-        allocate (terms(n, size(forces, 2), all))
+        allocate (terms(n, size(forces, 2), n + 1))
         terms = 0.0_dp
         path%re = q
         path%d1 = v
@@ -130,7 +130,8 @@ contains
             call solve_linear(matrix, right, solution, error)
             if (allocated(error)) return
             if (j > n) then
-                terms(:, 1, j) = -solution(:n)*(dot_product(rows(j - n, :)%d1, v) + drift(j - n)%d1)
+                terms(:, 1, n + 1) = terms(:, 1, n + 1) - solution(:n) &
+                                     *(dot_product(rows(j - n, :)%d1, v) + drift(j - n)%d1)
                 cycle
             end if
             do k = 1, size(forces, 2)

@@ -1,5 +1,6 @@
 module lagrangia_findings
     !! What an audit found: a row for every claim, with the worst of all states tried.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use lagrangia_description, only: name_length
     use lagrangia_kinds, only: dp
     implicit none (type, external)
@@ -65,6 +66,7 @@ contains
             row%states = row%states + 1
             if (.not. residual <= allowance*noise) row%holds = .false.
             ! the first, and then what is worse beside its noise; what is not a number is worst
+            if (ieee_is_nan(row%worst)) return
             if (row%worst < 0.0_dp .or. .not. residual*row%noise <= row%worst*noise) then
                 row%worst = residual
                 row%noise = noise
