@@ -43,6 +43,8 @@ contains
         type(error_t), allocatable :: error
         real(dp) :: t, y(2*size(q)), q_end(size(q)), v_end(size(v))
 
+        worst = huge(worst)
+        evaluations = 0
         call new_system(name, system, error)
         call new_reference(system, 0.0_dp, q, v, truth)
         call truth%state_at(t_end, q_end, v_end)
@@ -72,7 +74,6 @@ contains
         integer(i8) :: evaluations
         integer :: i
 
-        worst = 0.0_dp
         do i = 2, size(gsl_methods)
             call solve("pendulum", trim(gsl_methods(i)), 0.0_dp, 1e-11_dp, [1.9_dp], [0.3_dp], &
                        5.0_dp, worst, evaluations)

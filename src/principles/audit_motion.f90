@@ -124,7 +124,7 @@ contains
         if (allocated(error) .or. size(d%reactions) == 0) return
         text = "at q = 0.5, v = 1:"
         do i = 1, size(d%reactions)
-            write (number, "(f12.6)") here%reaction(i)
+            write (number, "(f12.6)") anint(1e6_dp*here%reaction(i))*1e-6_dp + 0.0_dp
             if (i > 1) text = text//","
             text = text//" "//trim(d%reactions(i)%name)//" "//trim(adjustl(number))//" N"
         end do

@@ -5,7 +5,7 @@ module lagrangia_findings
     use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
-    public :: audit_t, finding_t, claim_length, remark_length
+    public :: audit_t, audit_box_t, finding_t, claim_length, remark_length
 
     integer, parameter :: claim_length = 40
     integer, parameter :: remark_length = 200
@@ -32,6 +32,12 @@ module lagrangia_findings
         procedure :: row_of
         procedure :: broken
     end type audit_t
+
+    type :: audit_box_t
+        !! gfortran 12 needs it: modules that make the dispatch table of `audit_t` for themselves
+        !! disagree about its order.
+        class(audit_t), allocatable :: item
+    end type audit_box_t
 
 contains
 

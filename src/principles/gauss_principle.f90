@@ -32,8 +32,6 @@ module lagrangia_gauss_principle
         real(dp), allocatable :: held(:)           !! (k), zero if the state is one
         real(dp), allocatable :: acceleration(:)   !! (n), Gauss's
         real(dp), allocatable :: reaction(:)       !! \(\lambda\), (k)
-    contains
-        procedure :: least => least_of
     end type cartesian_t
 
 contains
@@ -49,7 +47,7 @@ contains
         call system%accelerations(t, q, v, a)
         call new_cartesian(system, t, q, v, a, c, error)
         if (allocated(error)) return
-        call c%least(error)
+        call minimise(c, error)
     end subroutine least_constraint
 
     pure subroutine new_cartesian(system, t, q, v, a, c, error)
@@ -126,9 +124,9 @@ contains
         c%right(holonomic + 1:) = -held(holonomic + 1:)%d1
     end subroutine linearise
 
-    pure subroutine least_of(self, error)
+    pure subroutine minimise(self, error)
         !! Minimise \(Z\); then the multipliers from \(A^\top\lambda = m\ddot x - F\).
-        class(cartesian_t), intent(inout) :: self
+        type(cartesian_t), intent(inout) :: self
         type(error_t), allocatable, intent(out) :: error
         real(dp) :: weight(size(self%x), size(self%x)), wanted(size(self%x))
         real(dp) :: directions(size(self%x), size(self%right))
@@ -147,5 +145,5 @@ contains
         wanted = self%mass*self%acceleration - self%force
         directions = transpose(self%slope)
         call least_squares(directions, wanted, self%reaction, error)
-    end subroutine least_of
+    end subroutine minimise
 end module lagrangia_gauss_principle

@@ -7,7 +7,7 @@ module lagrangia_random_draws
     use lagrangia_system, only: default_values, system_t
     implicit none (type, external)
     private
-    public :: random_t
+    public :: random_t, random_box_t
 
     integer(i8), parameter :: first_seed = 20110901_i8
 
@@ -19,6 +19,11 @@ module lagrangia_random_draws
         procedure :: parameters
         procedure :: state
     end type random_t
+
+    type :: random_box_t
+        !! gfortran 12 needs it, as for `audit_box_t`.
+        class(random_t), allocatable :: item
+    end type random_box_t
 
 contains
 

@@ -140,7 +140,7 @@ contains
         do i = 1, size(d%parameters)
             associate (p => d%parameters(i))
                 if (allocated(values)) deallocate (values)
-                allocate (values, source=p%value(:p%count))
+                allocate (values(p%count), source=p%value(:p%count))
                 if (p%computed /= "") values = ieee_value(values, ieee_quiet_nan)
                 call get_reals(tree, scene%system, trim(p%name), p%count, p%count, values, error)
                 if (allocated(error)) return
