@@ -1,6 +1,9 @@
 module lagrangia
     !! The public face of the toolkit, for other people's programs. Defines nothing.
     !!
+    !! A program with your own systems beside the lectures' is `call register_system(mine)` and
+    !! `call lagrangia_main()`: see `docs/your_own_system.md`.
+    !!
     !! A system by its name, an integrator by its name, `run` to drive them:
     !!
     !!     use lagrangia
@@ -16,7 +19,7 @@ module lagrangia
     !!     call new_integrator("rk4", integrator, error)
     !!     call new_plan(plan, 0.0_dp, 1e-3_dp, 20.0_dp, 10_i8, error)
     !!     call run(system, integrator, plan, nobody, q, v, error)
-    use lagrangia_catalogue, only: new_reference, new_system, system_names
+    use lagrangia_catalogue, only: new_reference, new_system, register_system, system_names
     use lagrangia_description, only: conserved, coordinate, description_t, nonnegative, number, &
                                      parameter_t, point, point_t, positive, quantity, &
                                      quantity_t, vector
@@ -29,8 +32,10 @@ module lagrangia
     use lagrangia_kinds, only: dp, i8
     use lagrangia_lagrange, only: accelerations_from_lagrangian, energy_from_lagrangian, &
                                   euler_lagrange_t, expand_lagrangian
+    use lagrangia_lagrangian_system, only: lagrangian_system_t
     use lagrangia_methods, only: method_names, new_integrator
     use lagrangia_observer, only: observer_box_t, observer_t
+    use lagrangia_program, only: lagrangia_main
     use lagrangia_reference, only: reference_t
     use lagrangia_run, only: new_plan, plan_t, run
     use lagrangia_system, only: check_parameters, default_values, system_t

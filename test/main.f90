@@ -2,6 +2,7 @@ module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
     use test_action, only: action_suite
+    use test_audit, only: audit_suite
     use test_bench, only: bench_suite
     use test_bouncing_ball, only: bouncing_ball_suite
     use test_canonical, only: canonical_suite
@@ -92,6 +93,7 @@ contains
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
         call suite%addTest(action_suite())
+        call suite%addTest(audit_suite())
         call suite%addTest(bench_suite())
         call suite%addTest(bouncing_ball_suite())
         call suite%addTest(canonical_suite())

@@ -4,13 +4,16 @@ module test_methods
     use funit, only: TestMethod, TestSuite, assertEqual, assertGreaterThan, assertLessThan, &
                      assertTrue
     use lagrangia_catalogue, only: new_reference, new_system, nth_system
+    use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
+    use lagrangia_findings, only: audit_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_method_orders, only: audit_methods, method_run
+    use lagrangia_method_problems, only: new_problem, problems, refuses
     use lagrangia_methods, only: method_names, new_integrator, nth_integrator
     use lagrangia_reference, only: reference_t
     use lagrangia_system, only: system_t
-    use method_problems, only: new_problem, problems, refuses
     implicit none (type, external)
     private
     public :: methods_suite
@@ -31,47 +34,21 @@ contains
     end function methods_suite
 
     subroutine orders_are_as_declared()
-        !! Error against the closed form, and swing of the energy, from one number of steps and
-        !! twice as many. The first is the smallest power of two, from 32 on, whose error is small
-        !! enough for the leading term to rule. The energy error of `blanes_moan6` is near rounding
-        !! before it does: there it is seen from one side only.
-        class(integrator_t), allocatable :: method
-        class(system_t), allocatable :: system
-        character(:), allocatable :: name
-        real(dp), allocatable :: q(:), v(:)
-        real(dp), parameter :: rounding = 1e-13_dp  !! of the energy
-        real(dp) :: error(2), swing(2), small, order
-        integer :: i, k, taken
-        integer(i8) :: steps
+        !! On every problem that a method takes; and every method takes one.
+        character(name_length), allocatable :: names(:)
+        type(audit_t) :: audit
+        integer :: i
 
-        do i = 1, size(method_names())
-            taken = 0
-            call nth_integrator(i, method)
-            if (method%order > 8) cycle  ! rounding hides such orders here: see the method's suite
-            do k = 1, problems
-                call nth_integrator(i, method)
-                call new_problem(k, system, q, v)
-                if (refuses(method, system)) cycle
-                taken = taken + 1
-                name = trim(method%name)//describe(k)
-                small = merge(10.0_dp**(-4 - method%order), 1e-6_dp, method%order < 6)
-                steps = 16
-                do
-                    steps = 2*steps
-                    call run(method, system, q, v, steps, error(1), swing(1))
-                    if (error(1) < small .or. steps > 100000) exit
-                end do
-                call run(method, system, q, v, 2*steps, error(2), swing(2))
-                call assertEqual(real(method%order, dp), log(error(1)/error(2))/log(2.0_dp), &
-                                 0.1_dp, name//": order")
-                if (method%energy_order == 0 .or. swing(1) < rounding) cycle
-                order = log(swing(1)/swing(2))/log(2.0_dp)
-                call assertGreaterThan(order, method%energy_order - 0.1_dp, &
-                                       message=name//": energy error of no lower order")
-                if (swing(2) > 10.0_dp*rounding) call assertLessThan(order, &
-                    method%energy_order + 0.1_dp, message=name//": nor of a higher one")
-            end do
-            call assertGreaterThan(taken, 0, message=trim(method%name)//": problems taken")
+        call audit_methods(audit)
+        do i = 1, size(audit%findings)
+            associate (row => audit%findings(i))
+                call assertTrue(row%holds, trim(row%claim)//": "//row%remark)
+            end associate
+        end do
+        allocate (names, source=method_names())
+        do i = 1, size(names)
+            call assertTrue(any(index(audit%findings%claim, trim(names(i))//": order") == 1), &
+                            trim(names(i))//": problems taken")
         end do
     end subroutine orders_are_as_declared
 
@@ -91,8 +68,8 @@ contains
                 call new_problem(k, system, q, v)
                 if (refuses(method, system)) cycle
                 name = trim(method%name)//describe(k)
-                call run(method, system, q, v, 200_i8, error, swing(1), 20.0_dp)
-                call run(method, system, q, v, 2000_i8, error, swing(2), 200.0_dp)
+                call method_run(method, system, q, v, 200_i8, error, swing(1), 20.0_dp)
+                call method_run(method, system, q, v, 2000_i8, error, swing(2), 200.0_dp)
                 if (method%energy_order > 0) then
                     call assertLessThan(swing(2), 1.2_dp*swing(1) + rounding, &
                                         message=name//": energy stays")
@@ -112,37 +89,6 @@ contains
 
         text = ", problem "//digits(k)
     end function describe
-
-    subroutine run(method, system, q0, v0, steps, error, swing, time)
-        !! From `t = 0` in `steps` steps to `time`, 3 s: distance from the closed form at the
-        !! end, and largest relative change of the energy on the way.
-        class(integrator_t), intent(inout) :: method
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: q0(:), v0(:)
-        integer(i8), intent(in) :: steps
-        real(dp), intent(out) :: error, swing
-        real(dp), intent(in), optional :: time
-        class(reference_t), allocatable :: reference
-        type(error_t), allocatable :: refusal
-        real(dp), dimension(size(q0)) :: q, v, q_true, v_true
-        real(dp) :: duration, e0
-        integer(i8) :: k
-
-        duration = 3.0_dp
-        if (present(time)) duration = time
-        call method%prepare(system, refusal)
-        q = q0
-        v = v0
-        e0 = system%energy(0.0_dp, q, v)
-        swing = 0.0_dp
-        do k = 0, steps - 1
-            call method%advance(system, 0.0_dp, duration/steps, k, 1_i8, q, v)
-            swing = max(swing, abs(system%energy(0.0_dp, q, v)/e0 - 1.0_dp))
-        end do
-        call new_reference(system, 0.0_dp, q0, v0, reference)
-        call reference%state_at(duration, q_true, v_true)
-        error = max(maxval(abs(q - q_true)), maxval(abs(v - v_true)))
-    end subroutine run
 
     subroutine cuts_change_no_byte()
         !! Nor does it count more evaluations, with compensated sums or without.

@@ -1,15 +1,14 @@
 module test_systems
     !! Walks over the catalogue: a new system is tested the day it is listed.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertGreaterThan
-    use lagrangia_catalogue, only: new_reference, new_system, nth_system, system_names
+    use lagrangia_catalogue, only: new_reference, nth_system, system_names
     use lagrangia_description, only: description_t
-    use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_reference, only: reference_t
     use lagrangia_system, only: system_t
     use random_states, only: draw_parameters, draw_state, restart_random
     use reference_checks, only: check_reference
-    use system_checks, only: check_points, check_system
+    use system_checks, only: check_system
     implicit none (type, external)
     private
     public :: systems_suite
@@ -23,7 +22,6 @@ contains
         suite = TestSuite("systems")
         call suite%addTest(TestMethod("every_system_keeps_its_claims", &
                                       every_system_keeps_its_claims))
-        call suite%addTest(TestMethod("points_carry_the_inertia", points_carry_the_inertia))
         call suite%addTest(TestMethod("every_closed_form_solves_its_equations", &
                                       every_closed_form_solves_its_equations))
     end function systems_suite
@@ -43,21 +41,6 @@ contains
         call assertEqual(size(system_names()), i - 1, "systems checked")
         call assertGreaterThan(i, 11, message="systems checked")
     end subroutine every_system_keeps_its_claims
-
-    subroutine points_carry_the_inertia()
-        !! Of the systems without rotating bodies.
-        character(*), parameter :: names(*) = [character(16) :: &
-            "oscillator", "pendulum", "double_pendulum", "cart_pendulum", "wedge", &
-            "charged_particle", "rotating_wire", "rotating_hoop", "driven_pendulum"]
-        class(system_t), allocatable :: system
-        type(error_t), allocatable :: error
-        integer :: i
-
-        do i = 1, size(names)
-            call new_system(trim(names(i)), system, error)
-            call check_points(system)
-        end do
-    end subroutine points_carry_the_inertia
 
     subroutine every_closed_form_solves_its_equations()
         !! From random states, where the closed form covers them.

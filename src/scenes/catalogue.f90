@@ -33,17 +33,36 @@ module lagrangia_catalogue
     use lagrangia_rotating_wire, only: rotating_wire_t
     use lagrangia_rotating_wire_reference, only: rotating_wire_reference_t, &
         new_rotating_wire_reference
-    use lagrangia_system, only: default_values, system_t
+    use lagrangia_system, only: default_values, system_box_t, system_t
     use lagrangia_text, only: join, nearest_name, quoted
     use lagrangia_wedge, only: wedge_t
     use lagrangia_wedge_reference, only: wedge_reference_t, new_wedge_reference
     implicit none (type, external)
     private
-    public :: new_system, nth_system, system_names
+    public :: new_system, nth_system, register_system, system_names
     public :: new_reference
     public :: refuse_name
 
+    integer, parameter :: built_in = 12               !! systems
+    type(system_box_t), allocatable :: registered(:)  !! those that other programs brought
+
 contains
+
+    subroutine register_system(system)
+        !! Add a system of your own, behind the others. Its name must be a new one.
+        class(system_t), intent(in) :: system
+        type(system_box_t), allocatable :: longer(:)
+        integer :: i, n
+
+        n = 0
+        if (allocated(registered)) n = size(registered)
+        allocate (longer(n + 1))
+        do i = 1, n
+            call move_alloc(registered(i)%item, longer(i)%item)
+        end do
+        allocate (longer(n + 1)%item, source=system)
+        call move_alloc(longer, registered)
+    end subroutine register_system
 
     subroutine nth_system(i, system)
         !! Entry `i` of the catalogue, with its default parameters; not allocated beyond the end.
@@ -65,7 +84,10 @@ contains
         case (10); allocate (rotating_hoop_t :: system)
         case (11); allocate (driven_pendulum_t :: system)
         case (12); allocate (bouncing_ball_t :: system)
-        case default; return
+        case default
+            if (.not. allocated(registered)) return
+            if (i < 1 .or. i > built_in + size(registered)) return
+            allocate (system, source=registered(i - built_in)%item)
         end select
         call system%describe(d)
         call system%configure(default_values(d), error)
