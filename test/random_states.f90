@@ -36,6 +36,7 @@ contains
                 do j = 1, p%count
                     k = k + 1
                     values(k) = uniform(lowest, min(p%upper, lowest + 4.0_dp))
+                    if (p%whole) values(k) = anint(values(k))
                     chance = uniform(0.0_dp, 1.0_dp)
                     if (.not. edges .or. chance > 0.4_dp) cycle
                     if (len_trim(p%computed) > 0) then
