@@ -2,6 +2,7 @@ module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
     use test_action, only: action_suite
+    use test_bench, only: bench_suite
     use test_bouncing_ball, only: bouncing_ball_suite
     use test_canonical, only: canonical_suite
     use test_cart_pendulum, only: cart_pendulum_suite
@@ -28,10 +29,13 @@ module suites
     use test_gauss_adaptive, only: gauss_adaptive_suite
     use test_gauss_dense, only: gauss_dense_suite
     use test_gauss_tables, only: gauss_tables_suite
+    use test_gnuplot, only: gnuplot_suite
     use test_gsl, only: gsl_suite
+    use test_gsl_odeiv, only: gsl_odeiv_suite
     use test_harness, only: harness_suite
     use test_harness_order, only: harness_order_suite
     use test_hyperdual, only: hyperdual_suite
+    use test_integrator_orders, only: integrator_orders_suite
     use test_lanes, only: lanes_suite
     use test_lapack, only: lapack_suite
     use test_lapack_band, only: lapack_band_suite
@@ -53,6 +57,7 @@ module suites
     use test_pendulum, only: pendulum_suite
     use test_period, only: period_suite
     use test_plan, only: plan_suite
+    use test_precision_curve, only: precision_curve_suite
     use test_principles, only: principles_suite
     use test_processes, only: processes_suite
     use test_quadrature, only: quadrature_suite
@@ -63,8 +68,8 @@ module suites
     use test_rotating_reference, only: rotating_reference_suite
     use test_run, only: run_suite
     use test_scene_files, only: scene_files_suite
-    use test_shadow, only: shadow_suite
     use test_scene_steps, only: scene_steps_suite
+    use test_shadow, only: shadow_suite
     use test_sinc, only: sinc_suite
     use test_small_oscillations, only: small_oscillations_suite
     use test_systems, only: systems_suite
@@ -83,6 +88,7 @@ contains
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
         call suite%addTest(action_suite())
+        call suite%addTest(bench_suite())
         call suite%addTest(bouncing_ball_suite())
         call suite%addTest(canonical_suite())
         call suite%addTest(cart_pendulum_suite())
@@ -109,8 +115,11 @@ contains
         call suite%addTest(gauss_adaptive_suite())
         call suite%addTest(gauss_dense_suite())
         call suite%addTest(gauss_tables_suite())
+        call suite%addTest(gnuplot_suite())
         call suite%addTest(gsl_suite())
+        call suite%addTest(gsl_odeiv_suite())
         call suite%addTest(hyperdual_suite())
+        call suite%addTest(integrator_orders_suite())
         call suite%addTest(lanes_suite())
         call suite%addTest(lapack_suite())
         call suite%addTest(lapack_band_suite())
@@ -132,12 +141,9 @@ contains
         call suite%addTest(pendulum_suite())
         call suite%addTest(period_suite())
         call suite%addTest(plan_suite())
+        call suite%addTest(precision_curve_suite())
         call suite%addTest(principles_suite())
         call suite%addTest(processes_suite())
-        call suite%addTest(roots_suite())
-        call suite%addTest(events_suite())
-        call suite%addTest(scene_steps_suite())
-        call suite%addTest(dense_run_suite())
         call suite%addTest(quadrature_suite())
         call suite%addTest(rheonomic_suite())
         call suite%addTest(rolling_disk_suite())
@@ -146,6 +152,7 @@ contains
         call suite%addTest(rotating_reference_suite())
         call suite%addTest(run_suite())
         call suite%addTest(scene_files_suite())
+        call suite%addTest(scene_steps_suite())
         call suite%addTest(shadow_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(small_oscillations_suite())

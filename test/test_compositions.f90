@@ -147,7 +147,8 @@ contains
         worst = 0.0_dp
         do i = 1, size(trees)
             if (trees(i)%order < lowest) cycle
-            worst = max(worst, real(abs(sum(row%kick*trees(i)%phi(:size(row%kick))) - trees(i)%g), dp))
+            worst = max(worst, real(abs(sum(row%kick*trees(i)%phi(:size(row%kick))) &
+                                        - trees(i)%g), dp))
         end do
     end function nystrom_defect
 

@@ -157,7 +157,8 @@ contains
 
         k = reshape([3.0_dp, -1.0_dp, 0.2_dp, -1.0_dp, 2.0_dp, -0.7_dp, 0.2_dp, -0.7_dp, 1.5_dp], &
                     [3, 3])
-        m = reshape([2.0_dp, 0.3_dp, 0.1_dp, 0.3_dp, 1.0_dp, 0.2_dp, 0.1_dp, 0.2_dp, 0.6_dp], [3, 3])
+        m = reshape([2.0_dp, 0.3_dp, 0.1_dp, 0.3_dp, 1.0_dp, 0.2_dp, 0.1_dp, 0.2_dp, 0.6_dp], &
+                    [3, 3])
         call normal_modes(k, m, omega2, u, error)
         call assertFalse(allocated(error))
         if (allocated(error)) return
@@ -207,7 +208,8 @@ contains
         real(dp) :: good(2, 2), bad(2, 2)
 
         good = reshape([2.0_dp, 0.5_dp, 0.5_dp, 1.0_dp], [2, 2])
-        call refused(reshape([1.0_dp, 2.0_dp], [1, 2]), good, "K is 1 by 2: a square matrix is needed")
+        call refused(reshape([1.0_dp, 2.0_dp], [1, 2]), good, &
+                     "K is 1 by 2: a square matrix is needed")
         call refused(reshape([1.0_dp], [1, 1]), good, "K has 1 rows, M has 2")
         bad = good
         bad(1, 2) = 0.4_dp
@@ -219,8 +221,8 @@ contains
         bad(2, 2) = -1.0_dp
         call refused(good, bad, "M is not positive definite: its leading minor of order 2 is not")
         bad = 0.5_dp  ! rounding decides whether Cholesky's method notices
-        call refused(good, bad, "M is singular to working precision: its leading minor of order 2 "// &
-                     "vanishes")
+        call refused(good, bad, "M is singular to working precision: its leading minor of "// &
+                     "order 2 vanishes")
     end subroutine bad_matrices_are_refused
 
     subroutine refused(k, m, message)
@@ -239,8 +241,8 @@ contains
 
     subroutine bad_points_are_refused()
         !! With the residual force and the nearest equilibrium.
-        call no_modes("rotating_hoop", [1.167_dp], "not an equilibrium of rotating_hoop: the force "// &
-                      "on theta is 0.0117746253")
+        call no_modes("rotating_hoop", [1.167_dp], "not an equilibrium of rotating_hoop: the "// &
+                      "force on theta is 0.0117746253")
         call no_modes("rotating_hoop", [1.167_dp], "N m; the nearest is --at 1.1675569038050")
         call no_modes("wedge", [0.0_dp, 0.0_dp], "N; none is near")
         call no_modes("pendulum", [0.0_dp, 1.0_dp], "--at takes 1 values for pendulum, not 2")

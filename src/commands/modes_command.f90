@@ -16,7 +16,8 @@ module lagrangia_modes_command
     private
     public :: modes_command
 
-    character(16), parameter :: labels(3) = [character(16) :: "oscillation", "zero mode", "unstable"]
+    character(16), parameter :: labels(3) = [character(16) :: &
+        "oscillation", "zero mode", "unstable"]
     real(dp), parameter :: pi = acos(-1.0_dp)
     integer, parameter :: widest = 8  !! matrices beyond are not printed
 
@@ -96,15 +97,16 @@ contains
             if (any(abs(modes%gyroscopic) > 0.0_dp)) call put_matrix("G", modes%gyroscopic)
         end if
         if (modes%difference >= 0.0_dp) then
-            call put_line("page against L's second derivatives, relative: "//short(modes%difference))
+            call put_line("page against L's second derivatives, relative: "// &
+                          trim(short(modes%difference)))
         else if (allocated(modes%page%mass)) then
             call put_line("page not compared with L's second derivatives: too many coordinates")
         else
             call put_line("M and K come from L's second derivatives: the page has none")
         end if
         call put_line("")
-        call put_line("omega^2 [s^-2]     omega [rad/s]      f [Hz]             T [s]              "// &
-                      "closed form        differ   what")
+        call put_line("omega^2 [s^-2]     omega [rad/s]      f [Hz]             T [s]         "// &
+                      "     closed form        differ   what")
         do j = 1, n
             row = number(modes%omega2(j))
             if (modes%label(j) == is_oscillation) then
@@ -125,9 +127,12 @@ contains
             call put_line("")
             call put_shapes(modes)
         end if
-        row = "LAPACK: "//trim(modes%method)//", |K Z - M Z L|/(|K| |Z| n eps) = "//short(modes%ratio)
-        if (allocated(modes%quadrature)) row = "LAPACK: "//trim(modes%method)// &
-            ", residual/(n eps size of its terms) = "//short(modes%ratio)
+        if (allocated(modes%quadrature)) then
+            row = ", residual/(n eps size of its terms) = "
+        else
+            row = ", |K Z - M Z L|/(|K| |Z| n eps) = "
+        end if
+        row = "LAPACK: "//trim(modes%method)//trim(row)//" "//short(modes%ratio)
         call put_line(trim(row))
     end subroutine print_modes
 
@@ -241,7 +246,8 @@ contains
         where (modes%label /= is_unstable) omega = sqrt(max(0.0_dp, modes%omega2))
         json = '{"system": '//json_string(name)//', "at": '//json_list(modes%at)// &
                ', "M": '//rows(modes%mass)//', "K": '//rows(modes%stiffness)// &
-               ', "omega2": '//json_list(modes%omega2)//', "omega": '//json_list(omega)//', "label": ['
+               ', "omega2": '//json_list(modes%omega2)//', "omega": '//json_list(omega)// &
+               ', "label": ['
         do j = 1, size(modes%label)
             if (j > 1) json = json//", "
             json = json//json_string(trim(labels(modes%label(j))))
@@ -253,8 +259,10 @@ contains
             json = json//"null"
         end if
         json = json//', "residual_ratio": '//json_number(modes%ratio)
-        if (allocated(modes%quadrature)) json = json//', "G": '//rows(modes%gyroscopic)// &
-            ', "shapes_imaginary": '//rows(transpose(modes%quadrature))
+        if (allocated(modes%quadrature)) then
+            json = json//', "G": '//rows(modes%gyroscopic)// &
+                   ', "shapes_imaginary": '//rows(transpose(modes%quadrature))
+        end if
         json = json//"}"
     end function as_json
 

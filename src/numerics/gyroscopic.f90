@@ -1,5 +1,5 @@
 module lagrangia_gyroscopic
-    !! Small oscillations that velocities bend: \(M\ddot u + G\dot u + Ku = 0\), \(G\) antisymmetric.
+    !! Small oscillations that velocities bend: \(M\ddot u + G\dot u + Ku = 0\), \(G^\top = -G\).
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_eigen, only: normal_modes
     use lagrangia_errors, only: error_t, fail, status_library
@@ -15,9 +15,9 @@ module lagrangia_gyroscopic
 contains
 
     pure subroutine gyroscopic_modes(stiffness, gyroscopic, inertia, lambda, modes, error)
-        !! Solve \((\lambda^2 M + \lambda G + K)u = 0\), \(u^\dagger M u = 1\): n eigenvalues, one of
-        !! each pair \(\pm\lambda\), \(-\mathrm{Re}\,\lambda^2\) ascending; of each mode the component that is
-        !! largest in magnitude is real and positive.
+        !! Solve \((\lambda^2 M + \lambda G + K)u = 0\), \(u^\dagger M u = 1\): n eigenvalues,
+        !! one of each pair \(\pm\lambda\), \(-\mathrm{Re}\,\lambda^2\) ascending; of each mode the
+        !! component that is largest in magnitude is real and positive.
         !!
         !! The first-order form is solved in units in which its blocks are of size one. Where
         !! \(\lambda = i\omega\), \(\omega\) is then the root of \(\omega^2 - (iu^\dagger Gu)\omega
@@ -32,8 +32,9 @@ contains
         complex(dp), allocatable, intent(out) :: modes(:, :)  !! column j belongs to `lambda(j)`
         type(error_t), allocatable, intent(out) :: error      !! what is wrong with K, G or M
         real(dp), allocatable :: omega2(:), shapes(:, :)
-        complex(dp), allocatable :: all_lambda(:), all_modes(:, :)
-        integer, allocatable :: chosen(:)
+        complex(dp), dimension(2*size(stiffness, 1)) :: all_lambda
+        complex(dp), dimension(size(stiffness, 1), 2*size(stiffness, 1)) :: all_modes
+        integer :: chosen(size(stiffness, 1))
         integer :: n, k
 
         call normal_modes(stiffness, inertia, omega2, shapes, error)
@@ -82,13 +83,15 @@ contains
     pure subroutine solve_first_order(stiffness, gyroscopic, inertia, lambda, modes, error)
         !! All 2n eigenvalues of \((0, 1; -K, -G)\) against \((1, 0; 0, M)\).
         real(dp), intent(in) :: stiffness(:, :), gyroscopic(:, :), inertia(:, :)
-        complex(dp), allocatable, intent(out) :: lambda(:), modes(:, :)
+        complex(dp), intent(out) :: lambda(:), modes(:, :)  !! (2 n), (n, 2 n)
         type(error_t), allocatable, intent(out) :: error
         real(dp), dimension(2*size(stiffness, 1), 2*size(stiffness, 1)) :: a, b, vectors
         real(dp), dimension(2*size(stiffness, 1)) :: re, im, beta
         real(dp) :: left(1, 1), work(40*size(stiffness, 1) + 100), mass, rate
         integer :: n, i, j, info
 
+        lambda = 0.0_dp
+        modes = 0.0_dp
         n = size(stiffness, 1)
         mass = maxval(abs(inertia))
         rate = max(sqrt(maxval(abs(stiffness))/mass), maxval(abs(gyroscopic))/mass)
@@ -110,7 +113,6 @@ contains
             return
         end if
         lambda = rate*cmplx(re/beta, im/beta, dp)
-        allocate (modes(n, 2*n))
         do j = 1, 2*n
             if (im(j) > 0.0_dp) then
                 modes(:, j) = cmplx(vectors(:n, j), vectors(:n, j + 1), dp)
@@ -126,13 +128,13 @@ contains
         !! The spectrum is symmetric, \(\pm\lambda\): from the largest down, take the one with
         !! \(\mathrm{Im} > 0\) (or real and positive) and drop its partner.
         complex(dp), intent(in) :: lambda(:)
-        integer, allocatable, intent(out) :: chosen(:)
+        integer, intent(out) :: chosen(:)
         logical :: left(size(lambda)), upper(size(lambda))
         integer :: k, j, partner
 
         left = .true.
-        upper = aimag(lambda) > 0.0_dp .or. (abs(aimag(lambda)) <= 0.0_dp .and. real(lambda) > 0.0_dp)
-        allocate (chosen(size(lambda)/2))
+        upper = aimag(lambda) > 0.0_dp .or. &
+                (abs(aimag(lambda)) <= 0.0_dp .and. real(lambda) > 0.0_dp)
         do k = 1, size(chosen)
             j = maxloc(abs(lambda), 1, left .and. upper)
             if (j == 0) j = maxloc(abs(lambda), 1, left)
@@ -153,23 +155,35 @@ contains
         k = findloc(abs(u) >= 1.0_dp - 1e-8_dp, .true., 1)
         u = u*(conjg(u(k))/abs(u(k)))
         u(k) = cmplx(real(u(k)), 0.0_dp, dp)
-        u = u/sqrt(real(dot_product(u, matmul(inertia, u))))
+        u = u/sqrt(bilinear(inertia, real(u), real(u)) + bilinear(inertia, aimag(u), aimag(u)))
     end subroutine normalise
 
     pure function stationary(stiffness, gyroscopic, u, near) result(omega)
-        !! The root of \(\omega^2 - c\,\omega - k = 0\) that is nearest to `near`, without cancellation.
+        !! The root of \(\omega^2 - c\,\omega - k = 0\) next to `near`, without cancellation.
         real(dp), intent(in) :: stiffness(:, :), gyroscopic(:, :)
         complex(dp), intent(in) :: u(:)
         real(dp), intent(in) :: near
         real(dp) :: omega, c, k, large, other
 
-        c = -aimag(dot_product(u, matmul(gyroscopic, u)))
-        k = real(dot_product(u, matmul(stiffness, u)))
+        c = bilinear(gyroscopic, aimag(u), real(u)) - bilinear(gyroscopic, real(u), aimag(u))
+        k = bilinear(stiffness, real(u), real(u)) + bilinear(stiffness, aimag(u), aimag(u))
         large = 0.5_dp*(c + sign(sqrt(max(0.0_dp, c**2 + 4.0_dp*k)), c))
         other = 0.0_dp
         if (abs(large) > 0.0_dp) other = -k/large
         omega = abs(merge(large, other, abs(large - near) <= abs(other - near)))
     end function stationary
+
+    pure function bilinear(a, x, y) result(value)
+        !! \(x^\top A y\).
+        real(dp), intent(in) :: a(:, :), x(:), y(:)
+        real(dp) :: value
+        integer :: j
+
+        value = 0.0_dp
+        do j = 1, size(y)
+            value = value + dot_product(x, a(:, j))*y(j)
+        end do
+    end function bilinear
 
     pure subroutine sort(lambda, modes)
         !! By \(-\mathrm{Re}\,\lambda^2\), ascending: the unstable ones first.
@@ -195,7 +209,7 @@ contains
         complex(dp), intent(in) :: lambda(:), modes(:, :)
         real(dp) :: ratio, scale, rho
         complex(dp) :: residual(size(lambda))
-        integer :: j
+        integer :: i, j
 
         ratio = 0.0_dp
         rho = maxval(abs(lambda))
@@ -203,10 +217,12 @@ contains
                 size(lambda)*epsilon(scale)
         if (scale <= 0.0_dp) return
         do j = 1, size(lambda)
-            associate (z => lambda(j), u => modes(:, j))
-                residual = z**2*matmul(inertia, u) + z*matmul(gyroscopic, u) + matmul(stiffness, u)
-                ratio = max(ratio, sum(abs(residual))/(scale*sum(abs(u))))
-            end associate
+            residual = 0.0_dp
+            do i = 1, size(lambda)
+                residual = residual + modes(i, j)*(lambda(j)**2*inertia(:, i) + &
+                                                   lambda(j)*gyroscopic(:, i) + stiffness(:, i))
+            end do
+            ratio = max(ratio, sum(abs(residual))/(scale*sum(abs(modes(:, j)))))
         end do
     end function gyroscopic_ratio
 

@@ -20,9 +20,8 @@ contains
         real(dp) :: x(n), low, high, middle, last
         integer :: k, step, below
 
+        low = 0.0_dp
         do k = 1, n
-            low = 0.0_dp
-            if (k > 1) low = x(k - 1)
             high = 4.0_dp*n
             middle = 0.5_dp*(low + high)
             do step = 1, 200
@@ -45,6 +44,7 @@ contains
                 middle = 0.5_dp*(low + high)
                 if (high - low <= 2.0_dp*epsilon(low)*high) exit
             end do
+            low = x(k)
         end do
     end function laguerre_zeros
 

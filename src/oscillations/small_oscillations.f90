@@ -29,7 +29,7 @@ module lagrangia_small_oscillations
         real(dp) :: difference = -1.0_dp           !! of the page from L, relative; < 0: unknown
         real(dp), allocatable :: omega2(:)         !! ascending, s^-2
         real(dp), allocatable :: shapes(:, :)      !! column j belongs to `omega2(j)`
-        real(dp), allocatable :: quadrature(:, :)  !! with \(G\): \(\delta\) = shape cos - quadrature sin
+        real(dp), allocatable :: quadrature(:, :)  !! with \(G\): shape cos - quadrature sin
         integer, allocatable :: label(:)
         real(dp) :: ratio = -1.0_dp                !! LAPACK's residual ratio
         character(40) :: method = ""
@@ -77,8 +77,9 @@ contains
             call normal_modes(k, m, modes%omega2, modes%shapes, error)
         end if
         if (allocated(error)) return
-        if (.not. allocated(modes%quadrature)) &
+        if (.not. allocated(modes%quadrature)) then
             modes%ratio = residual_ratio(k, m, modes%omega2, modes%shapes)
+        end if
         call put_labels(modes)
     end subroutine find_modes
 
@@ -94,8 +95,8 @@ contains
             call fail(error, "--at takes "//to_text(system%ndof)//" values for "//trim(d%name)// &
                       ", not "//to_text(size(start)))
         else if (system%constraints > 0) then
-            call fail(error, trim(d%name)//" has non-holonomic constraints: steady motions, but "// &
-                      "no modes about an equilibrium")
+            call fail(error, trim(d%name)//" has non-holonomic constraints: steady motions, "// &
+                      "but no modes about an equilibrium")
         else if (system%time_dependent) then
             call fail(error, "the Lagrangian of this "//trim(d%name)//" contains the time: it "// &
                       "has no equilibrium to oscillate about")
@@ -238,7 +239,8 @@ contains
         modes%method = "dggev in first-order form"
         call gyroscopic_modes(modes%stiffness, modes%gyroscopic, modes%mass, lambda, shapes, error)
         if (allocated(error)) return
-        modes%ratio = gyroscopic_ratio(modes%stiffness, modes%gyroscopic, modes%mass, lambda, shapes)
+        modes%ratio = gyroscopic_ratio(modes%stiffness, modes%gyroscopic, modes%mass, lambda, &
+                                       shapes)
         modes%omega2 = merge(aimag(lambda)**2, -real(lambda)**2, is_steady(lambda))
         modes%shapes = real(shapes, dp)
         modes%quadrature = aimag(shapes)

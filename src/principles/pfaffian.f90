@@ -93,17 +93,19 @@ contains
         real(dp) :: largest, slopes(self%rows, self%dimension())
         type(hyperdual_t) :: free(self%dimension(), self%dimension() - self%rows)
         type(hyperdual_t) :: a(self%rows, self%coordinates + 1), xx(self%coordinates + 1)
+        real(dp) :: directions(size(free, 1), size(free, 2))
         real(dp) :: da(self%rows, size(free, 2), size(free, 2))
         integer :: i, n
 
         n = self%dimension()
         call kernel(self, hyperdual(x), free)
+        directions = free%re
         do i = 1, size(free, 2)
             xx = hyperdual(x)
-            xx(:n)%d1 = free(:, i)%re
+            xx(:n)%d1 = directions(:, i)
             call self%forms(xx, a)
             slopes = a(:, :n)%d1
-            da(:, i, :) = matmul(slopes, free%re)
+            da(:, i, :) = matmul(slopes, directions)
         end do
         largest = 0.0_dp
         do i = 1, self%rows

@@ -59,7 +59,7 @@ contains
     end subroutine open_event_file
 
     subroutine finish_event_file(scene, folder, format, record, panels, error)
-        !! Complete the file under its name; where there is more than one row to draw, with a script.
+        !! Complete the file under its name; with more than one row, a script too.
         type(scene_t), intent(in) :: scene
         character(*), intent(in) :: folder, format
         type(event_record_t), intent(inout) :: record

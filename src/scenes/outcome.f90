@@ -36,7 +36,7 @@ module lagrangia_outcome
         type(measure_t), allocatable :: others(:)   !! `error`, `period`, ...
         integer :: error_from = 0                   !! 0: no error known
         real(dp) :: period = 0.0_dp                 !! measured, s; 0 if not
-        real(dp) :: omega = 0.0_dp                  !! of the slowest small oscillation; 0 if not asked
+        real(dp) :: omega = 0.0_dp                  !! of the slowest small oscillation; or 0
         real(dp) :: omega_error = -1.0_dp           !! of all frequencies from the closed form
         real(dp) :: seconds = 0.0_dp
         character(:), allocatable :: remark         !! about the steps; "" if there is none
@@ -233,15 +233,16 @@ contains
                      trim(adjustl(seconds)), self%verdict())
     end function scorecard_row
 
-    pure function cells(scene, system, method, steps, evaluations, drift, error, period, omega, seconds, &
-                        verdict) result(line)
+    pure function cells(scene, system, method, steps, evaluations, drift, error, period, omega, &
+                        seconds, verdict) result(line)
         !! The row's columns: words to the left, counts to the right.
         character(*), intent(in) :: scene, system, method, steps, evaluations, drift, error, &
                                     period, omega, seconds, verdict
         character(:), allocatable :: line
 
         line = left(scene, 26)//left(system, 17)//left(method, 8)//right(steps, 8)// &
-               right(evaluations, 12)//"  "//left(drift, 23)//left(error, 18)//left(period, 14)//left(omega, 17)// &
+               right(evaluations, 12)//"  "//left(drift, 23)//left(error, 18)//left(period, 14)// &
+               left(omega, 17)// &
                right(seconds, 8)//"  "//verdict
     end function cells
 

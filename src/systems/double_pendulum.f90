@@ -264,10 +264,10 @@ contains
     end subroutine accelerations_lanes
 
     pure subroutine linearise(self, q, page)
-        !! \(M = ((m_1+m_2)\ell_1^2, m_2\ell_1\ell_2; m_2\ell_1\ell_2, m_2\ell_2^2)\),
+        !! \(M = ((m_1+m_2)\ell_1^2, m_2\ell_1\ell_2; m_2\ell_1\ell_2, m_2\ell_2^2)\) and
         !! \(K = \mathrm{diag}((m_1+m_2)g\ell_1, m_2g\ell_2)\), with signs where a rod stands on its
-        !! head. With \(p = 1+m_2/m_1\) the \(\omega^2\) have the sum \(\pm pg/\ell_1 \pm pg/\ell_2\)
-        !! and the product \(\pm pg^2/(\ell_1\ell_2)\); one root does not cancel, and gives the other.
+        !! head. With \(p = 1+m_2/m_1\) the sum of \(\omega^2\) is \(\pm pg/\ell_1 \pm pg/\ell_2\),
+        !! the product \(\pm pg^2/(\ell_1\ell_2)\): the root that does not cancel gives the other.
         class(double_pendulum_t), intent(in) :: self
         real(dp), intent(in) :: q(self%ndof)
         type(linearised_t), intent(out) :: page
@@ -277,7 +277,8 @@ contains
             way = sign(1.0_dp, cos(q))
             c = m2*l1*l2*way(1)*way(2)
             page%mass = reshape([(m1 + m2)*l1**2, c, c, m2*l2**2], [2, 2])
-            page%stiffness = reshape([(m1 + m2)*g*l1*way(1), 0.0_dp, 0.0_dp, m2*g*l2*way(2)], [2, 2])
+            a = (m1 + m2)*g*l1*way(1)
+            page%stiffness = reshape([a, 0.0_dp, 0.0_dp, m2*g*l2*way(2)], [2, 2])
             a = (1.0_dp + m2/m1)*g/l1
             b = g/l2
             c = (1.0_dp + m2/m1)*g/l2
@@ -287,8 +288,7 @@ contains
             else
                 w2(2) = 0.5_dp*(abs(a - c) + hypot(a - c, 2.0_dp*sqrt(a*b)))
             end if
-            w2(1) = 0.0_dp
-            if (w2(2) > 0.0_dp) w2(1) = way(1)*way(2)*b*(a/w2(2))
+            w2(1) = way(1)*way(2)*b*(a/max(w2(2), tiny(a)))
             page%omega2 = [minval(w2), maxval(w2)]
             if (way(1)*a + way(2)*c < 0.0_dp) page%omega2 = [-maxval(w2), -minval(w2)]
             if (any(way < 0.0_dp)) return

@@ -6,7 +6,7 @@ module lagrangia_linearised
     public :: linearised_t
 
     type :: linearised_t
-        !! \(M\ddot\delta + G\dot\delta + K\delta = 0\). What the page does not say is not allocated.
+        !! \(M\ddot\delta + G\dot\delta + K\delta = 0\). What the page omits is not allocated.
         real(dp), allocatable :: mass(:, :)        !! \(M\)
         real(dp), allocatable :: stiffness(:, :)   !! \(K\)
         real(dp), allocatable :: gyroscopic(:, :)  !! \(G\), antisymmetric; not allocated: none
