@@ -139,7 +139,8 @@ contains
         allocate (scene%parameters(0))
         do i = 1, size(d%parameters)
             associate (p => d%parameters(i))
-                values = p%value(:p%count)
+                if (allocated(values)) deallocate (values)
+                allocate (values(p%count), source=p%value(:p%count))
                 if (p%computed /= "") values = ieee_value(values, ieee_quiet_nan)
                 call get_reals(tree, scene%system, trim(p%name), p%count, p%count, values, error)
                 if (allocated(error)) return
