@@ -18,11 +18,13 @@ contains
         !! Appl. 309 (2000) 121, `dstqds`; DLMF 18.9.23 for the derivative.
         integer, intent(in) :: n
         real(dp) :: x(n), low, high, middle, last
+        logical :: alone  !! no other zero from `low` to `high`
         integer :: k, step, below
 
         low = 0.0_dp
         do k = 1, n
             high = 4.0_dp*n
+            alone = k == n
             middle = 0.5_dp*(low + high)
             do step = 1, 200
                 call pivots(n, middle, below, last)
@@ -30,9 +32,10 @@ contains
                     low = middle
                 else
                     high = middle
+                    alone = below == k
                 end if
                 ! L/L' = x d/(n (d - n)) with d the last pivot
-                if (abs(last) < 0.1_dp*n .and. abs(below - k) <= 1) then
+                if (alone) then
                     x(k) = middle*(1.0_dp - last/(n*(last - n)))
                     if (x(k) > low .and. x(k) < high) then
                         if (abs(x(k) - middle) <= 2.0_dp*epsilon(low)*middle) exit
