@@ -107,6 +107,7 @@ contains
                 if (p%lower > -huge(1.0_dp)) wrong = [wrong, p%lower - 0.1_dp]
                 if (p%upper < huge(1.0_dp)) wrong = [wrong, p%upper + 0.1_dp]
                 if (p%open_lower) wrong = [wrong, p%lower]
+                if (p%whole) wrong = [wrong, p%lower + 0.5_dp]
                 call check_refused(system, values, k + p%count, wrong, p)
                 k = k + p%count
             end associate

@@ -3,6 +3,7 @@ module suites
     use funit, only: TestSuite
     use test_action, only: action_suite
     use test_audit, only: audit_suite
+    use test_amplitude, only: amplitude_suite
     use test_bench, only: bench_suite
     use test_bouncing_ball, only: bouncing_ball_suite
     use test_canonical, only: canonical_suite
@@ -36,6 +37,7 @@ module suites
     use test_gnuplot, only: gnuplot_suite
     use test_gsl, only: gsl_suite
     use test_gsl_odeiv, only: gsl_odeiv_suite
+    use test_hanging_chain, only: hanging_chain_suite
     use test_harness, only: harness_suite
     use test_harness_order, only: harness_order_suite
     use test_hyperdual, only: hyperdual_suite
@@ -90,6 +92,8 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("lagrangia")
+        call suite%addTest(amplitude_suite())
+        call suite%addTest(hanging_chain_suite())
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
         call suite%addTest(action_suite())

@@ -19,7 +19,7 @@ contains
         !! Parameters inside their domains; with `edges` also on their edges.
         class(system_t), intent(inout) :: system
         logical, intent(in) :: edges
-        type(description_t) :: d
+        type(description_t) :: d  !! of the system with these parameters
         type(error_t), allocatable :: error
         real(dp), allocatable :: values(:), read_back(:)
 

@@ -1,5 +1,6 @@
 module lagrangia_modes_command
     !! `lagrangia modes SYSTEM`: small oscillations, LAPACK's answer beside the page's.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_description, only: description_t
@@ -85,7 +86,7 @@ contains
         type(modes_t), intent(in) :: modes
         type(description_t) :: d
         character(140) :: row
-        integer :: i, j, n
+        integer :: j, n
 
         call system%describe(d)
         n = size(modes%omega2)
@@ -98,6 +99,8 @@ contains
         if (modes%difference >= 0.0_dp) then
             call put_line("page against L's second derivatives, relative: "// &
                           trim(short(modes%difference)))
+        else if (allocated(modes%page%mass)) then
+            call put_line("page not compared with L's second derivatives: too many coordinates")
         else
             call put_line("M and K come from L's second derivatives: the page has none")
         end if
@@ -122,20 +125,47 @@ contains
         end do
         if (n <= widest) then
             call put_line("")
-            call put_line("shapes, one a line, u^T M u = 1")
-            do j = 1, n
-                row = ""
-                do i = 1, n
-                    row(19*i - 18:) = number(modes%shapes(i, j))
-                end do
-                call put_line(trim(row))
-            end do
+            call put_shapes(modes)
         end if
-        row = "LAPACK: "//modes%method
-        if (modes%ratio >= 0.0_dp) row = trim(row)//", |K Z - M Z L|/(|K| |Z| n eps) = "// &
-            short(modes%ratio)
+        if (allocated(modes%quadrature)) then
+            row = ", residual/(n eps size of its terms) = "
+        else
+            row = ", |K Z - M Z L|/(|K| |Z| n eps) = "
+        end if
+        row = "LAPACK: "//trim(modes%method)//trim(row)//" "//short(modes%ratio)
         call put_line(trim(row))
     end subroutine print_modes
+
+    subroutine put_shapes(modes)
+        !! One a line; of a mode that turns, what goes as \(\sin\omega t\) on a second line.
+        type(modes_t), intent(in) :: modes
+        integer :: j
+
+        if (allocated(modes%quadrature)) then
+            call put_line("shapes (a + i b) exp(i omega t), a and b a line each, u^+ M u = 1")
+        else
+            call put_line("shapes, one a line, u^T M u = 1")
+        end if
+        do j = 1, size(modes%omega2)
+            call put_shape("", modes%shapes(:, j))
+            if (allocated(modes%quadrature)) call put_shape("i", modes%quadrature(:, j))
+        end do
+    contains
+        subroutine put_shape(mark, u)
+            character(*), intent(in) :: mark
+            real(dp), intent(in) :: u(:)
+            character(19*size(u) + 2) :: row
+            integer :: i
+
+            row = mark
+            do i = 1, size(u)
+                row(19*i - 16:) = number(u(i))
+                ! beside the others of the same weight it is rounding
+                if (abs(u(i))*sqrt(modes%mass(i, i)) < 4.0_dp*epsilon(1.0_dp)) row(19*i - 16:) = "0"
+            end do
+            call put_line(trim(row))
+        end subroutine put_shape
+    end subroutine put_shapes
 
     pure function relative(modes, j) result(difference)
         !! Of mode `j` from its closed form.
@@ -188,7 +218,7 @@ contains
         if (abs(value) >= 1e-3_dp .and. abs(value) < 1e5_dp) then
             write (text, "(f18.11)") value
         else
-            write (text, "(es18.11e2)") value
+            write (text, "(es18.10e3)") value
         end if
         text = adjustl(text)
     end function number
@@ -204,14 +234,16 @@ contains
     end function short
 
     function as_json(name, modes) result(json)
-        !! One object with the keys of cli.md; shapes are rows, one a mode.
+        !! One object; shapes are rows, one a mode. An unstable mode has no omega: `null`. Where
+        !! velocities bend the motion there are `G` and the shapes' imaginary parts besides.
         character(*), intent(in) :: name
         type(modes_t), intent(in) :: modes
         character(:), allocatable :: json
         real(dp) :: omega(size(modes%omega2))
         integer :: j
 
-        omega = sqrt(max(0.0_dp, modes%omega2))
+        omega = ieee_value(omega, ieee_quiet_nan)
+        where (modes%label /= is_unstable) omega = sqrt(max(0.0_dp, modes%omega2))
         json = '{"system": '//json_string(name)//', "at": '//json_list(modes%at)// &
                ', "M": '//rows(modes%mass)//', "K": '//rows(modes%stiffness)// &
                ', "omega2": '//json_list(modes%omega2)//', "omega": '//json_list(omega)// &
@@ -226,12 +258,12 @@ contains
         else
             json = json//"null"
         end if
-        json = json//', "residual_ratio": '
-        if (modes%ratio >= 0.0_dp) then
-            json = json//json_number(modes%ratio)//"}"
-        else
-            json = json//"null}"
+        json = json//', "residual_ratio": '//json_number(modes%ratio)
+        if (allocated(modes%quadrature)) then
+            json = json//', "G": '//rows(modes%gyroscopic)// &
+                   ', "shapes_imaginary": '//rows(transpose(modes%quadrature))
         end if
+        json = json//"}"
     end function as_json
 
     function rows(a) result(json)

@@ -3,11 +3,11 @@ module lagrangia_eigen
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_errors, only: error_t, fail, status_library
     use lagrangia_kinds, only: dp
-    use lagrangia_lapack_eigen, only: dgejsv, dggev, dsygv, dsygvd
+    use lagrangia_lapack_eigen, only: dgejsv, dsygv, dsygvd
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: normal_modes, modes_from_factors, gyroscopic_modes, residual_ratio
+    public :: normal_modes, modes_from_factors, residual_ratio
 
     integer, parameter :: small = 32  !! up to here dsygv is the faster one
 
@@ -71,7 +71,8 @@ contains
     end subroutine normal_modes
 
     pure subroutine check_matrix(a, name, error)
-        !! Square, not empty, finite, symmetric to rounding.
+        !! Square, not empty, finite, symmetric to rounding: that of an element, or of the sums of
+        !! products of size \(\sqrt{a_{ii}a_{jj}}\) that it may come from.
         real(dp), intent(in) :: a(:, :)
         character(*), intent(in) :: name
         type(error_t), allocatable, intent(out) :: error
@@ -86,8 +87,8 @@ contains
             do i = 1, j
                 if (.not. (ieee_is_finite(a(i, j)) .and. ieee_is_finite(a(j, i)))) then
                     call fail(error, name//"("//to_text(i)//", "//to_text(j)//") is not finite")
-                else if (abs(a(i, j) - a(j, i)) > 8.0_dp*epsilon(a)*max(abs(a(i, j)), &
-                                                                      abs(a(j, i)))) then
+                else if (abs(a(i, j) - a(j, i)) > 8.0_dp*epsilon(a)*max( &
+                         abs(a(i, j)), abs(a(j, i)), sqrt(abs(a(i, i)))*sqrt(abs(a(j, j))))) then
                     call fail(error, name//" is not symmetric: "//name//"("//to_text(i)//", "// &
                               to_text(j)//") = "//to_text(a(i, j))//", "//name//"("//to_text(j)// &
                               ", "//to_text(i)//") = "//to_text(a(j, i)))
@@ -153,52 +154,6 @@ contains
         end do
         call orient(modes)
     end subroutine modes_from_factors
-
-    pure subroutine gyroscopic_modes(stiffness, gyroscopic, inertia, lambda, modes, error)
-        !! Solve \((\lambda^2 M + \lambda G + K)u = 0\) in first-order form: n eigenvalues
-        !! \(\lambda\), one of each pair \(\pm\), in ascending order of \(|\mathrm{Im}\,\lambda|\).
-        !!
-        !! Source: Tisseur & Meerbergen, SIAM Review 43 (2001) 235; LAPACK `dggev`.
-        real(dp), intent(in) :: stiffness(:, :), gyroscopic(:, :), inertia(:, :)
-        complex(dp), allocatable, intent(out) :: lambda(:), modes(:, :)
-        type(error_t), allocatable, intent(out) :: error
-        real(dp), dimension(2*size(stiffness, 1), 2*size(stiffness, 1)) :: a, b, vectors
-        real(dp), dimension(2*size(stiffness, 1)) :: re, im, beta
-        real(dp) :: left(1, 1), work(40*size(stiffness, 1) + 100)
-        logical :: taken(2*size(stiffness, 1))
-        integer :: n, i, j, k, info
-
-        call check_matrix(stiffness, "K", error)
-        if (allocated(error)) return
-        call check_matrix(inertia, "M", error)
-        if (allocated(error)) return
-        n = size(stiffness, 1)
-        a = 0.0_dp
-        b = 0.0_dp
-        do i = 1, n
-            a(i, n + i) = 1.0_dp
-            b(i, i) = 1.0_dp
-        end do
-        a(n + 1:, :n) = -stiffness
-        a(n + 1:, n + 1:) = -gyroscopic
-        b(n + 1:, n + 1:) = inertia
-        call dggev("N", "V", 2*n, a, 2*n, b, 2*n, re, im, beta, left, 1, vectors, 2*n, work, &
-                   size(work), info)
-        if (info /= 0 .or. any(abs(beta) <= 0.0_dp)) then
-            call fail(error, "LAPACK found no frequencies (info = "//to_text(info)//"): M is "// &
-                      "singular?", status_library)
-            return
-        end if
-        allocate (lambda(n), modes(n, n))
-        taken = im < 0.0_dp .or. (abs(im) <= 0.0_dp .and. re < 0.0_dp)
-        do k = 1, n
-            j = minloc(abs(im/beta), 1, .not. taken)
-            taken(j) = .true.
-            lambda(k) = cmplx(re(j), im(j), dp)/beta(j)
-            modes(:, k) = cmplx(vectors(:n, j), 0.0_dp, dp)
-            if (im(j) > 0.0_dp) modes(:, k) = cmplx(vectors(:n, j), vectors(:n, j + 1), dp)
-        end do
-    end subroutine gyroscopic_modes
 
     pure function residual_ratio(stiffness, inertia, omega2, modes) result(ratio)
         !! LAPACK's own measure \(\|KZ - MZ\Lambda\|/(\|K\|\,\|Z\|\,n\,\epsilon)\) in the 1-norm:

@@ -5,8 +5,9 @@ module lagrangia_small_oscillations
     !! \(M\ddot\delta + G\dot\delta + K\delta = 0\) with \(M = L_{vv}\), \(G = L_{vq} - L_{qv}\) and
     !! \(K = -L_{qq}\): once from the page, once from the Lagrangian's exact second derivatives.
     use lagrangia_description, only: description_t, name_length
-    use lagrangia_eigen, only: gyroscopic_modes, modes_from_factors, normal_modes, residual_ratio
+    use lagrangia_eigen, only: modes_from_factors, normal_modes, residual_ratio
     use lagrangia_errors, only: error_t, fail, status_library
+    use lagrangia_gyroscopic, only: gyroscopic_modes, gyroscopic_ratio, is_steady
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
@@ -28,8 +29,9 @@ module lagrangia_small_oscillations
         real(dp) :: difference = -1.0_dp           !! of the page from L, relative; < 0: unknown
         real(dp), allocatable :: omega2(:)         !! ascending, s^-2
         real(dp), allocatable :: shapes(:, :)      !! column j belongs to `omega2(j)`
+        real(dp), allocatable :: quadrature(:, :)  !! with \(G\): shape cos - quadrature sin
         integer, allocatable :: label(:)
-        real(dp) :: ratio = -1.0_dp                !! LAPACK's residual ratio; < 0: gyroscopic
+        real(dp) :: ratio = -1.0_dp                !! LAPACK's residual ratio
         character(40) :: method = ""
     end type modes_t
 
@@ -75,7 +77,7 @@ contains
             call normal_modes(k, m, modes%omega2, modes%shapes, error)
         end if
         if (allocated(error)) return
-        if (.not. any(abs(g) > 0.0_dp)) then
+        if (.not. allocated(modes%quadrature)) then
             modes%ratio = residual_ratio(k, m, modes%omega2, modes%shapes)
         end if
         call put_labels(modes)
@@ -233,36 +235,40 @@ contains
         type(modes_t), intent(inout) :: modes
         type(error_t), allocatable, intent(out) :: error
         complex(dp), allocatable :: lambda(:), shapes(:, :)
-        integer :: j, n
 
         modes%method = "dggev in first-order form"
         call gyroscopic_modes(modes%stiffness, modes%gyroscopic, modes%mass, lambda, shapes, error)
         if (allocated(error)) return
-        n = size(lambda)
-        allocate (modes%omega2(n), modes%shapes(n, n))
-        do j = 1, n
-            modes%omega2(j) = aimag(lambda(j))**2
-            if (abs(real(lambda(j))) > 1e-7_dp*maxval(abs(lambda))) then
-                modes%omega2(j) = -real(lambda(j))**2
-            end if
-            modes%shapes(:, j) = real(shapes(:, j), dp)
-        end do
+        modes%ratio = gyroscopic_ratio(modes%stiffness, modes%gyroscopic, modes%mass, lambda, &
+                                       shapes)
+        modes%omega2 = merge(aimag(lambda)**2, -real(lambda)**2, is_steady(lambda))
+        modes%shapes = real(shapes, dp)
+        modes%quadrature = aimag(shapes)
     end subroutine solve_gyroscopic
 
     pure subroutine put_labels(modes)
         !! Below rounding a frequency is a zero mode; a negative square is a growth rate.
         type(modes_t), intent(inout) :: modes
-        real(dp) :: threshold
-        integer :: n
+        logical :: vanishes(size(modes%omega2))
+        real(dp) :: rounding, spring
+        integer :: j
 
-        n = size(modes%omega2)
-        threshold = 0.0_dp
-        if (.not. allocated(modes%page%root)) then
-            threshold = 16*n*epsilon(threshold)*maxval(abs(modes%omega2))
+        rounding = 16*size(modes%omega2)*epsilon(rounding)
+        vanishes = abs(modes%omega2) <= rounding*maxval(abs(modes%omega2))
+        if (allocated(modes%page%root)) vanishes = abs(modes%omega2) <= 0.0_dp
+        if (allocated(modes%quadrature)) then
+            do j = 1, size(vanishes)
+                ! a mode may be slow because the fast one is fast: then its spring is there
+                associate (u => modes%shapes(:, j), w => modes%quadrature(:, j))
+                    spring = abs(dot_product(u, matmul(modes%stiffness, u)) + &
+                                 dot_product(w, matmul(modes%stiffness, w)))
+                    vanishes(j) = vanishes(j) .and. spring <= rounding* &
+                                  maxval(abs(modes%stiffness))*(sum(u**2) + sum(w**2))
+                end associate
+            end do
         end if
-        allocate (modes%label(n), source=is_oscillation)
-        where (modes%omega2 < 0.0_dp) modes%label = is_unstable
-        where (abs(modes%omega2) <= threshold) modes%label = is_zero_mode
-        where (modes%label == is_zero_mode) modes%omega2 = 0.0_dp
+        modes%label = merge(is_unstable, is_oscillation, modes%omega2 < 0.0_dp)
+        where (vanishes) modes%label = is_zero_mode
+        where (vanishes) modes%omega2 = 0.0_dp
     end subroutine put_labels
 end module lagrangia_small_oscillations

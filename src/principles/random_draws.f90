@@ -65,6 +65,7 @@ contains
                 do j = 1, p%count
                     k = k + 1
                     call self%uniform(lowest, min(p%upper, lowest + 4.0_dp), values(k))
+                    if (p%whole) values(k) = anint(values(k))
                     call self%uniform(0.0_dp, 1.0_dp, chance)
                     if (.not. edges .or. chance > 0.4_dp) cycle
                     if (len_trim(p%computed) > 0) then

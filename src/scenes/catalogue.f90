@@ -17,6 +17,7 @@ module lagrangia_catalogue
     use lagrangia_driven_pendulum_reference, only: driven_pendulum_reference_t, &
         new_driven_pendulum_reference
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_hanging_chain, only: hanging_chain_t
     use lagrangia_kinds, only: dp
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_oscillator_reference, only: oscillator_reference_t, &
@@ -43,7 +44,7 @@ module lagrangia_catalogue
     public :: new_reference
     public :: refuse_name
 
-    integer, parameter :: built_in = 12               !! systems
+    integer, parameter :: built_in = 13               !! systems
     type(system_box_t), allocatable :: registered(:)  !! those that other programs brought
 
 contains
@@ -84,6 +85,7 @@ contains
         case (10); allocate (rotating_hoop_t :: system)
         case (11); allocate (driven_pendulum_t :: system)
         case (12); allocate (bouncing_ball_t :: system)
+        case (13); allocate (hanging_chain_t :: system)
         case default
             if (.not. allocated(registered)) return
             if (i < 1 .or. i > built_in + size(registered)) return

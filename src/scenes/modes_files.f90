@@ -18,8 +18,9 @@ module lagrangia_modes_files
 contains
 
     subroutine write_mode(system, modes, j, folder, error)
-        !! `SYSTEM_mode_J.dat`: the equilibrium plus a tenth of the shape by \(\cos\omega t\) over
-        !! a period, \(\cosh\) over two growth times, or \(t\) over one second of a zero mode.
+        !! `SYSTEM_mode_J.dat`: the equilibrium plus a tenth of the shape times \(\cos\omega t\)
+        !! over a period (with \(G\), of a shape that turns), \(\cosh\) over two growth times, or
+        !! \(t\) over one second of a zero mode.
         class(system_t), intent(in) :: system
         type(modes_t), intent(in) :: modes
         integer, intent(in) :: j
@@ -33,6 +34,7 @@ contains
         character(16) :: units(1 + system%ndof)
         character(120) :: header(1)
         real(dp), dimension(1 + system%ndof) :: row, low, high
+        real(dp) :: shape(system%ndof)
         real(dp) :: t, rate, factor, duration
         character(:), allocatable :: path
         integer :: k
@@ -60,7 +62,11 @@ contains
             if (modes%label(j) == is_oscillation) factor = cos(rate*t)
             if (modes%label(j) == is_unstable) factor = cosh(rate*t)
             row(1) = t
-            row(2:) = modes%at + 0.1_dp*factor*modes%shapes(:, j)/maxval(abs(modes%shapes(:, j)))
+            shape = factor*modes%shapes(:, j)
+            if (allocated(modes%quadrature) .and. modes%label(j) == is_oscillation) then
+                shape = shape - sin(rate*t)*modes%quadrature(:, j)
+            end if
+            row(2:) = modes%at + 0.1_dp/maxval(abs(modes%shapes(:, j)))*shape
             low = min(low, row)
             high = max(high, row)
             call table%row(row)

@@ -9,6 +9,7 @@ module lagrangia_atwood
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(+), operator(-)
     use lagrangia_kinds, only: dp
+    use lagrangia_linearised, only: linearised_t
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
@@ -29,6 +30,7 @@ module lagrangia_atwood
         procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
+        procedure :: linearise
         procedure :: quantity => energy_or_force
         procedure :: positions
         procedure :: newton
@@ -245,4 +247,15 @@ contains
         held(1) = x(2) - axle + self%radius*x(7)
         held(2) = x(5) - axle - self%radius*x(7)
     end subroutine newton
+
+    pure subroutine linearise(self, q, page)
+        !! \(M = m_1 + m_2 + I/R^2\), \(K = 0\): balanced, it stays anywhere.
+        class(atwood_t), intent(in) :: self
+        real(dp), intent(in) :: q(self%ndof)
+        type(linearised_t), intent(out) :: page
+
+        page%mass = reshape([self%m1 + self%m2 + self%pulley_inertia/self%radius**2], [1, 1])
+        page%stiffness = reshape([0.0_dp], [1, 1])
+        page%omega2 = [0.0_dp]
+    end subroutine linearise
 end module lagrangia_atwood

@@ -5,7 +5,7 @@ module lagrangia_description
     implicit none (type, external)
     private
     public :: description_t, quantity_t, parameter_t, point_t
-    public :: coordinate, conserved, quantity, positive, nonnegative, between, number, &
+    public :: coordinate, conserved, quantity, positive, nonnegative, between, number, count_of, &
               vector, point
     public :: name_length, line_length
 
@@ -31,6 +31,7 @@ module lagrangia_description
         real(dp) :: lower = -huge(1.0_dp)
         real(dp) :: upper = huge(1.0_dp)
         logical :: open_lower = .false.          !! `lower` itself is not allowed
+        logical :: whole = .false.               !! a whole number
         character(name_length) :: computed = ""  !! the formula of a default that others determine
     contains
         procedure :: domain
@@ -138,6 +139,16 @@ contains
         item%upper = upper
     end function between
 
+    pure function count_of(name, meaning, value, most) result(item)
+        !! A parameter that must be a whole number from 1 to `most`.
+        character(*), intent(in) :: name, meaning
+        integer, intent(in) :: value, most
+        type(parameter_t) :: item
+
+        item = between(name, "1", meaning, real(value, dp), 1.0_dp, real(most, dp))
+        item%whole = .true.
+    end function count_of
+
     pure function vector(name, unit, meaning, value) result(item)
         !! A parameter of three components.
         character(*), intent(in) :: name, unit, meaning
@@ -167,6 +178,8 @@ contains
         text = "any finite number"
         if (self%lower > -huge(1.0_dp) .and. self%upper < huge(1.0_dp)) then
             text = "from "//bound(self%lower)//" to "//bound(self%upper)
+            if (self%whole) text = "a whole number from "//to_text(nint(self%lower))//" to "// &
+                                   to_text(nint(self%upper))
             if (self%open_lower) text = text//", above "//to_text(self%lower)
         else if (self%lower > -huge(1.0_dp)) then
             text = merge("greater than ", "at least     ", self%open_lower)

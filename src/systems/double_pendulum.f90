@@ -225,29 +225,34 @@ contains
     end subroutine accelerations_lanes
 
     pure subroutine linearise(self, q, page)
-        !! Both hanging: \(M = ((m_1+m_2)\ell_1^2, m_2\ell_1\ell_2; m_2\ell_1\ell_2, m_2\ell_2^2)\),
-        !! \(K = \mathrm{diag}((m_1+m_2)g\ell_1, m_2g\ell_2)\). With \(a = (1+m_2/m_1)g/\ell_1\),
-        !! \(b = g/\ell_2\) and \(c = a\,\ell_1/\ell_2\): sum \(a + c\), product \(ab\); the small
-        !! root is product by large root, which does not cancel.
+        !! \(M = ((m_1+m_2)\ell_1^2, m_2\ell_1\ell_2; m_2\ell_1\ell_2, m_2\ell_2^2)\) and
+        !! \(K = \mathrm{diag}((m_1+m_2)g\ell_1, m_2g\ell_2)\), with signs where a rod stands on its
+        !! head. With \(p = 1+m_2/m_1\) the sum of \(\omega^2\) is \(\pm pg/\ell_1 \pm pg/\ell_2\),
+        !! the product \(\pm pg^2/(\ell_1\ell_2)\): the root that does not cancel gives the other.
         class(double_pendulum_t), intent(in) :: self
         real(dp), intent(in) :: q(self%ndof)
         type(linearised_t), intent(out) :: page
-        real(dp) :: way(2), a, b, c, large
+        real(dp) :: way(2), a, b, c, w2(2)
 
         associate (m1 => self%m1, m2 => self%m2, l1 => self%l1, l2 => self%l2, g => self%g)
             way = sign(1.0_dp, cos(q))
-            page%mass = reshape([(m1 + m2)*l1**2, m2*l1*l2*way(1)*way(2), &
-                                 m2*l1*l2*way(1)*way(2), m2*l2**2], [2, 2])
-            page%stiffness = reshape([(m1 + m2)*g*l1*way(1), 0.0_dp, 0.0_dp, m2*g*l2*way(2)], &
-                                     [2, 2])
-            if (any(way < 0.0_dp)) return
+            c = m2*l1*l2*way(1)*way(2)
+            page%mass = reshape([(m1 + m2)*l1**2, c, c, m2*l2**2], [2, 2])
+            a = (m1 + m2)*g*l1*way(1)
+            page%stiffness = reshape([a, 0.0_dp, 0.0_dp, m2*g*l2*way(2)], [2, 2])
             a = (1.0_dp + m2/m1)*g/l1
             b = g/l2
             c = (1.0_dp + m2/m1)*g/l2
-            ! (a + c)^2 - 4 a b = (a - c)^2 + 4 a (c - b), and c - b = (m2/m1) g/l2
-            large = 0.5_dp*(a + c + hypot(a - c, 2.0_dp*sqrt(a*(m2/m1)*b)))
-            page%omega2 = [0.0_dp, 0.0_dp]
-            if (large > 0.0_dp) page%omega2 = [b*(a/large), large]
+            if (way(1)*way(2) > 0.0_dp) then
+                ! (a + c)^2 - 4 a b = (a - c)^2 + 4 a (c - b), and c - b = (m2/m1) g/l2
+                w2(2) = 0.5_dp*(a + c + hypot(a - c, 2.0_dp*sqrt(a*(m2/m1)*b)))
+            else
+                w2(2) = 0.5_dp*(abs(a - c) + hypot(a - c, 2.0_dp*sqrt(a*b)))
+            end if
+            w2(1) = way(1)*way(2)*b*(a/max(w2(2), tiny(a)))
+            page%omega2 = [minval(w2), maxval(w2)]
+            if (way(1)*a + way(2)*c < 0.0_dp) page%omega2 = [-maxval(w2), -minval(w2)]
+            if (any(way < 0.0_dp)) return
             page%root = reshape([sqrt((m1 + m2)*g*l1), 0.0_dp, 0.0_dp, sqrt(m2*g*l2)], [2, 2])
             page%inverse = reshape([1.0_dp/(sqrt(m1)*l1), -1.0_dp/(sqrt(m1)*l2), &
                                     0.0_dp, 1.0_dp/(sqrt(m2)*l2)], [2, 2])

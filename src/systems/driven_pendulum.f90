@@ -14,6 +14,7 @@ module lagrangia_driven_pendulum
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-), sin
     use lagrangia_kinds, only: dp
+    use lagrangia_linearised, only: linearised_t
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
@@ -33,6 +34,7 @@ module lagrangia_driven_pendulum
         procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
+        procedure :: linearise
         procedure :: quantity => energy_or_force
         procedure :: positions
         procedure :: newton
@@ -228,4 +230,17 @@ contains
         y = x(2) - self%amplitude*cos(self%drive_frequency*t)
         held(1) = 0.5_dp/self%l*(self%l**2 - x(1)**2 - y**2)
     end subroutine newton
+
+    pure subroutine linearise(self, q, page)
+        !! The pivot at rest: \(M = m\ell^2\), \(K = \pm mg\ell\).
+        class(driven_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: q(self%ndof)
+        type(linearised_t), intent(out) :: page
+        real(dp) :: way
+
+        way = sign(1.0_dp, cos(q(1)))
+        page%mass = reshape([self%m*self%l**2], [1, 1])
+        page%stiffness = reshape([way*self%m*self%g*self%l], [1, 1])
+        page%omega2 = [way*self%g/self%l]
+    end subroutine linearise
 end module lagrangia_driven_pendulum

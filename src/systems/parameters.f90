@@ -26,6 +26,7 @@ contains
             else
                 good = good .and. p%value(i) >= p%lower
             end if
+            if (p%whole) good = good .and. abs(p%value(i) - anint(p%value(i))) <= 0.0_dp
             if (.not. good) then
                 call fail(error, trim(p%name)//" = "//to_text(p%value(i))// &
                           " is not allowed: "//p%domain())

@@ -9,6 +9,7 @@ module lagrangia_wedge
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(+), operator(-)
     use lagrangia_kinds, only: dp
+    use lagrangia_linearised, only: linearised_t
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
@@ -29,6 +30,7 @@ module lagrangia_wedge
         procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
+        procedure :: linearise
         procedure :: quantity => momentum_or_force
         procedure :: positions
         procedure :: newton
@@ -222,4 +224,18 @@ contains
         held(1) = x(5)
         held(2) = sin(self%alpha)*(x(1) - x(4)) + cos(self%alpha)*(x(2) - x(5))
     end subroutine newton
+
+    pure subroutine linearise(self, q, page)
+        !! \(M = (m, m\cos\alpha; m\cos\alpha, M + m)\), \(K = 0\): with \(\alpha = 0\) or without
+        !! gravity it stays anywhere.
+        class(wedge_t), intent(in) :: self
+        real(dp), intent(in) :: q(self%ndof)
+        type(linearised_t), intent(out) :: page
+        real(dp) :: mixed
+
+        mixed = self%m_block*cos(self%alpha)
+        page%mass = reshape([self%m_block, mixed, mixed, self%m_wedge + self%m_block], [2, 2])
+        page%stiffness = reshape([0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], [2, 2])
+        page%omega2 = [0.0_dp, 0.0_dp]
+    end subroutine linearise
 end module lagrangia_wedge

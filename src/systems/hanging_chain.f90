@@ -1,0 +1,264 @@
+module lagrangia_hanging_chain
+    !! A chain of equal bobs on equal massless rods that hangs from a pivot, in a plane.
+    !!
+    !! One bob is the pendulum, two are the double pendulum. The equations are solved for the
+    !! tensions of the rods first: their matrix is tridiagonal, so accelerations cost O(n).
+    use lagrangia_description, only: conserved, coordinate, count_of, description_t, nonnegative, &
+                                     point, positive, quantity
+    use lagrangia_errors, only: error_t
+    use lagrangia_hyperdual, only: assignment(=), cos, hyperdual_t, operator(*), operator(**), &
+                                   operator(+), operator(-), sin
+    use lagrangia_kinds, only: dp
+    use lagrangia_laguerre, only: laguerre_zeros
+    use lagrangia_linearised, only: linearised_t
+    use lagrangia_system, only: check_parameters, system_t
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: hanging_chain_t
+
+    integer, parameter :: most = 1000  !! bobs
+
+    type, extends(system_t) :: hanging_chain_t
+        !! Coordinates: \(\theta_k\), rad, of rod k from the downward vertical.
+        integer :: n = 3         !! bobs
+        real(dp) :: m = 1.0_dp   !! each bob, kg
+        real(dp) :: l = 1.0_dp   !! the whole chain, m
+        real(dp) :: g = 9.81_dp  !! m s^-2
+    contains
+        procedure :: describe
+        procedure :: configure
+        procedure :: accelerations
+        procedure :: lagrangian
+        procedure :: energy
+        procedure :: linearise
+        procedure :: quantity => momentum_or_tension
+        procedure :: positions
+    end type hanging_chain_t
+
+contains
+
+    pure subroutine describe(self, d)
+        !! See `system_t`.
+        class(hanging_chain_t), intent(in) :: self
+        type(description_t), intent(out) :: d
+        integer :: k
+
+        d%name = "hanging_chain"
+        d%title = "equal bobs on equal rods, a chain that hangs; n = 1, 2: the pendulums"
+        d%coordinates = [(coordinate("theta"//to_text(k), "rad", "angle of rod "//to_text(k)// &
+                                     " from the downward vertical"), k=1, self%n)]
+        d%parameters = [count_of("n", "number of bobs", self%n, most), &
+                        positive("m", "kg", "mass of each bob", self%m), &
+                        positive("l", "m", "length of the whole chain, each rod l/n", self%l), &
+                        nonnegative("g", "m/s^2", "gravity", self%g)]
+        d%energy_scale = 0.5_dp*(self%n + 1)*self%m*self%g*self%l
+        d%quantities = [ &
+            quantity("L_z", "kg m^2/s", "sum of m (x y_dot - y x_dot): angular momentum about "// &
+                     "the pivot"), &
+            quantity("tension", "N", "of the uppermost rod")]
+        if (self%g <= 0.0_dp) d%quantities(1) = &
+            conserved("L_z", "kg m^2/s", "sum of m (x y_dot - y x_dot): angular momentum about "// &
+                      "the pivot, conserved without gravity", 0.0_dp)
+        d%points = [(point("bob"//to_text(k), self%m), k=1, self%n)]
+        d%lagrangian = [character(len(d%title)) :: &
+            "sum over k of m/2 (x_k_dot^2 + y_k_dot^2) - m g y_k", &
+            "x_k = l/n sum over i <= k of sin(theta_i), y_k = -l/n sum of cos(theta_i)"]
+        d%energy = "sum over k of m/2 (x_k_dot^2 + y_k_dot^2) + m g y_k"
+        d%equations = [character(len(d%title)) :: &
+            "m l/n theta_k_ddot = T_(k+1) sin(theta_(k+1) - theta_k)", &
+            "    - T_(k-1) sin(theta_k - theta_(k-1)),  k > 1", &
+            "m l/n theta_1_ddot = T_2 sin(theta_2 - theta_1) - m g sin(theta_1)", &
+            "2 T_k - T_(k+1) cos(theta_(k+1) - theta_k) - T_(k-1) cos(theta_k - theta_(k-1))", &
+            "    = m l/n theta_k_dot^2,  k > 1,  T_(n+1) = 0", &
+            "T_1 - T_2 cos(theta_2 - theta_1) = m l/n theta_1_dot^2 + m g cos(theta_1)"]
+        d%constraint = "holonomic, scleronomic: (x_k - x_(k-1))^2 + (y_k - y_(k-1))^2 = (l/n)^2"
+        d%notes = [character(len(d%title)) :: &
+            "omega^2 = n g/l times the zeros of Laguerre's polynomial L_n.", &
+            "As n grows omega goes to j0,k/2 sqrt(g/l), j0,k the zeros of Bessel's J_0."]
+        d%source = "Phys 601, 1 September 2011: double planar pendulum, continued"
+    end subroutine describe
+
+    pure subroutine configure(self, values, error)
+        !! Parameters: n, m, l, g.
+        class(hanging_chain_t), intent(inout) :: self
+        real(dp), intent(in) :: values(:)
+        type(error_t), allocatable, intent(out) :: error
+
+        call check_parameters(self, values, error)
+        if (allocated(error)) return
+        self%n = nint(values(1))
+        self%ndof = self%n
+        self%velocity_forces = self%n > 1
+        self%m = values(2)
+        self%l = values(3)
+        self%g = values(4)
+    end subroutine configure
+
+    pure subroutine accelerations(self, t, q, v, a)
+        !! Newton's law for bobs k and k - 1, subtracted, along rod k (the tensions) and across
+        !! it: with \(\ell = l/n\), \(\tau_k = T_k/m\), \(T_0 = T_{n+1} = 0\),
+        !! $$ \ell\ddot\theta_k = \tau_{k+1}\sin(\theta_{k+1}-\theta_k)
+        !!    - \tau_{k-1}\sin(\theta_k-\theta_{k-1}) - \delta_{k1}\,g\sin\theta_1. $$
+        class(hanging_chain_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: a(self%ndof)
+        real(dp) :: tau(self%ndof), s(self%ndof), l
+        integer :: k
+
+        associate (n => self%n, g => self%g)
+            l = self%l/n
+            call tensions(self, q, v, tau)
+            do k = 1, n - 1
+                s(k) = sin(q(k + 1) - q(k))
+            end do
+            a(1) = -g*sin(q(1))
+            do k = 1, n - 1
+                a(k) = (a(k) + tau(k + 1)*s(k))/l
+                a(k + 1) = -tau(k)*s(k)
+            end do
+            a(n) = a(n)/l
+        end associate
+    end subroutine accelerations
+
+    pure subroutine tensions(self, q, v, tau)
+        !! The tensions over m, by elimination from the pivot down: with \(c = \cos(\theta_{k+1} -
+        !! \theta_k)\) the pivots are 1, then \(2 - c^2/\) the one before, so never below 1.
+        class(hanging_chain_t), intent(in) :: self
+        real(dp), intent(in) :: q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: tau(self%ndof)
+        real(dp) :: c(self%ndof), pivot(self%ndof)
+        integer :: k
+
+        associate (n => self%n)
+            tau = self%l/n*v**2
+            tau(1) = tau(1) + self%g*cos(q(1))
+            pivot(1) = 1.0_dp
+            do k = 1, n - 1
+                c(k) = cos(q(k + 1) - q(k))
+                pivot(k + 1) = 2.0_dp - c(k)**2/pivot(k)
+                tau(k + 1) = tau(k + 1) + c(k)/pivot(k)*tau(k)
+            end do
+            tau(n) = tau(n)/pivot(n)
+            do k = n - 1, 1, -1
+                tau(k) = (tau(k) + c(k)*tau(k + 1))/pivot(k)
+            end do
+        end associate
+    end subroutine tensions
+
+    pure function lagrangian(self, t, q, v) result(l)
+        !! $$ L = \sum_k \tfrac12 m(\dot x_k^2 + \dot y_k^2) - mgy_k,\quad
+        !!    x_k = \ell\sum_{i\le k}\sin\theta_i,\ y_k = -\ell\sum_{i\le k}\cos\theta_i $$
+        class(hanging_chain_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t) :: l, s, c, x_dot, y_dot, y
+        integer :: k
+
+        associate (m => self%m, g => self%g, rod => self%l/self%n)
+            do k = 1, self%n
+                s = sin(q(k))
+                c = cos(q(k))
+                x_dot = x_dot + rod*v(k)*c
+                y_dot = y_dot + rod*v(k)*s
+                y = y - rod*c
+                l = l + 0.5_dp*m*(x_dot**2 + y_dot**2) - m*g*y
+            end do
+        end associate
+    end function lagrangian
+
+    pure function energy(self, t, q, v) result(e)
+        !! $$ E = \sum_k \tfrac12 m(\dot x_k^2 + \dot y_k^2) + mgy_k $$
+        class(hanging_chain_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: e, x_dot, y_dot, y
+        integer :: k
+
+        e = 0.0_dp
+        x_dot = 0.0_dp
+        y_dot = 0.0_dp
+        y = 0.0_dp
+        associate (m => self%m, g => self%g, rod => self%l/self%n)
+            do k = 1, self%n
+                x_dot = x_dot + rod*v(k)*cos(q(k))
+                y_dot = y_dot + rod*v(k)*sin(q(k))
+                y = y - rod*cos(q(k))
+                e = e + 0.5_dp*m*(x_dot**2 + y_dot**2) + m*g*y
+            end do
+        end associate
+    end function energy
+
+    pure function momentum_or_tension(self, i, t, q, v) result(value)
+        !! 1: angular momentum about the pivot. 2: tension of the uppermost rod.
+        class(hanging_chain_t), intent(in) :: self
+        integer, intent(in) :: i
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: value, tau(self%ndof), r(2), r_dot(2)
+        integer :: k
+
+        if (i == 2) then
+            call tensions(self, q, v, tau)
+            value = self%m*tau(1)
+            return
+        end if
+        value = 0.0_dp
+        r = 0.0_dp
+        r_dot = 0.0_dp
+        associate (m => self%m, rod => self%l/self%n)
+            do k = 1, self%n
+                r = r + rod*[sin(q(k)), -cos(q(k))]
+                r_dot = r_dot + rod*v(k)*[cos(q(k)), sin(q(k))]
+                value = value + m*(r(1)*r_dot(2) - r(2)*r_dot(1))
+            end do
+        end associate
+    end function momentum_or_tension
+
+    pure subroutine positions(self, t, q, r)
+        !! Each bob hangs from the one before.
+        class(hanging_chain_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof)
+        type(hyperdual_t), intent(out) :: r(:, :)
+        integer :: k
+
+        r = hyperdual_t()
+        associate (rod => self%l/self%n)
+            do k = 1, self%n
+                if (k > 1) r(:, k) = r(:, k - 1)
+                r(1, k) = r(1, k) + rod*sin(q(k))
+                r(2, k) = r(2, k) - rod*cos(q(k))
+            end do
+        end associate
+    end subroutine positions
+
+    pure subroutine linearise(self, q, page)
+        !! \(M_{ij} = m\ell^2\,(n + 1 - \max(i, j))\), \(K_{ii} = mg\ell\,(n + 1 - i)\), with signs
+        !! where a rod stands on its head. Hanging, \(W\) takes differences of neighbours, and
+        !! \(SW(SW)^\top\) is \(g/\ell\) times the Jacobi matrix of Laguerre's polynomials.
+        class(hanging_chain_t), intent(in) :: self
+        real(dp), intent(in) :: q(self%ndof)
+        type(linearised_t), intent(out) :: page
+        real(dp) :: way(self%ndof)
+        integer :: i, j
+
+        associate (n => self%n, m => self%m, g => self%g, l => self%l/self%n)
+            way = sign(1.0_dp, cos(q))
+            allocate (page%mass(n, n), page%stiffness(n, n))
+            page%stiffness = 0.0_dp
+            do j = 1, n
+                do i = 1, n
+                    page%mass(i, j) = m*l**2*(n + 1 - max(i, j))*way(i)*way(j)
+                end do
+                page%stiffness(j, j) = m*g*l*(n + 1 - j)*way(j)
+            end do
+            if (any(way < 0.0_dp)) return
+            allocate (page%root(n, n), page%inverse(n, n))
+            page%root = 0.0_dp
+            page%inverse = 0.0_dp
+            do j = 1, n
+                page%root(j, j) = sqrt(m*g*l)*sqrt(real(n + 1 - j, dp))
+                page%inverse(j, j) = 1.0_dp/(sqrt(m)*l)
+                if (j < n) page%inverse(j + 1, j) = -page%inverse(j, j)
+            end do
+            page%omega2 = g/l*laguerre_zeros(n)
+        end associate
+    end subroutine linearise
+end module lagrangia_hanging_chain
