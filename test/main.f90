@@ -2,31 +2,45 @@ module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
     use test_action, only: action_suite
+    use test_bench, only: bench_suite
+    use test_bouncing_ball, only: bouncing_ball_suite
     use test_canonical, only: canonical_suite
     use test_cart_pendulum, only: cart_pendulum_suite
     use test_charged_particle, only: charged_particle_suite
     use test_charged_particle_reference, only: charged_particle_reference_suite
+    use test_columns, only: columns_suite
+    use test_command_line, only: command_line_suite
     use test_compensated, only: compensated_suite
     use test_compositions, only: compositions_suite
     use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
     use test_constraints, only: constraints_suite
+    use test_dense_run, only: dense_run_suite
     use test_dop853, only: dop853_suite
     use test_dop853_coefficients, only: dop853_coefficients_suite
     use test_double_pendulum, only: double_pendulum_suite
     use test_driven_pendulum, only: driven_pendulum_suite
     use test_elliptic, only: elliptic_suite
     use test_errors, only: errors_suite
+    use test_events, only: events_suite
     use test_exact_maps, only: exact_maps_suite
     use test_gauge, only: gauge_suite
+    use test_gauss, only: gauss_suite
+    use test_gauss_adaptive, only: gauss_adaptive_suite
+    use test_gauss_dense, only: gauss_dense_suite
+    use test_gauss_tables, only: gauss_tables_suite
+    use test_gnuplot, only: gnuplot_suite
     use test_gsl, only: gsl_suite
+    use test_gsl_odeiv, only: gsl_odeiv_suite
     use test_harness, only: harness_suite
     use test_harness_order, only: harness_order_suite
     use test_hyperdual, only: hyperdual_suite
+    use test_integrator_orders, only: integrator_orders_suite
     use test_lanes, only: lanes_suite
     use test_lapack, only: lapack_suite
     use test_lapack_band, only: lapack_band_suite
     use test_least_time, only: least_time_suite
+    use test_method_refusals, only: method_refusals_suite
     use test_method_structure, only: method_structure_suite
     use test_methods, only: methods_suite
     use test_namelist, only: namelist_suite
@@ -37,18 +51,27 @@ module suites
     use test_npy, only: npy_suite
     use test_number_text, only: number_text_suite
     use test_oscillator, only: oscillator_suite
+    use test_outcome, only: outcome_suite
     use test_output_failures, only: output_failures_suite
     use test_output_file, only: output_file_suite
     use test_pendulum, only: pendulum_suite
+    use test_period, only: period_suite
+    use test_plan, only: plan_suite
+    use test_precision_curve, only: precision_curve_suite
     use test_principles, only: principles_suite
     use test_processes, only: processes_suite
     use test_quadrature, only: quadrature_suite
     use test_rheonomic, only: rheonomic_suite
     use test_rolling_disk, only: rolling_disk_suite
     use test_rolling_disk_reference, only: rolling_disk_reference_suite
+    use test_roots, only: roots_suite
     use test_rotating_reference, only: rotating_reference_suite
+    use test_run, only: run_suite
     use test_scene_files, only: scene_files_suite
+    use test_scene_steps, only: scene_steps_suite
+    use test_shadow, only: shadow_suite
     use test_sinc, only: sinc_suite
+    use test_small_oscillations, only: small_oscillations_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
     implicit none (type, external)
@@ -65,32 +88,43 @@ contains
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
         call suite%addTest(action_suite())
+        call suite%addTest(bench_suite())
+        call suite%addTest(bouncing_ball_suite())
         call suite%addTest(canonical_suite())
         call suite%addTest(cart_pendulum_suite())
         call suite%addTest(charged_particle_suite())
         call suite%addTest(charged_particle_reference_suite())
+        call suite%addTest(columns_suite())
+        call suite%addTest(command_line_suite())
         call suite%addTest(compensated_suite())
         call suite%addTest(compositions_suite())
         call suite%addTest(console_suite())
         call suite%addTest(constant_accelerations_suite())
         call suite%addTest(constraints_suite())
+        call suite%addTest(dense_run_suite())
         call suite%addTest(dop853_suite())
         call suite%addTest(dop853_coefficients_suite())
         call suite%addTest(double_pendulum_suite())
         call suite%addTest(driven_pendulum_suite())
         call suite%addTest(elliptic_suite())
         call suite%addTest(errors_suite())
-        call suite%addTest(gauge_suite())
-        call suite%addTest(gsl_suite())
-        call suite%addTest(hyperdual_suite())
-        call suite%addTest(lapack_band_suite())
-        call suite%addTest(lapack_suite())
-        call suite%addTest(least_time_suite())
+        call suite%addTest(events_suite())
         call suite%addTest(exact_maps_suite())
+        call suite%addTest(gauge_suite())
+        call suite%addTest(gauss_suite())
+        call suite%addTest(gauss_adaptive_suite())
+        call suite%addTest(gauss_dense_suite())
+        call suite%addTest(gauss_tables_suite())
+        call suite%addTest(gnuplot_suite())
         call suite%addTest(gsl_suite())
+        call suite%addTest(gsl_odeiv_suite())
         call suite%addTest(hyperdual_suite())
+        call suite%addTest(integrator_orders_suite())
         call suite%addTest(lanes_suite())
         call suite%addTest(lapack_suite())
+        call suite%addTest(lapack_band_suite())
+        call suite%addTest(least_time_suite())
+        call suite%addTest(method_refusals_suite())
         call suite%addTest(method_structure_suite())
         call suite%addTest(methods_suite())
         call suite%addTest(namelist_suite())
@@ -101,18 +135,27 @@ contains
         call suite%addTest(npy_suite())
         call suite%addTest(number_text_suite())
         call suite%addTest(oscillator_suite())
+        call suite%addTest(outcome_suite())
         call suite%addTest(output_failures_suite())
         call suite%addTest(output_file_suite())
         call suite%addTest(pendulum_suite())
+        call suite%addTest(period_suite())
+        call suite%addTest(plan_suite())
+        call suite%addTest(precision_curve_suite())
         call suite%addTest(principles_suite())
         call suite%addTest(processes_suite())
         call suite%addTest(quadrature_suite())
         call suite%addTest(rheonomic_suite())
         call suite%addTest(rolling_disk_suite())
         call suite%addTest(rolling_disk_reference_suite())
+        call suite%addTest(roots_suite())
         call suite%addTest(rotating_reference_suite())
+        call suite%addTest(run_suite())
         call suite%addTest(scene_files_suite())
+        call suite%addTest(scene_steps_suite())
+        call suite%addTest(shadow_suite())
         call suite%addTest(sinc_suite())
+        call suite%addTest(small_oscillations_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(text_suite())
     end function load_tests

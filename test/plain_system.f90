@@ -1,6 +1,7 @@
 module plain_system
     !! A system of no lecture that has no lane kernel of its own: two coordinates, all of t, q
-    !! and v in its forces.
+    !! and v in its forces, and none after `last`.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t
@@ -11,6 +12,7 @@ module plain_system
     public :: plain_system_t
 
     type, extends(system_t) :: plain_system_t
+        real(dp) :: last = huge(1.0_dp)  !! accelerations are NaN later, s
     contains
         procedure :: describe
         procedure :: configure
@@ -47,6 +49,7 @@ contains
 
         a(1) = -q(1) + v(2)*cos(t)
         a(2) = -2.0_dp*sin(q(2)) - v(1)*cos(t)
+        if (t > self%last) a = ieee_value(t, ieee_quiet_nan)
     end subroutine accelerations
 
     pure function lagrangian(self, t, q, v) result(l)

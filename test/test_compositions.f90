@@ -1,5 +1,5 @@
 module test_compositions
-    !! The table of compositions: order conditions as identities, in quadruple precision.
+    !! The table of drifts and kicks: order conditions as identities, in quadruple precision.
     !!
     !! A symmetric method of order 2 is \(\exp(hX_1 + h^3X_3 + h^5X_5 + \dots)\) with operators
     !! that do not commute. A composition has order \(p\) where the product of all
@@ -14,6 +14,15 @@ module test_compositions
     private
     public :: compositions_suite
 
+    integer, parameter :: most_kicks = 18
+
+    type :: tree_t
+        !! One of Nystrom's trees; see `nystrom_defect`.
+        integer :: order = 0
+        real(qp) :: g = 0.0_qp
+        real(qp) :: phi(most_kicks) = 0.0_qp
+    end type tree_t
+
 contains
 
     function compositions_suite() result(suite)
@@ -26,6 +35,7 @@ contains
                                       conditions_of_the_next_order_fail))
         call suite%addTest(TestMethod("rows_are_symmetric_and_sum_to_one", &
                                       rows_are_symmetric_and_sum_to_one))
+        call suite%addTest(TestMethod("nystrom_conditions_hold", nystrom_conditions_hold))
     end function compositions_suite
 
     subroutine order_conditions_hold()
@@ -38,6 +48,7 @@ contains
             i = i + 1
             call nth_row(i, row)
             if (row%order == 0) exit
+            if (.not. allocated(row%gamma)) cycle
             call assertLessThan(real(worst(row%gamma, 1, row%order), dp), 1e-30_dp, &
                                 message=trim(row%name)//": order conditions")
         end do
@@ -54,29 +65,117 @@ contains
             i = i + 1
             call nth_row(i, row)
             if (row%order == 0) exit
+            if (.not. allocated(row%gamma)) cycle
             call assertGreaterThan(real(worst(row%gamma, row%order + 1, row%order + 1), dp), &
                                    1e-4_dp, message=trim(row%name)//": no higher order")
         end do
     end subroutine conditions_of_the_next_order_fail
 
     subroutine rows_are_symmetric_and_sum_to_one()
-        !! Symmetric to the last bit.
+        !! Symmetric to the last bit; a drift between two kicks, or a kick between two drifts.
         type(row_t) :: row
-        integer :: i, n
+        integer :: i
 
         i = 0
         do
             i = i + 1
             call nth_row(i, row)
             if (row%order == 0) exit
-            n = size(row%gamma)
-            call assertEqual(1, mod(n, 2), message=trim(row%name)//": an odd number of stages")
-            call assertTrue(all(abs(row%gamma - row%gamma(n:1:-1)) <= 0.0_qp), &
-                            trim(row%name)//": symmetric")
-            call assertLessThan(real(abs(sum(row%gamma) - 1.0_qp), dp), 1e-32_dp, &
-                                message=trim(row%name)//": sum")
+            call assertEqual(merge(-1, 1, row%kick_first), size(row%drift) - size(row%kick), &
+                             message=trim(row%name)//": drifts and kicks")
+            call check_list(row%drift, trim(row%name)//": drifts")
+            call check_list(row%kick, trim(row%name)//": kicks")
         end do
     end subroutine rows_are_symmetric_and_sum_to_one
+
+    subroutine check_list(list, name)
+        !! Symmetric, and 1 in all, to the rounding of numbers of about 1.
+        real(qp), intent(in) :: list(:)
+        character(*), intent(in) :: name
+
+        call assertTrue(all(abs(list - list(size(list):1:-1)) <= 0.0_qp), name//": symmetric")
+        call assertLessThan(real(abs(sum(list) - 1.0_qp), dp), 1e-32_dp, message=name//": sum")
+    end subroutine check_list
+
+    subroutine nystrom_conditions_hold()
+        !! Of all rows, to rounding; and those of the next odd order do not.
+        type(row_t) :: row
+        integer :: i
+
+        i = 0
+        do
+            i = i + 1
+            call nth_row(i, row)
+            if (row%order == 0) exit
+            call assertLessThan(nystrom_defect(row, 1, row%order), 1e-30_dp, &
+                                message=trim(row%name)//": Nystrom's order conditions")
+            if (row%order > 6) cycle  ! the list of trees would get long
+            call assertGreaterThan(nystrom_defect(row, row%order + 1, row%order + 1), 1e-9_dp, &
+                                   message=trim(row%name)//": no higher order")
+        end do
+    end subroutine nystrom_conditions_hold
+
+    function nystrom_defect(row, lowest, highest) result(worst)
+        !! The largest defect \(\sum_ib_i\Phi_i(\tau) - g(\tau)\) of the trees of these orders.
+        !!
+        !! A tree is a force whose arguments are the start velocity, with the weight \(c_i\), or
+        !! other forces: \(\Phi_i(\tau) = c_i^m\prod_k\sum_ja_{ij}\Phi_j(\tau_k)\) with
+        !! \(a_{ij} = b_j(c_i - c_j)\). Its order is \(\rho = 1 + m + \sum_k(\rho_k + 1)\), and the
+        !! exact velocity has \(g = \rho^{-1}\prod_kg_k/(\rho_k + 1)\). What holds for the velocity
+        !! holds for the position. Hairer, Norsett & Wanner, *Solving ODEs I*, sec. II.14.
+        type(row_t), intent(in) :: row
+        integer, intent(in) :: lowest, highest
+        real(dp) :: worst
+        real(qp) :: c(size(row%kick)), a(size(row%kick), size(row%kick)), ones(size(row%kick))
+        type(tree_t), allocatable :: trees(:)
+        integer :: i, j, order
+
+        do i = 1, size(c)
+            c(i) = sum(row%drift(:merge(i - 1, i, row%kick_first)))
+        end do
+        a = 0.0_qp
+        do i = 1, size(c)
+            do j = 1, i - 1
+                a(i, j) = row%kick(j)*(c(i) - c(j))
+            end do
+        end do
+        ones = 1.0_qp
+        allocate (trees(0))
+        do order = 1, highest
+            call extend_tree(ones, 0, 1.0_qp, 0, order, c, a, trees)
+        end do
+        worst = 0.0_dp
+        do i = 1, size(trees)
+            if (trees(i)%order < lowest) cycle
+            worst = max(worst, real(abs(sum(row%kick*trees(i)%phi(:size(row%kick))) &
+                                        - trees(i)%g), dp))
+        end do
+    end function nystrom_defect
+
+    recursive subroutine extend_tree(phi, degree, g, first, order, c, a, trees)
+        !! All trees of `order` that go on from this product: more velocities while `first` is 0,
+        !! then forces from number `first` of the list on.
+        real(qp), intent(in) :: phi(:), g, c(:), a(:, :)
+        integer, intent(in) :: degree, first, order
+        type(tree_t), allocatable, intent(inout) :: trees(:)
+        type(tree_t) :: tree
+        integer :: k, known
+
+        known = size(trees)
+        if (degree + 1 == order) then
+            tree%order = order
+            tree%g = g/order
+            tree%phi(:size(phi)) = phi
+            trees = [trees, tree]
+            return
+        end if
+        if (first == 0) call extend_tree(phi*c, degree + 1, g, 0, order, c, a, trees)
+        do k = max(first, 1), known
+            if (degree + trees(k)%order + 2 > order) cycle
+            call extend_tree(phi*matmul(a, trees(k)%phi(:size(phi))), degree + trees(k)%order + 1, &
+                             g*trees(k)%g/(trees(k)%order + 1), k, order, c, a, trees)
+        end do
+    end subroutine extend_tree
 
     function worst(gamma, lowest, highest)
         !! The largest defect of all words whose degree is between `lowest` and `highest`.

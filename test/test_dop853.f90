@@ -137,6 +137,7 @@ contains
         integer(i8) :: steps(2)
         integer :: i
 
+        steps = 0
         do i = 4, 12, 2
             call set_up(system, reference, method)
             method%tolerance = 10.0_dp**(-i)

@@ -67,7 +67,7 @@ contains
     subroutine a_system_needs_no_kernel()
         !! The contract's own loop: the same operations, so equal to the last bit.
         type(plain_system_t) :: system
-        real(dp) :: t(lanes), q(lanes, 2), v(lanes, 2), a(lanes, 2), each(2)
+        real(dp) :: t(lanes), q(lanes, 2), v(lanes, 2), a(lanes, 2), each(2), x(2), x_dot(2)
         integer :: i
 
         do i = 1, lanes
@@ -78,7 +78,9 @@ contains
         system%ndof = 2
         call system%accelerations_lanes(t, q, v, a)
         do i = 1, lanes
-            call system%accelerations(t(i), q(i, :), v(i, :), each)
+            x = q(i, :)
+            x_dot = v(i, :)
+            call system%accelerations(t(i), x, x_dot, each)
             call assertEqual(each, a(i, :), 0.0_dp, "lanes")
         end do
     end subroutine a_system_needs_no_kernel

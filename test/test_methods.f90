@@ -1,13 +1,13 @@
 module test_methods
     !! Walks over the methods: each is what it declares to be. A new one is tested the day it is
     !! listed, on every problem below that it takes.
-    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertGreaterThan, &
-                     assertLessThan, assertTrue
-    use lagrangia_catalogue, only: new_reference, nth_system
+    use funit, only: TestMethod, TestSuite, assertEqual, assertGreaterThan, assertLessThan, &
+                     assertTrue
+    use lagrangia_catalogue, only: new_reference, new_system, nth_system
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_methods, only: method_names, new_integrator, nth_integrator, prepare_integrator
+    use lagrangia_methods, only: method_names, new_integrator, nth_integrator
     use lagrangia_reference, only: reference_t
     use lagrangia_system, only: system_t
     use method_problems, only: new_problem, problems, refuses
@@ -25,20 +25,22 @@ contains
         call suite%addTest(TestMethod("orders_are_as_declared", orders_are_as_declared))
         call suite%addTest(TestMethod("energy_stays_where_declared", energy_stays_where_declared))
         call suite%addTest(TestMethod("cuts_change_no_byte", cuts_change_no_byte))
+        call suite%addTest(TestMethod("carried_forces_belong_to_their_time", &
+                                      carried_forces_belong_to_their_time))
         call suite%addTest(TestMethod("stability_ends_where_it_must", stability_ends_where_it_must))
-        call suite%addTest(TestMethod("refusals_name_what_works", refusals_name_what_works))
     end function methods_suite
 
     subroutine orders_are_as_declared()
         !! Error against the closed form, and swing of the energy, from one number of steps and
-        !! twice as many. The first is the smallest power of two whose error is small enough
-        !! for the leading term to rule.
+        !! twice as many. The first is the smallest power of two, from 32 on, whose error is small
+        !! enough for the leading term to rule. The energy error of `blanes_moan6` is near rounding
+        !! before it does: there it is seen from one side only.
         class(integrator_t), allocatable :: method
         class(system_t), allocatable :: system
         character(:), allocatable :: name
         real(dp), allocatable :: q(:), v(:)
-        real(dp), parameter :: rounding = 1e-13_dp  !! where the energy is kept exactly
-        real(dp) :: error(2), swing(2)
+        real(dp), parameter :: rounding = 1e-13_dp  !! of the energy
+        real(dp) :: error(2), swing(2), small, order
         integer :: i, k, taken
         integer(i8) :: steps
 
@@ -52,19 +54,22 @@ contains
                 if (refuses(method, system)) cycle
                 taken = taken + 1
                 name = trim(method%name)//describe(k)
-                steps = 8
+                small = merge(10.0_dp**(-4 - method%order), 1e-6_dp, method%order < 6)
+                steps = 16
                 do
                     steps = 2*steps
                     call run(method, system, q, v, steps, error(1), swing(1))
-                    if (error(1) < 10.0_dp**(-7 - 0.25_dp*method%order) .or. steps > 100000) exit
+                    if (error(1) < small .or. steps > 100000) exit
                 end do
                 call run(method, system, q, v, 2*steps, error(2), swing(2))
                 call assertEqual(real(method%order, dp), log(error(1)/error(2))/log(2.0_dp), &
                                  0.1_dp, name//": order")
                 if (method%energy_order == 0 .or. swing(1) < rounding) cycle
-                call assertEqual(real(method%energy_order, dp), &
-                                 log(swing(1)/swing(2))/log(2.0_dp), 0.1_dp, &
-                                 name//": order of the energy error")
+                order = log(swing(1)/swing(2))/log(2.0_dp)
+                call assertGreaterThan(order, method%energy_order - 0.1_dp, &
+                                       message=name//": energy error of no lower order")
+                if (swing(2) > 10.0_dp*rounding) call assertLessThan(order, &
+                    method%energy_order + 0.1_dp, message=name//": nor of a higher one")
             end do
             call assertGreaterThan(taken, 0, message=trim(method%name)//": problems taken")
         end do
@@ -190,6 +195,29 @@ contains
         end do
     end subroutine cut
 
+    subroutine carried_forces_belong_to_their_time()
+        !! The same place at another time is another force.
+        class(integrator_t), allocatable :: method, fresh
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        real(dp), dimension(1) :: q, v, q_fresh, v_fresh
+
+        call new_system("driven_pendulum", system, error)
+        call new_integrator("velocity_verlet", method, error)
+        call new_integrator("velocity_verlet", fresh, error)
+        call method%prepare(system, error)
+        call fresh%prepare(system, error)
+        q = 1.0_dp
+        v = 0.5_dp
+        call method%advance(system, 0.0_dp, 0.01_dp, 0_i8, 10_i8, q, v)
+        q_fresh = q
+        v_fresh = v
+        call method%advance(system, 0.7_dp, 0.01_dp, 0_i8, 10_i8, q, v)
+        call fresh%advance(system, 0.7_dp, 0.01_dp, 0_i8, 10_i8, q_fresh, v_fresh)
+        call assertEqual(q_fresh, q, message="q")
+        call assertEqual(v_fresh, v, message="v")
+    end subroutine carried_forces_belong_to_their_time
+
     subroutine stability_ends_where_it_must()
         !! On the oscillator, in 2000 steps: Verlet at 2, Runge-Kutta at the square root of 8.
         call check_limit("verlet", 2.0_dp)
@@ -224,54 +252,4 @@ contains
             end if
         end do
     end subroutine check_limit
-
-    subroutine refusals_name_what_works()
-        !! Verlet on the double pendulum, Boris on a pendulum, midpoint on a rolling disk; and
-        !! sums that cannot be compensated, methods that do not exist.
-        call check_refusal("verlet", 3, "verlet is for forces that depend on positions only, "// &
-                           "and here they depend on velocities; these methods work: rk4, "// &
-                           "stormer_verlet, midpoint, gauss16")
-        call check_refusal("kahan_li8", 8, "kahan_li8 is for forces that depend on positions "// &
-                           "only, and here they depend on velocities; these methods work: rk4, "// &
-                           "stormer_verlet, midpoint, boris")
-        call check_refusal("boris", 2, "boris is for charges in magnetic fields; these methods "// &
-                           "work: rk4, stormer_verlet, midpoint, gauss16, verlet, ")
-        call check_refusal("midpoint", 7, "midpoint is for systems with a Hamiltonian, and "// &
-                           "here there are non-holonomic constraints; these methods work: rk4")
-        call check_absence("boris", .true., "compensated", "boris has no compensated sums; "// &
-                           "these have: rk4, verlet, velocity_verlet, ")
-        call check_absence("rk5", .false., "method", "unknown method 'rk5'; did you mean 'rk4'?")
-    end subroutine refusals_name_what_works
-
-    subroutine check_refusal(name, k, message)
-        !! Method `name` refuses system `k` in words that begin like `message`.
-        character(*), intent(in) :: name, message
-        integer, intent(in) :: k
-        class(integrator_t), allocatable :: method
-        class(system_t), allocatable :: system
-        type(error_t), allocatable :: error
-
-        call new_integrator(name, method, error)
-        call nth_system(k, system)
-        call prepare_integrator(method, system, error)
-        call assertTrue(allocated(error), name//" refuses")
-        if (.not. allocated(error)) return
-        call assertEqual(1, index(error%message, message), error%message)
-        call assertEqual("method", error%key)
-    end subroutine check_refusal
-
-    subroutine check_absence(name, compensated, key, message)
-        !! There is no such method, or not with compensated sums.
-        character(*), intent(in) :: name, key, message
-        logical, intent(in) :: compensated
-        class(integrator_t), allocatable :: method
-        type(error_t), allocatable :: error
-
-        call new_integrator(name, method, error, compensated)
-        call assertFalse(allocated(method), name//" is absent")
-        call assertTrue(allocated(error), name//" is refused")
-        if (.not. allocated(error)) return
-        call assertEqual(1, index(error%message, message), error%message)
-        call assertEqual(key, error%key)
-    end subroutine check_absence
 end module test_methods

@@ -114,9 +114,11 @@ contains
                     "dt = 0: a number greater than 0 is needed, in s")
         call refuse("&scene system='pendulum' dt=2 duration=1 q=1 /", "s.nml:1:29: &scene: "// &
                     "dt = 2: is longer than the whole run, duration = 1.0")
-        call refuse("&scene system='pendulum' dt=1e-2 duration=1 q=1,2 /", "s.nml:1:47: &scene: "// &
+        call refuse("&scene system='pendulum' dt=1e-2 duration=1 q=1,2 /", "s.nml:1:47: "// &
+                    "&scene: "// &
                     "q = 1: 2 values, but 1 is needed: theta")
-        call refuse(good//"&pendulum lenght=2 /", "s.nml:1:60: &pendulum: unknown key 'lenght'; "// &
+        call refuse(good//"&pendulum lenght=2 /", "s.nml:1:60: &pendulum: unknown key "// &
+                    "'lenght'; "// &
                     "allowed: m, l, g")
         call refuse(good//"&pendulum l=-2 /", "s.nml:1:62: &pendulum: l = -2: greater than 0.0 "// &
                     "is needed")
@@ -128,10 +130,12 @@ contains
                     "s.nml:1:61: &scene: columns = 'thet': unknown column 'thet'; did you mean "// &
                     "'theta'?")
         call refuse("&scene system='pendulum' dt=1e-2 duration=1 q=1 samples=7 /", &
-                    "s.nml:1:57: &scene: samples = 7: does not divide the 100 steps; every = 14 "// &
+                    "s.nml:1:57: &scene: samples = 7: does not divide the 100 steps; every = "// &
+                    "14 "// &
                     "gives about as many")
         call refuse("&scene system='pendulum' dt=1e-2 duration=1 q=1 output='../a' /", &
-                    "s.nml:1:56: &scene: output = '../a': a file name below the output folder is "// &
+                    "s.nml:1:56: &scene: output = '../a': a file name below the output "// &
+                    "folder is "// &
                     "needed: letters, digits, . _ - / and blanks, not absolute, without '..', "// &
                     "not ending in .gp")
         call refuse("&scene system='pendulum' dt=1e-2 duration=1 q=1 expect_period=1 /", &
@@ -141,7 +145,8 @@ contains
                     "column 'energy_drift': the energy of this driven_pendulum is not "// &
                     "conserved, for L contains the time")
         call refuse("&scene system='double_pendulum' method='verlet' dt=1e-2 duration=1 q=1,2 /", &
-                    "s.nml:1:40: &scene: method = 'verlet': verlet is for forces that depend on "// &
+                    "s.nml:1:40: &scene: method = 'verlet': verlet is for forces that depend "// &
+                    "on "// &
                     "positions only")
         call refuse("&scene system='rolling_disk' dt=1e-2 duration=1 q=4*0 v=1,2,3,4 /", &
                     "s.nml:1:57: &scene: v = 1")
@@ -221,7 +226,8 @@ contains
         call assertEqual(400, int(outcome%evaluations))
         call assertEqual(0, int(outcome%energy_evaluations))
         call assertEqual(11, int(outcome%rows))
-        call perform("&scene system='pendulum' dt=3e-2 duration=1 every=10 q=1 columns='energy' /", &
+        call perform("&scene system='pendulum' dt=3e-2 duration=1 every=10 q=1 "// &
+                     "columns='energy' /", &
                      outcome, error)
         call assertEqual(34, int(outcome%steps))
         call assertEqual(5, int(outcome%energy_evaluations))

@@ -1,11 +1,13 @@
 module lagrangia_commands
     !! From the program's words to one command.
+    use lagrangia_bench, only: bench_command
     use lagrangia_command_line, only: command_line_t, command_words, parse_words, word_t
     use lagrangia_console, only: finish_console, put, put_line
     use lagrangia_describe, only: describe_command
     use lagrangia_errors, only: error_t
     use lagrangia_interrupt, only: catch_interrupts
     use lagrangia_list, only: list_command
+    use lagrangia_modes_command, only: modes_command
     use lagrangia_principle, only: principle_command
     use lagrangia_registry, only: check_line, commands, help_text, options
     use lagrangia_run_command, only: run_command
@@ -41,6 +43,8 @@ contains
             select case (commands(which)%name)
             case ("list"); call list_command(line, error)
             case ("describe"); call describe_command(line, error)
+            case ("bench"); call bench_command(line, error)
+            case ("modes"); call modes_command(line, error)
             case ("principle"); call principle_command(line, error)
             case default; call run_command(line, error)
             end select

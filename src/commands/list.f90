@@ -1,17 +1,18 @@
 module lagrangia_list
     !! `lagrangia list [systems|methods|scenes]`: what there is, one a line.
+    use lagrangia_adaptive_methods, only: nth_adaptive
     use lagrangia_catalogue, only: nth_system
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: put_line
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_integrator, only: integrator_t
+    use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_methods, only: nth_integrator
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: read_scene
     use lagrangia_shipped, only: shipped_scenes
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: nearest_name, quoted
+    use lagrangia_text, only: nearest_name, quoted, to_text
     implicit none (type, external)
     private
     public :: list_command
@@ -73,6 +74,7 @@ contains
 
         subroutine list_methods()
             class(integrator_t), allocatable :: integrator
+            class(dense_integrator_t), allocatable :: adaptive
             integer :: k
 
             k = 0
@@ -81,6 +83,14 @@ contains
                 call nth_integrator(k, integrator)
                 if (.not. allocated(integrator)) exit
                 call put(integrator%name, integrator%properties()//": "//integrator%title)
+            end do
+            k = 0
+            do
+                k = k + 1
+                call nth_adaptive(k, adaptive)
+                if (.not. allocated(adaptive)) exit
+                call put(adaptive%name, "order "//to_text(adaptive%order)//", steps by "// &
+                         "tolerance: "//adaptive%title)
             end do
         end subroutine list_methods
 

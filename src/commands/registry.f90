@@ -19,9 +19,15 @@ module lagrangia_registry
 
     type(option_t), parameter :: options(*) = [ &
         option_t("set", needs_value, "GROUP%KEY=VALUE", "override a scene's value; repeatable"), &
+        option_t("at", needs_value, "Q1,Q2,...", "the equilibrium (default: at or near zero)"), &
         option_t("output", needs_value, "DIR", "where data files go (default data/output)"), &
         option_t("format", needs_value, "text|csv|npy", "of the data files"), &
         option_t("plot", may_have_value, "svg|png", "draw the data files by gnuplot"), &
+        option_t("quick", no_value, "", "measure less, in under 20 s"), &
+        option_t("problems", needs_value, "P1,P3,...", "of the benchmark's work-precision part"), &
+        option_t("methods", needs_value, "rk4,gsl_rk8pd,...", "that are measured"), &
+        option_t("systems", needs_value, "pendulum,...", "whose steps are measured"), &
+        option_t("tolerances", needs_value, "1e-6,1e-9,...", "of the methods that take one"), &
         option_t("json", no_value, "", "print the results as JSON"), &
         option_t("quiet", no_value, "", "print nothing but errors"), &
         option_t("help", no_value, "", "this text, or a command's"), &
@@ -32,8 +38,13 @@ module lagrangia_registry
                   "set output format plot json quiet"), &
         command_t("run", "SCENE...", "the same for .nml files, or shipped scenes by name", -1, &
                   "set output format plot json quiet"), &
+        command_t("modes", "SYSTEM", "small oscillations: M, K, frequencies, shapes", 1, &
+                  "set at output json quiet"), &
         command_t("principle", "[NAME]", "both sides of a variational principle, in numbers", 1, &
                   "output plot json"), &
+        command_t("bench", "[PART...]", "run time against error, cost of a step, growth, "// &
+                  "output; parts by name", -1, &
+                  "quick problems methods systems tolerances output plot json quiet"), &
         command_t("list", "[systems|methods|scenes]", "what there is, one a line", 1, ""), &
         command_t("describe", "SYSTEM", "coordinates, parameters, L, equations, invariants", 1, "")]
 

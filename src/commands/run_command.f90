@@ -100,7 +100,7 @@ contains
             class(system_t), allocatable :: system
             type(scene_t) :: scene
 
-            call read_scene(path, sets(line), scene, system, error)
+            call read_scene(path, line%values_of("set"), scene, system, error)
             if (allocated(error)) return
             call progress%restart(trim(scene%name))
             call play(scene, system, folder, format, watcher, outcome, error)
@@ -116,25 +116,6 @@ contains
 
         yes = error%status == status_interrupted .or. error%status == status_terminated
     end function stops_all
-
-    pure function sets(line) result(words)
-        !! The values of all `--set`.
-        type(command_line_t), intent(in) :: line
-        type(word_t), allocatable :: words(:)
-        integer :: i, k
-
-        k = 0
-        do i = 1, size(line%names)
-            if (line%names(i)%text == "set") k = k + 1
-        end do
-        allocate (words(k))
-        k = 0
-        do i = 1, size(line%names)
-            if (line%names(i)%text /= "set") cycle
-            k = k + 1
-            words(k)%text = line%values(i)%text
-        end do
-    end function sets
 
     subroutine choose_scenes(line, paths, error)
         !! The named scenes or all; every one is read, so that nothing runs if one is wrong.
@@ -161,7 +142,7 @@ contains
         if (allocated(error)) return
         allocate (outputs(size(paths)))
         do i = 1, size(paths)
-            call read_scene(paths(i)%text, sets(line), scene, system, error)
+            call read_scene(paths(i)%text, line%values_of("set"), scene, system, error)
             if (allocated(error)) return
             outputs(i) = script_path(trim(scene%output))
             if (any(outputs(:i - 1) == outputs(i))) then

@@ -31,6 +31,7 @@ module lagrangia_command_line
     contains
         procedure :: has
         procedure :: value_of
+        procedure :: values_of
     end type command_line_t
 
 contains
@@ -156,6 +157,19 @@ contains
             found = found .or. self%names(i)%text == name
         end do
     end function has
+
+    pure function values_of(self, name) result(words)
+        !! All values of a repeatable option.
+        class(command_line_t), intent(in) :: self
+        character(*), intent(in) :: name
+        type(word_t), allocatable :: words(:)
+        integer :: i
+
+        allocate (words(0))
+        do i = 1, size(self%names)
+            if (self%names(i)%text == name) call append(words, self%values(i)%text)
+        end do
+    end function values_of
 
     pure function value_of(self, name, default) result(value)
         !! The value of option `--name` (the last one given), or `default`.

@@ -1,16 +1,15 @@
 module lagrangia_composition
-    !! Symmetric compositions of Verlet steps: symplectic, time-reversible, forces of positions.
+    !! Symmetric splitting methods: symplectic, time-reversible, for forces of positions only.
     !!
-    !! A method is a row of fractions \(\gamma_s\), \(\sum\gamma_s = 1\), of the step. In the
-    !! position form each is drift, kick, drift; in the velocity form kick, drift, kick. Neighbours
-    !! of the same kind are merged, so that a step is a list of drifts and kicks and a stage costs
-    !! one evaluation. Source: Hairer, Lubich & Wanner, *Geometric Numerical Integration*, 2nd
-    !! ed., secs. I.1.4, V.3; compensated sums: sec. VIII.5, with Knuth's exact addition.
+    !! A method is a row of drifts and kicks, fractions of the step: most are Verlet steps by
+    !! fractions \(\gamma_s\), \(\sum\gamma_s = 1\), each drift, kick, drift in the position form
+    !! and kick, drift, kick in the velocity form. Source: Hairer, Lubich & Wanner, *Geometric
+    !! Numerical Integration*, 2nd ed., secs. I.1.4, V.3; compensated sums: sec. VIII.5.
     use lagrangia_composition_table, only: nth_row, row_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8, qp
-    use lagrangia_summation, only: add
+    use lagrangia_summation, only: add, add_pair
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -98,11 +97,11 @@ contains
     end subroutine compensate_velocities
 
     pure subroutine set_row(self, i)
-        !! Merge what neighbours share, in quadruple precision, and round.
+        !! The row, rounded.
         class(composition_t), intent(inout) :: self
         integer, intent(in) :: i
         type(row_t) :: row
-        real(qp), allocatable :: shared(:), node(:)
+        real(qp), allocatable :: node(:)
         integer :: s
 
         call nth_row(i, row)
@@ -113,20 +112,13 @@ contains
         self%energy_order = row%order
         self%symplectic = .true.
         self%reversible = .true.
-        allocate (shared, source=0.5_qp*([row%gamma, 0.0_qp] + [0.0_qp, row%gamma]))
-        allocate (node, source=row%gamma)
+        self%drift = real(row%drift, dp)
+        self%kick = real(row%kick, dp)
+        allocate (node, source=row%drift)
         do s = 2, size(node)
-            node(s) = node(s - 1) + row%gamma(s)
+            node(s) = node(s - 1) + row%drift(s)
         end do
-        if (row%kick_first) then
-            self%kick = real(shared, dp)
-            self%drift = real(row%gamma, dp)
-            self%node = real(node, dp)
-        else
-            self%drift = real(shared, dp)
-            self%kick = real(row%gamma, dp)
-            self%node = real(node - 0.5_qp*row%gamma, dp)
-        end if
+        self%node = real(node, dp)
     end subroutine set_row
 
     pure subroutine prepare(self, system, error)
@@ -220,11 +212,12 @@ contains
         do k = first, first + steps - 1
             t = t0 + k*dt
             do s = 1, stages
-                call add(q, self%q_low, self%drift(s)*dt*v)
+                call add_pair(q, self%q_low, self%drift(s)*dt*v, self%drift(s)*dt*self%v_low)
                 call system%accelerations(t + self%node(s)*dt, q, v, self%a)
                 call add(v, self%v_low, self%kick(s)*dt*self%a)
             end do
-            call add(q, self%q_low, self%drift(stages + 1)*dt*v)
+            call add_pair(q, self%q_low, self%drift(stages + 1)*dt*v, &
+                          self%drift(stages + 1)*dt*self%v_low)
         end do
         self%evaluations = self%evaluations + steps*stages
         call remember(self, t0 + (first + steps)*dt, q, v)
@@ -248,11 +241,12 @@ contains
             t = t0 + k*dt
             do s = 1, stages - 1
                 call add(v, self%v_low, self%kick(s)*dt*self%a)
-                call add(q, self%q_low, self%drift(s)*dt*v)
+                call add_pair(q, self%q_low, self%drift(s)*dt*v, self%drift(s)*dt*self%v_low)
                 call system%accelerations(t + self%node(s)*dt, q, v, self%a)
             end do
             call add(v, self%v_low, self%kick(stages)*dt*self%a)
-            call add(q, self%q_low, self%drift(stages)*dt*v)
+            call add_pair(q, self%q_low, self%drift(stages)*dt*v, &
+                          self%drift(stages)*dt*self%v_low)
             call system%accelerations(t0 + (k + 1)*dt, q, v, self%a)
             call add(v, self%v_low, self%kick(stages + 1)*dt*self%a)
         end do

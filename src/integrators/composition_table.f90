@@ -1,10 +1,14 @@
 module lagrangia_composition_table
-    !! Symmetric compositions of Verlet steps: the fractions \(\gamma_s\) of the step, as data.
+    !! Drifts and kicks of symmetric splitting methods, as fractions of the step.
     !!
-    !! Each row holds the first half and the middle; the second half mirrors the first. Of the
-    !! rows of order 6 and 8 the books print 15 to 26 digits; the others come from Newton's method
-    !! on the order conditions, which the tests evaluate in quadruple precision. Where a condition
-    !! is missing, \(\gamma_1\) is the printed number.
+    !! Most are compositions of Verlet steps by the fractions \(\gamma_s\): neighbours of the same
+    !! kind are merged. The last row is not: its drifts and kicks are chosen one by one, for forces
+    !! of positions only (Runge-Kutta-Nystrom), and give the smallest error for the work.
+    !!
+    !! Each row holds a first half, which the second mirrors. Of the rows of order 6 and 8 the
+    !! papers print 15 to 26 digits; the others come from Newton's method on the order conditions,
+    !! which the tests evaluate in quadruple precision. Where conditions are fewer than numbers,
+    !! \(\gamma_1\) is the printed one, and in the last row no number moves by more than 4e-15.
     use lagrangia_description, only: line_length, name_length
     use lagrangia_kinds, only: qp
     implicit none (type, external)
@@ -16,7 +20,9 @@ module lagrangia_composition_table
         character(line_length) :: title = ""  !! a few words and the source
         integer :: order = 0                  !! 0: there is no such row
         logical :: kick_first = .false.       !! made of velocity Verlet: kick, drift, kick
-        real(qp), allocatable :: gamma(:)     !! all fractions; their sum is 1
+        real(qp), allocatable :: gamma(:)     !! of a composition; their sum is 1
+        real(qp), allocatable :: drift(:)     !! one more than `kick`, or one less
+        real(qp), allocatable :: kick(:)
     end type row_t
 
     real(qp), parameter :: yoshida4(2) = [ &
@@ -42,6 +48,17 @@ module lagrangia_composition_table
         -0.3959038941332375773362315434661316715_qp, 0.1845396409783157070918325433640865162_qp, &
         0.2583743876863220472939791116954259737_qp, 0.2950117236093102988709662367574629766_qp, &
         -0.6055085338300345116989210793347185876_qp]
+    real(qp), parameter :: blanes_moan6_drift(8) = [ &
+        0.0378593198406110162865159809190632294_qp, 0.1026356331024366056085846916203014958_qp, &
+        -0.025867888266558350325440151671851957_qp, 0.3142414030714464093086677858675286509_qp, &
+        -0.130144459517415197015791085344301124_qp, 0.1064177003695418294877994883146706907_qp, &
+        -0.008794243128510174632638512563910949573_qp, 0.2073050690568957225646036057169999274_qp]
+    real(qp), parameter :: blanes_moan6_kick(7) = [ &
+        0.09171915262446217541522945138967863019_qp, 0.1839831700050048822786243402697313138_qp, &
+        -0.05653436583288916926143176486259971935_qp, &
+        0.004914688774711813118083983049593023226_qp, &
+        0.1437611271683618419692682385199129899_qp, 0.3285676937468034573566523214506330551_qp, &
+        -0.1964114664864550008764265698169492928_qp]
 
 contains
 
@@ -57,8 +74,7 @@ contains
             call fill(row, "verlet", 2, [1.0_qp], "drift, kick, drift (Verlet 1967)")
         case (2)
             call fill(row, "velocity_verlet", 2, [1.0_qp], &
-                      "kick, drift, kick: leapfrog (Verlet 1967)")
-            row%kick_first = .true.
+                      "kick, drift, kick: leapfrog (Verlet 1967)", .true.)
         case (3)
             call fill(row, "yoshida4", 4, yoshida4, "3 Verlet steps (Forest & Ruth, Yoshida 1990)")
         case (4)
@@ -71,19 +87,35 @@ contains
             call fill(row, "yoshida8", 8, yoshida8, "15 Verlet steps (Yoshida 1990, solution D)")
         case (8)
             call fill(row, "kahan_li8", 8, kahan_li8, "17 Verlet steps (Kahan & Li 1997, s17odr8a)")
+        case (9)
+            row%name = "blanes_moan6"
+            row%title = "14 kicks, the best of these (Blanes & Moan 2002, SRKN14a)"
+            row%order = 6
+            row%drift = [blanes_moan6_drift, blanes_moan6_drift(7:1:-1)]
+            row%kick = [blanes_moan6_kick, blanes_moan6_kick(7:1:-1)]
         end select
     end subroutine nth_row
 
-    pure subroutine fill(row, name, order, half, title)
-        !! Mirror the half that the table gives.
+    pure subroutine fill(row, name, order, half, title, kick_first)
+        !! A composition of Verlet steps: mirror the half that the table gives, and merge.
         type(row_t), intent(inout) :: row
         character(*), intent(in) :: name, title
         integer, intent(in) :: order
         real(qp), intent(in) :: half(:)
+        logical, intent(in), optional :: kick_first
+        real(qp) :: gamma(2*size(half) - 1), shared(2*size(half))
 
         row%name = name
         row%title = title
         row%order = order
-        row%gamma = [half, half(size(half) - 1:1:-1)]
+        gamma = [half, half(size(half) - 1:1:-1)]
+        shared = 0.5_qp*([gamma, 0.0_qp] + [0.0_qp, gamma])
+        row%gamma = gamma
+        row%drift = shared
+        row%kick = gamma
+        if (present(kick_first)) row%kick_first = kick_first
+        if (.not. row%kick_first) return
+        row%drift = gamma
+        row%kick = shared
     end subroutine fill
 end module lagrangia_composition_table

@@ -73,7 +73,7 @@ contains
         do k = first, first + steps - 1
             call self%s%guess(t0 + k*dt, dt)
             call solve(self%s, system, self%least, sweeps, good)
-            self%evaluations = self%evaluations + stages*sweeps
+            self%evaluations = self%evaluations + stages*min(sweeps, most_sweeps)
             if (.not. good) self%s%f = ieee_value(1.0_dp, ieee_quiet_nan)
             call self%s%expand()
             call self%s%finish()
@@ -106,26 +106,37 @@ contains
     end function same
 
     pure subroutine solve(s, system, least, sweeps, good)
-        !! Sweep until no degree of freedom changes less than it did before. That is noise if the
-        !! changes matter little to the state; if not, they may still shrink, or diverge.
+        !! Sweep until no degree of freedom changes less than it did before: what is left then is
+        !! noise. Changes that matter to the state may still shrink after some idle sweeps, the more
+        !! the slower they do, or diverge.
         type(gauss_stages_t), intent(inout) :: s
         class(system_t), intent(in) :: system
         real(dp), intent(inout) :: least(s%n)
         integer, intent(out) :: sweeps
         logical, intent(out) :: good
-        real(dp), parameter :: noise = 2.0_dp**(-36)
-        logical :: shrinking
+        integer :: idle
 
         least = huge(least)
+        idle = 0
         do sweeps = 1, most_sweeps
             call s%sweep(system)
-            shrinking = any(s%change < least .and. s%change > 0.0_dp)
+            good = all(s%change < huge(1.0_dp))
+            if (.not. good) return
+            idle = idle + 1
+            if (any(s%change < least .and. s%change > 0.0_dp)) idle = 0
             least = min(least, s%change)
-            good = all(s%h**2*s%change <= noise**2*max(s%v**2, s%h**2*s%size_of) &
-                       .or. s%h**4*s%change <= noise**2*s%q**2)
-            if (good .and. .not. shrinking) return
-            if (.not. all(s%change < huge(1.0_dp))) exit
+            if (idle > sweeps/10 .and. settled(s)) return
         end do
-        good = .false.
+        good = settled(s)
     end subroutine solve
+
+    pure function settled(s)
+        !! The last sweep changed the state by less than a small part of itself.
+        type(gauss_stages_t), intent(in) :: s
+        logical :: settled
+        real(dp), parameter :: small = 2.0_dp**(-36)
+
+        settled = all(s%h**2*s%change <= small**2*max(s%v**2, s%h**2*s%size_of) &
+                      .or. s%h**4*s%change <= small**2*s%q**2)
+    end function settled
 end module lagrangia_gauss

@@ -138,16 +138,33 @@ contains
         type(error_t), allocatable, intent(out) :: error
         logical :: good
 
-        call self%inside%keep(self%t_new, self%s%q, self%s%v)
-        call take_step(self, system, good)
-        if (.not. good) then
-            call fail(error, "no step is small enough at t = "//to_text(self%t_new)// &
-                      " s: the motion diverges or is not smooth there", status_numbers)
-            return
-        end if
-        call self%inside%fit(system, self%t_new, self%s%q, self%s%v, self%s%known, self%weight)
-        self%evaluations = self%evaluations + 2*stages*self%inside%sweeps
+        do
+            call self%inside%keep(self%t_new, self%s%q, self%s%v)
+            call take_step(self, system, good)
+            if (.not. good) exit
+            call self%inside%fit(system, self%t_new, self%s%q, self%s%v, self%s%known, &
+                                 self%weight, good)
+            self%evaluations = self%evaluations + 2*stages*self%inside%sweeps
+            if (good) return
+            call take_back(self, system)
+        end do
+        call fail(error, "no step is small enough at t = "//to_text(self%t_new)// &
+                  " s: the motion diverges or is not smooth there", status_numbers)
     end subroutine step
+
+    pure subroutine take_back(self, system)
+        !! Undo a step that went over something between its nodes; the next one is half as long.
+        type(gauss_adaptive_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+
+        self%h = 0.5_dp*(self%t_new - self%t_old)
+        self%t_new = self%t_old
+        self%accepted = self%accepted - 1
+        self%rejected = self%rejected + 1
+        call self%s%place(system, self%t_old, self%inside%q_old, self%inside%v_old)
+        self%evaluations = self%evaluations + 1
+        self%rate = best_rate
+    end subroutine take_back
 
     pure subroutine take_step(self, system, good)
         !! One accepted step, or none: then `good` is false.

@@ -81,16 +81,18 @@ contains
         self%v_new(:) = v
     end subroutine keep
 
-    pure subroutine fit(self, system, t_new, q_new, v_new, modes, weight)
+    pure subroutine fit(self, system, t_new, q_new, v_new, modes, weight, good)
         !! The step ended at `t_new` in `(q_new, v_new)`, with these Legendre coefficients of the
         !! accelerations. `weight`, squared, measures accelerations in units of the tolerance.
+        !! Not `good` where the accelerations are not finite all along the step.
         class(gauss_dense_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t_new
         real(dp), intent(in) :: q_new(system%ndof), v_new(system%ndof)
         real(dp), intent(in) :: modes(lanes, system%ndof), weight(system%ndof)
+        logical, intent(out) :: good
         real(dp) :: change, last, rate, difference(2)
-        integer :: d
+        integer :: d, sweep
 
         self%h = t_new - self%t
         self%q_new(:) = q_new
@@ -98,14 +100,19 @@ contains
         call from_modes(self, system%ndof, modes)
         last = 0.0_dp
         rate = 0.05_dp
-        do
+        do sweep = 1, most_sweeps
             do d = 1, system%ndof
                 call integrate(self, d)
             end do
-            if (last > 0.0_dp .and. (last*rate <= 1.0_dp .or. self%sweeps == most_sweeps)) exit
             call evaluate(self, system, weight, change)
-            if (self%sweeps > 1) rate = min(0.5_dp, change/last)
-            last = max(change, tiny(1.0_dp))
+            good = change < huge(1.0_dp)
+            if (.not. good) return
+            if (sweep > 1) rate = min(0.5_dp, change/last)
+            if (change*rate <= 1.0_dp) exit
+            last = change
+        end do
+        do d = 1, system%ndof
+            call integrate(self, d)
         end do
         do d = 1, system%ndof
             difference(1) = (v_new(d) - sum(self%v(:, d)))/self%h

@@ -7,7 +7,7 @@ module lagrangia_rk4
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_summation, only: add
+    use lagrangia_summation, only: add, add_pair
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -147,7 +147,8 @@ contains
         end if
         do k = first, first + steps - 1
             call stages(self, system, t0 + k*dt, dt, q, v)
-            call add(q, self%q_low, dt/6.0_dp*(v + 2.0_dp*(self%v2 + self%v3) + self%v4))
+            call add_pair(q, self%q_low, dt/6.0_dp*(v + 2.0_dp*(self%v2 + self%v3) + self%v4), &
+                          dt*self%v_low)
             call add(v, self%v_low, dt/6.0_dp*(self%a1 + 2.0_dp*(self%a2 + self%a3) + self%a4))
         end do
         self%q_end = q

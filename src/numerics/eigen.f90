@@ -26,7 +26,7 @@ contains
         real(dp), allocatable :: factor(:, :), work(:)
         integer, allocatable :: iwork(:)
         real(dp) :: size_wanted(1)
-        integer :: n, info, integers_wanted(1)
+        integer :: n, i, info, integers_wanted(1)
 
         call check_matrix(stiffness, "K", error)
         if (allocated(error)) return
@@ -57,6 +57,12 @@ contains
             call fail(error, "LAPACK found no eigenvalues (info = "//to_text(info)//")", &
                       status_library)
         end if
+        do i = 1, n
+            if (allocated(error)) exit
+            if (factor(i, i)**2 <= 4*n*epsilon(1.0_dp)*inertia(i, i)) call fail(error, &
+                "M is singular to working precision: its leading minor of order "//to_text(i)// &
+                " vanishes", status_library)
+        end do
         if (allocated(error)) then
             deallocate (omega2, modes)
             return
@@ -201,7 +207,8 @@ contains
         real(dp) :: ratio, scale
         real(dp), dimension(size(modes, 1), size(modes, 2)) :: residual
 
-        residual = matmul(stiffness, modes) - matmul(inertia, modes)*spread(omega2, 1, size(modes, 1))
+        residual = matmul(stiffness, modes) - &
+                   matmul(inertia, modes)*spread(omega2, 1, size(modes, 1))
         scale = norm1(stiffness)*norm1(modes)*size(omega2)*epsilon(scale)
         ratio = 0.0_dp
         if (scale > 0.0_dp) ratio = norm1(residual)/scale

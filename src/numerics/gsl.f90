@@ -1,5 +1,5 @@
 module lagrangia_gsl
-    !! The one module that touches the GNU Scientific Library.
+    !! The GNU Scientific Library, touched here and in `lagrangia_gsl_odeiv` only.
     !!
     !! GSL's error handler would abort the program: it is switched off before the first call, and
     !! every status is checked.
@@ -11,7 +11,7 @@ module lagrangia_gsl
     use lagrangia_roots, only: scalar_function_t
     implicit none (type, external)
     private
-    public :: brent_root, jacobi_sn_cn_dn
+    public :: brent_root, gsl_reason, jacobi_sn_cn_dn, silence_gsl
 
     type, bind(c) :: gsl_function_t
         !! GSL's own notion of a function: an address, and what to hand it beside `x`.
@@ -140,9 +140,9 @@ contains
             call fail(error, "elljac: no digit is right this close to modulus 1", status_library)
             return
         end if
-        call silence_handler()
+        call silence_gsl()
         status = gsl_sf_elljac_e(u, m, sn, cn, dn)
-        if (status /= 0) call fail(error, "elljac: GSL says: "//reason(status), status_library)
+        if (status /= 0) call fail(error, "elljac: GSL says: "//gsl_reason(status), status_library)
     end subroutine jacobi_sn_cn_dn
 
     subroutine brent_root(f, lower, upper, root, error)
@@ -172,7 +172,7 @@ contains
             call fail(error, "root: the function has one sign at both ends", status_numbers)
             return
         end if
-        call silence_handler()
+        call silence_gsl()
         call c_f_pointer(transfer(c_funloc(brent), solver), method)
         solver = gsl_root_fsolver_alloc(method)
         if (.not. c_associated(solver)) then
@@ -193,7 +193,7 @@ contains
         end do
         call gsl_root_fsolver_free(solver)
         if (status /= 0) then
-            call fail(error, "root: GSL says: "//reason(status), status_library)
+            call fail(error, "root: GSL says: "//gsl_reason(status), status_library)
         else if (i > most_iterations) then
             call fail(error, "root: Brent's method does not converge", status_numbers)
         end if
@@ -210,15 +210,15 @@ contains
         y = box%item%value(x)
     end function value_for_gsl
 
-    subroutine silence_handler()
+    subroutine silence_gsl()
         type(c_ptr) :: old_handler
 
         if (handler_is_off) return
         old_handler = gsl_set_error_handler_off()
         handler_is_off = .true.
-    end subroutine silence_handler
+    end subroutine silence_gsl
 
-    function reason(status) result(message)
+    function gsl_reason(status) result(message)
         !! GSL's own words for a status.
         integer(c_int), intent(in) :: status
         character(:), allocatable :: message
@@ -231,5 +231,5 @@ contains
         do i = 1, length
             message(i:i) = text(i)
         end do
-    end function reason
+    end function gsl_reason
 end module lagrangia_gsl

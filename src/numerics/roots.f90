@@ -66,7 +66,7 @@ contains
                 root = x
                 return
             end if
-            if (y*fa > 0.0_dp) then
+            if (y > 0.0_dp .eqv. fa > 0.0_dp) then
                 c = a
                 fc = fa
             else
@@ -82,8 +82,8 @@ contains
             else
                 root = b
             end if
-            if (abs(b - a) <= spacing(max(abs(a), abs(b)))) return
-            least = 0.5_dp*spacing(max(abs(a), abs(b)))/abs(b - a)
+            if (abs(nearest(a, b - a) - b) <= 0.0_dp) return
+            least = min(0.5_dp, spacing(max(abs(a), abs(b)))/abs(b - a))
             share = 0.5_dp
             if (quadratic_is_safe()) share = fa/(fb - fa)*fc/(fb - fc) &
                                              + (c - a)/(b - a)*fa/(fc - fa)*fb/(fc - fb)

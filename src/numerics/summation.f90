@@ -3,7 +3,7 @@ module lagrangia_summation
     use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
-    public :: add
+    public :: add, add_pair
 
 contains
 
@@ -22,4 +22,13 @@ contains
         low = (x - (total - taken)) + (increment - taken)
         x = total
     end subroutine add
+
+    elemental subroutine add_pair(x, low, term, rest)
+        !! Add `term + rest`, the product of a number and a sum `x + low` like this one.
+        real(dp), intent(inout) :: x, low
+        real(dp), intent(in) :: term, rest
+
+        low = low + rest
+        call add(x, low, term)
+    end subroutine add_pair
 end module lagrangia_summation

@@ -1,10 +1,10 @@
 module lagrangia_gnuplot
     !! A gnuplot script that draws a data file: one panel below the other.
     !!
-    !! The script finds its data beside itself, wherever it is run from, and takes the best
-    !! terminal that there is. No text of the user is ever more than a single-quoted string.
+    !! No text of the user is ever more than a single-quoted string.
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_gnuplot_script, only: begin_script, doubled, lines_t
     use lagrangia_kinds, only: dp
     use lagrangia_text, only: nearest_name, quoted, to_text
     implicit none (type, external)
@@ -23,12 +23,6 @@ module lagrangia_gnuplot
         integer :: curves = 0
         integer :: y(most_curves) = 0
     end type panel_t
-
-    type :: lines_t
-        character(:), allocatable :: text
-    contains
-        procedure :: add
-    end type lines_t
 
 contains
 
@@ -118,34 +112,13 @@ contains
         character(*), intent(in), optional :: style  !! `curves`, which is the default, or `dots`
         character(:), allocatable :: text, how
         type(lines_t) :: script
-        character(:), allocatable :: height
-        integer :: i, dot
+        integer :: height, i
 
         how = curves
         if (present(style)) how = style
-        dot = index(file, ".", back=.true.)
-        height = to_text(60 + 300*size(panels))
-        if (size(panels) == 1) height = "560"
-        script%text = ""
-        call script%add("# Draws "//file//" as it lies beside this script.")
-        call script%add("folder = './'")
-        call script%add("if (exists('ARG0')) { do for [i=1:strlen(ARG0)] { "// &
-                        "if (ARG0[i:i] eq '/') { folder = ARG0[1:i] } } }")
-        call script%add("if (folder[1:1] ne '/') { folder = './'.folder }")
-        call script%add("data = folder.'"//doubled(file)//"'")
-        call script%add("picture = folder.'"//doubled(file(:dot - 1))//"'")
-        call script%add("if (!exists('wanted')) { wanted = 'png' }")
-        call script%add("can(name) = strstrt(GPVAL_TERMINALS, ' '.name.' ')")
-        call script%add("kind = wanted eq 'svg' && can('svg') ? 'svg' : can('pngcairo') ? "// &
-                        "'pngcairo' : can('png') ? 'png' : can('svg') ? 'svg' : 'dumb'")
-        call script%add("if (kind eq 'pngcairo') { set terminal pngcairo noenhanced size 1000,"// &
-                        height//" font ',11'; set output picture.'.png' }")
-        call script%add("if (kind eq 'png') { set terminal png noenhanced size 1000,"//height// &
-                        "; set output picture.'.png' }")
-        call script%add("if (kind eq 'svg') { set terminal svg noenhanced size 1000,"//height// &
-                        " background 'white'; set output picture.'.svg' }")
-        call script%add("if (kind eq 'dumb') { set terminal dumb noenhanced size 100,"// &
-                        to_text(30*size(panels))//" }")
+        height = 60 + 300*size(panels)
+        if (size(panels) == 1) height = 560
+        call begin_script(script, file, 1000, height, 30*size(panels))
         if (index(reading, "skip") == 1) call script%add("set datafile separator comma")
         call script%add("set grid lc rgb '#bbbbbb' lw 0.8 lt 1")
         call script%add("set key above right")
@@ -221,25 +194,4 @@ contains
 
         text = trim(name)//" ["//trim(unit)//"]"
     end function label
-
-    pure function doubled(text) result(safe)
-        !! Fit for a single-quoted string of gnuplot.
-        character(*), intent(in) :: text
-        character(:), allocatable :: safe
-        integer :: i
-
-        safe = ""
-        do i = 1, len(text)
-            safe = safe//text(i:i)
-            if (text(i:i) == "'") safe = safe//"'"
-        end do
-    end function doubled
-
-    pure subroutine add(self, line)
-        !! One more line.
-        class(lines_t), intent(inout) :: self
-        character(*), intent(in) :: line
-
-        self%text = self%text//line//new_line("a")
-    end subroutine add
 end module lagrangia_gnuplot

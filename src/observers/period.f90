@@ -2,7 +2,8 @@ module lagrangia_period
     !! The period of one coordinate, read off its turning points.
     !!
     !! Between two samples the coordinate is the quintic that has the samples' coordinate,
-    !! velocity and acceleration: the turning point's time is right to \(O(\Delta t^6)\).
+    !! velocity and acceleration, right to \(O(\Delta t^6)\): its turning point's time is right to
+    !! \(O(\Delta t^5)\).
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_observer, only: observer_t

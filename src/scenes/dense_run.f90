@@ -60,7 +60,8 @@ contains
                 if (allocated(error)) exit
                 call meet()
             end do
-            if (.not. (stopped .or. restarted .or. allocated(error))) call show_samples(method%t_new)
+            if (allocated(error)) exit
+            if (.not. (stopped .or. restarted)) call show_samples(method%t_new)
             if (.not. allocated(error)) call look_around()
         end do
     contains
@@ -114,8 +115,8 @@ contains
             integer :: i
 
             if (.not. (all(ieee_is_finite(q_now)) .and. all(ieee_is_finite(v_now)))) then
-                call fail(error, "the state is not finite at t = "//to_text(t)//" s: the motion "// &
-                          "diverges, or the step is too long", status_numbers)
+                call fail(error, "the state is not finite at t = "//to_text(t)//" s: the "// &
+                          "motion diverges, or the step is too long", status_numbers)
                 return
             end if
             q = q_now

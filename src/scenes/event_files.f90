@@ -59,7 +59,7 @@ contains
     end subroutine open_event_file
 
     subroutine finish_event_file(scene, folder, format, record, panels, error)
-        !! Complete the file under its name; where there is anything to draw, with a script.
+        !! Complete the file under its name; with more than one row, a script too.
         type(scene_t), intent(in) :: scene
         character(*), intent(in) :: folder, format
         type(event_record_t), intent(inout) :: record
@@ -71,7 +71,7 @@ contains
 
         if (.not. allocated(record%table)) return
         call record%table%finish("events: "//to_text(record%rows), error)
-        if (allocated(error) .or. record%rows == 0 .or. size(panels) == 0) return
+        if (allocated(error) .or. record%rows < 2 .or. size(panels) == 0) return
         path = event_path(scene, folder, format)
         n = size(record%columns%items)
         call script%open(script_path(path), error)

@@ -12,9 +12,9 @@ module lagrangia_outcome
 
     character(*), parameter :: scorecard_legend = &
         "drift: the largest change of an invariant, relative to its start or natural size"// &
-        new_line("a")//"error: the largest, absolute below 1 and relative above; exact: against "// &
-        "a closed"//new_line("a")//"form, estimate: against the same run at half the step, or a "// &
-        "hundredth of the tolerance"
+        new_line("a")//"error: the largest, absolute below 1 and relative above; exact: "// &
+        "against a closed"//new_line("a")//"form, estimate: against the same run at half the "// &
+        "step or a hundredth of the tolerance"
 
     integer, parameter :: from_closed_form = 1, from_half_step = 2
 
@@ -36,6 +36,8 @@ module lagrangia_outcome
         type(measure_t), allocatable :: others(:)   !! `error`, `period`, ...
         integer :: error_from = 0                   !! 0: no error known
         real(dp) :: period = 0.0_dp                 !! measured, s; 0 if not
+        real(dp) :: omega = 0.0_dp                  !! of the slowest small oscillation; or 0
+        real(dp) :: omega_error = -1.0_dp           !! of all frequencies from the closed form
         real(dp) :: seconds = 0.0_dp
         character(:), allocatable :: remark         !! about the steps; "" if there is none
         character(:), allocatable :: failure        !! the run itself failed
@@ -152,7 +154,19 @@ contains
             json = json//"null"
         end if
         json = json//', "period_error": '//find(self%others, "period")
-        json = json//', "omega": null, "seconds": '//json_number(self%seconds)// &
+        json = json//', "omega": '
+        if (self%omega > 0.0_dp) then
+            json = json//json_number(self%omega)
+        else
+            json = json//"null"
+        end if
+        json = json//', "omega_error": '
+        if (self%omega_error >= 0.0_dp) then
+            json = json//json_number(self%omega_error)
+        else
+            json = json//"null"
+        end if
+        json = json//', "seconds": '//json_number(self%seconds)// &
                ', "verdict": '//json_string(self%verdict())//', "file": '
         if (self%file == "") then
             json = json//"null}"
@@ -179,7 +193,7 @@ contains
         character(:), allocatable :: line
 
         line = cells("scene", "system", "method", "steps", "evaluations", "worst drift", "error", &
-                     "period error", "seconds", "verdict")
+                     "period error", "omega", "seconds", "verdict")
     end function scorecard_head
 
     function scorecard_row(self) result(line)
@@ -187,6 +201,7 @@ contains
         type(outcome_t), intent(in) :: self
         character(:), allocatable :: line
         character(:), allocatable :: drift, error_text, period_text
+        character(:), allocatable :: omega_text
         character(12) :: seconds
         integer :: i, k
 
@@ -206,22 +221,29 @@ contains
             if (.not. (self%others(i)%judged .or. period_text == "-")) cycle
             period_text = short(self%others(i)%worst)
         end do
+        omega_text = "-"
+        if (self%omega > 0.0_dp) then
+            write (seconds, "(f12.5)") self%omega
+            omega_text = trim(adjustl(seconds))
+            if (self%omega_error >= 0.0_dp) omega_text = omega_text//" "//short(self%omega_error)
+        end if
         write (seconds, "(f12.4)") self%seconds
         line = cells(self%scene, self%system, self%method, to_text(self%steps), &
-                     to_text(self%evaluations), drift, error_text, period_text, &
+                     to_text(self%evaluations), drift, error_text, period_text, omega_text, &
                      trim(adjustl(seconds)), self%verdict())
     end function scorecard_row
 
-    pure function cells(scene, system, method, steps, evaluations, drift, error, period, seconds, &
-                        verdict) result(line)
+    pure function cells(scene, system, method, steps, evaluations, drift, error, period, omega, &
+                        seconds, verdict) result(line)
         !! The row's columns: words to the left, counts to the right.
         character(*), intent(in) :: scene, system, method, steps, evaluations, drift, error, &
-                                    period, seconds, verdict
+                                    period, omega, seconds, verdict
         character(:), allocatable :: line
 
         line = left(scene, 26)//left(system, 17)//left(method, 8)//right(steps, 8)// &
                right(evaluations, 12)//"  "//left(drift, 23)//left(error, 18)//left(period, 14)// &
-               right(seconds, 7)//"  "//verdict
+               left(omega, 17)// &
+               right(seconds, 8)//"  "//verdict
     end function cells
 
     pure function left(text, width) result(cell)

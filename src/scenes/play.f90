@@ -11,6 +11,7 @@ module lagrangia_play
     use lagrangia_gnuplot, only: new_panels, panel_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_measures, only: take_measures, take_modes
     use lagrangia_observer, only: observer_box_t, observer_t
     use lagrangia_outcome, only: from_closed_form, from_half_step, measure_t, outcome_t
     use lagrangia_period, only: period_t
@@ -108,7 +109,8 @@ contains
                 return
             end if
         end if
-        call take_measures(scene, p, outcome)
+        call take_measures(scene, p%record, p%period, p%reference, outcome)
+        call take_modes(scene, system, outcome)
         if (allocated(p%event_record%table)) then
             call finish_event_file(scene, folder, format, p%event_record, p%event_panels, &
                                    file_error)
@@ -148,8 +150,9 @@ contains
                                outcome%t, error)
                 outcome%steps = method%accepted
                 outcome%rejected = method%rejected
-                if (.not. allocated(error) .and. outcome%t < p%plan%t0 + p%plan%duration) &
+                if (.not. allocated(error) .and. outcome%t < p%plan%t0 + p%plan%duration) then
                     outcome%remark = " (stopped by an event at t = "//to_text(outcome%t)//" s)"
+                end if
             end select
         else
             call run(system, p%integrator, p%plan, observers, outcome%q, outcome%v, error)
@@ -254,46 +257,4 @@ contains
         call system%describe(d)
         index = findloc(d%coordinates%name == name, .true., 1)
     end subroutine find_coordinate
-
-    pure subroutine take_measures(scene, p, outcome)
-        !! The worst of every drift and error, and the period beside what it should be.
-        type(scene_t), intent(in) :: scene
-        type(performance_t), intent(in) :: p
-        type(outcome_t), intent(inout) :: outcome
-        type(measure_t) :: m
-        integer :: i
-
-        outcome%energy_evaluations = p%record%columns%energy_evaluations
-        outcome%rows = p%record%rows
-        if (p%record%rows > 0) then
-            do i = 1, size(p%record%columns%items)
-                m = measure(p%record%columns%items(i)%name, p%record%worst(i))
-                if (p%record%columns%items(i)%drift) then
-                    outcome%drifts = [outcome%drifts, m]
-                else if (m%name == "error" .or. m%judged) then
-                    outcome%others = [outcome%others, m]
-                end if
-            end do
-        end if
-        if (scene%period_of == "") return
-        outcome%period = p%period%period()
-        if (.not. allocated(p%reference)) return
-        if (p%reference%period > 0.0_dp) outcome%others = [outcome%others, &
-            measure("period", abs(outcome%period/p%reference%period - 1.0_dp))]
-        if (p%reference%small_period > 0.0_dp) outcome%others = [outcome%others, &
-            measure("small_period", abs(outcome%period/p%reference%small_period - 1.0_dp))]
-    contains
-        pure function measure(name, worst) result(m)
-            character(*), intent(in) :: name
-            real(dp), intent(in) :: worst
-            type(measure_t) :: m
-            integer :: k
-
-            m%name = name
-            m%worst = worst
-            k = findloc(scene%expectations%name == name, .true., 1)
-            m%judged = k > 0
-            if (m%judged) m%limit = scene%expectations(k)%limit
-        end function measure
-    end subroutine take_measures
 end module lagrangia_play

@@ -104,7 +104,8 @@ contains
     subroutine run(system, integrator, plan, observers, q, v, error)
         !! Integrate from `t0` over `duration`, showing every sample and the end to `observers`.
         !!
-        !! A state that is not finite ends the run: `q` and `v` are then the last good sample.
+        !! A state that is not finite ends the run: `q` and `v` are then the last good sample, or
+        !! the start where there is none.
         class(system_t), intent(in) :: system
         class(integrator_t), intent(inout) :: integrator
         type(plan_t), intent(in) :: plan
@@ -121,6 +122,8 @@ contains
         call integrator%prepare(system, error)
         if (allocated(error)) return
         done = 0
+        q_good = q
+        v_good = v
         call show(plan%t0)
         do while (done < plan%steps .and. .not. allocated(error))
             block_end = min(plan%steps, done + longest_block, (done/plan%every + 1)*plan%every)

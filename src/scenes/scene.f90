@@ -34,6 +34,7 @@ module lagrangia_scene
         character(120), allocatable :: events(:)   !! `'theta = 0.5 rising'`
         character(name_length), allocatable :: event_columns(:)
         character(200), allocatable :: event_plots(:)
+        logical :: modes = .false.                 !! show omega of the small oscillations
         character(name_length) :: period_of = ""   !! a coordinate whose period is measured
         type(expectation_t), allocatable :: expectations(:)
     end type scene_t
@@ -72,6 +73,7 @@ contains
             call add("  event_columns = "//texts(scene%event_columns))
             if (size(scene%event_plots) > 0) call add("  event_plot = "//texts(scene%event_plots))
         end if
+        if (scene%modes) call add("  modes = .true.")
         if (scene%period_of /= "") call add("  period_of = "//text_value(scene%period_of))
         do i = 1, size(scene%expectations)
             call add("  expect_"//trim(scene%expectations(i)%name)//" = "// &

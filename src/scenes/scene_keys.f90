@@ -17,7 +17,7 @@ module lagrangia_scene_keys
     character(name_length), parameter :: keys(*) = [character(name_length) :: &
         "title", "system", "method", "compensated", "t0", "dt", "tolerance", "duration", "every", &
         "samples", "q", "v", "columns", "plot", "event", "event_columns", "event_plot", &
-        "period_of", "output"]
+        "period_of", "modes", "output"]
     integer, parameter :: key_length = name_length + len("expect_")
     integer, parameter :: most = 10000  !! values of one key
 
@@ -102,7 +102,8 @@ contains
         if (allocated(error)) return
         if (size(scene%q) /= system%ndof) then
             call refuse_value(tree, "scene", "q", to_text(size(scene%q))//" values, but "// &
-                              to_text(system%ndof)//trim(merge(" is ", " are", system%ndof == 1))// &
+                              to_text(system%ndof)// &
+                              trim(merge(" is ", " are", system%ndof == 1))// &
                               " needed: "//coordinates(d), error)
             return
         end if
@@ -136,6 +137,8 @@ contains
         call get_strings(tree, "scene", "plot", 1, 8, scene%plots, error)
         if (allocated(error)) return
         call read_events(tree, system, scene, error)
+        if (allocated(error)) return
+        call get_logical(tree, "scene", "modes", scene%modes, error)
         if (allocated(error)) return
         call get_string(tree, "scene", "period_of", scene%period_of, error)
         if (allocated(error)) return

@@ -19,7 +19,7 @@ module lagrangia_scene_reader
     use lagrangia_system, only: check_parameter, default_values, system_t
     implicit none (type, external)
     private
-    public :: read_scene, parse_scene
+    public :: read_scene, read_named_system, parse_scene
 
 contains
 
@@ -36,6 +36,31 @@ contains
         if (allocated(error)) return
         call parse_scene(text, path, overrides, scene, system, error)
     end subroutine read_scene
+
+    subroutine read_named_system(name, overrides, system, error)
+        !! The system called `name`, its parameters set by the words behind `--set`.
+        character(*), intent(in) :: name
+        type(word_t), intent(in) :: overrides(:)
+        class(system_t), allocatable, intent(out) :: system
+        type(error_t), allocatable, intent(out) :: error
+        type(namelist_t) :: tree
+        type(scene_t) :: scene
+        integer :: i
+
+        call new_system(name, system, error)
+        if (allocated(error)) return
+        call parse_namelist("&scene system = '"//name//"' /", name, tree, error)
+        if (allocated(error)) return
+        do i = 1, size(overrides)
+            call apply_override(tree, overrides(i)%text, error)
+            if (allocated(error)) return
+        end do
+        call read_system(tree, scene, system, error)
+        if (allocated(error)) return
+        call refuse_unknown_keys(tree, "scene", [character(name_length) ::], error)
+        if (allocated(error)) return
+        call refuse_unknown_groups(tree, [scene%system], error)
+    end subroutine read_named_system
 
     subroutine parse_scene(text, source, overrides, scene, system, error)
         !! The scene in `text`, which came from the file `source`.

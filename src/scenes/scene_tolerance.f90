@@ -1,6 +1,7 @@
 module lagrangia_scene_tolerance
     !! The keys that say whether a scene's method takes steps of `dt` or chooses them.
     use lagrangia_adaptive_methods, only: adaptive_names, new_adaptive
+    use lagrangia_catalogue, only: refuse_name
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t
@@ -28,20 +29,15 @@ contains
         character(name_length), allocatable :: names(:)
 
         call new_adaptive(trim(scene%method), method)
-        names = method_names()
+        allocate (names, source=method_names())
         if (.not. allocated(method)) then
-            if (has_key(tree, "scene", "tolerance") .and. any(names == scene%method)) then
-                names = adaptive_names()
-                call refuse_value(tree, "scene", "tolerance", "method '"//trim(scene%method)// &
-                                  "' takes steps of dt; methods that keep a tolerance: "// &
-                                  join(names, ", "), error)
-            end if
+            call refuse_fixed(tree, trim(scene%method), names, error)
             return
         end if
         if (has_key(tree, "scene", "dt")) then
             if (has_key(tree, "scene", "tolerance")) then
-                call refuse_value(tree, "scene", "tolerance", "give either dt, for steps of that "// &
-                                  "length, or tolerance, for steps that keep to it", error)
+                call refuse_value(tree, "scene", "tolerance", "give either dt, for steps of "// &
+                                  "that length, or tolerance, for steps that keep to it", error)
             else if (.not. any(names == scene%method)) then
                 call refuse_value(tree, "scene", "dt", "method '"//trim(scene%method)// &
                                   "' chooses its steps: give tolerance and samples instead", error)
@@ -51,6 +47,11 @@ contains
         if (has_key(tree, "scene", "every")) then
             call refuse_value(tree, "scene", "every", "counts steps of dt; with a tolerance "// &
                               "give samples", error)
+            return
+        end if
+        if (scene%compensated) then
+            call refuse_value(tree, "scene", "compensated", "is for steps of dt; a tolerance "// &
+                              "leaves more than rounding", error)
             return
         end if
         scene%tolerance = 1e-10_dp
@@ -72,4 +73,32 @@ contains
         if (scene%samples < 1_i8) call refuse_value(tree, "scene", "samples", &
                                                     "at least 1 is needed", error)
     end subroutine read_tolerance
+
+    subroutine refuse_fixed(tree, name, fixed, error)
+        !! A tolerance for a method that has none, or a method that is not there at all.
+        type(namelist_t), intent(inout) :: tree
+        character(*), intent(in) :: name, fixed(:)
+        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable :: found
+        character(name_length), allocatable :: adaptive(:)
+
+        allocate (adaptive, source=adaptive_names())
+        if (.not. any(fixed == name)) then
+            call refuse_name("method", name, [character(name_length) :: fixed, &
+                                              pack(adaptive, .not. listed(adaptive, fixed))], found)
+            call refuse_value(tree, "scene", "method", found%message, error)
+        else if (has_key(tree, "scene", "tolerance")) then
+            call refuse_value(tree, "scene", "tolerance", "method '"//name//"' takes steps of "// &
+                              "dt; methods that keep a tolerance: "//join(adaptive, ", "), error)
+        end if
+    end subroutine refuse_fixed
+
+    pure function listed(names, list) result(there)
+        !! Which of `names` are in `list`.
+        character(*), intent(in) :: names(:), list(:)
+        logical :: there(size(names))
+        integer :: i
+
+        there = [(any(list == names(i)), i=1, size(names))]
+    end function listed
 end module lagrangia_scene_tolerance

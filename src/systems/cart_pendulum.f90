@@ -10,6 +10,7 @@ module lagrangia_cart_pendulum
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-), sin
     use lagrangia_kinds, only: dp
+    use lagrangia_linearised, only: linearised_t
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
@@ -28,6 +29,7 @@ module lagrangia_cart_pendulum
         procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
+        procedure :: linearise
         procedure :: momenta
         procedure :: velocities
         procedure :: forces
@@ -225,4 +227,25 @@ contains
             a(:, 2) = -s*((m1 + m2)*g + m2*l*theta_dot**2*c)/(l*d)
         end associate
     end subroutine accelerations_lanes
+
+    pure subroutine linearise(self, q, page)
+        !! Hanging: \(M = (m_1+m_2, m_2\ell; m_2\ell, m_2\ell^2)\), \(K = (0, 0; 0, m_2g\ell)\),
+        !! \(\omega^2 = 0, (m_1+m_2)g/(m_1\ell)\). Upside down \(\theta\) and \(g\) change sign.
+        class(cart_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: q(self%ndof)
+        type(linearised_t), intent(out) :: page
+        real(dp) :: way, w2
+
+        associate (m1 => self%m1, m2 => self%m2, l => self%l, g => self%g)
+            way = sign(1.0_dp, cos(q(2)))
+            page%mass = reshape([m1 + m2, way*m2*l, way*m2*l, m2*l**2], [2, 2])
+            page%stiffness = reshape([0.0_dp, 0.0_dp, 0.0_dp, way*m2*g*l], [2, 2])
+            w2 = way*(m1 + m2)*g/(m1*l)
+            page%omega2 = [min(0.0_dp, w2), max(0.0_dp, w2)]
+            if (way < 0.0_dp) return
+            page%root = reshape([0.0_dp, sqrt(m2*g*l)], [1, 2])
+            page%inverse = reshape([1.0_dp/sqrt(m1), -1.0_dp/(sqrt(m1)*l), &
+                                    0.0_dp, 1.0_dp/(sqrt(m2)*l)], [2, 2])
+        end associate
+    end subroutine linearise
 end module lagrangia_cart_pendulum

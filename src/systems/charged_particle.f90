@@ -11,6 +11,7 @@ module lagrangia_charged_particle
     use lagrangia_gyrating_system, only: gyrating_system_t
     use lagrangia_hyperdual, only: dot_product, hyperdual_t, operator(*), operator(+), operator(-)
     use lagrangia_kinds, only: dp
+    use lagrangia_linearised, only: linearised_t
     use lagrangia_system, only: check_parameters, lanes
     use lagrangia_vectors, only: cross, length
     implicit none (type, external)
@@ -32,6 +33,7 @@ module lagrangia_charged_particle
         procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
+        procedure :: linearise
         procedure :: quantity => momentum_or_speed
         procedure :: positions
         procedure :: axis
@@ -262,4 +264,29 @@ contains
             a(:, 3) = (e*(self%electric(3) + v(:, 1)*b(2) - v(:, 2)*b(1)) - k*q(:, 3))/m
         end associate
     end subroutine accelerations_lanes
+
+    pure subroutine linearise(self, q, page)
+        !! In the trap: \(M = m\), \(K\) = trap, \(G\dot r = eB\times\dot r\); with
+        !! \(\omega_0^2\) = trap/m and \(\omega_c = e|B|/m\) the frequencies are \(\omega_0\) and
+        !! \(\sqrt{\omega_0^2 + \omega_c^2/4} \pm \omega_c/2\).
+        class(charged_particle_t), intent(in) :: self
+        real(dp), intent(in) :: q(self%ndof)
+        type(linearised_t), intent(out) :: page
+        real(dp), parameter :: unit(3, 3) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, &
+                                                     0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp], [3, 3])
+        real(dp) :: w2, fast
+        integer :: i
+
+        page%mass = self%m*unit
+        page%stiffness = self%trap*unit
+        allocate (page%gyroscopic(3, 3))
+        do i = 1, 3
+            page%gyroscopic(:, i) = self%charge*cross(self%magnetic, unit(:, i))
+        end do
+        w2 = self%trap/self%m
+        fast = 0.5_dp*abs(self%charge/self%m)*length(self%magnetic)
+        fast = fast + hypot(sqrt(w2), fast)
+        page%omega2 = [0.0_dp, w2, fast**2]
+        if (fast > 0.0_dp) page%omega2(1) = (w2/fast)**2
+    end subroutine linearise
 end module lagrangia_charged_particle

@@ -9,6 +9,7 @@ module lagrangia_double_pendulum
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-), sin
     use lagrangia_kinds, only: dp
+    use lagrangia_linearised, only: linearised_t
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
@@ -28,6 +29,7 @@ module lagrangia_double_pendulum
         procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
+        procedure :: linearise
         procedure :: momenta
         procedure :: velocities
         procedure :: forces
@@ -260,4 +262,34 @@ contains
             a(:, 2) = (m*l1*v(:, 1)**2*s + m2*l2*v(:, 2)**2*s*c + m*g*(s1*c - s2))/(l2*d)
         end associate
     end subroutine accelerations_lanes
+
+    pure subroutine linearise(self, q, page)
+        !! Both hanging: \(M = ((m_1+m_2)\ell_1^2, m_2\ell_1\ell_2; m_2\ell_1\ell_2, m_2\ell_2^2)\),
+        !! \(K = \mathrm{diag}((m_1+m_2)g\ell_1, m_2g\ell_2)\). With \(a = (1+m_2/m_1)g/\ell_1\),
+        !! \(b = g/\ell_2\) and \(c = a\,\ell_1/\ell_2\): sum \(a + c\), product \(ab\); the small
+        !! root is product by large root, which does not cancel.
+        class(double_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: q(self%ndof)
+        type(linearised_t), intent(out) :: page
+        real(dp) :: way(2), a, b, c, large
+
+        associate (m1 => self%m1, m2 => self%m2, l1 => self%l1, l2 => self%l2, g => self%g)
+            way = sign(1.0_dp, cos(q))
+            page%mass = reshape([(m1 + m2)*l1**2, m2*l1*l2*way(1)*way(2), &
+                                 m2*l1*l2*way(1)*way(2), m2*l2**2], [2, 2])
+            page%stiffness = reshape([(m1 + m2)*g*l1*way(1), 0.0_dp, 0.0_dp, m2*g*l2*way(2)], &
+                                     [2, 2])
+            if (any(way < 0.0_dp)) return
+            a = (1.0_dp + m2/m1)*g/l1
+            b = g/l2
+            c = (1.0_dp + m2/m1)*g/l2
+            ! (a + c)^2 - 4 a b = (a - c)^2 + 4 a (c - b), and c - b = (m2/m1) g/l2
+            large = 0.5_dp*(a + c + hypot(a - c, 2.0_dp*sqrt(a*(m2/m1)*b)))
+            page%omega2 = [0.0_dp, 0.0_dp]
+            if (large > 0.0_dp) page%omega2 = [b*(a/large), large]
+            page%root = reshape([sqrt((m1 + m2)*g*l1), 0.0_dp, 0.0_dp, sqrt(m2*g*l2)], [2, 2])
+            page%inverse = reshape([1.0_dp/(sqrt(m1)*l1), -1.0_dp/(sqrt(m1)*l2), &
+                                    0.0_dp, 1.0_dp/(sqrt(m2)*l2)], [2, 2])
+        end associate
+    end subroutine linearise
 end module lagrangia_double_pendulum

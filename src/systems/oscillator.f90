@@ -8,6 +8,7 @@ module lagrangia_oscillator
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(-)
     use lagrangia_kinds, only: dp
+    use lagrangia_linearised, only: linearised_t
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
@@ -24,6 +25,7 @@ module lagrangia_oscillator
         procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
+        procedure :: linearise
         procedure :: quantity => force_or_momentum
         procedure :: positions
     end type oscillator_t
@@ -133,4 +135,17 @@ contains
 
         a(:, 1) = -self%k/self%m*q(:, 1)
     end subroutine accelerations_lanes
+
+    pure subroutine linearise(self, q, page)
+        !! \(M = m\), \(K = k\).
+        class(oscillator_t), intent(in) :: self
+        real(dp), intent(in) :: q(self%ndof)
+        type(linearised_t), intent(out) :: page
+
+        page%mass = reshape([self%m], [1, 1])
+        page%stiffness = reshape([self%k], [1, 1])
+        page%root = reshape([sqrt(self%k)], [1, 1])
+        page%inverse = reshape([1.0_dp/sqrt(self%m)], [1, 1])
+        page%omega2 = [self%k/self%m]
+    end subroutine linearise
 end module lagrangia_oscillator

@@ -9,6 +9,7 @@ module lagrangia_pendulum
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-), sin
     use lagrangia_kinds, only: dp
+    use lagrangia_linearised, only: linearised_t
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
@@ -26,6 +27,7 @@ module lagrangia_pendulum
         procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
+        procedure :: linearise
         procedure :: momenta
         procedure :: velocities
         procedure :: forces
@@ -169,4 +171,22 @@ contains
 
         a(:, 1) = -self%g/self%l*sin(q(:, 1))
     end subroutine accelerations_lanes
+
+    pure subroutine linearise(self, q, page)
+        !! \(M = m\ell^2\), \(K = \pm mg\ell\): hanging, or upside down.
+        class(pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: q(self%ndof)
+        type(linearised_t), intent(out) :: page
+        real(dp) :: way
+
+        associate (m => self%m, l => self%l, g => self%g)
+            way = sign(1.0_dp, cos(q(1)))
+            page%mass = reshape([m*l**2], [1, 1])
+            page%stiffness = reshape([way*m*g*l], [1, 1])
+            page%omega2 = [way*g/l]
+            if (way < 0.0_dp) return
+            page%root = reshape([sqrt(m*g*l)], [1, 1])
+            page%inverse = reshape([1.0_dp/(sqrt(m)*l)], [1, 1])
+        end associate
+    end subroutine linearise
 end module lagrangia_pendulum

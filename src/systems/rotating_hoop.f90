@@ -10,6 +10,7 @@ module lagrangia_rotating_hoop
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-), sin
     use lagrangia_kinds, only: dp
+    use lagrangia_linearised, only: linearised_t
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
@@ -28,6 +29,7 @@ module lagrangia_rotating_hoop
         procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
+        procedure :: linearise
         procedure :: quantity => energy_or_torque
         procedure :: positions
     end type rotating_hoop_t
@@ -174,4 +176,24 @@ contains
         c = cos(q(:, 1))
         a(:, 1) = s*(self%omega**2*c - self%g/self%r)
     end subroutine accelerations_lanes
+
+    pure subroutine linearise(self, q, page)
+        !! \(M = mr^2\); \(\Omega^2 = g/r - \omega^2\) at the bottom, \(-g/r - \omega^2\) at the
+        !! top, \(\omega^2 - g^2/(\omega r)^2\) tilted.
+        class(rotating_hoop_t), intent(in) :: self
+        real(dp), intent(in) :: q(self%ndof)
+        type(linearised_t), intent(out) :: page
+        real(dp) :: w2
+
+        associate (m => self%m, r => self%r, g => self%g, w => self%omega)
+            if (abs(sin(q(1))) < 1e-6_dp) then
+                w2 = sign(1.0_dp, cos(q(1)))*g/r - w**2
+            else
+                w2 = (w - g/(w*r))*(w + g/(w*r))
+            end if
+            page%mass = reshape([m*r**2], [1, 1])
+            page%stiffness = reshape([m*r**2*w2], [1, 1])
+            page%omega2 = [w2]
+        end associate
+    end subroutine linearise
 end module lagrangia_rotating_hoop

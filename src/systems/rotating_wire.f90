@@ -9,6 +9,7 @@ module lagrangia_rotating_wire
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), sin
     use lagrangia_kinds, only: dp
+    use lagrangia_linearised, only: linearised_t
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
@@ -25,6 +26,7 @@ module lagrangia_rotating_wire
         procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
+        procedure :: linearise
         procedure :: quantity => energy_or_force
         procedure :: positions
     end type rotating_wire_t
@@ -146,4 +148,15 @@ contains
 
         a(:, 1) = self%omega**2*q(:, 1)
     end subroutine accelerations_lanes
+
+    pure subroutine linearise(self, q, page)
+        !! On the axis: \(M = m\), \(K = -m\omega^2\): thrown out.
+        class(rotating_wire_t), intent(in) :: self
+        real(dp), intent(in) :: q(self%ndof)
+        type(linearised_t), intent(out) :: page
+
+        page%mass = reshape([self%m], [1, 1])
+        page%stiffness = reshape([-self%m*self%omega**2], [1, 1])
+        page%omega2 = [-self%omega**2]
+    end subroutine linearise
 end module lagrangia_rotating_wire

@@ -4,11 +4,12 @@ module lagrangia_system
     !! The state is the pair \((q, v)\), \(v = \dot q\). A system says what it is (`describe`),
     !! takes its parameters (`configure`), and gives its equations of motion twice: as the page
     !! has them (`accelerations`), and as the Lagrangian that they were derived from.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
     use lagrangia_description, only: description_t, name_length, parameter_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
+    use lagrangia_linearised, only: linearised_t
+    use lagrangia_parameters, only: check_parameter, default_values
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -38,6 +39,7 @@ module lagrangia_system
         procedure :: positions => no_positions
         procedure :: constraint_rows => no_constraint_rows
         procedure :: complete_velocities
+        procedure :: linearise => nothing_by_hand
         procedure :: gap => no_gap
         procedure :: impact => no_impact
     end type system_t
@@ -190,6 +192,13 @@ contains
         end do
     end subroutine each_lane
 
+    pure subroutine nothing_by_hand(self, q, page)
+        !! The small oscillations about the equilibrium `q`, as derived by hand: here nothing is.
+        class(system_t), intent(in) :: self
+        real(dp), intent(in) :: q(self%ndof)
+        type(linearised_t), intent(out) :: page
+    end subroutine nothing_by_hand
+
     pure function no_quantity(self, i, t, q, v) result(value)
         !! Entry `i` of the quantities in the description: here there are none.
         class(system_t), intent(in) :: self
@@ -256,29 +265,6 @@ contains
         real(dp), intent(inout) :: q(self%ndof), v(self%ndof)
     end subroutine no_impact
 
-    pure subroutine check_parameter(p, error)
-        !! Refuse a parameter whose value is outside its domain or not finite.
-        type(parameter_t), intent(in) :: p
-        type(error_t), allocatable, intent(out) :: error
-        logical :: good
-        integer :: i
-
-        do i = 1, p%count
-            if (len_trim(p%computed) > 0 .and. ieee_is_nan(p%value(i))) cycle
-            good = ieee_is_finite(p%value(i)) .and. p%value(i) <= p%upper
-            if (p%open_lower) then
-                good = good .and. p%value(i) > p%lower
-            else
-                good = good .and. p%value(i) >= p%lower
-            end if
-            if (.not. good) then
-                call fail(error, trim(p%name)//" = "//to_text(p%value(i))// &
-                          " is not allowed: "//p%domain())
-                return
-            end if
-        end do
-    end subroutine check_parameter
-
     pure subroutine check_parameters(self, values, error)
         !! Refuse `values` that are too many, too few or outside their domains.
         class(system_t), intent(in) :: self
@@ -306,16 +292,4 @@ contains
             end if
         end do
     end subroutine check_parameters
-
-    pure function default_values(d) result(values)
-        !! The parameters of a description as the flat list that `configure` takes.
-        type(description_t), intent(in) :: d
-        real(dp), allocatable :: values(:)
-        integer :: i
-
-        allocate (values(0))
-        do i = 1, size(d%parameters)
-            values = [values, d%parameters(i)%value(:d%parameters(i)%count)]
-        end do
-    end function default_values
 end module lagrangia_system

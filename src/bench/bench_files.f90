@@ -1,0 +1,250 @@
+module lagrangia_bench_files
+    !! Run time against error as a data file and a picture.
+    use lagrangia_bench_problems, only: bench_problem_t
+    use lagrangia_contestant, only: knobs, party_closed_form, party_gsl
+    use lagrangia_description, only: name_length
+    use lagrangia_errors, only: error_t
+    use lagrangia_gnuplot_script, only: begin_script, lines_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_machine, only: processor
+    use lagrangia_output_file, only: output_file_t
+    use lagrangia_scene_files, only: script_path
+    use lagrangia_text, only: to_text
+    use lagrangia_text_table, only: text_table_t
+    use lagrangia_version, only: build_text, version
+    use lagrangia_work_precision, only: curve_t
+    implicit none (type, external)
+    private
+    public :: write_bench_files
+
+    character(*), parameter :: file_name = "bench.dat"
+    integer, parameter :: header_length = 200
+    character(*), parameter :: blank_lines = new_line("a")//new_line("a")
+    integer, parameter :: width = 1300, panel = 390, top = 40  !! pixels of the picture
+    character(7), parameter :: colours(16) = ["#1f77b4", "#ff7f0e", "#d62728", "#2ca02c", &
+        "#9467bd", "#17becf", "#8c564b", "#e377c2", "#bcbd22", "#7f7f7f", "#393b79", "#ff9896", &
+        "#6b8e23", "#00a087", "#b8860b", "#8b008b"]
+
+contains
+
+    subroutine write_bench_files(folder, problems, curves, path, error)
+        !! `folder/bench.dat` and `folder/bench.gp`; a block of the data file, two blank lines
+        !! apart from the next, is one method on one problem.
+        character(*), intent(in) :: folder
+        type(bench_problem_t), intent(in) :: problems(:)
+        type(curve_t), intent(in) :: curves(:)
+        character(:), allocatable, intent(out) :: path
+        type(error_t), allocatable, intent(out) :: error
+        character(name_length), allocatable :: methods(:)
+        type(output_file_t) :: script
+        type(text_table_t) :: table
+        character(name_length), parameter :: names(*) = [character(name_length) :: "problem", &
+            "method", "knob", "setting", "error", "time", "evaluations"]
+        character(2), parameter :: units(*) = ["1 ", "1 ", "1 ", "1 ", "1 ", "us", "1 "]
+        integer :: i, k
+
+        call find_methods(curves, methods)
+        path = folder//"/"//file_name
+        if (folder(len(folder):) == "/") path = folder//file_name
+        call table%file%open(path, error)
+        if (allocated(error)) return
+        call table%begin(header(problems, methods), names, units, error)
+        if (allocated(error)) return
+        do i = 1, size(curves)
+            if (i > 1) call table%file%write(blank_lines)
+            do k = 1, curves(i)%count
+                associate (p => curves(i)%points(k))
+                    call table%row([real(curves(i)%problem_index, dp), &
+                                    real(findloc(methods, label(curves(i)), 1), dp), &
+                                    real(curves(i)%knob, dp), p%setting, p%error, &
+                                    1e6_dp*p%seconds, real(p%evaluations, dp)])
+                end associate
+            end do
+        end do
+        call table%finish("rows: "//to_text(sum(curves%count)), error)
+        if (allocated(error)) return
+        call script%open(script_path(path), error)
+        if (allocated(error)) return
+        call script%write(bench_script(problems, methods, curves))
+        call script%commit(error)
+    end subroutine write_bench_files
+
+    function header(problems, methods) result(lines)
+        !! What the numbers of problems, methods and knobs stand for.
+        type(bench_problem_t), intent(in) :: problems(:)
+        character(*), intent(in) :: methods(:)
+        character(header_length) :: lines(4 + size(problems) + size(methods))
+        integer :: i, n
+
+        lines(1) = "lagrangia "//version//": run time against error at the end"
+        lines(2) = "build: "//build_text()
+        lines(3) = "processor: "//processor()
+        n = 3
+        do i = 1, size(problems)
+            lines(n + i) = "problem "//to_text(i)//": "//trim(problems(i)%name)//", "// &
+                           problems(i)%title
+        end do
+        n = n + size(problems)
+        do i = 1, size(methods)
+            lines(n + i) = "method "//to_text(i)//": "//methods(i)
+        end do
+        lines(size(lines)) = "knob 1: none"
+        do i = 2, size(knobs)
+            lines(size(lines)) = trim(lines(size(lines)))//", "//to_text(i)//": "//knobs(i)
+        end do
+    end function header
+
+    pure subroutine find_methods(curves, methods)
+        !! Each label once, in the order of appearance.
+        type(curve_t), intent(in) :: curves(:)
+        character(name_length), allocatable, intent(out) :: methods(:)
+        character(name_length) :: found(size(curves))
+        integer :: i, n
+
+        n = 0
+        do i = 1, size(curves)
+            if (any(found(:n) == label(curves(i)))) cycle
+            n = n + 1
+            found(n) = label(curves(i))
+        end do
+        allocate (methods, source=found(:n))
+    end subroutine find_methods
+
+    pure function label(curve) result(text)
+        !! In the picture; a method that comes by step and by tolerance has two.
+        type(curve_t), intent(in) :: curve
+        character(name_length) :: text
+
+        text = curve%method
+        if (curve%party == party_closed_form .or. curve%party == party_gsl) return
+        text = trim(text)//", "//knobs(curve%knob)
+    end function label
+
+    function bench_script(problems, methods, curves) result(text)
+        !! A panel a problem, both axes logarithmic, one legend below all.
+        type(bench_problem_t), intent(in) :: problems(:)
+        character(*), intent(in) :: methods(:)
+        type(curve_t), intent(in) :: curves(:)
+        character(:), allocatable :: text
+        type(lines_t) :: script
+        integer :: across, down, height, i, legend
+
+        across = merge(1, 2, size(problems) == 1)
+        down = (size(problems) + across - 1)/across
+        legend = 24*((size(methods) + 4)/5) + 16
+        height = top + panel*down + legend
+        call begin_script(script, file_name, width, height, 30*down)
+        do i = 1, size(methods)
+            call script%add(style(i, methods(i)))
+        end do
+        call script%add("set grid lc rgb '#cccccc' lw 0.6 lt 1")
+        call script%add("set termoption enhanced; set logscale xy; set format '10^{%L}'")
+        call script%add("set xlabel 'time of a run [us]'; set ylabel 'largest error of q and v'")
+        call script%add("set multiplot title 'Run time against error at the end'")
+        do i = 1, size(problems)
+            call place(modulo(i - 1, across), (i - 1)/across)
+            call draw(i)
+        end do
+        call draw_legend()
+        call script%add("unset multiplot")
+        text = script%text
+    contains
+        subroutine place(column, row)
+            integer, intent(in) :: column, row
+            real :: left, upper
+
+            left = 90.0 + real((width - 10)*column)/across
+            upper = real(height - top - panel*row)
+            call put_margins(left, left + real(width - 10)/across - 110.0, upper - panel + 70.0, &
+                             upper - 20.0)
+        end subroutine place
+
+        subroutine put_margins(left, right, bottom, upper)
+            real, intent(in) :: left, right, bottom, upper  !! pixels
+            character(200) :: line
+
+            write (line, "(4(a, f6.4))") "set lmargin at screen ", left/width, &
+                "; set rmargin at screen ", right/width, "; set bmargin at screen ", &
+                bottom/height, "; set tmargin at screen ", upper/height
+            call script%add(trim(line))
+        end subroutine put_margins
+
+        subroutine draw(which)
+            integer, intent(in) :: which
+            character(:), allocatable :: line
+            integer :: k
+
+            call script%add("set title '"//trim(problems(which)%name)//": "// &
+                            trim(problems(which)%title)//", T = "// &
+                            to_text(problems(which)%duration)//" s' noenhanced offset 0,-0.7")
+            call script%add("set xrange ["//time_range(curves, which)//"]; set yrange [1e-16:2]")
+            line = ""
+            do k = 1, size(curves)
+                if (curves(k)%problem_index /= which) cycle
+                if (line /= "") line = line//", "
+                line = line//"data index "//to_text(k - 1)//" using 6:($5 > 1.2e-16 ? $5 : "// &
+                       "1.2e-16) with linespoints ls "// &
+                       to_text(findloc(methods, label(curves(k)), 1))//" notitle"
+            end do
+            if (line /= "") call script%add("plot "//line)
+        end subroutine draw
+
+        subroutine draw_legend()
+            character(:), allocatable :: line
+            integer :: k
+
+            call put_margins(10.0, width - 10.0, 4.0, real(legend))
+            call script%add("unset logscale; unset border; unset tics; unset grid; unset title; "// &
+                            "unset xlabel; unset ylabel; set xrange [0:1]; set yrange [0:1]")
+            call script%add("set key center center horizontal maxcols 5 noenhanced samplen 3")
+            line = "plot "
+            do k = 1, size(methods)
+                if (k > 1) line = line//", "
+                line = line//"NaN with linespoints ls "//to_text(k)//" title '"// &
+                       trim(methods(k))//"'"
+            end do
+            call script%add(line)
+        end subroutine draw_legend
+    end function bench_script
+
+    pure function time_range(curves, which) result(range)
+        !! Whole decades around the times of one problem, us.
+        type(curve_t), intent(in) :: curves(:)
+        integer, intent(in) :: which
+        character(:), allocatable :: range
+        real(dp) :: low, high
+        integer :: k
+
+        low = huge(low)
+        high = 0.0_dp
+        do k = 1, size(curves)
+            if (curves(k)%problem_index /= which) cycle
+            associate (p => curves(k)%points(:curves(k)%count))
+                low = min(low, minval(p%seconds))
+                high = max(high, maxval(p%seconds))
+            end associate
+        end do
+        range = "*:*"
+        if (high <= 0.0_dp) return
+        range = to_text(10.0_dp**floor(log10(1e6_dp*low)))//":"// &
+                to_text(10.0_dp**ceiling(log10(1e6_dp*high)))
+    end function time_range
+
+    pure function style(i, method) result(line)
+        !! Ours in colours, GSL's dashed and grey, the closed form a star.
+        integer, intent(in) :: i
+        character(*), intent(in) :: method
+        character(:), allocatable :: line
+        integer :: k
+
+        k = modulo(i - 1, size(colours)) + 1
+        line = "set style line "//to_text(i)//" lw 1.5 ps 0.9 pt "//to_text(modulo(i - 1, 15) + 1)
+        if (index(method, "gsl_") == 1) then
+            line = line//" lc rgb '#000000' dt 2"
+        else if (method == "closed_form") then
+            line = line//" lc rgb '#000000' dt 1"
+        else
+            line = line//" lc rgb '"//colours(k)//"' dt 1"
+        end if
+    end function style
+end module lagrangia_bench_files

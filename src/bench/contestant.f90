@@ -1,0 +1,54 @@
+module lagrangia_contestant
+    !! The contract of whoever takes part in the benchmark: one motion from its start to its end.
+    use lagrangia_bench_problems, only: bench_problem_t
+    use lagrangia_description, only: name_length
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp, i8
+    implicit none (type, external)
+    private
+    public :: contestant_t, contestant_box_t, knobs
+    public :: knob_none, knob_step, knob_tolerance
+    public :: party_closed_form, party_gsl, party_ours
+
+    integer, parameter :: knob_none = 1, knob_step = 2, knob_tolerance = 3
+    character(9), parameter :: knobs(3) = ["-        ", "dt       ", "tolerance"]
+    integer, parameter :: party_ours = 1, party_gsl = 2, party_closed_form = 3
+
+    type, abstract :: contestant_t
+        character(name_length) :: name = ""
+        integer :: party = party_ours
+        integer :: knob = knob_step      !! what sets its accuracy
+        integer :: order = 1             !! of the error in the step
+        integer(i8) :: evaluations = 0   !! of accelerations, since `prepare`
+    contains
+        procedure(prepare_i), deferred :: prepare
+        procedure(solve_i), deferred :: solve
+    end type contestant_t
+
+    type :: contestant_box_t
+        !! A place for one of any kind.
+        class(contestant_t), allocatable :: item
+    end type contestant_box_t
+
+    abstract interface
+        subroutine prepare_i(self, problem, setting, error)
+            !! Refuse the problem, or get ready to solve it any number of times: not timed.
+            import :: contestant_t, bench_problem_t, dp, error_t
+            implicit none (type, external)
+            class(contestant_t), intent(inout) :: self
+            type(bench_problem_t), target, intent(in) :: problem  !! stays where it is
+            real(dp), intent(in) :: setting                       !! of the knob
+            type(error_t), allocatable, intent(out) :: error
+        end subroutine prepare_i
+
+        subroutine solve_i(self, problem, q, v, error)
+            !! The state at the end: this is timed.
+            import :: contestant_t, bench_problem_t, dp, error_t
+            implicit none (type, external)
+            class(contestant_t), intent(inout) :: self
+            type(bench_problem_t), intent(in) :: problem
+            real(dp), intent(out) :: q(:), v(:)
+            type(error_t), allocatable, intent(out) :: error
+        end subroutine solve_i
+    end interface
+end module lagrangia_contestant

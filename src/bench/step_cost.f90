@@ -1,0 +1,172 @@
+module lagrangia_step_cost
+    !! What one step costs: of every method on every system, and of the contracts themselves.
+    use lagrangia_bench_problems, only: bench_problem_t
+    use lagrangia_bench_table, only: cell_t, new_bench_table, number_cell, bench_table_t, word_cell
+    use lagrangia_catalogue, only: new_system
+    use lagrangia_concrete_loops, only: rk4_double_pendulum, rk4_pendulum
+    use lagrangia_contestant, only: contestant_box_t, contestant_t, knob_step
+    use lagrangia_contestants, only: new_contestants
+    use lagrangia_description, only: description_t, name_length
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_observer, only: observer_t
+    use lagrangia_precision_curve, only: median, not_known, ratio
+    use lagrangia_stopwatch, only: effort_t, repetitions, seconds_since, ticks_now
+    use lagrangia_system, only: default_values
+    use lagrangia_work_precision, only: look_around
+    implicit none (type, external)
+    private
+    public :: measure_dispatch, measure_steps
+
+    real(dp), parameter :: dt = 1e-3_dp, duration = 1.0_dp  !! s: a thousand steps a call
+    real(dp), parameter :: nanoseconds = 1e9_dp
+
+contains
+
+    subroutine measure_steps(systems, contestants, plan, watcher, table, error)
+        !! Nanoseconds a step, and evaluations, of those that take fixed steps.
+        character(*), intent(in) :: systems(:)
+        type(contestant_box_t), intent(inout) :: contestants(:)
+        type(effort_t), intent(in) :: plan
+        class(observer_t), pointer, intent(in) :: watcher
+        type(bench_table_t), intent(out) :: table
+        type(error_t), allocatable, intent(out) :: error
+        type(bench_problem_t), target :: problem
+        real(dp), allocatable :: cost(:, :)
+        real(dp) :: evaluations(size(contestants)), samples(plan%rounds)
+        type(cell_t) :: cells(2 + size(systems))
+        integer :: i, k, round
+
+        allocate (cost(size(systems), size(contestants)), source=not_known())
+        evaluations = not_known()
+        do i = 1, size(systems)
+            call pose(trim(systems(i)), problem, error)
+            if (allocated(error)) return
+            do k = 1, size(contestants)
+                call look_around(watcher, (i - 1)*size(contestants) + k, size(cost), error)
+                if (allocated(error)) return
+                if (contestants(k)%item%knob /= knob_step) cycle
+                do round = 1, plan%rounds
+                    call time_steps(contestants(k)%item, problem, plan, samples(round))
+                end do
+                cost(i, k) = median(samples)*nanoseconds
+                if (cost(i, k) >= 0.0_dp) evaluations(k) = contestants(k)%item%evaluations*dt/duration
+            end do
+        end do
+        call new_bench_table(table, "step_ns", "one step, ns (dt = 1e-3 s; - : the method refuses "// &
+                        "the system)", [character(name_length) :: "method", "evaluations", systems])
+        do k = 1, size(contestants)
+            if (.not. any(cost(:, k) >= 0.0_dp)) cycle
+            cells(1) = word_cell(contestants(k)%item%name)
+            cells(2) = number_cell(evaluations(k), 3)
+            cells(3:) = number_cell(cost(:, k), 3)
+            call table%add(cells)
+        end do
+    end subroutine measure_steps
+
+    subroutine time_steps(contestant, problem, plan, seconds)
+        !! One sample of the time of a step; NaN where the system is refused. `evaluations` of the
+        !! contestant are those of one run afterwards.
+        class(contestant_t), intent(inout) :: contestant
+        type(bench_problem_t), target, intent(in) :: problem
+        type(effort_t), intent(in) :: plan
+        real(dp), intent(out) :: seconds
+        real(dp) :: q(problem%system%ndof), v(problem%system%ndof)
+        type(error_t), allocatable :: error
+        integer(i8) :: start
+        integer :: i, count
+
+        seconds = not_known()
+        call contestant%prepare(problem, dt, error)
+        if (allocated(error)) return
+        start = ticks_now()
+        call contestant%solve(problem, q, v, error)
+        if (allocated(error)) return
+        count = repetitions(seconds_since(start), plan%shortest)
+        start = ticks_now()
+        do i = 1, count
+            call contestant%solve(problem, q, v, error)
+        end do
+        seconds = seconds_since(start)/count*dt/duration
+        call contestant%prepare(problem, dt, error)
+        call contestant%solve(problem, q, v, error)
+    end subroutine time_steps
+
+    subroutine measure_dispatch(plan, table, error)
+        !! RK4 through the contracts, the same loop compiled for the concrete type, and GSL's.
+        type(effort_t), intent(in) :: plan
+        type(bench_table_t), intent(out) :: table
+        type(error_t), allocatable, intent(out) :: error
+        character(name_length), parameter :: systems(2) = [character(name_length) :: &
+            "pendulum", "double_pendulum"]
+        type(bench_problem_t), target :: problem
+        type(contestant_box_t), allocatable :: ours(:), gsl(:)
+        real(dp) :: samples(2*plan%rounds, 3), ns(3)
+        integer :: i, round
+
+        call new_bench_table(table, "dispatch", "RK4, one step, ns: through the contracts, compiled "// &
+                        "for the concrete type, GSL's", [character(name_length) :: "system", &
+                        "contracts", "concrete", "gsl_rk4", "contracts/concrete", "contracts/gsl"])
+        call new_contestants(["rk4"], ours)
+        call new_contestants(["gsl_rk4"], gsl)
+        do i = 1, size(systems)
+            call pose(trim(systems(i)), problem, error)
+            if (allocated(error)) return
+            do round = 1, size(samples, 1)
+                call time_steps(ours(1)%item, problem, plan, samples(round, 1))
+                call time_concrete(problem, plan, samples(round, 2))
+                call time_steps(gsl(1)%item, problem, plan, samples(round, 3))
+            end do
+            ns = [median(samples(:, 1)), median(samples(:, 2)), median(samples(:, 3))]*nanoseconds
+            call table%add([word_cell(systems(i)), number_cell(ns, 3), &
+                             number_cell(ratio(ns(1), ns(2:3)), 3)])
+        end do
+    end subroutine measure_dispatch
+
+    subroutine time_concrete(problem, plan, seconds)
+        !! As `time_steps`, without contracts.
+        type(bench_problem_t), intent(in) :: problem
+        type(effort_t), intent(in) :: plan
+        real(dp), intent(out) :: seconds
+        type(description_t) :: d
+        real(dp), allocatable :: p(:)
+        real(dp) :: q(problem%system%ndof), v(problem%system%ndof)
+        integer(i8) :: start, steps
+        integer :: i, count
+
+        call problem%system%describe(d)
+        allocate (p, source=default_values(d))
+        steps = nint(duration/dt, i8)
+        count = repetitions(1e-7_dp*steps, plan%shortest)
+        start = ticks_now()
+        do i = 1, count
+            q = problem%q
+            v = problem%v
+            if (size(q) == 1) then
+                call rk4_pendulum(p, dt, steps, q, v)
+            else
+                call rk4_double_pendulum(p, dt, steps, q, v)
+            end if
+        end do
+        seconds = seconds_since(start)/(count*steps)
+    end subroutine time_concrete
+
+    subroutine pose(name, problem, error)
+        !! A motion of the system called `name`, with its default parameters, from some state.
+        character(*), intent(in) :: name
+        type(bench_problem_t), intent(out) :: problem
+        type(error_t), allocatable, intent(out) :: error
+        real(dp), allocatable :: given(:)
+        integer :: i, n
+
+        call new_system(name, problem%system, error)
+        if (allocated(error)) return
+        problem%name = name
+        problem%duration = duration
+        n = problem%system%ndof
+        allocate (problem%q(n), problem%v(n), given(n - problem%system%constraints))
+        problem%q = [(0.2_dp + 0.1_dp*i, i=1, n)]
+        given = [(0.3_dp + 0.1_dp*i, i=1, size(given))]
+        call problem%system%complete_velocities(0.0_dp, problem%q, given, problem%v, error)
+    end subroutine pose
+end module lagrangia_step_cost

@@ -1,0 +1,171 @@
+module lagrangia_bench
+    !! `lagrangia bench [PART...]`: what the methods cost, beside GSL's, in one run.
+    use lagrangia_bench_choice, only: bench_choice_t, parts, read_choice
+    use lagrangia_bench_files, only: write_bench_files
+    use lagrangia_bench_problems, only: bench_problem_t, read_problems
+    use lagrangia_bench_table, only: bench_table_t
+    use lagrangia_command_line, only: command_line_t
+    use lagrangia_console, only: put_line
+    use lagrangia_contestant, only: contestant_box_t
+    use lagrangia_contestants, only: new_contestants
+    use lagrangia_energy_bench, only: measure_energy
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_goals, only: goals_of_dispatch, goals_of_energy, goals_of_growth, &
+                               goals_of_output, goals_of_precision, new_goals
+    use lagrangia_growth_bench, only: measure_growth
+    use lagrangia_machine, only: processor
+    use lagrangia_observer, only: observer_t
+    use lagrangia_output_bench, only: measure_output
+    use lagrangia_precision_tables, only: points_table, times_table
+    use lagrangia_progress, only: progress_t
+    use lagrangia_scene_files, only: draw
+    use lagrangia_step_cost, only: measure_dispatch, measure_steps
+    use lagrangia_version, only: build_text, is_optimised
+    use lagrangia_work_precision, only: curve_t, measure_curves
+    implicit none (type, external)
+    private
+    public :: bench_command, check_build
+
+    type :: output_t
+        !! Where tables go: each is shown as soon as it is there.
+        logical :: json = .false., quiet = .false., first = .true.
+    contains
+        procedure :: show
+        procedure :: say
+    end type output_t
+
+contains
+
+    subroutine bench_command(line, error)
+        !! Measure the parts that are asked for, print them, and judge the goals they concern.
+        type(command_line_t), intent(in) :: line
+        type(error_t), allocatable, intent(out) :: error
+        type(bench_choice_t) :: choice
+        type(bench_table_t) :: goals, table
+        type(output_t) :: output
+        type(progress_t), target :: progress
+        class(observer_t), pointer :: watcher
+        integer :: i
+
+        call check_build(is_optimised(), error)
+        if (allocated(error)) return
+        call read_choice(line, choice, error)
+        if (allocated(error)) return
+        watcher => progress
+        output%json = line%has("json")
+        output%quiet = line%has("quiet")
+        if (output%json) call put_line("[")
+        call output%say("build: "//build_text())
+        call output%say("processor: "//processor())
+        call new_goals(goals)
+        do i = 1, size(parts)
+            if (.not. any(choice%parts == parts(i))) cycle
+            call progress%restart("bench "//trim(parts(i)))
+            select case (parts(i))
+            case ("precision")
+                call bench_precision()
+            case ("steps")
+                call bench_steps()
+            case ("energy")
+                call measure_energy(choice%methods, choice%plan, watcher, table, error)
+                if (allocated(error)) exit
+                call output%show(table, progress)
+                call goals_of_energy(table, goals)
+            case ("growth")
+                call measure_growth(choice%folder, choice%plan, table, error)
+                if (allocated(error)) exit
+                call output%show(table, progress)
+                call goals_of_growth(table, goals)
+            case ("output")
+                call measure_output(choice%folder, choice%plan, table, error)
+                if (allocated(error)) exit
+                call output%show(table, progress)
+                call goals_of_output(table, goals)
+            end select
+            if (allocated(error)) exit
+        end do
+        call progress%clear()
+        if (allocated(error)) return
+        if (goals%rows > 0) call output%show(goals, progress)
+        if (output%json) call put_line("]")
+    contains
+        subroutine bench_precision()
+            type(bench_problem_t), allocatable, target :: problems(:)
+            type(contestant_box_t), allocatable :: contestants(:)
+            type(curve_t), allocatable :: curves(:)
+            character(:), allocatable :: path
+
+            call read_problems(choice%problems, problems, error)
+            if (allocated(error)) return
+            call new_contestants(choice%methods, contestants)
+            call measure_curves(problems, contestants, choice%tolerances, choice%plan, watcher, &
+                                curves, error)
+            if (allocated(error)) return
+            if (size(curves) == 0) call fail(error, "none of these methods solves any of these "// &
+                                             "problems")
+            if (allocated(error)) return
+            call points_table(curves, table)
+            call output%show(table, progress)
+            call times_table(curves, table)
+            call output%show(table, progress)
+            call goals_of_precision(curves, goals)
+            call write_bench_files(choice%folder, problems, curves, path, error)
+            if (allocated(error)) return
+            call output%say("data file and gnuplot script: "//path)
+            if (line%has("plot")) call draw(path, choice%picture, error)
+        end subroutine bench_precision
+
+        subroutine bench_steps()
+            type(contestant_box_t), allocatable :: contestants(:)
+
+            call measure_dispatch(choice%plan, table, error)
+            if (allocated(error)) return
+            call output%show(table, progress)
+            call goals_of_dispatch(table, goals)
+            call new_contestants(choice%methods, contestants)
+            call measure_steps(choice%systems, contestants, choice%plan, watcher, table, error)
+            if (allocated(error)) return
+            call output%show(table, progress)
+        end subroutine bench_steps
+    end subroutine bench_command
+
+    pure subroutine check_build(optimised, error)
+        !! A benchmark of a debug build would mislead.
+        logical, intent(in) :: optimised
+        type(error_t), allocatable, intent(out) :: error
+
+        if (.not. optimised) call fail(error, "bench: this build is not optimised, and its times "// &
+            "would mislead; 'fpm run --profile release -- bench' builds one that is")
+    end subroutine check_build
+
+    subroutine show(self, table, progress)
+        !! One table, as lines or as objects of the one array.
+        class(output_t), intent(inout) :: self
+        type(bench_table_t), intent(in) :: table
+        type(progress_t), intent(inout) :: progress
+        integer :: i
+
+        call progress%clear()
+        if (self%json) then
+            do i = 1, table%rows
+                call put_line(trim(merge(" ", ",", self%first))//table%object(i))
+                self%first = .false.
+            end do
+        else if (.not. (self%quiet .or. table%silent)) then
+            call put_line("")
+            call put_line(trim(table%title))
+            call put_line("  "//table%head())
+            do i = 1, table%rows
+                call put_line("  "//table%line(i))
+            end do
+        end if
+    end subroutine show
+
+    subroutine say(self, text)
+        !! A line for people.
+        class(output_t), intent(in) :: self
+        character(*), intent(in) :: text
+
+        if (.not. (self%json .or. self%quiet)) call put_line(text)
+    end subroutine say
+end module lagrangia_bench

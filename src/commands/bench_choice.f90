@@ -1,0 +1,144 @@
+module lagrangia_bench_choice
+    !! What the options of `lagrangia bench` choose; everything is checked before anything is run.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_bench_problems, only: problem_names
+    use lagrangia_catalogue, only: system_names
+    use lagrangia_command_line, only: command_line_t
+    use lagrangia_contestants, only: contestant_names
+    use lagrangia_description, only: name_length
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_kinds, only: dp
+    use lagrangia_stopwatch, only: effort, effort_t
+    use lagrangia_text, only: join, nearest_name, quoted
+    implicit none (type, external)
+    private
+    public :: bench_choice_t, parts, read_choice
+
+    character(name_length), parameter :: parts(*) = [character(name_length) :: "precision", &
+        "steps", "energy", "growth", "output"]
+    real(dp), parameter :: least_tolerance = 1e-16_dp
+
+    type :: bench_choice_t
+        character(name_length), allocatable :: parts(:), problems(:), systems(:)
+        character(name_length), allocatable :: methods(:)  !! empty: all
+        real(dp), allocatable :: tolerances(:)             !! empty: a ladder
+        character(:), allocatable :: folder, picture
+        type(effort_t) :: plan
+    end type bench_choice_t
+
+contains
+
+    subroutine read_choice(line, choice, error)
+        !! Names must exist, tolerances must make sense.
+        type(command_line_t), intent(in) :: line
+        type(bench_choice_t), intent(out) :: choice
+        type(error_t), allocatable, intent(out) :: error
+        character(name_length), allocatable :: words(:)
+        integer :: i
+
+        choice%plan = effort(line%has("quick"))
+        choice%folder = line%value_of("output", "data/output")
+        choice%picture = line%value_of("plot", "png")
+        if (choice%picture == "") choice%picture = "png"
+        if (choice%picture /= "png" .and. choice%picture /= "svg") then
+            call fail(error, "unknown picture format "//quoted(choice%picture)// &
+                      "; there are png, svg")
+        else if (choice%folder == "") then
+            call fail(error, "option '--output' needs the name of a folder")
+        end if
+        if (allocated(error)) return
+        allocate (words(size(line%arguments)))
+        do i = 1, size(words)
+            words(i) = line%arguments(i)%text
+        end do
+        call choose("part", words, parts, choice%parts, error)
+        if (allocated(error)) return
+        call choose("problem", split(line%value_of("problems", "")), problem_names, &
+                    choice%problems, error)
+        if (allocated(error)) return
+        call choose("system", split(line%value_of("systems", "")), system_names(), &
+                    choice%systems, error)
+        if (allocated(error)) return
+        call choose("method", split(line%value_of("methods", "")), contestant_names(), &
+                    choice%methods, error)
+        if (allocated(error)) return
+        call read_tolerances(split(line%value_of("tolerances", "")), choice%tolerances, error)
+    end subroutine read_choice
+
+    pure subroutine choose(kind, words, names, chosen, error)
+        !! The words, each of which must be one of `names`; all names where there are no words.
+        character(*), intent(in) :: kind
+        character(*), intent(in) :: words(:), names(:)
+        character(name_length), allocatable, intent(out) :: chosen(:)
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: near
+        integer :: i
+
+        if (size(words) == 0) then
+            allocate (chosen(size(names)))
+            chosen = names
+            return
+        end if
+        allocate (chosen(size(words)))
+        chosen = words
+        do i = 1, size(words)
+            if (any(names == words(i))) cycle
+            near = nearest_name(words(i), names)
+            if (near /= "") then
+                near = "did you mean '"//near//"'?"
+            else
+                near = "there are "//join(names, ", ")
+            end if
+            call fail(error, "unknown "//kind//" "//quoted(trim(words(i)))//"; "//near)
+            return
+        end do
+    end subroutine choose
+
+    pure subroutine read_tolerances(words, tolerances, error)
+        !! Numbers between the precision and 1, tightened from one to the next.
+        character(*), intent(in) :: words(:)
+        real(dp), allocatable, intent(out) :: tolerances(:)
+        type(error_t), allocatable, intent(out) :: error
+        integer :: i, ios
+
+        allocate (tolerances(size(words)))
+        do i = 1, size(words)
+            ios = 1
+            if (verify(trim(words(i)), "0123456789.eE+-") == 0) read (words(i), *, iostat=ios) &
+                tolerances(i)
+            if (ios /= 0) tolerances(i) = 0.0_dp
+            if (.not. (ieee_is_finite(tolerances(i)) .and. tolerances(i) >= least_tolerance .and. &
+                       tolerances(i) < 1.0_dp)) then
+                call fail(error, "tolerance "//quoted(trim(words(i)))//" is not allowed: a "// &
+                          "number from 1e-16 to below 1 is needed")
+                return
+            end if
+        end do
+        do i = 2, size(words)
+            if (tolerances(i) < tolerances(i - 1)) cycle
+            call fail(error, "tolerances must fall from each to the next: 1e-3,1e-6,1e-9")
+            return
+        end do
+    end subroutine read_tolerances
+
+    pure function split(text) result(words)
+        !! The words between commas; none of an empty text.
+        character(*), intent(in) :: text
+        character(name_length), allocatable :: words(:)
+        integer :: first, i, last, n
+
+        n = 0
+        if (text /= "") n = 1
+        do i = 1, len(text)
+            if (text(i:i) == ",") n = n + 1
+        end do
+        allocate (words(n))
+        first = 1
+        do i = 1, n
+            last = index(text(first:)//",", ",") + first - 2
+            words(i) = adjustl(text(first:last))
+            if (last - first + 1 > name_length) words(i)(name_length:) = "?"  ! no name is so long
+            first = last + 2
+        end do
+    end function split
+end module lagrangia_bench_choice

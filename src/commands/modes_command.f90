@@ -1,0 +1,250 @@
+module lagrangia_modes_command
+    !! `lagrangia modes SYSTEM`: small oscillations, LAPACK's answer beside the page's.
+    use lagrangia_command_line, only: command_line_t
+    use lagrangia_console, only: put_line
+    use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_json, only: json_list, json_number, json_string
+    use lagrangia_kinds, only: dp
+    use lagrangia_modes_files, only: write_mode
+    use lagrangia_scene_reader, only: read_named_system
+    use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, modes_t
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: quoted, to_text
+    implicit none (type, external)
+    private
+    public :: modes_command
+
+    character(16), parameter :: labels(3) = [character(16) :: &
+        "oscillation", "zero mode", "unstable"]
+    real(dp), parameter :: pi = acos(-1.0_dp)
+    integer, parameter :: widest = 8  !! matrices beyond are not printed
+
+contains
+
+    subroutine modes_command(line, error)
+        !! Find, print, and with `--output` write one data file a mode.
+        type(command_line_t), intent(in) :: line
+        type(error_t), allocatable, intent(out) :: error
+        class(system_t), allocatable :: system
+        type(modes_t) :: modes
+        real(dp), allocatable :: at(:)
+        integer :: j
+
+        if (size(line%arguments) == 0) then
+            call fail(error, "modes of what? 'lagrangia list systems' shows the names")
+            return
+        end if
+        call read_named_system(line%arguments(1)%text, line%values_of("set"), system, error)
+        if (allocated(error)) return
+        allocate (at(system%ndof), source=0.0_dp)
+        if (line%has("at")) call read_numbers(line%value_of("at", ""), at, error)
+        if (allocated(error)) return
+        call find_modes(system, at, line%has("at"), modes, error)
+        if (allocated(error)) return
+        if (line%has("json")) then
+            call put_line(as_json(line%arguments(1)%text, modes))
+        else if (.not. line%has("quiet")) then
+            call print_modes(system, modes)
+        end if
+        if (.not. line%has("output")) return
+        do j = 1, size(modes%omega2)
+            call write_mode(system, modes, j, line%value_of("output", ""), error)
+            if (allocated(error)) return
+        end do
+    end subroutine modes_command
+
+    subroutine read_numbers(text, values, error)
+        !! `q1,q2,...`: plain finite numbers between commas.
+        character(*), intent(in) :: text
+        real(dp), allocatable, intent(out) :: values(:)
+        type(error_t), allocatable, intent(out) :: error
+        real(dp) :: value
+        integer :: first, last, status
+
+        allocate (values(0))
+        first = 1
+        do while (first <= len(text) + 1)
+            last = index(text(first:)//",", ",") + first - 2
+            status = verify(text(first:last), "0123456789+-.eEdD ")
+            if (status == 0) read (text(first:last), *, iostat=status) value
+            if (status == 0) status = merge(0, 1, abs(value) <= huge(value))
+            if (status /= 0) then
+                call fail(error, "--at "//quoted(text)//": "//quoted(text(first:last))// &
+                          " is not a finite number; write --at 0,1.5")
+                return
+            end if
+            values = [values, value]
+            first = last + 2
+        end do
+    end subroutine read_numbers
+
+    subroutine print_modes(system, modes)
+        !! For the eye: twelve digits, and differences.
+        class(system_t), intent(in) :: system
+        type(modes_t), intent(in) :: modes
+        type(description_t) :: d
+        character(140) :: row
+        integer :: i, j, n
+
+        call system%describe(d)
+        n = size(modes%omega2)
+        call put_line(trim(d%name)//": small oscillations about "//point(d, modes%at))
+        if (n <= widest) then
+            call put_matrix("M", modes%mass)
+            call put_matrix("K", modes%stiffness)
+            if (any(abs(modes%gyroscopic) > 0.0_dp)) call put_matrix("G", modes%gyroscopic)
+        end if
+        if (modes%difference >= 0.0_dp) then
+            call put_line("page against L's second derivatives, relative: "// &
+                          trim(short(modes%difference)))
+        else
+            call put_line("M and K come from L's second derivatives: the page has none")
+        end if
+        call put_line("")
+        call put_line("omega^2 [s^-2]     omega [rad/s]      f [Hz]             T [s]         "// &
+                      "     closed form        differ   what")
+        do j = 1, n
+            row = number(modes%omega2(j))
+            if (modes%label(j) == is_oscillation) then
+                associate (w => sqrt(modes%omega2(j)))
+                    row(20:) = number(w)//" "//number(w/(2.0_dp*pi))//" "//number(2.0_dp*pi/w)
+                end associate
+            else if (modes%label(j) == is_unstable) then
+                row(20:) = "growth rate "//number(sqrt(-modes%omega2(j)))//" 1/s"
+            end if
+            if (allocated(modes%page%omega2)) then
+                row(77:) = number(modes%page%omega2(j))
+                row(96:) = short(relative(modes, j))
+            end if
+            row(105:) = labels(modes%label(j))
+            call put_line(trim(row))
+        end do
+        if (n <= widest) then
+            call put_line("")
+            call put_line("shapes, one a line, u^T M u = 1")
+            do j = 1, n
+                row = ""
+                do i = 1, n
+                    row(19*i - 18:) = number(modes%shapes(i, j))
+                end do
+                call put_line(trim(row))
+            end do
+        end if
+        row = "LAPACK: "//modes%method
+        if (modes%ratio >= 0.0_dp) row = trim(row)//", |K Z - M Z L|/(|K| |Z| n eps) = "// &
+            short(modes%ratio)
+        call put_line(trim(row))
+    end subroutine print_modes
+
+    pure function relative(modes, j) result(difference)
+        !! Of mode `j` from its closed form.
+        type(modes_t), intent(in) :: modes
+        integer, intent(in) :: j
+        real(dp) :: difference
+
+        difference = abs(modes%omega2(j) - modes%page%omega2(j))
+        if (abs(modes%page%omega2(j)) > 0.0_dp) difference = difference/abs(modes%page%omega2(j))
+    end function relative
+
+    pure function point(d, at) result(text)
+        !! `x = 0.0, theta = 0.0`.
+        type(description_t), intent(in) :: d
+        real(dp), intent(in) :: at(:)
+        character(:), allocatable :: text
+        integer :: i
+
+        text = trim(d%coordinates(1)%name)//" = "//to_text(at(1))
+        do i = 2, min(size(at), widest)
+            text = text//", "//trim(d%coordinates(i)%name)//" = "//to_text(at(i))
+        end do
+        if (size(at) > widest) text = text//", ..."
+    end function point
+
+    subroutine put_matrix(name, a)
+        !! Row by row.
+        character(*), intent(in) :: name
+        real(dp), intent(in) :: a(:, :)
+        character(:), allocatable :: row
+        integer :: i, j
+
+        do i = 1, size(a, 1)
+            row = "    "
+            if (i == 1) row = name//" = "
+            do j = 1, size(a, 2)
+                row = row//number(a(i, j))//" "
+            end do
+            call put_line(trim(row))
+        end do
+    end subroutine put_matrix
+
+    pure function number(value) result(text)
+        !! Twelve digits, left-justified in 18.
+        real(dp), intent(in) :: value
+        character(18) :: text
+
+        text = "0"
+        if (abs(value) <= 0.0_dp) return
+        if (abs(value) >= 1e-3_dp .and. abs(value) < 1e5_dp) then
+            write (text, "(f18.11)") value
+        else
+            write (text, "(es18.11e2)") value
+        end if
+        text = adjustl(text)
+    end function number
+
+    pure function short(value) result(text)
+        !! Two digits.
+        real(dp), intent(in) :: value
+        character(8) :: text
+
+        write (text, "(es8.1e2)") value
+        text = adjustl(text)
+        if (abs(value) <= 0.0_dp) text = "0"
+    end function short
+
+    function as_json(name, modes) result(json)
+        !! One object with the keys of cli.md; shapes are rows, one a mode.
+        character(*), intent(in) :: name
+        type(modes_t), intent(in) :: modes
+        character(:), allocatable :: json
+        real(dp) :: omega(size(modes%omega2))
+        integer :: j
+
+        omega = sqrt(max(0.0_dp, modes%omega2))
+        json = '{"system": '//json_string(name)//', "at": '//json_list(modes%at)// &
+               ', "M": '//rows(modes%mass)//', "K": '//rows(modes%stiffness)// &
+               ', "omega2": '//json_list(modes%omega2)//', "omega": '//json_list(omega)// &
+               ', "label": ['
+        do j = 1, size(modes%label)
+            if (j > 1) json = json//", "
+            json = json//json_string(trim(labels(modes%label(j))))
+        end do
+        json = json//'], "shapes": '//rows(transpose(modes%shapes))//', "closed_form": '
+        if (allocated(modes%page%omega2)) then
+            json = json//json_list(modes%page%omega2)
+        else
+            json = json//"null"
+        end if
+        json = json//', "residual_ratio": '
+        if (modes%ratio >= 0.0_dp) then
+            json = json//json_number(modes%ratio)//"}"
+        else
+            json = json//"null}"
+        end if
+    end function as_json
+
+    function rows(a) result(json)
+        !! A list of lists.
+        real(dp), intent(in) :: a(:, :)
+        character(:), allocatable :: json
+        integer :: i
+
+        json = "["
+        do i = 1, size(a, 1)
+            if (i > 1) json = json//", "
+            json = json//json_list(a(i, :))
+        end do
+        json = json//"]"
+    end function rows
+end module lagrangia_modes_command

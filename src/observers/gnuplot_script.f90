@@ -1,0 +1,71 @@
+module lagrangia_gnuplot_script
+    !! What every gnuplot script of ours begins with: it finds its data beside itself, wherever it
+    !! is run from, and takes the best terminal that there is.
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: lines_t, begin_script, doubled
+
+    type :: lines_t
+        character(:), allocatable :: text
+    contains
+        procedure :: add
+    end type lines_t
+
+contains
+
+    pure subroutine begin_script(script, file, width, height, rows)
+        !! The first lines of the script for `file`, a bare name beside it: `data` is its path,
+        !! `kind` the terminal, and the picture is `NAME.png` or `NAME.svg`.
+        type(lines_t), intent(out) :: script
+        character(*), intent(in) :: file
+        integer, intent(in) :: width, height  !! pixels
+        integer, intent(in) :: rows           !! lines of text, where there are no pixels
+        character(:), allocatable :: pixels
+        integer :: dot
+
+        dot = index(file, ".", back=.true.)
+        pixels = to_text(width)//","//to_text(height)
+        script%text = ""
+        call script%add("# Draws "//file//" as it lies beside this script.")
+        call script%add("folder = './'")
+        call script%add("if (exists('ARG0')) { do for [i=1:strlen(ARG0)] { "// &
+                        "if (ARG0[i:i] eq '/') { folder = ARG0[1:i] } } }")
+        call script%add("if (folder[1:1] ne '/') { folder = './'.folder }")
+        call script%add("data = folder.'"//doubled(file)//"'")
+        call script%add("picture = folder.'"//doubled(file(:dot - 1))//"'")
+        call script%add("if (!exists('wanted')) { wanted = 'png' }")
+        call script%add("can(name) = strstrt(GPVAL_TERMINALS, ' '.name.' ')")
+        call script%add("kind = wanted eq 'svg' && can('svg') ? 'svg' : can('pngcairo') ? "// &
+                        "'pngcairo' : can('png') ? 'png' : can('svg') ? 'svg' : 'dumb'")
+        call script%add("if (kind eq 'pngcairo') { set terminal pngcairo noenhanced size "// &
+                        pixels//" font ',11'; set output picture.'.png' }")
+        call script%add("if (kind eq 'png') { set terminal png noenhanced size "//pixels// &
+                        "; set output picture.'.png' }")
+        call script%add("if (kind eq 'svg') { set terminal svg noenhanced size "//pixels// &
+                        " background 'white'; set output picture.'.svg' }")
+        call script%add("if (kind eq 'dumb') { set terminal dumb noenhanced size 100,"// &
+                        to_text(rows)//" }")
+    end subroutine begin_script
+
+    pure function doubled(text) result(safe)
+        !! Fit for a single-quoted string of gnuplot.
+        character(*), intent(in) :: text
+        character(:), allocatable :: safe
+        integer :: i
+
+        safe = ""
+        do i = 1, len(text)
+            safe = safe//text(i:i)
+            if (text(i:i) == "'") safe = safe//"'"
+        end do
+    end function doubled
+
+    pure subroutine add(self, line)
+        !! One more line.
+        class(lines_t), intent(inout) :: self
+        character(*), intent(in) :: line
+
+        self%text = self%text//line//new_line("a")
+    end subroutine add
+end module lagrangia_gnuplot_script

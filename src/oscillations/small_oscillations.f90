@@ -1,0 +1,268 @@
+module lagrangia_small_oscillations
+    !! From a system and an equilibrium to labelled modes.
+    !!
+    !! Linearised about an equilibrium, Lagrange's equations are
+    !! \(M\ddot\delta + G\dot\delta + K\delta = 0\) with \(M = L_{vv}\), \(G = L_{vq} - L_{qv}\) and
+    !! \(K = -L_{qq}\): once from the page, once from the Lagrangian's exact second derivatives.
+    use lagrangia_description, only: description_t, name_length
+    use lagrangia_eigen, only: gyroscopic_modes, modes_from_factors, normal_modes, residual_ratio
+    use lagrangia_errors, only: error_t, fail, status_library
+    use lagrangia_hyperdual, only: hyperdual_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_lapack, only: solve_linear
+    use lagrangia_linearised, only: linearised_t
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: modes_t, find_modes
+    public :: is_oscillation, is_zero_mode, is_unstable
+
+    integer, parameter :: is_oscillation = 1, is_zero_mode = 2, is_unstable = 3
+    integer, parameter :: largest_expansion = 60  !! coordinates; beyond, L is not differentiated
+
+    type :: modes_t
+        real(dp), allocatable :: at(:)             !! the equilibrium
+        type(linearised_t) :: page                 !! as derived by hand, where it was
+        real(dp), allocatable :: mass(:, :), stiffness(:, :), gyroscopic(:, :)  !! what was solved
+        real(dp) :: difference = -1.0_dp           !! of the page from L, relative; < 0: unknown
+        real(dp), allocatable :: omega2(:)         !! ascending, s^-2
+        real(dp), allocatable :: shapes(:, :)      !! column j belongs to `omega2(j)`
+        integer, allocatable :: label(:)
+        real(dp) :: ratio = -1.0_dp                !! LAPACK's residual ratio; < 0: gyroscopic
+        character(40) :: method = ""
+    end type modes_t
+
+contains
+
+    subroutine find_modes(system, start, wanted, modes, error)
+        !! The modes about the equilibrium `start`; where that is only a guess (not `wanted`), about
+        !! the nearest equilibrium. Fails (status 2) where there is none.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: start(:)
+        logical, intent(in) :: wanted
+        type(modes_t), intent(out) :: modes
+        type(error_t), allocatable, intent(out) :: error
+        real(dp), dimension(system%ndof, system%ndof) :: m, k, g
+
+        call check_system(system, start, error)
+        if (allocated(error)) return
+        modes%at = start
+        call settle(system, wanted, modes%at, error)
+        if (allocated(error)) return
+        call system%linearise(modes%at, modes%page)
+        if (system%ndof <= largest_expansion .or. .not. allocated(modes%page%mass)) then
+            call expand(system, modes%at, m, k, g)
+            if (allocated(modes%page%mass)) call compare(modes, m, k, g)
+        end if
+        if (allocated(modes%page%mass)) then
+            m = modes%page%mass
+            k = modes%page%stiffness
+            g = 0.0_dp
+            if (allocated(modes%page%gyroscopic)) g = modes%page%gyroscopic
+        end if
+        modes%mass = m
+        modes%stiffness = k
+        modes%gyroscopic = g
+        if (any(abs(g) > 0.0_dp)) then
+            call solve_gyroscopic(modes, error)
+        else if (allocated(modes%page%root)) then
+            modes%method = "dgejsv on the factors of K and M"
+            call modes_from_factors(modes%page%root, modes%page%inverse, modes%omega2, &
+                                    modes%shapes, error)
+        else
+            modes%method = merge("dsygv ", "dsygvd", system%ndof <= 32)
+            call normal_modes(k, m, modes%omega2, modes%shapes, error)
+        end if
+        if (allocated(error)) return
+        if (.not. any(abs(g) > 0.0_dp)) then
+            modes%ratio = residual_ratio(k, m, modes%omega2, modes%shapes)
+        end if
+        call put_labels(modes)
+    end subroutine find_modes
+
+    subroutine check_system(system, start, error)
+        !! Refuse what has no small oscillations in this sense.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: start(:)
+        type(error_t), allocatable, intent(out) :: error
+        type(description_t) :: d
+
+        call system%describe(d)
+        if (size(start) /= system%ndof) then
+            call fail(error, "--at takes "//to_text(system%ndof)//" values for "//trim(d%name)// &
+                      ", not "//to_text(size(start)))
+        else if (system%constraints > 0) then
+            call fail(error, trim(d%name)//" has non-holonomic constraints: steady motions, "// &
+                      "but no modes about an equilibrium")
+        else if (system%time_dependent) then
+            call fail(error, "the Lagrangian of this "//trim(d%name)//" contains the time: it "// &
+                      "has no equilibrium to oscillate about")
+        end if
+    end subroutine check_system
+
+    pure function force(system, q) result(f)
+        !! \(\partial L/\partial q\) at rest.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: q(:)
+        real(dp) :: f(size(q))
+        type(hyperdual_t) :: tt, qq(size(q)), vv(size(q)), l
+        integer :: i
+
+        qq%re = q
+        do i = 1, size(q)
+            qq(i)%d1 = 1.0_dp
+            l = system%lagrangian(tt, qq, vv)
+            f(i) = l%d1
+            qq(i)%d1 = 0.0_dp
+        end do
+    end function force
+
+    subroutine settle(system, wanted, q, error)
+        !! Newton from `q` to an equilibrium; a `wanted` one must be there already.
+        class(system_t), intent(in) :: system
+        logical, intent(in) :: wanted
+        real(dp), intent(inout) :: q(:)
+        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable :: singular
+        type(description_t) :: d
+        character(:), allocatable :: near
+        real(dp), dimension(size(q), size(q)) :: m, k, g
+        real(dp), dimension(size(q)) :: f, start, step
+        real(dp) :: damping
+        integer :: i, worst
+
+        start = q
+        f = force(system, q)
+        if (all(abs(f) <= 0.0_dp)) return
+        near = "none is near"
+        do i = 1, 50
+            call expand(system, q, m, k, g)
+            f = force(system, q)
+            if (all(abs(f) <= 8.0_dp*epsilon(f)*matmul(abs(k), max(1.0_dp, abs(q))))) then
+                near = ""
+                exit
+            end if
+            ! least squares, damped a little: K may be singular (a zero mode)
+            m = matmul(transpose(k), k)
+            damping = 1e-12_dp*maxval(abs(m))
+            do worst = 1, size(q)
+                m(worst, worst) = m(worst, worst) + damping
+            end do
+            call solve_linear(m, matmul(transpose(k), f), step, singular)
+            if (allocated(singular)) exit
+            q = q + step
+            if (maxval(abs(step)) > 4.0_dp*epsilon(q)*max(1.0_dp, maxval(abs(q)))) cycle
+            near = ""
+            exit
+        end do
+        f = force(system, start)
+        worst = maxloc(abs(f), 1)
+        if (near == "") then
+            if (.not. wanted) return
+            if (maxval(abs(q - start)) <= 1e-12_dp*max(1.0_dp, maxval(abs(q)))) then
+                q = start
+                return
+            end if
+            near = "the nearest is --at "//to_text(q(1))
+            do i = 2, min(size(q), 6)
+                near = near//","//to_text(q(i))
+            end do
+        end if
+        call system%describe(d)
+        call fail(error, "not an equilibrium of "//trim(d%name)//": the force on "// &
+                  trim(d%coordinates(worst)%name)//" is "//to_text(f(worst))//" "// &
+                  trim(merge("N m", "N  ", d%coordinates(worst)%unit == "rad"))//"; "//near)
+    end subroutine settle
+
+    pure subroutine expand(system, q, m, k, g)
+        !! \(M\), \(K\), \(G\) from the Lagrangian's second derivatives at rest.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: q(:)
+        real(dp), dimension(size(q), size(q)), intent(out) :: m, k, g
+        real(dp) :: mixed(size(q), size(q))
+        type(hyperdual_t) :: tt, qq(size(q)), vv(size(q)), l
+        integer :: i, j
+
+        qq%re = q
+        do i = 1, size(q)
+            do j = 1, size(q)
+                vv(i)%d1 = 1.0_dp
+                vv(j)%d2 = 1.0_dp
+                l = system%lagrangian(tt, qq, vv)
+                m(i, j) = l%d12
+                vv(j)%d2 = 0.0_dp
+                qq(j)%d2 = 1.0_dp
+                l = system%lagrangian(tt, qq, vv)
+                mixed(i, j) = l%d12
+                vv(i)%d1 = 0.0_dp
+                qq(i)%d1 = 1.0_dp
+                l = system%lagrangian(tt, qq, vv)
+                k(i, j) = -l%d12
+                qq(i)%d1 = 0.0_dp
+                qq(j)%d2 = 0.0_dp
+            end do
+        end do
+        g = mixed - transpose(mixed)
+    end subroutine expand
+
+    pure subroutine compare(modes, m, k, g)
+        !! The page against the Lagrangian.
+        type(modes_t), intent(inout) :: modes
+        real(dp), intent(in) :: m(:, :), k(:, :), g(:, :)
+
+        modes%difference = max(relative(modes%page%mass, m), relative(modes%page%stiffness, k))
+        if (allocated(modes%page%gyroscopic)) then
+            modes%difference = max(modes%difference, relative(modes%page%gyroscopic, g))
+        else
+            modes%difference = max(modes%difference, relative(0.0_dp*g, g))
+        end if
+    end subroutine compare
+
+    pure function relative(a, b) result(difference)
+        !! The largest difference of elements over the largest element.
+        real(dp), intent(in) :: a(:, :), b(:, :)
+        real(dp) :: difference
+
+        difference = maxval(abs(a - b))
+        if (maxval(abs(b)) > 0.0_dp) difference = difference/maxval(abs(b))
+    end function relative
+
+    pure subroutine solve_gyroscopic(modes, error)
+        !! \(\lambda = i\omega\) where the motion is an oscillation.
+        type(modes_t), intent(inout) :: modes
+        type(error_t), allocatable, intent(out) :: error
+        complex(dp), allocatable :: lambda(:), shapes(:, :)
+        integer :: j, n
+
+        modes%method = "dggev in first-order form"
+        call gyroscopic_modes(modes%stiffness, modes%gyroscopic, modes%mass, lambda, shapes, error)
+        if (allocated(error)) return
+        n = size(lambda)
+        allocate (modes%omega2(n), modes%shapes(n, n))
+        do j = 1, n
+            modes%omega2(j) = aimag(lambda(j))**2
+            if (abs(real(lambda(j))) > 1e-7_dp*maxval(abs(lambda))) then
+                modes%omega2(j) = -real(lambda(j))**2
+            end if
+            modes%shapes(:, j) = real(shapes(:, j), dp)
+        end do
+    end subroutine solve_gyroscopic
+
+    pure subroutine put_labels(modes)
+        !! Below rounding a frequency is a zero mode; a negative square is a growth rate.
+        type(modes_t), intent(inout) :: modes
+        real(dp) :: threshold
+        integer :: n
+
+        n = size(modes%omega2)
+        threshold = 0.0_dp
+        if (.not. allocated(modes%page%root)) then
+            threshold = 16*n*epsilon(threshold)*maxval(abs(modes%omega2))
+        end if
+        allocate (modes%label(n), source=is_oscillation)
+        where (modes%omega2 < 0.0_dp) modes%label = is_unstable
+        where (abs(modes%omega2) <= threshold) modes%label = is_zero_mode
+        where (modes%label == is_zero_mode) modes%omega2 = 0.0_dp
+    end subroutine put_labels
+end module lagrangia_small_oscillations

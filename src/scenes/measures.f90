@@ -1,0 +1,84 @@
+module lagrangia_measures
+    !! What a run is judged by: the worst of its columns, its period, its small oscillations.
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_outcome, only: measure_t, outcome_t
+    use lagrangia_period, only: period_t
+    use lagrangia_record, only: record_t
+    use lagrangia_reference, only: reference_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_small_oscillations, only: find_modes, is_oscillation, modes_t
+    use lagrangia_system, only: system_t
+    implicit none (type, external)
+    private
+    public :: take_measures, take_modes
+
+contains
+
+    pure subroutine take_measures(scene, record, period, reference, outcome)
+        !! The worst of every drift and error, and the period beside what it should be.
+        type(scene_t), intent(in) :: scene
+        type(record_t), intent(in) :: record
+        type(period_t), intent(in) :: period
+        class(reference_t), allocatable, intent(in) :: reference
+        type(outcome_t), intent(inout) :: outcome
+        type(measure_t) :: m
+        integer :: i
+
+        outcome%energy_evaluations = record%columns%energy_evaluations
+        outcome%rows = record%rows
+        if (record%rows > 0) then
+            do i = 1, size(record%columns%items)
+                m = measure(record%columns%items(i)%name, record%worst(i))
+                if (record%columns%items(i)%drift) then
+                    outcome%drifts = [outcome%drifts, m]
+                else if (m%name == "error" .or. m%judged) then
+                    outcome%others = [outcome%others, m]
+                end if
+            end do
+        end if
+        if (scene%period_of == "") return
+        outcome%period = period%period()
+        if (.not. allocated(reference)) return
+        if (reference%period > 0.0_dp) outcome%others = [outcome%others, &
+            measure("period", abs(outcome%period/reference%period - 1.0_dp))]
+        if (reference%small_period > 0.0_dp) outcome%others = [outcome%others, &
+            measure("small_period", abs(outcome%period/reference%small_period - 1.0_dp))]
+    contains
+        pure function measure(name, worst) result(m)
+            character(*), intent(in) :: name
+            real(dp), intent(in) :: worst
+            type(measure_t) :: m
+            integer :: k
+
+            m%name = name
+            m%worst = worst
+            k = findloc(scene%expectations%name == name, .true., 1)
+            m%judged = k > 0
+            if (m%judged) m%limit = scene%expectations(k)%limit
+        end function measure
+    end subroutine take_measures
+
+    subroutine take_modes(scene, system, outcome)
+        !! The frequencies of the small oscillations, if the scene asks and there are any.
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        type(outcome_t), intent(inout) :: outcome
+        type(modes_t) :: modes
+        type(error_t), allocatable :: error
+        real(dp) :: start(system%ndof)
+        integer :: j
+
+        if (.not. scene%modes) return
+        start = 0.0_dp
+        call find_modes(system, start, .false., modes, error)
+        if (allocated(error)) return
+        do j = 1, size(modes%omega2)
+            if (modes%label(j) /= is_oscillation) cycle
+            if (outcome%omega <= 0.0_dp) outcome%omega = sqrt(modes%omega2(j))
+            if (.not. allocated(modes%page%omega2)) cycle
+            outcome%omega_error = max(outcome%omega_error, &
+                                      abs(sqrt(modes%page%omega2(j)/modes%omega2(j)) - 1.0_dp))
+        end do
+    end subroutine take_modes
+end module lagrangia_measures

@@ -1,0 +1,78 @@
+module lagrangia_modes_files
+    !! One period of a mode as a data file with its gnuplot script, ready to animate.
+    use lagrangia_description, only: description_t, name_length
+    use lagrangia_errors, only: error_t
+    use lagrangia_gnuplot, only: gnuplot_script, new_panels, panel_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_output_file, only: output_file_t
+    use lagrangia_small_oscillations, only: is_oscillation, is_unstable, modes_t
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
+    use lagrangia_text_table, only: text_table_t
+    implicit none (type, external)
+    private
+    public :: write_mode
+
+    integer, parameter :: samples = 200
+
+contains
+
+    subroutine write_mode(system, modes, j, folder, error)
+        !! `SYSTEM_mode_J.dat`: the equilibrium plus a tenth of the shape by \(\cos\omega t\) over
+        !! a period, \(\cosh\) over two growth times, or \(t\) over one second of a zero mode.
+        class(system_t), intent(in) :: system
+        type(modes_t), intent(in) :: modes
+        integer, intent(in) :: j
+        character(*), intent(in) :: folder
+        type(error_t), allocatable, intent(out) :: error
+        type(description_t) :: d
+        type(text_table_t) :: table
+        type(output_file_t) :: script
+        type(panel_t), allocatable :: panels(:)
+        character(name_length) :: names(1 + system%ndof)
+        character(16) :: units(1 + system%ndof)
+        character(120) :: header(1)
+        real(dp), dimension(1 + system%ndof) :: row, low, high
+        real(dp) :: t, rate, factor, duration
+        character(:), allocatable :: path
+        integer :: k
+
+        call system%describe(d)
+        names(1) = "t"
+        names(2:) = d%coordinates%name
+        units(1) = "s"
+        units(2:) = d%coordinates%unit
+        path = folder//"/"//trim(d%name)//"_mode_"//to_text(j)
+        header(1) = trim(d%name)//", mode "//to_text(j)//": omega^2 = "//to_text(modes%omega2(j))
+        call table%file%open(path//".dat", error)
+        if (allocated(error)) return
+        call table%begin(header, names, units, error)
+        if (allocated(error)) return
+        rate = sqrt(abs(modes%omega2(j)))
+        duration = 1.0_dp
+        if (modes%label(j) == is_oscillation) duration = 2.0_dp*acos(-1.0_dp)/rate
+        if (modes%label(j) == is_unstable) duration = 2.0_dp/rate
+        low = huge(t)
+        high = -huge(t)
+        do k = 0, samples
+            t = duration*k/samples
+            factor = t
+            if (modes%label(j) == is_oscillation) factor = cos(rate*t)
+            if (modes%label(j) == is_unstable) factor = cosh(rate*t)
+            row(1) = t
+            row(2:) = modes%at + 0.1_dp*factor*modes%shapes(:, j)/maxval(abs(modes%shapes(:, j)))
+            low = min(low, row)
+            high = max(high, row)
+            call table%row(row)
+        end do
+        call table%finish("rows: "//to_text(samples + 1), error)
+        if (allocated(error)) return
+        call new_panels([character(1) ::], names, units, panels, error)
+        if (allocated(error)) return
+        call script%open(path//".gp", error)
+        if (allocated(error)) return
+        call script%write(gnuplot_script(trim(d%name)//"_mode_"//to_text(j)//".dat", "", &
+                                         trim(header(1)), names, units, low, high, panels))
+        call script%commit(error)
+    end subroutine write_mode
+end module lagrangia_modes_files

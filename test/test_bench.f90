@@ -1,0 +1,255 @@
+module test_bench
+    !! The benchmark measures what it says: problems, contestants, tables and choices. No test
+    !! looks at a time.
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
+                     assertLessThan, assertTrue
+    use lagrangia_bench, only: check_build
+    use lagrangia_bench_choice, only: bench_choice_t, read_choice
+    use lagrangia_bench_problems, only: bench_problem_t, problem_names, read_problems
+    use lagrangia_bench_table, only: bench_table_t, count_cell, new_bench_table, number_cell, &
+                                     short, word_cell
+    use lagrangia_command_line, only: command_line_t, parse_words, word_t
+    use lagrangia_concrete_loops, only: rk4_double_pendulum, rk4_pendulum
+    use lagrangia_contestant, only: contestant_box_t, knob_tolerance
+    use lagrangia_contestants, only: new_contestants
+    use lagrangia_description, only: description_t, name_length
+    use lagrangia_errors, only: error_t, status_usage
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_precision_curve, only: not_known
+    use lagrangia_registry, only: options
+    use lagrangia_system, only: default_values
+    implicit none (type, external)
+    private
+    public :: bench_suite
+
+contains
+
+    function bench_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("bench")
+        call suite%addTest(TestMethod("closed_forms_agree_with_the_file", &
+                                      closed_forms_agree_with_the_file))
+        call suite%addTest(TestMethod("energy_is_kept_to_the_end", energy_is_kept_to_the_end))
+        call suite%addTest(TestMethod("everybody_solves_something", everybody_solves_something))
+        call suite%addTest(TestMethod("concrete_loops_are_rk4", concrete_loops_are_rk4))
+        call suite%addTest(TestMethod("numbers_are_short", numbers_are_short))
+        call suite%addTest(TestMethod("tables_are_lines_and_objects", tables_are_lines_and_objects))
+        call suite%addTest(TestMethod("debug_builds_are_refused", debug_builds_are_refused))
+        call suite%addTest(TestMethod("choices_are_checked", choices_are_checked))
+    end function bench_suite
+
+    subroutine get_problems(problems)
+        !! All of them.
+        type(bench_problem_t), allocatable, intent(out) :: problems(:)
+        type(error_t), allocatable :: error
+
+        call read_problems(problem_names, problems, error)
+        call assertFalse(allocated(error), "data/reference/bench.nml is read")
+    end subroutine get_problems
+
+    subroutine closed_forms_agree_with_the_file()
+        !! Two computations that share nothing: Taylor series in Python, formulas in Fortran. The
+        !! tolerance is the rounding of phases of a thousand radians, as large as the motion.
+        type(bench_problem_t), allocatable :: problems(:)
+        real(dp) :: q(3), v(3)
+        integer :: i, n, found
+
+        call get_problems(problems)
+        if (anyExceptions()) return
+        found = 0
+        do i = 1, size(problems)
+            if (.not. allocated(problems(i)%closed_form)) cycle
+            n = problems(i)%system%ndof
+            call problems(i)%closed_form%state_at(problems(i)%duration, q(:n), v(:n))
+            call assertLessThan(problems(i)%error_of(q(:n), v(:n)), &
+                                1e-12_dp*(1.0_dp + maxval(abs(q(:n)))), problems(i)%name)
+            found = found + 1
+        end do
+        call assertTrue(found >= 3, "oscillator, pendulum, charge")
+    end subroutine closed_forms_agree_with_the_file
+
+    subroutine energy_is_kept_to_the_end()
+        !! By all stored final states, to the rounding of the energy's terms.
+        type(bench_problem_t), allocatable :: problems(:)
+        real(dp) :: first, last
+        integer :: i
+
+        call get_problems(problems)
+        if (anyExceptions()) return
+        do i = 1, size(problems)
+            associate (p => problems(i))
+                first = p%system%energy(0.0_dp, p%q, p%v)
+                last = p%system%energy(p%duration, p%q_end, p%v_end)
+                call assertEqual(first, last, tolerance=1e-13_dp*(1.0_dp + abs(first)), &
+                                 message=p%name)
+                call assertTrue(p%error_of(p%q_end, p%v_end) <= 0.0_dp)
+                call assertTrue(p%error_of(p%q, p%v) > 1e-3_dp)
+            end associate
+        end do
+    end subroutine energy_is_kept_to_the_end
+
+    subroutine everybody_solves_something()
+        !! Each contestant comes near the truth on at least one problem, or it is not measured.
+        type(bench_problem_t), allocatable, target :: problems(:)
+        type(contestant_box_t), allocatable :: everybody(:)
+        type(error_t), allocatable :: error
+        real(dp) :: setting, q(3), v(3)
+        integer :: i, k, n, solved
+
+        call get_problems(problems)
+        if (anyExceptions()) return
+        call new_contestants([character(name_length) ::], everybody)
+        call assertTrue(size(everybody) >= 7)
+        do k = 1, size(everybody)
+            solved = 0
+            do i = 1, size(problems)
+                if (problems(i)%name == "P1a" .or. problems(i)%name == "P3") cycle  ! stiff in error
+                n = problems(i)%system%ndof
+                setting = merge(1e-9_dp, 0.01_dp, everybody(k)%item%knob == knob_tolerance)
+                call everybody(k)%item%prepare(problems(i), setting, error)
+                if (allocated(error)) cycle
+                call everybody(k)%item%solve(problems(i), q(:n), v(:n), error)
+                call assertFalse(allocated(error), everybody(k)%item%name)
+                if (allocated(error)) cycle
+                call assertLessThan(problems(i)%error_of(q(:n), v(:n)), 0.5_dp, &
+                                    trim(everybody(k)%item%name)//" on "//problems(i)%name)
+                solved = solved + 1
+            end do
+            call assertTrue(solved > 0, everybody(k)%item%name)
+        end do
+    end subroutine everybody_solves_something
+
+    subroutine concrete_loops_are_rk4()
+        !! The loops that the contracts are compared with do the same: equal to rounding, which a
+        !! regular motion of a thousand steps makes no larger than this.
+        type(bench_problem_t), allocatable, target :: problems(:)
+        type(contestant_box_t), allocatable :: rk4(:)
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+        real(dp) :: q(2), v(2), x(2), w(2)
+        integer :: i, n
+
+        call get_problems(problems)
+        if (anyExceptions()) return
+        call new_contestants(["rk4"], rk4)
+        do i = 1, size(problems)
+            if (problems(i)%name /= "P1" .and. problems(i)%name /= "P3") cycle
+            n = problems(i)%system%ndof
+            problems(i)%duration = 1.0_dp
+            call rk4(1)%item%prepare(problems(i), 1e-3_dp, error)
+            call rk4(1)%item%solve(problems(i), q(:n), v(:n), error)
+            x(:n) = problems(i)%q
+            w(:n) = problems(i)%v
+            call problems(i)%system%describe(d)
+            if (n == 1) then
+                call rk4_pendulum(default_values(d), 1e-3_dp, 1000_i8, x(:n), w(:n))
+            else
+                call rk4_double_pendulum(default_values(d), 1e-3_dp, 1000_i8, x(:n), w(:n))
+            end if
+            call assertEqual(q(:n), x(:n), tolerance=1e-12_dp)
+            call assertEqual(v(:n), w(:n), tolerance=1e-12_dp)
+            call assertTrue(any(abs(q(:n) - problems(i)%q) > 0.01_dp))
+        end do
+    end subroutine concrete_loops_are_rk4
+
+    subroutine numbers_are_short()
+        !! So many digits, and no more.
+        call assertEqual("123", short(123.4_dp, 3))
+        call assertEqual("12.3", short(12.34_dp, 3))
+        call assertEqual("0.0312", short(0.03123_dp, 3))
+        call assertEqual("1.2e-13", short(1.23e-13_dp, 2))
+        call assertEqual("1e-6", short(1e-6_dp, 1))
+        call assertEqual("0.00", short(0.0_dp, 3))
+        call assertEqual("-0.50", short(-0.5_dp, 2))
+        call assertEqual("1000", short(1000.0_dp, 3))
+        call assertEqual("1.0", short(1.0_dp, 2))
+        call assertEqual("-", short(not_known(), 3))
+    end subroutine numbers_are_short
+
+    subroutine tables_are_lines_and_objects()
+        !! Words to the left, numbers to the right; in JSON all digits, and null for what is not
+        !! known. More rows than there was room for.
+        type(bench_table_t) :: table
+        integer :: i
+
+        call new_bench_table(table, "demo", "a title", [character(8) :: "method", "us", "count"])
+        call table%add([word_cell("rk4"), number_cell(1.5_dp, 3), count_cell(12_i8)])
+        call table%add([word_cell("gauss16"), number_cell(not_known(), 3), count_cell(1_i8)])
+        call assertEqual("method   us    count", table%head())
+        call assertEqual("rk4      1.50     12", table%line(1))
+        call assertEqual("gauss16     -      1", table%line(2))
+        call assertEqual('{"table": "demo", "method": "gauss16", "us": null, "count": 1}', &
+                         table%object(2))
+        call assertEqual(1.5_dp, table%value("rk4", "us"))
+        call assertEqual(1.0_dp, table%value("gauss16", "count"))
+        call assertFalse(table%value("rk5", "us") >= 0.0_dp)
+        call assertFalse(table%value("rk4", "ns") >= 0.0_dp)
+        do i = 1, 40
+            call table%add([word_cell("more"), number_cell(real(i, dp), 3), count_cell(int(i, i8))])
+        end do
+        call assertEqual(42, table%rows)
+        call assertEqual("rk4      1.50     12", table%line(1))
+        call assertEqual("more     40.0     40", table%line(42))
+    end subroutine tables_are_lines_and_objects
+
+    subroutine debug_builds_are_refused()
+        !! With the remedy, as a mistake of usage.
+        type(error_t), allocatable :: error
+
+        call check_build(.true., error)
+        call assertFalse(allocated(error))
+        call check_build(.false., error)
+        call assertTrue(allocated(error))
+        if (.not. allocated(error)) return
+        call assertEqual("bench: this build is not optimised, and its times would mislead; "// &
+                         "'fpm run --profile release -- bench' builds one that is", error%message)
+        call assertEqual(status_usage, error%status)
+    end subroutine debug_builds_are_refused
+
+    subroutine choices_are_checked()
+        !! Names that do not exist come back with the nearest; good ones are taken.
+        type(bench_choice_t) :: choice
+        type(error_t), allocatable :: error
+
+        call choose([character(24) :: "bench", "precision", "--problems", "P1,P3", "--methods", &
+                     "rk4,gsl_rk8pd", "--tolerances", "1e-6,1e-9", "--quick"])
+        call assertFalse(allocated(error))
+        call assertEqual(2, size(choice%problems))
+        call assertTrue(choice%plan%quick .and. all(choice%methods == ["rk4      ", "gsl_rk8pd"]))
+        call assertEqual([1e-6_dp, 1e-9_dp], choice%tolerances)
+        call refused("--problems=P5", "unknown problem 'P5'; did you mean 'P1'?")
+        call refused("--methods=gsl_rk8", "unknown method 'gsl_rk8'; did you mean 'gsl_rk4'?")
+        call refused("--systems=pendlum", "unknown system 'pendlum'; did you mean 'pendulum'?")
+        call refused("speed", "unknown part 'speed'; did you mean 'steps'?")
+        call refused("--output=", "option '--output' needs the name of a folder")
+        call refused("--tolerances=0", "tolerance '0' is not allowed: a number from 1e-16 to "// &
+                     "below 1 is needed")
+        call refused("--tolerances=1e-3,nan", "tolerance 'nan' is not allowed: a number from "// &
+                     "1e-16 to below 1 is needed")
+        call refused("--tolerances=1e-9,1e-6", "tolerances must fall from each to the next: "// &
+                     "1e-3,1e-6,1e-9")
+    contains
+        subroutine choose(texts)
+            character(*), intent(in) :: texts(:)
+            type(word_t) :: words(size(texts))
+            type(command_line_t) :: line
+            integer :: i
+
+            do i = 1, size(texts)
+                words(i)%text = trim(texts(i))
+            end do
+            call parse_words(words, options, line, error)
+            if (.not. allocated(error)) call read_choice(line, choice, error)
+        end subroutine choose
+
+        subroutine refused(word, message)
+            character(*), intent(in) :: word, message
+
+            call choose([character(40) :: "bench", word])
+            call assertTrue(allocated(error), message)
+            if (allocated(error)) call assertEqual(message, error%message)
+        end subroutine refused
+    end subroutine choices_are_checked
+end module test_bench

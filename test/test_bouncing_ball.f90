@@ -1,0 +1,265 @@
+module test_bouncing_ball
+    !! The ball against its closed form: bounces, the Zeno point, rest.
+    use funit, only: anyExceptions, assertEqual, assertFalse, assertGreaterThan, &
+                     assertGreaterThanOrEqual, assertLessThan, assertTrue, TestMethod, TestSuite
+    use lagrangia_bouncing_ball, only: bouncing_ball_t
+    use lagrangia_bouncing_ball_reference, only: bouncing_ball_reference_t, &
+                                                 new_bouncing_ball_reference
+    use lagrangia_dense_run, only: run_dense
+    use lagrangia_dop853, only: dop853_t, new_dop853
+    use lagrangia_errors, only: error_t
+    use lagrangia_events, only: contact_event_t, event_box_t, new_contact_event
+    use lagrangia_integrator, only: integrator_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_methods, only: new_integrator
+    use lagrangia_observer, only: observer_box_t
+    use lagrangia_run, only: new_plan, new_sampled_plan, plan_t, run
+    use lagrangia_stepwise, only: new_stepwise, stepwise_t
+    use recorder, only: recorder_t
+    implicit none (type, external)
+    private
+    public :: bouncing_ball_suite
+
+    real(dp), parameter :: mass = 0.7_dp, gravity = 9.81_dp
+
+contains
+
+    function bouncing_ball_suite() result(suite)
+        type(TestSuite) :: suite
+
+        suite = TestSuite("bouncing_ball")
+        call suite%addTest(TestMethod("the closed form has known bounce times", known_times))
+        call suite%addTest(TestMethod("bounces come when the closed form says", bounce_times))
+        call suite%addTest(TestMethod("after infinitely many bounces the ball rests", zeno))
+        call suite%addTest(TestMethod("without loss it bounces for ever", elastic))
+        call suite%addTest(TestMethod("without restitution it stays at once", plastic))
+        call suite%addTest(TestMethod("thrown down at the floor it bounces at once", down_at_once))
+        call suite%addTest(TestMethod("at rest on the floor it stays", at_rest))
+        call suite%addTest(TestMethod("methods of fixed step bounce too", fixed_step))
+        call suite%addTest(TestMethod("a run without impacts is refused", plain_run))
+    end function bouncing_ball_suite
+
+    subroutine bounce(restitution, q0, v0, duration, record, q, v, method_name)
+        !! Run the ball; `method_name` with steps of 0.01 s, or else `dop853`.
+        real(dp), intent(in) :: restitution, q0, v0, duration
+        type(recorder_t), target, intent(inout) :: record
+        real(dp), intent(out) :: q(1), v(1)
+        character(*), intent(in), optional :: method_name
+        type(bouncing_ball_t) :: system
+        type(event_box_t) :: events(1)
+        type(observer_box_t) :: observers(1)
+        type(contact_event_t) :: contact
+        type(dop853_t) :: adaptive
+        type(stepwise_t) :: stepwise
+        class(integrator_t), allocatable :: fixed
+        type(plan_t) :: plan
+        type(error_t), allocatable :: error
+        real(dp) :: ended
+
+        call system%configure([mass, gravity, restitution], error)
+        call new_contact_event(contact, 1)
+        allocate (events(1)%item, source=contact)
+        observers(1)%item => record
+        q = q0
+        v = v0
+        if (present(method_name)) then
+            call new_integrator(method_name, fixed, error)
+            call new_stepwise(stepwise, fixed, 0.01_dp)
+            call new_plan(plan, 0.0_dp, 0.01_dp, duration, 1_i8, error)
+            call run_dense(system, stepwise, plan, events, observers, q, v, ended, error)
+        else
+            call new_dop853(adaptive)
+            call new_sampled_plan(plan, 0.0_dp, duration, 1000_i8, error)
+            call run_dense(system, adaptive, plan, events, observers, q, v, ended, error)
+        end if
+        if (allocated(error)) call assertEqual("", error%message, message="error")
+        call assertEqual(duration, ended, message="the end is reached")
+        call assertEqual(duration, record%t(record%samples), message="the last sample is the end")
+        call assertGreaterThanOrEqual(minval(record%q(:record%samples)), 0.0_dp, &
+                                      message="never below the floor")
+    end subroutine bounce
+
+    subroutine closed_form(restitution, q0, v0, reference)
+        real(dp), intent(in) :: restitution, q0, v0
+        type(bouncing_ball_reference_t), intent(out) :: reference
+        type(bouncing_ball_t) :: system
+        type(error_t), allocatable :: error
+        logical :: found
+
+        call system%configure([mass, gravity, restitution], error)
+        call new_bouncing_ball_reference(reference, system, 0.0_dp, [q0], [v0], found)
+        call assertTrue(found, "closed form")
+    end subroutine closed_form
+
+    subroutine known_times()
+        !! To 25 digits from the geometric series (restitution 0.8, 3 m/s).
+        type(bouncing_ball_reference_t) :: reference
+        real(dp) :: q(1), v(1)
+
+        call closed_form(0.8_dp, 0.0_dp, 3.0_dp, reference)
+        call assertEqual([0.611620795107033639_dp, 1.10091743119266055_dp, &
+                          1.49235474006116208_dp], reference%impact_time([1, 2, 3]), 1e-15_dp, &
+                         "bounces")
+        call assertEqual(3.0581039755351682_dp, reference%rest_time(), 2e-15_dp, "rest")
+        call reference%state_at(1.10091743119266055_dp + 0.1_dp, q, v)
+        call assertEqual(0.64_dp*3.0_dp - 0.981_dp, v(1), 1e-14_dp, "v in the third flight")
+        call assertEqual(0.1_dp*0.64_dp*3.0_dp - 0.04905_dp, q(1), 1e-15_dp, "y in it")
+        call reference%state_at(3.06_dp, q, v)
+        call assertEqual([0.0_dp, 0.0_dp], [q, v], message="rest")
+    end subroutine known_times
+
+    subroutine check_times(restitution, q0, v0, duration)
+        !! Times to 1e-13, speeds to 1e-13 of themselves, states between to 1e-13.
+        real(dp), intent(in) :: restitution, q0, v0, duration
+        type(bouncing_ball_reference_t) :: reference
+        type(recorder_t) :: record
+        real(dp) :: q(1), v(1), speed
+        integer :: n, i
+
+        call closed_form(restitution, q0, v0, reference)
+        call bounce(restitution, q0, v0, duration, record, q, v)
+        n = record%events
+        call assertTrue(reference%impact_time(n) < duration, "no bounce too many")
+        call assertTrue(reference%impact_time(n + 1) > duration, "no bounce too few")
+        if (anyExceptions()) return
+        call assertEqual(reference%impact_time([(i, i=1, n)]), record%event_t(:n), 1e-13_dp, &
+                         "times")
+        speed = sqrt(v0**2 + 2*gravity*q0)
+        do i = 1, n
+            call assertEqual(1.0_dp, record%event_v(i)/(speed*restitution**i), 1e-13_dp, &
+                             "E is multiplied by restitution**2")
+            call assertEqual(0.0_dp, record%event_q(i), message="on the floor")
+        end do
+        do i = 1, record%samples
+            call reference%state_at(record%t(i), q, v)
+            call assertEqual(q(1), record%q(i), 1e-13_dp, "y")
+        end do
+    end subroutine check_times
+
+    subroutine bounce_times()
+        call check_times(0.8_dp, 0.0_dp, 3.0_dp, 2.6_dp)
+        call check_times(0.5_dp, 1.3_dp, 0.0_dp, 1.3_dp)
+        call check_times(0.93_dp, 0.4_dp, -2.0_dp, 4.5_dp)
+        call check_times(0.9_dp, 1.0_dp, 1.5_dp, 5.0_dp)
+    end subroutine bounce_times
+
+    subroutine zeno()
+        !! The time of the last bounce is the sum of all flights, each of them rounded to the
+        !! spacing of times, 4e-16: 1e-13 is some 150 bounces' worth of it. What flies for less
+        !! than one spacing rests at once: that is spacing/(1 - e) too early.
+        real(dp), parameter :: restitutions(3) = [0.3_dp, 0.8_dp, 0.97_dp]
+        type(bouncing_ball_reference_t) :: reference
+        type(recorder_t), allocatable :: record
+        type(bouncing_ball_t) :: system
+        type(error_t), allocatable :: error
+        real(dp) :: q(1), v(1), rest
+        integer :: i, k
+
+        do i = 1, 3
+            call closed_form(restitutions(i), 0.0_dp, 3.0_dp, reference)
+            rest = reference%rest_time()
+            allocate (record)
+            call bounce(restitutions(i), 0.0_dp, 3.0_dp, rest + 1.0_dp, record, q, v)
+            call assertEqual([0.0_dp, 0.0_dp], [q, v], message="it rests")
+            k = record%events
+            call assertGreaterThan(k, 20, message="many bounces")
+            call assertEqual(rest, record%event_t(k), 1e-13_dp*max(1.0_dp, 0.02_dp*k), &
+                             "the Zeno point")
+            call assertEqual(0.0_dp, record%event_v(k), message="the last bounce")
+            call assertEqual(0.0_dp, maxval(pack(record%q, record%t > rest + 1e-9_dp)), &
+                             message="flat")
+            deallocate (record)
+        end do
+        call system%configure([mass, gravity, 0.5_dp], error)
+        call assertEqual(mass*gravity, system%quantity(1, 0.0_dp, [0.0_dp], [0.0_dp]), &
+                         message="held by m g")
+        call assertEqual(0.0_dp, system%quantity(1, 0.0_dp, [0.1_dp], [0.0_dp]), message="free")
+        call assertEqual(0.0_dp, system%quantity(1, 0.0_dp, [0.0_dp], [0.1_dp]), message="leaving")
+    end subroutine zeno
+
+    subroutine elastic()
+        !! A hundred bounces later: every 2 v0/g. A step may fall 2 s past the floor, 20 m: the
+        !! rounding of its dense output, 500 epsilon times some metres, moves a bounce by 1e-14 s.
+        type(recorder_t) :: record
+        real(dp) :: q(1), v(1)
+        integer :: i
+
+        call bounce(1.0_dp, 0.0_dp, 2.0_dp, 41.0_dp, record, q, v)
+        call assertEqual(100, record%events, message="bounces")
+        if (anyExceptions()) return
+        call assertEqual([(4.0_dp/gravity*i, i=1, 100)], record%event_t(:100), 1e-12_dp, "times")
+        call assertEqual(2.0_dp, record%event_v(100), 1e-13_dp, "speed")
+    end subroutine elastic
+
+    subroutine plastic()
+        type(recorder_t) :: record
+        real(dp) :: q(1), v(1)
+
+        call bounce(0.0_dp, 1.0_dp, 0.0_dp, 2.0_dp, record, q, v)
+        call assertEqual(1, record%events, message="one impact")
+        call assertEqual(sqrt(2.0_dp/gravity), record%event_t(1), 1e-15_dp, "its time")
+        call assertEqual([0.0_dp, 0.0_dp], [q, v], message="it stays")
+    end subroutine plastic
+
+    subroutine down_at_once()
+        type(recorder_t) :: record
+        real(dp) :: q(1), v(1)
+
+        call bounce(0.5_dp, 0.0_dp, -2.0_dp, 0.1_dp, record, q, v)
+        call assertEqual(1, record%events, message="one impact")
+        call assertEqual(0.0_dp, record%event_t(1), message="at the start")
+        call assertEqual(1.0_dp, record%event_v(1), 1e-15_dp, "its speed")
+        call assertEqual(1.0_dp - 0.1_dp*gravity, v(1), 1e-15_dp, "v")
+    end subroutine down_at_once
+
+    subroutine at_rest()
+        type(recorder_t) :: record
+        real(dp) :: q(1), v(1)
+
+        call bounce(0.5_dp, 0.0_dp, 0.0_dp, 10.0_dp, record, q, v)
+        call assertEqual(0, record%events, message="no impact")
+        call assertEqual([0.0_dp, 0.0_dp], [q, v], message="still there")
+    end subroutine at_rest
+
+    subroutine fixed_step()
+        !! A parabola is exact for both methods: bounces and Zeno point as well as by `dop853`.
+        type(bouncing_ball_reference_t) :: reference
+        type(recorder_t), allocatable :: record
+        real(dp) :: q(1), v(1)
+        integer :: i, k
+
+        call closed_form(0.7_dp, 0.9_dp, 0.3_dp, reference)
+        do k = 1, 2
+            allocate (record)
+            call bounce(0.7_dp, 0.9_dp, 0.3_dp, 3.0_dp, record, q, v, &
+                        trim(merge("rk4   ", "verlet", k == 1)))
+            call assertEqual(reference%impact_time([(i, i=1, 20)]), record%event_t(:20), 1e-13_dp, &
+                             "times")
+            call assertEqual([0.0_dp, 0.0_dp], [q, v], message="it rests")
+            call assertLessThan(abs(record%event_t(record%events) - reference%rest_time()), &
+                                1e-13_dp, message="Zeno point")
+            deallocate (record)
+        end do
+    end subroutine fixed_step
+
+    subroutine plain_run()
+        type(bouncing_ball_t) :: system
+        class(integrator_t), allocatable :: method
+        type(observer_box_t) :: nobody(0)
+        type(plan_t) :: plan
+        type(error_t), allocatable :: error
+        real(dp) :: q(1), v(1)
+
+        call system%configure([mass, gravity, 0.5_dp], error)
+        call new_integrator("rk4", method, error)
+        call new_plan(plan, 0.0_dp, 0.01_dp, 1.0_dp, 1_i8, error)
+        call assertFalse(allocated(error), "plan")
+        q = 1.0_dp
+        v = 0.0_dp
+        call run(system, method, plan, nobody, q, v, error)
+        call assertTrue(allocated(error), "refused")
+        if (anyExceptions()) return
+        call assertEqual("unilateral constraints need a run that looks for impacts: run_dense", &
+                         error%message, message="message")
+    end subroutine plain_run
+end module test_bouncing_ball

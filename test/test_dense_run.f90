@@ -1,0 +1,152 @@
+module test_dense_run
+    !! Samples between the steps of a method, and fixed steps made dense.
+    use event_runs, only: find
+    use funit, only: anyExceptions, assertEqual, assertGreaterThan, assertTrue, TestMethod, &
+                     TestSuite
+    use lagrangia_dense_run, only: run_dense
+    use lagrangia_dop853, only: dop853_t, new_dop853
+    use lagrangia_errors, only: error_t
+    use lagrangia_events, only: column_event_t, event_box_t, new_column_event
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_observer, only: observer_box_t
+    use lagrangia_oscillator, only: oscillator_t
+    use lagrangia_pendulum, only: pendulum_t
+    use lagrangia_pendulum_reference, only: new_pendulum_reference, pendulum_reference_t
+    use lagrangia_rk4, only: new_rk4, rk4_t
+    use lagrangia_run, only: new_plan, new_sampled_plan, plan_t, run
+    use lagrangia_stepwise, only: new_stepwise, stepwise_t
+    use recorder, only: recorder_t
+    implicit none (type, external)
+    private
+    public :: dense_run_suite
+
+contains
+
+    function dense_run_suite() result(suite)
+        type(TestSuite) :: suite
+
+        suite = TestSuite("dense_run")
+        call suite%addTest(TestMethod("more samples cost no evaluations", samples_are_free))
+        call suite%addTest(TestMethod("samples lie where the plan has them", sample_times))
+        call suite%addTest(TestMethod("events leave fixed steps as they are", same_steps))
+        call suite%addTest(TestMethod("between fixed steps the error is of order 6", &
+                                      interpolation_order))
+    end function dense_run_suite
+
+    subroutine samples_are_free()
+        type(pendulum_t) :: system
+        type(recorder_t), target :: record
+        type(dop853_t) :: method
+        type(event_box_t) :: events(0)
+        type(observer_box_t) :: observers(1)
+        type(plan_t) :: plan
+        type(error_t), allocatable :: error
+        real(dp) :: q(1), v(1), ended
+        integer(i8) :: counts(3)
+        integer :: i
+
+        observers(1)%item => record
+        call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
+        do i = 1, 3
+            record%samples = 0
+            q = 2.0_dp
+            v = 0.0_dp
+            call new_dop853(method)
+            call new_sampled_plan(plan, 0.0_dp, 20.0_dp, 10_i8**i, error)
+            call run_dense(system, method, plan, events, observers, q, v, ended, error)
+            counts(i) = method%evaluations
+        end do
+        call assertTrue(all(counts == counts(1)), "equal")
+        call assertGreaterThan(counts(1), 100_i8, message="counted")
+    end subroutine samples_are_free
+
+    subroutine sample_times()
+        !! At t0 + k duration/samples, each to rounding; what they show is the motion there.
+        type(oscillator_t) :: system
+        type(recorder_t) :: record
+        type(error_t), allocatable :: error
+        real(dp) :: q(1), v(1), ended
+        integer :: k
+
+        call system%configure([1.0_dp, 1.0_dp], error)
+        q = 0.0_dp
+        v = 1.0_dp
+        call find(system, [character(1) ::], q, v, 7.3_dp, 1e-12_dp, record, ended, 97_i8)
+        call assertEqual(98, record%samples, message="number")
+        if (anyExceptions()) return
+        call assertEqual([(7.3_dp*(k/97.0_dp), k=0, 97)], record%t(:98), 1e-15_dp, "times")
+        call assertEqual(7.3_dp, record%t(98), message="the end")
+        call assertEqual(sin(record%t(:98)), record%q(:98), 1e-10_dp, "x")
+        call assertEqual(cos(record%t(:98)), record%v(:98), 1e-10_dp, "x_dot")
+        call assertEqual(record%q(98), q(1), message="the final state")
+    end subroutine sample_times
+
+    subroutine same_steps()
+        !! `rk4` shows the same bytes with an event as without, also where the last step is short.
+        type(pendulum_t) :: system
+        type(recorder_t), target :: plain, dense
+        type(rk4_t) :: rk4
+        type(stepwise_t) :: stepwise
+        type(column_event_t) :: event
+        type(event_box_t) :: events(1)
+        type(observer_box_t) :: observers(1)
+        type(plan_t) :: plan
+        type(error_t), allocatable :: error
+        real(dp) :: q(1), v(1), ended
+
+        call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
+        call new_rk4(rk4)
+        call new_plan(plan, 0.2_dp, 0.03_dp, 4.0_dp, 5_i8, error)
+        q = 2.0_dp
+        v = 0.1_dp
+        observers(1)%item => plain
+        call run(system, rk4, plan, observers, q, v, error)
+        call new_column_event(event, "theta_dot = 0", system, error)
+        allocate (events(1)%item, source=event)
+        q = 2.0_dp
+        v = 0.1_dp
+        observers(1)%item => dense
+        call new_stepwise(stepwise, rk4, 0.03_dp)
+        call run_dense(system, stepwise, plan, events, observers, q, v, ended, error)
+        call assertEqual(28, plain%samples, message="samples")
+        call assertEqual(28, dense%samples, message="samples with events")
+        call assertGreaterThan(dense%events, 2, message="events")
+        call assertEqual(plain%t(:28), dense%t(:28), message="t")
+        call assertEqual(plain%q(:28), dense%q(:28), message="q")
+        call assertEqual(plain%v(:28), dense%v(:28), message="v")
+        call assertEqual(134_i8, stepwise%accepted, message="steps")
+        call assertEqual(5*134_i8 + 1, stepwise%evaluations, message="evaluations")
+    end subroutine same_steps
+
+    subroutine interpolation_order()
+        !! One step of `dop853`, which is as good as exact here, and the quintic within it.
+        type(pendulum_t) :: system
+        type(pendulum_reference_t) :: reference
+        type(dop853_t) :: exact
+        type(stepwise_t) :: method
+        type(error_t), allocatable :: error
+        real(dp) :: q(1), v(1), q_true(1), v_true(1), errors(2, 2), h, orders(2)
+        integer :: i, k
+        logical :: found
+
+        call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
+        call new_pendulum_reference(reference, system, 0.0_dp, [1.0_dp], [0.5_dp], found)
+        call new_dop853(exact)
+        errors = 0.0_dp
+        do i = 1, 2
+            h = 0.1_dp/i
+            call new_stepwise(method, exact, h)
+            call method%prepare(system, error)
+            call method%start(system, 0.0_dp, [1.0_dp], [0.5_dp], 1.0_dp)
+            call method%step(system, error)
+            do k = 1, 9
+                call method%state_at(0.1_dp*k*h, q, v)
+                call reference%state_at(0.1_dp*k*h, q_true, v_true)
+                errors(1, i) = max(errors(1, i), abs(q(1) - q_true(1)))
+                errors(2, i) = max(errors(2, i), abs(v(1) - v_true(1)))
+            end do
+        end do
+        orders = log(errors(:, 1)/errors(:, 2))/log(2.0_dp)
+        call assertEqual([6.0_dp, 5.0_dp], orders, 0.4_dp, "orders")
+    end subroutine interpolation_order
+end module test_dense_run

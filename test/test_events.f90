@@ -1,0 +1,202 @@
+module test_events
+    !! Events on the dense output, against closed forms.
+    use event_runs, only: find
+    use funit, only: anyExceptions, assertEqual, assertLessThan, assertTrue, TestMethod, TestSuite
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_oscillator, only: oscillator_t
+    use lagrangia_pendulum, only: pendulum_t
+    use lagrangia_pendulum_reference, only: new_pendulum_reference, pendulum_reference_t
+    use recorder, only: recorder_t
+    implicit none (type, external)
+    private
+    public :: events_suite
+
+    real(dp), parameter :: pi = acos(-1.0_dp)
+
+contains
+
+    function events_suite() result(suite)
+        type(TestSuite) :: suite
+
+        suite = TestSuite("events")
+        call suite%addTest(TestMethod("turning points give the period", turning_points))
+        call suite%addTest(TestMethod("a direction is kept to", directions))
+        call suite%addTest(TestMethod("several events in a step come in order", several))
+        call suite%addTest(TestMethod("a zero at the start is no event", zero_at_start))
+        call suite%addTest(TestMethod("no change of sign is no error", no_change))
+        call suite%addTest(TestMethod("a terminal event ends the run", terminal))
+        call suite%addTest(TestMethod("a string goes slack where it should", slack))
+        call suite%addTest(TestMethod("a particle leaves a sphere at cos = 2/3", sphere))
+    end function events_suite
+
+    subroutine oscillate(texts, x, v0, duration, tolerance, record, ended)
+        !! x = cos(t), or sin(t), ...
+        character(*), intent(in) :: texts(:)
+        real(dp), intent(in) :: x, v0, duration, tolerance
+        type(recorder_t), intent(inout) :: record
+        real(dp), intent(out) :: ended
+        type(oscillator_t) :: system
+        type(error_t), allocatable :: error
+        real(dp) :: q(1), v(1)
+
+        call system%configure([1.0_dp, 1.0_dp], error)
+        q = x
+        v = v0
+        call find(system, texts, q, v, duration, tolerance, record, ended)
+    end subroutine oscillate
+
+    subroutine turning_points()
+        !! Every half period. The run's error grows linearly to some 1e-12 at this tolerance.
+        type(pendulum_t) :: system
+        type(pendulum_reference_t) :: reference
+        type(recorder_t) :: record
+        type(error_t), allocatable :: error
+        real(dp) :: q(1), v(1), ended
+        integer :: i
+        logical :: found
+
+        call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
+        q = 2.0_dp
+        v = 0.0_dp
+        call new_pendulum_reference(reference, system, 0.0_dp, q, v, found)
+        call find(system, ["theta_dot"], q, v, 30.0_dp, 1e-14_dp, record, ended)
+        call assertEqual(int(30.0_dp/(0.5_dp*reference%period)), record%events, message="number")
+        if (anyExceptions()) return
+        do i = 1, record%events
+            call assertEqual(0.5_dp*reference%period*i, record%event_t(i), 1e-11_dp, "time")
+            call assertEqual(2.0_dp*(-1)**i, record%event_q(i), 1e-11_dp, "angle")
+        end do
+        call assertEqual(reference%period, record%event_t(3) - record%event_t(1), 1e-12_dp, &
+                         "period")
+    end subroutine turning_points
+
+    subroutine directions()
+        !! x = sin(t) passes 1/2 rising at pi/6, falling at 5 pi/6.
+        type(recorder_t) :: record
+        real(dp) :: ended
+        integer :: i
+
+        call oscillate(["x = 0.5 rising"], 0.0_dp, 1.0_dp, 20.0_dp, 1e-13_dp, record, ended)
+        call assertEqual(4, record%events, message="rising")
+        call assertEqual([(pi/6 + 2*pi*i, i=0, 3)], record%event_t(:4), 1e-11_dp, "rising")
+        record%events = 0
+        call oscillate(["x=0.5   falling"], 0.0_dp, 1.0_dp, 20.0_dp, 1e-13_dp, record, ended)
+        call assertEqual(3, record%events, message="falling")
+        call assertEqual([(5*pi/6 + 2*pi*i, i=0, 2)], record%event_t(:3), 1e-11_dp, "falling")
+        record%events = 0
+        call oscillate(["x = 5e-1"], 0.0_dp, 1.0_dp, 20.0_dp, 1e-13_dp, record, ended)
+        call assertEqual(7, record%events, message="any")
+    end subroutine directions
+
+    subroutine several()
+        !! Steps at this tolerance take more than an eighth of a turn: four events lie in some.
+        type(recorder_t) :: record
+        real(dp) :: ended
+        character(20), parameter :: texts(4) = [character(20) :: "x = 0.20 falling", &
+            "x = 0.25 falling", "x = 0.2", "x_dot = -0.97"]
+        real(dp), parameter :: times(4) = [acos(0.20_dp), acos(0.25_dp), acos(0.20_dp), &
+                                           asin(0.97_dp)]
+
+        call oscillate(texts, 1.0_dp, 0.0_dp, 1.6_dp, 1e-6_dp, record, ended)
+        call assertEqual(4, record%events, message="number")
+        if (anyExceptions()) return
+        call assertEqual([2, 4, 1, 3], reorder(record%event(:4)), message="order")
+        call assertTrue(all(record%event_t(2:4) >= record%event_t(:3)), "times do not fall")
+        call assertEqual(times(record%event(:4)), record%event_t(:4), 1e-5_dp, "times")
+        call assertLessThan(maxval(abs(record%event_q(3:4) - 0.2_dp)), 1e-14_dp, message="x = 0.2")
+        call assertEqual(0.25_dp, record%event_q(1), 1e-15_dp, "x = 0.25")
+        call assertEqual(-0.97_dp, record%event_v(2), 1e-15_dp, "x_dot = -0.97")
+    contains
+        pure function reorder(which) result(sorted)
+            !! Of the two that come together, the first in the list first.
+            integer, intent(in) :: which(4)
+            integer :: sorted(4)
+
+            sorted = which
+            sorted(3:4) = [minval(which(3:4)), maxval(which(3:4))]
+        end function reorder
+    end subroutine several
+
+    subroutine zero_at_start()
+        type(recorder_t) :: record
+        real(dp) :: ended
+
+        call oscillate(["x = 0"], 0.0_dp, 1.0_dp, 7.0_dp, 1e-13_dp, record, ended)
+        call assertEqual(2, record%events, message="number")
+        call assertEqual([pi, 2*pi], record%event_t(:2), 1e-12_dp, "times")
+        record%events = 0
+        call oscillate(["x_dot"], 1.0_dp, 0.0_dp, 7.0_dp, 1e-13_dp, record, ended)
+        call assertEqual([pi, 2*pi], record%event_t(:2), 1e-12_dp, "turning points")
+    end subroutine zero_at_start
+
+    subroutine no_change()
+        type(recorder_t) :: record
+        real(dp) :: ended
+
+        call oscillate(["x = 1.001"], 0.0_dp, 1.0_dp, 20.0_dp, 1e-10_dp, record, ended)
+        call assertEqual(0, record%events, message="none")
+        call assertEqual(20.0_dp, ended, message="the run goes to its end")
+    end subroutine no_change
+
+    subroutine terminal()
+        type(recorder_t) :: record
+        real(dp) :: ended
+
+        call oscillate(["x = -0.5 stop"], 1.0_dp, 0.0_dp, 20.0_dp, 1e-13_dp, record, ended)
+        call assertEqual(1, record%events, message="one")
+        call assertEqual(2*pi/3, ended, 1e-12_dp, "end")
+        call assertEqual(3, record%samples, message="0, 2, and the event")
+        call assertEqual(ended, record%t(3), message="the last sample")
+        call assertEqual(-0.5_dp, record%q(3), 1e-15_dp, "its state")
+    end subroutine terminal
+
+    subroutine slack()
+        !! Thrown at the bottom with 2 g l < v**2 < 5 g l, it slackens at
+        !! cos(theta) = (2 - v**2/(g l))/3.
+        type(pendulum_t) :: system
+        type(recorder_t) :: record
+        type(error_t), allocatable :: error
+        real(dp), parameter :: l = 1.3_dp, g = 9.81_dp
+        real(dp), parameter :: ratios(5) = [2.001_dp, 2.7_dp, 3.5_dp, 4.2_dp, 4.99_dp]
+        real(dp) :: q(1), v(1), ended
+        integer :: i
+
+        call system%configure([0.7_dp, l, g], error)
+        do i = 1, 5
+            q = 0.0_dp
+            v = sqrt(ratios(i)*g/l)
+            record%events = 0
+            record%samples = 0
+            call find(system, ["tension falling stop"], q, v, 9.0_dp, 1e-14_dp, record, ended)
+            call assertEqual(1, record%events, message="one")
+            call assertEqual((2.0_dp - ratios(i))/3.0_dp, cos(q(1)), 1e-13_dp, "cos(theta)")
+            call assertEqual(0.0_dp, system%quantity(2, ended, q, v), 1e-13_dp, "no tension")
+        end do
+        record%events = 0
+        q = 0.0_dp
+        v = sqrt(5.01_dp*g/l)
+        call find(system, ["tension falling stop"], q, v, 9.0_dp, 1e-14_dp, record, ended)
+        call assertEqual(0, record%events, message="a full circle keeps it taut")
+    end subroutine slack
+
+    subroutine sphere()
+        !! Released at the angle a from the top, at rest: cos = 2/3 cos(a). The way down multiplies
+        !! errors by about 1/a.
+        type(pendulum_t) :: system
+        type(recorder_t) :: record
+        type(error_t), allocatable :: error
+        real(dp), parameter :: angles(3) = [1e-4_dp, 0.01_dp, 0.7_dp]
+        real(dp) :: q(1), v(1), ended
+        integer :: i
+
+        call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
+        do i = 1, 3
+            q = pi - angles(i)
+            v = 0.0_dp
+            call find(system, ["tension rising stop"], q, v, 20.0_dp, 1e-14_dp, record, ended)
+            call assertEqual(2.0_dp/3.0_dp*cos(angles(i)), -cos(q(1)), &
+                             1e-14_dp/angles(i) + 1e-13_dp, "where it leaves")
+        end do
+    end subroutine sphere
+end module test_events

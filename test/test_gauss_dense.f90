@@ -1,0 +1,119 @@
+module test_gauss_dense
+    !! The state between the ends of the steps of Gauss-Legendre collocation.
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertLessThan
+    use lagrangia_double_pendulum, only: double_pendulum_t
+    use lagrangia_errors, only: error_t
+    use lagrangia_gauss, only: gauss_t, new_gauss16
+    use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_system, only: system_t
+    implicit none (type, external)
+    private
+    public :: gauss_dense_suite
+
+contains
+
+    function gauss_dense_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("gauss_dense")
+        call suite%addTest(TestMethod("inside_steps_as_at_their_ends", &
+                                      inside_steps_as_at_their_ends))
+        call suite%addTest(TestMethod("states_at_the_ends", states_at_the_ends))
+    end function gauss_dense_suite
+
+    subroutine ready(system, tolerance, method)
+        !! Prepare `method`.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: tolerance
+        type(gauss_adaptive_t), intent(out) :: method
+        type(error_t), allocatable :: error
+
+        call new_gauss16_adaptive(method)
+        method%tolerance = tolerance
+        call method%prepare(system, error)
+        call assertFalse(allocated(error), "prepare")
+    end subroutine ready
+
+    subroutine exact(system, t0, t1, q, v)
+        !! Sixteen steps of fixed length.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t0, t1
+        real(dp), intent(inout) :: q(:), v(:)
+        type(gauss_t) :: method
+        type(error_t), allocatable :: error
+
+        call new_gauss16(method)
+        call method%prepare(system, error)
+        call method%advance(system, t0, (t1 - t0)/16, 0_i8, 16_i8, q, v)
+    end subroutine exact
+
+    subroutine inside_steps_as_at_their_ends()
+        !! Between the ends of every step the state is as accurate as at its end, and asking for
+        !! it costs no evaluations.
+        type(double_pendulum_t) :: system
+        type(gauss_adaptive_t) :: method
+        type(error_t), allocatable :: error
+        real(dp) :: q(2), v(2), q_true(2), v_true(2), t, inside, tolerance
+        integer(i8) :: evaluations
+        integer :: i, k
+
+        call system%configure([1.3_dp, 0.7_dp, 0.9_dp, 1.7_dp, 9.81_dp], error)
+        do k = 5, 13, 4
+            tolerance = 10.0_dp**(-k)
+            call ready(system, tolerance, method)
+            call method%start(system, 0.5_dp, [1.5_dp, 0.8_dp], [0.2_dp, -1.0_dp], 8.0_dp)
+            inside = 0.0_dp
+            do while (method%t_new < 8.0_dp)
+                call method%step(system, error)
+                call assertFalse(allocated(error), "step")
+                if (anyExceptions()) return
+                evaluations = method%evaluations
+                do i = 1, 7
+                    t = method%t_old + i/8.0_dp*(method%t_new - method%t_old)
+                    call method%state_at(method%t_old, q_true, v_true)
+                    call exact(system, method%t_old, t, q_true, v_true)
+                    call method%state_at(t, q, v)
+                    inside = max(inside, maxval(abs(q - q_true)), maxval(abs(v - v_true)/4.0_dp))
+                end do
+                call assertEqual(evaluations, method%evaluations, message="samples cost nothing")
+            end do
+            call assertLessThan(inside, 10.0_dp*tolerance, message="error inside a step")
+        end do
+    end subroutine inside_steps_as_at_their_ends
+
+    subroutine states_at_the_ends()
+        !! To the last bit those of the steps: one step's end is the next one's start; and the
+        !! polynomial runs into them.
+        type(double_pendulum_t) :: system
+        type(gauss_adaptive_t) :: method
+        type(error_t), allocatable :: error
+        real(dp) :: q(2), v(2), end_q(2), end_v(2), width
+
+        call system%configure([1.3_dp, 0.7_dp, 0.9_dp, 1.7_dp, 9.81_dp], error)
+        call ready(system, 1e-9_dp, method)
+        end_q = [1.5_dp, 0.8_dp]
+        end_v = [0.2_dp, -1.0_dp]
+        call method%start(system, 0.5_dp, end_q, end_v, 3.0_dp)
+        call method%state_at(0.5_dp, q, v)
+        call assertEqual([end_q, end_v], [q, v], 0.0_dp, "before any step")
+        do while (method%t_new < 3.0_dp)
+            call method%step(system, error)
+            call method%state_at(method%t_old, q, v)
+            call assertEqual([end_q, end_v], [q, v], 0.0_dp, "start of a step")
+            width = 1e-7_dp*(method%t_new - method%t_old)
+            call method%state_at(method%t_old + width, q, v)
+            call assertEqual([end_q + width*end_v, end_v], [q, v], 1e-5_dp, "after the start")
+            call assertEqual(end_q + width*end_v, q, 1e-12_dp, "after the start")
+            call method%state_at(method%t_new, end_q, end_v)
+            call method%state_at(method%t_new - width, q, v)
+            call assertEqual(end_q - width*end_v, q, 1e-12_dp, "before the end")
+        end do
+        q = [1.5_dp, 0.8_dp]
+        v = [0.2_dp, -1.0_dp]
+        call ready(system, 1e-9_dp, method)
+        call method%advance(system, 0.5_dp, 2.5_dp, 0_i8, 1_i8, q, v)
+        call assertEqual([q, v], [end_q, end_v], 0.0_dp, "steps of advance are the same")
+    end subroutine states_at_the_ends
+end module test_gauss_dense

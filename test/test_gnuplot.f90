@@ -1,0 +1,187 @@
+module test_gnuplot
+    !! Panels as a scene wants them, and scripts in which no text of the user's is a command.
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_errors, only: error_t
+    use lagrangia_gnuplot, only: gnuplot_script, new_panels, panel_t
+    use lagrangia_kinds, only: dp
+    implicit none (type, external)
+    private
+    public :: gnuplot_suite
+
+    character(*), parameter :: names(*) = [character(12) :: "t", "x", "theta", "x_dot", "y", &
+                                           "error", "energy_drift"]
+    character(*), parameter :: units(*) = [character(4) :: "s", "m", "rad", "m/s", "m", "1", "1"]
+    real(dp), parameter :: low(*) = [0.0_dp, -2.0_dp, -1.0_dp, -3.0_dp, -1.0_dp, 0.0_dp, 0.0_dp]
+    real(dp), parameter :: high(*) = [9.0_dp, 2.0_dp, 1.0_dp, 3.0_dp, 1.0_dp, 1e-9_dp, 1e-9_dp]
+
+contains
+
+    function gnuplot_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("gnuplot")
+        call suite%addTest(TestMethod("panels_are_read", panels_are_read))
+        call suite%addTest(TestMethod("panels_gather_by_unit", panels_gather_by_unit))
+        call suite%addTest(TestMethod("wrong_panels_are_refused", wrong_panels_are_refused))
+        call suite%addTest(TestMethod("a_title_is_no_command", a_title_is_no_command))
+        call suite%addTest(TestMethod("columns_are_drawn_with_units", columns_are_drawn_with_units))
+        call suite%addTest(TestMethod("lengths_share_a_scale", lengths_share_a_scale))
+        call suite%addTest(TestMethod("a_constant_has_a_range", a_constant_has_a_range))
+    end function gnuplot_suite
+
+    subroutine panels_are_read()
+        !! `'y'` over the first column, `'x:y'`, several curves with `+`.
+        type(panel_t), allocatable :: panels(:)
+        type(error_t), allocatable :: error
+
+        call new_panels([character(20) :: "theta", "x:y", "t:x+y+x_dot"], names, units, panels, &
+                        error)
+        call assertFalse(allocated(error), "good panels")
+        call assertEqual(3, size(panels))
+        call assertEqual([1, 2, 1], panels%x)
+        call assertEqual([1, 1, 3], panels%curves)
+        call assertEqual(3, panels(1)%y(1))
+        call assertEqual(5, panels(2)%y(1))
+        call assertEqual([2, 5, 4], panels(3)%y(:3))
+    end subroutine panels_are_read
+
+    subroutine panels_gather_by_unit()
+        !! Without specs: one panel a unit, drifts and errors apart from other pure numbers.
+        type(panel_t), allocatable :: panels(:)
+        type(error_t), allocatable :: error
+        character(*), parameter :: more(*) = [character(12) :: names, "ratio"]
+        character(*), parameter :: more_units(*) = [character(4) :: units, "1"]
+
+        call new_panels([character(1) ::], more, more_units, panels, error)
+        call assertEqual([1, 1, 1, 1, 1], panels%x)
+        call assertEqual([2, 1, 1, 2, 1], panels%curves)
+        call assertEqual([2, 5], panels(1)%y(:2))
+        call assertEqual(3, panels(2)%y(1))
+        call assertEqual(4, panels(3)%y(1))
+        call assertEqual([6, 7], panels(4)%y(:2))
+        call assertEqual(8, panels(5)%y(1))
+        call new_panels([character(1) ::], ["t", spread("x", 1, 9)], ["s", spread("m", 1, 9)], &
+                        panels, error)
+        call assertEqual([8, 1], panels%curves, message="no more than eight curves in one")
+    end subroutine panels_gather_by_unit
+
+    subroutine wrong_panels_are_refused()
+        !! With the nearest column; the place in the list is told.
+        call refused([character(24) :: "theta", "tetha"], 2, &
+                     "'tetha' is none of this scene's columns; did you mean 'theta'?")
+        call refused([character(24) :: "z:theta"], 1, "'z' is none of this scene's columns")
+        call refused([character(24) :: "x+"], 1, "'' is none of this scene's columns")
+        call refused([character(24) :: "x::y"], 1, "':y' is none of this scene's columns")
+        call refused([character(24) :: "x+x+x+x+x+x+x+x+x"], 1, "more than 8 curves in one panel")
+        call refused([character(24) :: "x, y"], 1, "'x, y' is none of this scene's columns")
+    end subroutine wrong_panels_are_refused
+
+    subroutine refused(specs, element, message)
+        !! Assert that `specs` are refused, because of one, in a message that begins so.
+        character(*), intent(in) :: specs(:), message
+        integer, intent(in) :: element
+        type(panel_t), allocatable :: panels(:)
+        type(error_t), allocatable :: error
+
+        call new_panels(specs, names, units, panels, error)
+        call assertTrue(allocated(error), "refused: "//message)
+        if (.not. allocated(error)) return
+        call assertEqual(1, index(error%message, message), error%message)
+        call assertEqual("plot", error%key)
+        call assertEqual(element, error%element)
+    end subroutine refused
+
+    function script(title, specs) result(text)
+        !! The script of the columns above.
+        character(*), intent(in) :: title, specs(:)
+        character(:), allocatable :: text
+        type(panel_t), allocatable :: panels(:)
+        type(error_t), allocatable :: error
+
+        call new_panels(specs, names, units, panels, error)
+        text = gnuplot_script("it.dat", "", title, names, units, low, high, panels)
+    end function script
+
+    subroutine a_title_is_no_command()
+        !! Within single quotes gnuplot substitutes nothing; outside of them nothing of the title
+        !! is left, whatever it contains.
+        character(*), parameter :: titles(*) = [character(64) :: &
+            "plain MARK", "it's MARK", "' ; MARK ; '", "''MARK", "MARK'", """MARK"" \MARK\", &
+            "`MARK`", "$(MARK) @MARK # MARK", "\'MARK", "{/*9 MARK}_^", "MARK\"]
+        character(:), allocatable :: text
+        integer :: i
+
+        do i = 1, size(titles)
+            text = script(trim(titles(i)), ["x"])
+            call assertTrue(index(text, "MARK") > 0, "the title is there: "//titles(i))
+            text = outside(text)
+            call assertEqual(0, index(text, "MARK"), "a command: "//titles(i))
+            call assertEqual(0, scan(text, "`@"), "a substitution: "//titles(i))
+            call assertTrue(index(text, "noenhanced") > 0, "marks are not letters' sizes")
+        end do
+    end subroutine a_title_is_no_command
+
+    pure function outside(text) result(rest)
+        !! `text` without its single-quoted strings, in which `''` is a quote. A string ends at
+        !! the end of its line at the latest.
+        character(*), intent(in) :: text
+        character(:), allocatable :: rest
+        logical :: within
+        integer :: i
+
+        rest = ""
+        within = .false.
+        do i = 1, len(text)
+            if (text(i:i) == new_line("a")) within = .false.
+            if (text(i:i) == "'") then
+                within = .not. within
+            else if (.not. within) then
+                rest = rest//text(i:i)
+            end if
+        end do
+    end function outside
+
+    subroutine columns_are_drawn_with_units()
+        !! By their numbers, from the file beside the script, with labels for axes and curves.
+        character(:), allocatable :: text
+
+        text = script("a title", [character(12) :: "theta", "x:y+x_dot"])
+        call assertTrue(index(text, "data = folder.'it.dat'") > 0, text)
+        call assertTrue(index(text, "picture = folder.'it'") > 0, text)
+        call assertTrue(index(text, "layout 2,1 title 'a title' noenhanced") > 0, text)
+        call assertTrue(index(text, "set xlabel 't [s]'") > 0, text)
+        call assertTrue(index(text, "set ylabel 'theta [rad]'; unset key") > 0, text)
+        call assertTrue(index(text, "plot data using 1:3 with lines") > 0, text)
+        call assertTrue(index(text, "set xlabel 'x [m]'") > 0, text)
+        call assertTrue(index(text, "plot data using 2:5 with lines lw 1.5 title 'y [m]', data "// &
+                              "using 2:4 with lines lw 1.5 title 'x_dot [m/s]'") > 0, text)
+        call assertTrue(index(text, "set ylabel ''; set key") > 0, "units that differ")
+    end subroutine columns_are_drawn_with_units
+
+    subroutine lengths_share_a_scale()
+        !! A path in the plane is drawn to scale; time series and other units are not.
+        call assertTrue(index(script("", ["x:y"]), "set size ratio -1; set xtics 1.0; "// &
+                              "set ytics 1.0") > 0, "a path")
+        call assertEqual(0, index(script("", ["y"]), "ratio -1"), "over the time")
+        call assertEqual(0, index(script("", [character(7) :: "x:theta"]), "ratio -1"), "an angle")
+    end subroutine lengths_share_a_scale
+
+    subroutine a_constant_has_a_range()
+        !! gnuplot draws nothing between two equal numbers.
+        type(panel_t), allocatable :: panels(:)
+        type(error_t), allocatable :: error
+        character(:), allocatable :: text
+
+        call new_panels(["x"], ["t", "x"], ["s", "m"], panels, error)
+        text = gnuplot_script("it.dat", "", "", ["t", "x"], ["s", "m"], [0.0_dp, 4.0_dp], &
+                              [1.0_dp, 4.0_dp], panels)
+        call assertTrue(index(text, "set yrange [3.6:4.4]") > 0, text)
+        text = gnuplot_script("it.dat", "", "", ["t", "x"], ["s", "m"], [0.0_dp, 0.0_dp], &
+                              [1.0_dp, 0.0_dp], panels)
+        call assertTrue(index(text, "set yrange [-1.0:1.0]") > 0, text)
+        text = gnuplot_script("it.dat", "", "", ["t", "x"], ["s", "m"], [0.0_dp, 0.0_dp], &
+                              [1.0_dp, 1.0_dp], panels)
+        call assertEqual(0, index(text, "yrange"), "a curve that is not constant")
+    end subroutine a_constant_has_a_range
+end module test_gnuplot

@@ -1,0 +1,237 @@
+module test_outcome
+    !! Verdicts, the scorecard's rows, and the JSON that programs read.
+    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_quiet_nan, ieee_value
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_json, only: json_list, json_number, json_string
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_outcome, only: from_closed_form, from_half_step, measure_t, outcome_json, &
+                                 outcome_t, scorecard_head, scorecard_row
+    implicit none (type, external)
+    private
+    public :: outcome_suite
+
+contains
+
+    function outcome_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("outcome")
+        call suite%addTest(TestMethod("verdicts_say_what_did_not_hold", &
+                                      verdicts_say_what_did_not_hold))
+        call suite%addTest(TestMethod("limits_themselves_hold", limits_themselves_hold))
+        call suite%addTest(TestMethod("nan_never_holds", nan_never_holds))
+        call suite%addTest(TestMethod("a_failure_outweighs_everything", &
+                                      a_failure_outweighs_everything))
+        call suite%addTest(TestMethod("json_of_a_full_outcome", json_of_a_full_outcome))
+        call suite%addTest(TestMethod("json_says_null_for_what_is_missing", &
+                                      json_says_null_for_what_is_missing))
+        call suite%addTest(TestMethod("json_strings_are_escaped", json_strings_are_escaped))
+        call suite%addTest(TestMethod("json_numbers_have_17_digits", json_numbers_have_17_digits))
+        call suite%addTest(TestMethod("rows_stand_under_their_titles", &
+                                      rows_stand_under_their_titles))
+        call suite%addTest(TestMethod("rows_say_where_an_error_is_from", &
+                                      rows_say_where_an_error_is_from))
+    end function outcome_suite
+
+    subroutine set_up(outcome)
+        !! An outcome without measures.
+        type(outcome_t), intent(out) :: outcome
+
+        outcome%scene = "swing"
+        outcome%system = "pendulum"
+        outcome%method = "rk4"
+        outcome%file = ""
+        outcome%remark = ""
+        outcome%t = 2.5_dp
+        outcome%q = [0.5_dp]
+        outcome%v = [-0.25_dp]
+        outcome%steps = 10_i8
+        outcome%evaluations = 40_i8
+        allocate (outcome%drifts(0), outcome%others(0))
+    end subroutine set_up
+
+    subroutine verdicts_say_what_did_not_hold()
+        !! Each of them, with two digits; nothing judged is neither good nor bad.
+        type(outcome_t) :: outcome
+
+        call set_up(outcome)
+        call assertEqual("not judged", outcome%verdict())
+        call assertTrue(outcome%holds(), "nothing to hold")
+        outcome%drifts = [measure_t("energy_drift", 3e-9_dp)]
+        call assertEqual("not judged", outcome%verdict())
+        outcome%others = [measure_t("error", 1e-9_dp, .true., 1e-8_dp)]
+        call assertEqual("holds", outcome%verdict())
+        call assertTrue(outcome%holds(), "within its limit")
+        outcome%drifts = [measure_t("energy_drift", 3e-9_dp, .true., 1.5e-9_dp)]
+        call assertEqual("NOT energy_drift 3.0E-09 > 1.5E-09", outcome%verdict())
+        call assertFalse(outcome%holds(), "a drift beyond its limit")
+        outcome%others(1)%limit = 1e-10_dp
+        call assertEqual("NOT energy_drift 3.0E-09 > 1.5E-09, NOT error 1.0E-09 > 1.0E-10", &
+                         outcome%verdict())
+        outcome%drifts(1)%limit = 1.0_dp
+        call assertEqual("NOT error 1.0E-09 > 1.0E-10", outcome%verdict())
+        call assertFalse(outcome%holds(), "an error beyond its limit")
+    end subroutine verdicts_say_what_did_not_hold
+
+    subroutine limits_themselves_hold()
+        !! A tolerance of 0 asks for exactly nothing, and can be met.
+        type(outcome_t) :: outcome
+
+        call set_up(outcome)
+        outcome%others = [measure_t("error", 0.0_dp, .true., 0.0_dp)]
+        call assertEqual("holds", outcome%verdict())
+        outcome%others(1)%worst = tiny(1.0_dp)
+        call assertFalse(outcome%holds(), "more than nothing")
+    end subroutine limits_themselves_hold
+
+    subroutine nan_never_holds()
+        !! It is not within any limit.
+        type(outcome_t) :: outcome
+
+        call set_up(outcome)
+        outcome%drifts = [measure_t("energy_drift", ieee_value(1.0_dp, ieee_quiet_nan), .true., &
+                                    huge(1.0_dp))]
+        call assertFalse(outcome%holds(), "NaN")
+        call assertEqual(1, index(outcome%verdict(), "NOT energy_drift"), outcome%verdict())
+    end subroutine nan_never_holds
+
+    subroutine a_failure_outweighs_everything()
+        !! Even if all that was seen is within its limits.
+        type(outcome_t) :: outcome
+
+        call set_up(outcome)
+        outcome%others = [measure_t("error", 1e-9_dp, .true., 1e-8_dp)]
+        outcome%failure = "the state is not finite"
+        call assertEqual("failed", outcome%verdict())
+        call assertFalse(outcome%holds(), "failed")
+    end subroutine a_failure_outweighs_everything
+
+    subroutine json_of_a_full_outcome()
+        !! Letter for letter; numbers that are sums of few powers of two.
+        type(outcome_t) :: outcome
+        character(:), allocatable :: json
+
+        call set_up(outcome)
+        outcome%drifts = [measure_t("energy_drift", 0.5_dp), measure_t("p_drift", 0.25_dp)]
+        outcome%others = [measure_t("error", 0.125_dp, .true., 1.0_dp), &
+                          measure_t("period", 0.0625_dp)]
+        outcome%error_from = from_closed_form
+        outcome%period = 1.5_dp
+        outcome%seconds = 2.0_dp
+        outcome%file = "out/swing.dat"
+        json = outcome_json(outcome)
+        call starts(json, '{"scene": "swing", "system": "pendulum", "method": "rk4", "t": '// &
+                    '2.5000000000000000E+000, "q": [5.0000000000000000E-001], '// &
+                    '"v": [-2.5000000000000000E-001], "steps": 10, "evaluations": 40, ')
+        call contains_once(json, '"energy_drift": 5.0000000000000000E-001, "drifts": {'// &
+                           '"energy_drift": 5.0000000000000000E-001, '// &
+                           '"p_drift": 2.5000000000000000E-001}')
+        call contains_once(json, '"error": 1.2500000000000000E-001, "error_from": "exact"')
+        call contains_once(json, '"period": 1.5000000000000000E+000, '// &
+                           '"period_error": 6.2500000000000000E-002')
+        call contains_once(json, '"seconds": 2.0000000000000000E+000')
+        call contains_once(json, '"verdict": "holds", "file": "out/swing.dat"}')
+        outcome%error_from = from_half_step
+        call contains_once(outcome_json(outcome), '"error_from": "estimate"')
+    end subroutine json_of_a_full_outcome
+
+    subroutine json_says_null_for_what_is_missing()
+        !! Not 0, not a negative number; nor for what is not finite, which JSON does not know.
+        type(outcome_t) :: outcome
+        character(:), allocatable :: json
+
+        call set_up(outcome)
+        json = outcome_json(outcome)
+        call contains_once(json, '"energy_drift": null, "drifts": {}, "error": null, '// &
+                           '"error_from": null')
+        call contains_once(json, '"period": null, "period_error": null')
+        call contains_once(json, '"omega": null')
+        call contains_once(json, '"verdict": "not judged", "file": null}')
+        outcome%q = [ieee_value(1.0_dp, ieee_quiet_nan), ieee_value(1.0_dp, ieee_positive_inf)]
+        outcome%drifts = [measure_t("energy_drift", ieee_value(1.0_dp, ieee_positive_inf))]
+        json = outcome_json(outcome)
+        call contains_once(json, '"q": [null, null]')
+        call contains_once(json, '"energy_drift": null, "drifts": {"energy_drift": null}')
+    end subroutine json_says_null_for_what_is_missing
+
+    subroutine json_strings_are_escaped()
+        !! Quotes, backslashes and control characters, in a scene's name too.
+        type(outcome_t) :: outcome
+
+        call assertEqual('"a\"b\\c"', json_string('a"b\c'))
+        call assertEqual('"\u0001\u001f\u007f\u000a/"', json_string( &
+                         achar(1)//achar(31)//achar(127)//achar(10)//"/"))
+        call set_up(outcome)
+        outcome%scene = 'a "swing"\'
+        call starts(outcome_json(outcome), '{"scene": "a \"swing\"\\", ')
+    end subroutine json_strings_are_escaped
+
+    subroutine json_numbers_have_17_digits()
+        !! So that a double survives; whole numbers of 64 bits as they are.
+        real(dp) :: back
+        character(:), allocatable :: text
+
+        text = json_number(1.0_dp/3.0_dp)
+        read (text, *) back
+        call assertEqual(1.0_dp/3.0_dp, back, message=text)
+        call assertEqual("-1.7976931348623157E+308", json_number(-huge(1.0_dp)))
+        call assertEqual("2.2250738585072014E-308", json_number(tiny(1.0_dp)))
+        call assertEqual("9223372036854775807", json_number(huge(1_i8)))
+        call assertEqual("[]", json_list([real(dp) ::]))
+    end subroutine json_numbers_have_17_digits
+
+    subroutine rows_stand_under_their_titles()
+        !! Words begin where their titles do, counts end where theirs do.
+        type(outcome_t) :: outcome
+        character(:), allocatable :: head, row
+
+        call set_up(outcome)
+        outcome%drifts = [measure_t("energy_drift", 2e-9_dp), measure_t("p_x_drift", 3e-9_dp), &
+                          measure_t("L_drift", 1e-9_dp)]
+        outcome%others = [measure_t("period", 0.5_dp), measure_t("small_period", 0.25_dp, .true.)]
+        head = scorecard_head()
+        row = scorecard_row(outcome)
+        call assertEqual(index(head, "system"), index(row, "pendulum"), "system")
+        call assertEqual(index(head, "method"), index(row, "rk4"), "method")
+        call assertEqual(index(head, "steps") + 5, index(row, " 10 ") + 3, "steps")
+        call assertEqual(index(head, "evaluations") + 11, index(row, " 40 ") + 3, "evaluations")
+        call assertEqual(index(head, "worst drift"), index(row, "3.0E-09 p_x"), "the worst drift")
+        call assertEqual(index(head, "period error"), index(row, "2.5E-01"), "the judged period")
+        call assertEqual(index(head, "verdict"), index(row, "NOT small_period"), "verdict")
+    end subroutine rows_stand_under_their_titles
+
+    subroutine rows_say_where_an_error_is_from()
+        !! `exact` and `estimate`; a hyphen where there is none.
+        type(outcome_t) :: outcome
+        character(:), allocatable :: row
+        integer :: column
+
+        call set_up(outcome)
+        column = index(scorecard_head(), " error ") + 1
+        row = scorecard_row(outcome)
+        call assertEqual("- ", row(column:column + 1))
+        outcome%others = [measure_t("error", 3e-9_dp)]
+        outcome%error_from = from_closed_form
+        row = scorecard_row(outcome)
+        call assertEqual("3.0E-09 exact  ", row(column:column + 14))
+        outcome%error_from = from_half_step
+        row = scorecard_row(outcome)
+        call assertEqual("3.0E-09 estimate", row(column:column + 15))
+    end subroutine rows_say_where_an_error_is_from
+
+    subroutine starts(text, expected)
+        !! Assert that `text` begins with `expected`.
+        character(*), intent(in) :: text, expected
+
+        call assertEqual(expected, text(:min(len(text), len(expected))))
+    end subroutine starts
+
+    subroutine contains_once(text, expected)
+        !! Assert that `expected` is in `text`, at one place.
+        character(*), intent(in) :: text, expected
+
+        call assertTrue(index(text, expected) > 0, expected//" is not in "//text)
+        call assertEqual(index(text, expected), index(text, expected, back=.true.), expected)
+    end subroutine contains_once
+end module test_outcome

@@ -1,0 +1,134 @@
+module test_period
+    !! The period read off sampled motions whose period is known.
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertLessThan, assertTrue
+    use lagrangia_catalogue, only: new_reference
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_oscillator, only: oscillator_t
+    use lagrangia_pendulum, only: pendulum_t
+    use lagrangia_period, only: period_t
+    use lagrangia_reference, only: reference_t
+    use lagrangia_system, only: system_t
+    implicit none (type, external)
+    private
+    public :: period_suite
+
+contains
+
+    function period_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("period")
+        call suite%addTest(TestMethod("turning_points_are_of_order_five", &
+                                      turning_points_are_of_order_five))
+        call suite%addTest(TestMethod("the_mean_of_many_periods", the_mean_of_many_periods))
+        call suite%addTest(TestMethod("the_coordinate_that_is_asked_for", &
+                                      the_coordinate_that_is_asked_for))
+        call suite%addTest(TestMethod("one_turn_is_no_period", one_turn_is_no_period))
+        call suite%addTest(TestMethod("coarse_samples_give_none", coarse_samples_give_none))
+    end function period_suite
+
+    subroutine sample(system, reference, first, h, count, period)
+        !! Show `count` samples of a closed form, `h` apart.
+        class(system_t), intent(in) :: system
+        class(reference_t), intent(in) :: reference
+        real(dp), intent(in) :: first, h
+        integer, intent(in) :: count
+        type(period_t), intent(inout) :: period
+        type(error_t), allocatable :: error
+        real(dp) :: q(system%ndof), v(system%ndof)
+        integer :: k
+
+        do k = 0, count - 1
+            call reference%state_at(first + k*h, q, v)
+            call period%observe(system, first + k*h, q, v, error)
+        end do
+    end subroutine sample
+
+    subroutine turning_points_are_of_order_five()
+        !! A pendulum released from 2 rad turns at half its period. Samples that halve their
+        !! distance, with the turning point at the same fraction s between two, divide the error
+        !! of its time by 32: the quintic's is s^3 (1 - s)^3 h^6/720, its derivative's of order 5.
+        real(dp), parameter :: fraction = 0.3_dp
+        type(pendulum_t) :: system
+        class(reference_t), allocatable :: reference
+        type(error_t), allocatable :: error
+        type(period_t) :: period
+        real(dp) :: h, errors(2)
+        integer :: i
+
+        call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
+        call new_reference(system, 0.0_dp, [2.0_dp], [0.0_dp], reference)
+        h = reference%period/16
+        do i = 1, 2
+            period = period_t()
+            call sample(system, reference, 0.5_dp*reference%period - (2 + fraction)*h, h, 6, period)
+            call assertEqual(1, period%turns, "turns")
+            errors(i) = abs(period%first - 0.5_dp*reference%period)
+            h = 0.5_dp*h
+        end do
+        call assertLessThan(errors(1), 1e-3_dp*reference%period, message="16 samples a period")
+        call assertEqual(5.0_dp, log(errors(1)/errors(2))/log(2.0_dp), 0.2_dp, "order")
+    end subroutine turning_points_are_of_order_five
+
+    subroutine the_mean_of_many_periods()
+        !! From 10 turning points; 200 samples a period leave (pi/100)**6/700 of each.
+        type(pendulum_t) :: system
+        class(reference_t), allocatable :: reference
+        type(error_t), allocatable :: error
+        type(period_t) :: period
+
+        call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
+        call new_reference(system, 0.0_dp, [2.0_dp], [0.0_dp], reference)
+        call sample(system, reference, 0.0_dp, reference%period/199.7_dp, 2000, period)
+        call assertEqual(10, period%turns, "turns")
+        call assertEqual(1.0_dp, period%period()/reference%period, 1e-10_dp, "mean period")
+    end subroutine the_mean_of_many_periods
+
+    subroutine the_coordinate_that_is_asked_for()
+        !! An oscillator's, with the closed form's own period, 2 pi sqrt(m/k).
+        type(oscillator_t) :: system
+        class(reference_t), allocatable :: reference
+        type(error_t), allocatable :: error
+        type(period_t) :: period
+
+        call system%configure([2.0_dp, 8.0_dp], error)
+        call new_reference(system, 0.0_dp, [0.5_dp], [-0.3_dp], reference)
+        call sample(system, reference, -1.0_dp, 0.01_dp, 1500, period)
+        call assertEqual(acos(-1.0_dp), period%period(), 1e-11_dp, "pi")
+    end subroutine the_coordinate_that_is_asked_for
+
+    subroutine one_turn_is_no_period()
+        !! Nor is a start at rest at the lowest point a turn.
+        type(oscillator_t) :: system
+        class(reference_t), allocatable :: reference
+        type(error_t), allocatable :: error
+        type(period_t) :: period
+
+        call system%configure([1.0_dp, 1.0_dp], error)
+        call new_reference(system, 0.0_dp, [-1.0_dp], [0.0_dp], reference)
+        call sample(system, reference, 0.0_dp, 0.1_dp, 10, period)
+        call assertEqual(0, period%turns, "turns")
+        call sample(system, reference, 1.0_dp, 0.1_dp, 60, period)
+        call assertEqual(1, period%turns, "turns")
+        call assertEqual(0.0_dp, period%period(), message="no period yet")
+        call sample(system, reference, 7.0_dp, 0.1_dp, 60, period)
+        call assertEqual(2.0_dp*acos(-1.0_dp), period%period(), 1e-9_dp, "now there is one")
+    end subroutine one_turn_is_no_period
+
+    subroutine coarse_samples_give_none()
+        !! 1.7 samples a period see turns, but not the motion's.
+        type(oscillator_t) :: system
+        class(reference_t), allocatable :: reference
+        type(error_t), allocatable :: error
+        type(period_t) :: period
+
+        call system%configure([1.0_dp, 1.0_dp], error)
+        call new_reference(system, 0.0_dp, [1.0_dp], [0.0_dp], reference)
+        call sample(system, reference, 0.0_dp, 3.7_dp, 100, period)
+        call assertTrue(period%turns > 1, "there seem to be turns")
+        call assertFalse(period%resolved, "too coarse")
+        call assertEqual(0.0_dp, period%period(), message="no period")
+    end subroutine coarse_samples_give_none
+end module test_period

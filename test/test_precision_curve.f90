@@ -1,0 +1,100 @@
+module test_precision_curve
+    !! The bench's arithmetic on made-up measurements.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+    use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
+    use lagrangia_kinds, only: dp
+    use lagrangia_precision_curve, only: best, confirmed, median, not_known, ratio, time_to_error
+    use lagrangia_stopwatch, only: repetitions
+    implicit none (type, external)
+    private
+    public :: precision_curve_suite
+
+    real(dp), parameter :: eps = epsilon(1.0_dp)
+
+contains
+
+    function precision_curve_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("precision_curve")
+        call suite%addTest(TestMethod("medians", medians))
+        call suite%addTest(TestMethod("ratios", ratios))
+        call suite%addTest(TestMethod("a_power_law_is_interpolated", a_power_law_is_interpolated))
+        call suite%addTest(TestMethod("what_is_not_reached", what_is_not_reached))
+        call suite%addTest(TestMethod("a_lucky_hit_does_not_count", a_lucky_hit_does_not_count))
+        call suite%addTest(TestMethod("the_least_of_several_times", the_least_of_several_times))
+        call suite%addTest(TestMethod("short_runs_are_repeated", short_runs_are_repeated))
+    end function precision_curve_suite
+
+    subroutine medians()
+        !! Of odd and even counts, in any order, and of nothing.
+        call assertEqual(3.0_dp, median([3.0_dp]))
+        call assertEqual(3.0_dp, median([9.0_dp, 1.0_dp, 3.0_dp]))
+        call assertEqual(2.5_dp, median([4.0_dp, 1.0_dp, 3.0_dp, 2.0_dp]))
+        call assertEqual(7.0_dp, median([7.0_dp, 7.0_dp, 1.0_dp, 7.0_dp, 8.0_dp]))
+        call assertTrue(ieee_is_nan(median([real(dp) ::])))
+    end subroutine medians
+
+    subroutine ratios()
+        !! What is not known stays so.
+        call assertEqual(0.25_dp, ratio(2.0_dp, 8.0_dp))
+        call assertTrue(ieee_is_nan(ratio(2.0_dp, 0.0_dp)))
+        call assertTrue(ieee_is_nan(ratio(not_known(), 2.0_dp)))
+        call assertTrue(ieee_is_nan(ratio(2.0_dp, not_known())))
+        call assertEqual(2.0_dp, best([not_known(), 5.0_dp, 2.0_dp]))
+        call assertTrue(ieee_is_nan(best([not_known()])))
+    end subroutine ratios
+
+    subroutine a_power_law_is_interpolated()
+        !! Error = 0.01/time^2: any error's time is known, and lines in logarithms find it to
+        !! rounding, on points and between them.
+        real(dp), parameter :: seconds(3) = [1.0_dp, 10.0_dp, 100.0_dp]
+        real(dp), parameter :: errors(3) = 0.01_dp/seconds**2
+
+        call assertEqual(sqrt(10.0_dp), time_to_error(errors, seconds, 1e-3_dp), &
+                         tolerance=100.0_dp*eps)
+        call assertEqual(10.0_dp, time_to_error(errors, seconds, 1e-4_dp), tolerance=1000.0_dp*eps)
+        call assertEqual(sqrt(1000.0_dp), time_to_error(errors, seconds, 1e-5_dp), &
+                         tolerance=1000.0_dp*eps)
+        call assertEqual(100.0_dp, time_to_error(errors, seconds, 1.0001e-6_dp), tolerance=0.01_dp)
+    end subroutine a_power_law_is_interpolated
+
+    subroutine what_is_not_reached()
+        !! Beyond the finest point nothing is known; before the coarsest nothing is less.
+        real(dp), parameter :: seconds(2) = [1.0_dp, 2.0_dp], errors(2) = [1e-3_dp, 1e-4_dp]
+
+        call assertTrue(ieee_is_nan(time_to_error(errors, seconds, 1e-5_dp)))
+        call assertTrue(ieee_is_nan(time_to_error([real(dp) ::], [real(dp) ::], 1e-5_dp)))
+        call assertEqual(1.0_dp, time_to_error(errors, seconds, 1e-2_dp))
+        call assertEqual(3.0_dp, time_to_error([0.0_dp], [3.0_dp], 1e-12_dp))
+    end subroutine what_is_not_reached
+
+    subroutine a_lucky_hit_does_not_count()
+        !! One point of error 1e-9 between 1e-3 and 1e-4 is an accident.
+        real(dp), parameter :: seconds(4) = [1.0_dp, 2.0_dp, 4.0_dp, 8.0_dp]
+        real(dp), parameter :: errors(4) = [1e-3_dp, 1e-9_dp, 1e-4_dp, 1e-5_dp]
+
+        call assertEqual([1e-3_dp, 1e-4_dp, 1e-4_dp, 1e-5_dp], confirmed(errors))
+        call assertTrue(ieee_is_nan(time_to_error(errors, seconds, 1e-6_dp)))
+        call assertEqual(2.0_dp, time_to_error(errors, seconds, 1e-4_dp), tolerance=100.0_dp*eps)
+    end subroutine a_lucky_hit_does_not_count
+
+    subroutine the_least_of_several_times()
+        !! Where rounding makes the curve go up again, its first way down counts; where a finer
+        !! setting takes less time, that counts.
+        real(dp), parameter :: seconds(4) = [1.0_dp, 4.0_dp, 2.0_dp, 8.0_dp]
+        real(dp), parameter :: errors(4) = [1e-3_dp, 1e-5_dp, 1e-6_dp, 1e-2_dp]
+
+        call assertEqual(2.0_dp, time_to_error([1e-3_dp, 1e-5_dp, 1e-6_dp, 1e-7_dp], seconds, &
+                                               1e-6_dp), tolerance=100.0_dp*eps)
+        call assertEqual(4.0_dp, time_to_error(errors, seconds, 1e-5_dp), tolerance=100.0_dp*eps)
+    end subroutine the_least_of_several_times
+
+    subroutine short_runs_are_repeated()
+        !! Until they take long enough, but not for ever.
+        call assertEqual(1, repetitions(1.0_dp, 5e-3_dp))
+        call assertEqual(6, repetitions(1e-3_dp, 5e-3_dp))
+        call assertTrue(repetitions(0.0_dp, 5e-3_dp) >= 1000000)
+    end subroutine short_runs_are_repeated
+end module test_precision_curve

@@ -1,0 +1,100 @@
+module test_shadow
+    !! The run at half the step, which estimates the error where no closed form is known.
+    use funit, only: TestMethod, TestSuite, assertEqual, assertGreaterThan, assertLessThan
+    use lagrangia_catalogue, only: new_reference
+    use lagrangia_errors, only: error_t
+    use lagrangia_integrator, only: integrator_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_methods, only: new_integrator
+    use lagrangia_pendulum, only: pendulum_t
+    use lagrangia_reference, only: reference_t
+    use lagrangia_shadow, only: distance, shadow_t
+    implicit none (type, external)
+    private
+    public :: shadow_suite
+
+contains
+
+    function shadow_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("shadow")
+        call suite%addTest(TestMethod("distance_is_absolute_below_1_and_relative_above", &
+                                      distance_is_absolute_below_1_and_relative_above))
+        call suite%addTest(TestMethod("rk4_is_estimated_well", rk4_is_estimated_well))
+        call suite%addTest(TestMethod("verlet_is_estimated_well", verlet_is_estimated_well))
+        call suite%addTest(TestMethod("midpoint_is_estimated_well", midpoint_is_estimated_well))
+    end function shadow_suite
+
+    subroutine distance_is_absolute_below_1_and_relative_above()
+        !! The worst of the coordinates; by the size of the truth.
+        call assertEqual(0.25_dp, distance([0.5_dp], [0.25_dp]))
+        call assertEqual(0.25_dp, distance([5.0_dp], [4.0_dp]))
+        call assertEqual(0.5_dp, distance([-6.0_dp, 0.25_dp], [-4.0_dp, 0.0_dp]))
+        call assertEqual(0.25_dp, distance([-5.0_dp, 0.25_dp], [-4.0_dp, 0.125_dp]))
+        call assertEqual(3.0_dp, distance([4.0_dp], [1.0_dp]))
+    end subroutine distance_is_absolute_below_1_and_relative_above
+
+    subroutine rk4_is_estimated_well()
+        !! Half the step has a sixteenth of the error: 16/15 of the distance.
+        call check_estimate("rk4", 0.02_dp)
+    end subroutine rk4_is_estimated_well
+
+    subroutine verlet_is_estimated_well()
+        !! Half the step has a quarter of the error: 4/3 of the distance.
+        call check_estimate("verlet", 0.005_dp)
+    end subroutine verlet_is_estimated_well
+
+    subroutine midpoint_is_estimated_well()
+        !! A method with state of its own between the steps.
+        call check_estimate("midpoint", 0.01_dp)
+    end subroutine midpoint_is_estimated_well
+
+    subroutine check_estimate(name, dt)
+        !! Beside the true error of a pendulum's run, at samples 7 steps apart and at an end that
+        !! is reached by a shortened step; within a tenth. Where the error itself passes through
+        !! zero the next order shows: those samples do not count, but they are few.
+        character(*), intent(in) :: name
+        real(dp), intent(in) :: dt
+        integer, parameter :: samples = 60, stride = 7
+        type(pendulum_t) :: system
+        class(integrator_t), allocatable :: method
+        class(reference_t), allocatable :: reference
+        type(shadow_t) :: shadow
+        type(error_t), allocatable :: error
+        real(dp) :: q(1), v(1), truth(1), ignored(1), estimate, actual, t, largest
+        integer :: k, counted
+
+        call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
+        q = 0.9_dp
+        v = 0.5_dp
+        call new_reference(system, 0.3_dp, q, v, reference)
+        call new_integrator(name, method, error)
+        call shadow%start(method, system, 0.3_dp, dt, q, v, error)
+        call method%prepare(system, error)
+        call shadow%estimate(system, 0.3_dp, q, estimate, error)
+        call assertEqual(0.0_dp, estimate, message="no error at the start")
+        largest = 0.0_dp
+        counted = 0
+        do k = 1, samples
+            call method%advance(system, 0.3_dp, dt, int((k - 1)*stride, i8), int(stride, i8), q, v)
+            t = 0.3_dp + k*stride*dt
+            call shadow%estimate(system, t, q, estimate, error)
+            call reference%state_at(t, truth, ignored)
+            actual = distance(q, truth)
+            largest = max(largest, actual)
+            if (actual < 0.3_dp*largest) cycle
+            counted = counted + 1
+            call assertEqual(1.0_dp, estimate/actual, 0.1_dp, name//": estimate over error")
+        end do
+        call assertGreaterThan(counted, samples/3, message="samples that count")
+        call assertLessThan(largest, 1e-2_dp, message="small errors")
+        call method%advance(system, t, 0.4_dp*dt, 0_i8, 1_i8, q, v)
+        t = t + 0.4_dp*dt
+        call shadow%estimate(system, t, q, estimate, error)
+        call reference%state_at(t, truth, ignored)
+        actual = distance(q, truth)
+        call assertEqual(1.0_dp, estimate/actual, 0.1_dp, name//": after a shortened step")
+    end subroutine check_estimate
+end module test_shadow

@@ -1,0 +1,268 @@
+module test_small_oscillations
+    !! Frequencies to the last digit, labels, and what must be refused.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertLessThan, assertTrue
+    use lagrangia_catalogue, only: new_system, nth_system
+    use lagrangia_description, only: description_t
+    use lagrangia_eigen, only: normal_modes, residual_ratio
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, is_zero_mode, &
+                                            modes_t
+    use lagrangia_system, only: system_t
+    use random_states, only: draw_parameters, restart_random
+    implicit none (type, external)
+    private
+    public :: small_oscillations_suite
+
+    integer, parameter :: quad = selected_real_kind(30)
+
+contains
+
+    function small_oscillations_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("small_oscillations")
+        call suite%addTest(TestMethod("cart_pendulum_has_two", cart_pendulum_has_two))
+        call suite%addTest(TestMethod("graded_double_pendulums", graded_double_pendulums))
+        call suite%addTest(TestMethod("page_agrees_with_lagrangian", page_agrees_with_lagrangian))
+        call suite%addTest(TestMethod("other_equilibria", other_equilibria))
+        call suite%addTest(TestMethod("modes_are_normalised", modes_are_normalised))
+        call suite%addTest(TestMethod("hilbert_like_is_well_solved", hilbert_like_is_well_solved))
+        call suite%addTest(TestMethod("bad_matrices_are_refused", bad_matrices_are_refused))
+        call suite%addTest(TestMethod("bad_points_are_refused", bad_points_are_refused))
+    end function small_oscillations_suite
+
+    subroutine solve(name, values, at, modes)
+        !! The modes of a system with these parameters.
+        character(*), intent(in) :: name
+        real(dp), intent(in) :: values(:), at(:)
+        type(modes_t), intent(out) :: modes
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+
+        call new_system(name, system, error)
+        call system%configure(values, error)
+        call assertFalse(allocated(error), message=name)
+        call find_modes(system, at, .true., modes, error)
+        call assertFalse(allocated(error), message=name//" modes")
+    end subroutine solve
+
+    subroutine cart_pendulum_has_two()
+        !! A zero mode, exactly, and \((m_1+m_2)g/(m_1\ell)\); its shape slides against the swing.
+        type(modes_t) :: modes
+
+        call solve("cart_pendulum", [2.0_dp, 0.5_dp, 1.3_dp, 9.81_dp], [0.0_dp, 0.0_dp], modes)
+        call assertEqual(is_zero_mode, modes%label(1))
+        call assertEqual(0.0_dp, modes%omega2(1), 0.0_dp)
+        call assertEqual(is_oscillation, modes%label(2))
+        call assertEqual(2.5_dp*9.81_dp/2.6_dp, modes%omega2(2), 1e-14_dp*modes%omega2(2))
+        call assertEqual(-0.26_dp, modes%shapes(1, 2)/modes%shapes(2, 2), 1e-15_dp)
+    end subroutine cart_pendulum_has_two
+
+    subroutine graded_double_pendulums()
+        !! Mass and length ratios from 1e-12 to 1e12: both frequencies within 1e-14 of the closed
+        !! form in quadruple precision, where `dsygv` loses the slower one.
+        real(dp), parameter :: g = 9.81_dp
+        type(modes_t) :: modes
+        real(quad) :: mu, l1, l2, a, b, c, large, small
+        integer :: i, k
+
+        do i = -12, 12, 3
+            do k = -12, 12, 3
+                call solve("double_pendulum", [1.3_dp, 1.3_dp*10.0_dp**i, 0.7_dp, &
+                                               0.7_dp*10.0_dp**k, g], [0.0_dp, 0.0_dp], modes)
+                mu = real(1.3_dp*10.0_dp**i, quad)/1.3_dp
+                l1 = 0.7_dp
+                l2 = 0.7_dp*10.0_dp**k
+                a = (1.0_quad + mu)*g/l1
+                b = g/l2
+                c = (1.0_quad + mu)*g/l2
+                large = 0.5_quad*(a + c + sqrt((a - c)**2 + 4.0_quad*a*mu*b))
+                small = a*b/large
+                call assertLessThan(real(abs(modes%omega2(1)/small - 1.0_quad), dp), 1e-14_dp, &
+                                    message="the slow mode")
+                call assertLessThan(real(abs(modes%omega2(2)/large - 1.0_quad), dp), 1e-14_dp, &
+                                    message="the fast mode")
+                call assertLessThan(maxval(abs(modes%page%omega2/modes%omega2 - 1.0_dp)), &
+                                    1e-14_dp, message="the page")
+            end do
+        end do
+    end subroutine graded_double_pendulums
+
+    subroutine page_agrees_with_lagrangian()
+        !! For every system of the catalogue that has modes, at random parameters: M, K and G by
+        !! hand against second derivatives of L, and the closed form against LAPACK.
+        class(system_t), allocatable :: system
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+        type(modes_t) :: modes
+        real(dp), allocatable :: at(:)
+        integer :: i, draw, by_hand
+
+        call restart_random()
+        by_hand = 0
+        i = 0
+        do
+            i = i + 1
+            call nth_system(i, system)
+            if (.not. allocated(system)) exit
+            do draw = 1, 10
+                call draw_parameters(system, edges=.false.)
+                call system%describe(d)
+                allocate (at(system%ndof), source=0.0_dp)
+                call find_modes(system, at, .false., modes, error)
+                deallocate (at)
+                if (allocated(error)) cycle
+                if (.not. allocated(modes%page%mass)) cycle
+                by_hand = by_hand + 1
+                call assertLessThan(modes%difference, 100*epsilon(1.0_dp), &
+                                    message=trim(d%name)//": page and L")
+                if (allocated(modes%page%omega2)) call assertEqual( &
+                    modes%page%omega2, modes%omega2, 1e-13_dp*maxval(abs(modes%omega2)), &
+                    trim(d%name)//": closed form")
+            end do
+        end do
+        call assertTrue(by_hand >= 60, message="systems with a page")
+    end subroutine page_agrees_with_lagrangian
+
+    subroutine other_equilibria()
+        !! Upside down, tilted, on the axis: growth rates and frequencies.
+        real(dp), parameter :: pi = acos(-1.0_dp)
+        type(modes_t) :: modes
+
+        call solve("pendulum", [0.7_dp, 1.3_dp, 9.81_dp], [pi], modes)
+        call assertEqual(is_unstable, modes%label(1))
+        call assertEqual(-9.81_dp/1.3_dp, modes%omega2(1), 1e-14_dp)
+        call solve("cart_pendulum", [2.0_dp, 0.5_dp, 1.3_dp, 9.81_dp], [0.3_dp, pi], modes)
+        call assertEqual([is_unstable, is_zero_mode], modes%label)
+        call solve("rotating_hoop", [0.4_dp, 1.0_dp, 5.0_dp, 9.81_dp], [1.16755690380504296_dp], &
+                   modes)
+        call assertEqual(21.150556_dp, modes%omega2(1), 1e-12_dp)
+        call solve("rotating_wire", [0.4_dp, 1.5_dp], [0.0_dp], modes)
+        call assertEqual(-2.25_dp, modes%omega2(1), 1e-15_dp)
+        call solve("charged_particle", [1.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, &
+                                        0.5_dp, 1.0_dp], [0.0_dp, 0.0_dp, 0.0_dp], modes)
+        call assertEqual([0.780776406404415137_dp, 1.0_dp, 1.28077640640441514_dp], &
+                         sqrt(modes%omega2), 1e-14_dp)
+    end subroutine other_equilibria
+
+    subroutine modes_are_normalised()
+        !! \(u^\top M u = 1\), \(K\)-orthogonal, ascending, the largest component positive.
+        real(dp) :: k(3, 3), m(3, 3), unit(3, 3)
+        real(dp), allocatable :: omega2(:), u(:, :)
+        type(error_t), allocatable :: error
+        integer :: j
+
+        k = reshape([3.0_dp, -1.0_dp, 0.2_dp, -1.0_dp, 2.0_dp, -0.7_dp, 0.2_dp, -0.7_dp, 1.5_dp], &
+                    [3, 3])
+        m = reshape([2.0_dp, 0.3_dp, 0.1_dp, 0.3_dp, 1.0_dp, 0.2_dp, 0.1_dp, 0.2_dp, 0.6_dp], &
+                    [3, 3])
+        call normal_modes(k, m, omega2, u, error)
+        call assertFalse(allocated(error))
+        if (allocated(error)) return
+        unit = 0.0_dp
+        do j = 1, 3
+            unit(j, j) = 1.0_dp
+            call assertTrue(maxval(u(:, j)) >= maxval(-u(:, j)), message="sign")
+        end do
+        call assertEqual(unit, matmul(transpose(u), matmul(m, u)), 1e-14_dp)
+        do j = 1, 3
+            unit(j, j) = omega2(j)
+        end do
+        call assertEqual(unit, matmul(transpose(u), matmul(k, u)), 1e-14_dp)
+        call assertTrue(omega2(1) < omega2(2) .and. omega2(2) < omega2(3))
+        call assertLessThan(residual_ratio(k, m, omega2, u), 30.0_dp)
+    end subroutine modes_are_normalised
+
+    subroutine hilbert_like_is_well_solved()
+        !! Degenerate, and large enough for divide and conquer: a ring of 40 equal masses, whose
+        !! frequencies are \(4\sin^2(\pi j/n)\), in pairs, the lowest zero.
+        integer, parameter :: n = 40
+        real(dp), parameter :: pi = acos(-1.0_dp)
+        real(dp) :: k(n, n), m(n, n)
+        real(dp), allocatable :: omega2(:), u(:, :)
+        type(error_t), allocatable :: error
+        integer :: i
+
+        k = 0.0_dp
+        m = 0.0_dp
+        do i = 1, n
+            m(i, i) = 0.5_dp
+            k(i, i) = 1.0_dp
+            k(i, modulo(i, n) + 1) = -0.5_dp
+            k(modulo(i, n) + 1, i) = -0.5_dp
+        end do
+        call normal_modes(k, m, omega2, u, error)
+        call assertFalse(allocated(error))
+        if (allocated(error)) return
+        do i = 1, n
+            call assertEqual(4.0_dp*sin(pi*(i/2)/n)**2, omega2(i), 1e-14_dp)
+        end do
+        call assertLessThan(residual_ratio(k, m, omega2, u), 30.0_dp)
+    end subroutine hilbert_like_is_well_solved
+
+    subroutine bad_matrices_are_refused()
+        !! In one line each; LAPACK alone would be silent about most of them.
+        real(dp) :: good(2, 2), bad(2, 2)
+
+        good = reshape([2.0_dp, 0.5_dp, 0.5_dp, 1.0_dp], [2, 2])
+        call refused(reshape([1.0_dp, 2.0_dp], [1, 2]), good, &
+                     "K is 1 by 2: a square matrix is needed")
+        call refused(reshape([1.0_dp], [1, 1]), good, "K has 1 rows, M has 2")
+        bad = good
+        bad(1, 2) = 0.4_dp
+        call refused(bad, good, "K is not symmetric: K(1, 2) = 0.4, K(2, 1) = 0.5")
+        call refused(good, bad, "M is not symmetric: M(1, 2) = 0.4, M(2, 1) = 0.5")
+        bad = good
+        bad(2, 2) = ieee_value(1.0_dp, ieee_quiet_nan)
+        call refused(good, bad, "M(2, 2) is not finite")
+        bad(2, 2) = -1.0_dp
+        call refused(good, bad, "M is not positive definite: its leading minor of order 2 is not")
+        bad = 0.5_dp  ! rounding decides whether Cholesky's method notices
+        call refused(good, bad, "M is singular to working precision: its leading minor of "// &
+                     "order 2 vanishes")
+    end subroutine bad_matrices_are_refused
+
+    subroutine refused(k, m, message)
+        !! Assert that these matrices are refused in these words, without results.
+        real(dp), intent(in) :: k(:, :), m(:, :)
+        character(*), intent(in) :: message
+        real(dp), allocatable :: omega2(:), u(:, :)
+        type(error_t), allocatable :: error
+
+        call normal_modes(k, m, omega2, u, error)
+        call assertTrue(allocated(error), message=message)
+        if (.not. allocated(error)) return
+        call assertEqual(message, error%message)
+        call assertFalse(allocated(omega2), message="results of "//message)
+    end subroutine refused
+
+    subroutine bad_points_are_refused()
+        !! With the residual force and the nearest equilibrium.
+        call no_modes("rotating_hoop", [1.167_dp], "not an equilibrium of rotating_hoop: the "// &
+                      "force on theta is 0.0117746253")
+        call no_modes("rotating_hoop", [1.167_dp], "N m; the nearest is --at 1.1675569038050")
+        call no_modes("wedge", [0.0_dp, 0.0_dp], "N; none is near")
+        call no_modes("pendulum", [0.0_dp, 1.0_dp], "--at takes 1 values for pendulum, not 2")
+        call no_modes("rolling_disk", [0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], "non-holonomic constraints")
+        call no_modes("driven_pendulum", [0.0_dp], "contains the time")
+    end subroutine bad_points_are_refused
+
+    subroutine no_modes(name, at, message)
+        !! Assert that there are no modes at `at`, for this reason.
+        character(*), intent(in) :: name, message
+        real(dp), intent(in) :: at(:)
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(modes_t) :: modes
+
+        call new_system(name, system, error)
+        call find_modes(system, at, .true., modes, error)
+        call assertTrue(allocated(error), message=name)
+        if (.not. allocated(error)) return
+        call assertTrue(index(error%message, message) > 0, message=error%message)
+        call assertEqual(2, error%status)
+    end subroutine no_modes
+end module test_small_oscillations
