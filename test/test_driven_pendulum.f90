@@ -120,9 +120,11 @@ contains
         type(driven_pendulum_t) :: pendulum
         type(rk4_t) :: rk4
         type(error_t), allocatable :: error
-        real(dp) :: q(1), v(1), t, energies(2, 0:10000)
+        real(dp), allocatable :: energies(:, :)
+        real(dp) :: q(1), v(1), t
         integer :: k
 
+        allocate (energies(2, 0:10000))
         call set(pendulum, [1.3_dp, 1.0_dp, 9.81_dp, a, w])
         call new_rk4(rk4)
         call rk4%prepare(pendulum, error)

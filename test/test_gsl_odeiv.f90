@@ -1,8 +1,7 @@
 module test_gsl_odeiv
     !! GSL's integrators behind our door: right against closed forms, refusals in words.
     use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int, c_loc, c_null_ptr, c_ptr
-    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
-                     assertLessThan, assertTrue
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_catalogue, only: new_reference, new_system
     use lagrangia_errors, only: error_t, status_library, status_numbers, status_usage
     use lagrangia_gsl_mechanics, only: gsl_context_t, gsl_jacobian, gsl_rates
@@ -73,17 +72,18 @@ contains
         integer(i8) :: evaluations
         integer :: i
 
+        worst = 0.0_dp
         do i = 2, size(gsl_methods)
             call solve("pendulum", trim(gsl_methods(i)), 0.0_dp, 1e-11_dp, [1.9_dp], [0.3_dp], &
                        5.0_dp, worst, evaluations)
-            call assertLessThan(worst, 1e-8_dp, message=trim(gsl_methods(i)))
+            call assertTrue(worst < 1e-8_dp, trim(gsl_methods(i)))
             call solve("pendulum", trim(gsl_methods(i)), 0.0_dp, 1e-5_dp, [1.9_dp], [0.3_dp], &
                        5.0_dp, loose, evaluations)
-            call assertLessThan(worst, loose, message=trim(gsl_methods(i)))
+            call assertTrue(worst < loose, trim(gsl_methods(i)))
             call solve("charged_particle", trim(gsl_methods(i)), 0.0_dp, 1e-11_dp, &
                        [0.1_dp, -0.2_dp, 0.3_dp], [0.7_dp, 0.4_dp, 0.1_dp], 5.0_dp, worst, &
                        evaluations)
-            call assertLessThan(worst, 1e-8_dp, message=trim(gsl_methods(i)))
+            call assertTrue(worst < 1e-8_dp, trim(gsl_methods(i)))
         end do
     end subroutine adaptive_methods_are_right
 
@@ -92,9 +92,9 @@ contains
         real(dp) :: coarse, fine
         integer(i8) :: evaluations
 
-        call solve("pendulum", "rk4", 0.02_dp, any_error, [1.9_dp], [0.3_dp], 4.0_dp, coarse, &
+        call solve("pendulum", "rk4", 0.008_dp, any_error, [1.9_dp], [0.3_dp], 4.0_dp, coarse, &
                    evaluations)
-        call solve("pendulum", "rk4", 0.01_dp, any_error, [1.9_dp], [0.3_dp], 4.0_dp, fine, &
+        call solve("pendulum", "rk4", 0.004_dp, any_error, [1.9_dp], [0.3_dp], 4.0_dp, fine, &
                    evaluations)
         call assertEqual(4.0_dp, log(coarse/fine)/log(2.0_dp), tolerance=0.1_dp)
     end subroutine rk4_is_of_order_4
@@ -145,11 +145,11 @@ contains
 
     subroutine time_enters_the_jacobian()
         !! The driven pendulum's acceleration by the time, against differences of order four.
-        real(dp), parameter :: h = 1e-3_dp, t = 0.37_dp, y(2) = [0.8_dp, -0.3_dp]
+        real(dp), parameter :: h = 1e-4_dp, t = 0.37_dp, y(2) = [0.8_dp, -0.3_dp]
         class(system_t), allocatable, target :: system
         type(gsl_context_t), target :: context
         type(error_t), allocatable :: error
-        real(dp) :: jacobian(4), by_time(2), a(1, 4)
+        real(dp) :: jacobian(4), by_time(2), a(1, 4), slope
         integer(c_int) :: status
         integer :: i
 
@@ -161,9 +161,9 @@ contains
         context%system => system
         status = gsl_jacobian(t, y, jacobian, by_time, c_loc(context))
         call assertEqual(0, int(status))
-        call assertEqual([0.0_dp, (a(1, 1) - 8.0_dp*a(1, 2) + 8.0_dp*a(1, 3) - a(1, 4))/(12*h)], &
-                         by_time, tolerance=1e-6_dp)
-        call assertTrue(abs(by_time(2)) > 1e-2_dp)
+        slope = (a(1, 1) - 8.0_dp*a(1, 2) + 8.0_dp*a(1, 3) - a(1, 4))/(12*h)
+        call assertTrue(abs(slope) > 1e-2_dp)
+        call assertEqual([0.0_dp, slope], by_time, tolerance=1e-6_dp*abs(slope))
         call assertEqual([0.0_dp, 1.0_dp], jacobian(1:2))
     end subroutine time_enters_the_jacobian
 
@@ -180,11 +180,10 @@ contains
     end function broken
 
     subroutine refusals_have_words()
-        !! No such method, no sensible step, a right-hand side that fails, an error at fixed steps.
+        !! No such method, no sensible step, a right-hand side that fails.
         type(gsl_driver_t) :: driver
         type(error_t), allocatable :: error
-        real(dp) :: t, y(2), worst
-        integer(i8) :: evaluations
+        real(dp) :: t, y(2)
 
         call start("rk5", 1e-3_dp)
         call refused("odeiv2: GSL has no method 'rk5' that is known here", status_usage)
@@ -198,8 +197,6 @@ contains
         call refused("odeiv2: GSL says: problem with user-supplied function", status_library)
         call driver%free()
         call driver%free()
-        call solve("pendulum", "rk4", 0.01_dp, any_error, [1.9_dp], [0.3_dp], 4.0_dp, worst, &
-                   evaluations)
     contains
         subroutine start(method, first_step)
             character(*), intent(in) :: method

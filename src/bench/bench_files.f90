@@ -151,16 +151,17 @@ contains
     contains
         subroutine place(column, row)
             integer, intent(in) :: column, row
-            real :: left, upper
+            real(dp) :: left, upper
 
-            left = 90.0 + real((width - 10)*column)/across
-            upper = real(height - top - panel*row)
-            call put_margins(left, left + real(width - 10)/across - 110.0, upper - panel + 70.0, &
-                             upper - 20.0)
+            left = 90.0_dp + real((width - 10)*column, dp)/across
+            upper = real(height - top - panel*row, dp)
+            call put_margins(left, left + real(width - 10, dp)/across - 110.0_dp, &
+                    upper - panel + 70.0_dp, &
+                             upper - 20.0_dp)
         end subroutine place
 
         subroutine put_margins(left, right, bottom, upper)
-            real, intent(in) :: left, right, bottom, upper  !! pixels
+            real(dp), intent(in) :: left, right, bottom, upper  !! pixels
             character(200) :: line
 
             write (line, "(4(a, f6.4))") "set lmargin at screen ", left/width, &
@@ -193,8 +194,9 @@ contains
             character(:), allocatable :: line
             integer :: k
 
-            call put_margins(10.0, width - 10.0, 4.0, real(legend))
-            call script%add("unset logscale; unset border; unset tics; unset grid; unset title; "// &
+            call put_margins(10.0_dp, width - 10.0_dp, 4.0_dp, real(legend, dp))
+            call script%add("unset logscale; unset border; unset tics; unset grid; unset "// &
+                    "title; "// &
                             "unset xlabel; unset ylabel; set xrange [0:1]; set yrange [0:1]")
             call script%add("set key center center horizontal maxcols 5 noenhanced samplen 3")
             line = "plot "

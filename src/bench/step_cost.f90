@@ -50,10 +50,12 @@ contains
                     call time_steps(contestants(k)%item, problem, plan, samples(round))
                 end do
                 cost(i, k) = median(samples)*nanoseconds
-                if (cost(i, k) >= 0.0_dp) evaluations(k) = contestants(k)%item%evaluations*dt/duration
+                if (cost(i, &
+                        k) >= 0.0_dp) evaluations(k) = contestants(k)%item%evaluations*dt/duration
             end do
         end do
-        call new_bench_table(table, "step_ns", "one step, ns (dt = 1e-3 s; - : the method refuses "// &
+        call new_bench_table(table, "step_ns", "one step, ns (dt = 1e-3 s; - : the method "// &
+                "refuses "// &
                         "the system)", [character(name_length) :: "method", "evaluations", systems])
         do k = 1, size(contestants)
             if (.not. any(cost(:, k) >= 0.0_dp)) cycle
@@ -104,7 +106,8 @@ contains
         real(dp) :: samples(2*plan%rounds, 3), ns(3)
         integer :: i, round
 
-        call new_bench_table(table, "dispatch", "RK4, one step, ns: through the contracts, compiled "// &
+        call new_bench_table(table, "dispatch", "RK4, one step, ns: through the contracts, "// &
+                "compiled "// &
                         "for the concrete type, GSL's", [character(name_length) :: "system", &
                         "contracts", "concrete", "gsl_rk4", "contracts/concrete", "contracts/gsl"])
         call new_contestants(["rk4"], ours)

@@ -152,7 +152,7 @@ contains
             if (rung == 1) setting = 1.0_dp
         case (knob_step)
             setting = longest_step*10.0_dp**(-plan%decades*(rung - 1)/contestant%order)
-        case (knob_tolerance)
+        case default  ! a tolerance
             if (size(tolerances) > 0) then
                 if (rung <= size(tolerances)) setting = tolerances(rung)
             else

@@ -76,7 +76,7 @@ contains
                 if (allocated(error)) exit
                 call output%show(table, progress)
                 call goals_of_growth(table, goals)
-            case ("output")
+            case default  ! output
                 call measure_output(choice%folder, choice%plan, table, error)
                 if (allocated(error)) exit
                 call output%show(table, progress)
@@ -134,7 +134,8 @@ contains
         logical, intent(in) :: optimised
         type(error_t), allocatable, intent(out) :: error
 
-        if (.not. optimised) call fail(error, "bench: this build is not optimised, and its times "// &
+        if (.not. optimised) call fail(error, "bench: this build is not optimised, and its "// &
+                "times "// &
             "would mislead; 'fpm run --profile release -- bench' builds one that is")
     end subroutine check_build
 

@@ -5,7 +5,8 @@ module lagrangia_gsl_odeiv
     !! The error handler is off and every status is checked.
     !! Source: GSL reference manual 2.7, ordinary differential equations.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_funptr, &
+    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, &
+            c_funptr, &
         c_int, c_loc, c_long, c_null_funptr, c_null_ptr, c_ptr, c_size_t
     use lagrangia_errors, only: error_t, fail, status_library, status_numbers
     use lagrangia_gsl, only: gsl_reason, silence_gsl

@@ -11,7 +11,7 @@ module lagrangia_events
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: to_text
+    use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
     private
     public :: event_t, event_box_t, column_event_t, contact_event_t
@@ -112,7 +112,7 @@ contains
             case ("falling"); self%direction = -1
             case ("stop"); self%terminal = .true.
             case default
-                call fail(error, "'"//trim(words(i))//"' is none of rising, falling, stop; an "// &
+                call fail(error, quoted(trim(words(i)))//" is none of rising, falling, stop; an "// &
                           "event looks like "//example())
                 return
             end select

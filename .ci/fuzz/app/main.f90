@@ -111,7 +111,9 @@ contains
             return
         end if
         accepted = accepted + 1
-        whole = scene%dt > 0.0_dp .and. scene%dt <= scene%duration .and. scene%every >= 1 .and. &
+        whole = scene%every >= 1 .and. scene%duration > 0.0_dp .and. &
+                (scene%tolerance > 0.0_dp .or. &
+                 (scene%dt > 0.0_dp .and. scene%dt <= scene%duration)) .and. &
                 size(scene%q) == system%ndof .and. all(abs(scene%q) <= huge(1.0_dp)) .and. &
                 all(abs(scene%v) <= huge(1.0_dp)) .and. size(scene%columns) > 0
         if (.not. whole) call give_up("nonsense was accepted", text)
@@ -132,7 +134,7 @@ contains
         type(scene_t), intent(in) :: scene
         real(dp), allocatable :: list(:)
 
-        list = [scene%dt, scene%duration, scene%t0, scene%q, scene%v, scene%parameters]
+        list = [scene%dt, scene%tolerance, scene%duration, scene%t0, scene%q, scene%v, scene%parameters]
     end function numbers
 
     subroutine try_words()
