@@ -10,7 +10,7 @@ module test_method_structure
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: method_names, nth_integrator
     use lagrangia_system, only: system_t
-    use method_problems, only: new_problem, problems, refuses
+    use lagrangia_method_problems, only: new_problem, problems, refuses
     use random_states, only: draw_parameters, draw_state, restart_random
     implicit none (type, external)
     private

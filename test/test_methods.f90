@@ -10,7 +10,7 @@ module test_methods
     use lagrangia_methods, only: method_names, new_integrator, nth_integrator
     use lagrangia_reference, only: reference_t
     use lagrangia_system, only: system_t
-    use method_problems, only: new_problem, problems, refuses
+    use lagrangia_method_problems, only: new_problem, problems, refuses
     implicit none (type, external)
     private
     public :: methods_suite

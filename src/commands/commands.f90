@@ -1,6 +1,7 @@
 module lagrangia_commands
     !! From the program's words to one command.
     use lagrangia_bench, only: bench_command
+    use lagrangia_check, only: check_command
     use lagrangia_command_line, only: command_line_t, command_words, parse_words, word_t
     use lagrangia_console, only: finish_console, put, put_line
     use lagrangia_describe, only: describe_command
@@ -41,6 +42,7 @@ contains
             call put(help_text(which))
         else
             select case (commands(which)%name)
+            case ("check"); call check_command(line, error)
             case ("list"); call list_command(line, error)
             case ("describe"); call describe_command(line, error)
             case ("bench"); call bench_command(line, error)

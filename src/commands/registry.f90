@@ -40,6 +40,8 @@ module lagrangia_registry
                   "set output format plot json quiet"), &
         command_t("modes", "SYSTEM", "small oscillations: M, K, frequencies, shapes", 1, &
                   "set at output json quiet"), &
+        command_t("check", "[SYSTEM...]", "the audit: equations, invariants, structure, Gauss, "// &
+                  "orders", -1, "set json"), &
         command_t("principle", "[NAME]", "both sides of a variational principle, in numbers", 1, &
                   "output plot json"), &
         command_t("bench", "[PART...]", "run time against error, cost of a step, growth, "// &

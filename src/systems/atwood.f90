@@ -31,6 +31,8 @@ module lagrangia_atwood
         procedure :: energy
         procedure :: quantity => energy_or_force
         procedure :: positions
+        procedure :: newton
+        procedure :: angles
     end type atwood_t
 
 contains
@@ -66,6 +68,10 @@ contains
             conserved("p_x", "kg m/s", "(m1 + m2 + I/R^2) x_dot - (m1 - m2) a_s t: momentum "// &
                       "of x, cyclic if (m1 - m2) g = 0", 0.0_dp)
         d%points = [point("m1", self%m1), point("m2", self%m2)]
+        d%rotors = [point("pulley", self%pulley_inertia)]
+        d%reactions = [ &
+            quantity("tension1", "N", "of the string at m1: y1 - a_s t^2/2 + R phi = 0"), &
+            quantity("tension2", "N", "of the string at m2: y2 - a_s t^2/2 - R phi = 0")]
         d%equations = [character(len(d%title)) :: &
             "(m1 + m2 + I/R^2) x_ddot = (m1 - m2)(g + a_s)"]
         if (self%time_dependent) then
@@ -214,4 +220,29 @@ contains
 
         a(:, 1) = (self%m1 - self%m2)*(self%g + self%support_acceleration)/inertia(self)
     end subroutine accelerations_lanes
+
+    pure subroutine angles(self, t, q, phi)
+        !! The pulley turns with the string, \(\varphi = x/R\).
+        class(atwood_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(:)
+        type(hyperdual_t), intent(out) :: phi(:)
+
+        phi(1) = (1.0_dp/self%radius)*q(1)
+    end subroutine angles
+
+    pure subroutine newton(self, t, x, u, force, held)
+        !! Gravity on both masses; each string from the pulley with its axle at \(a_s t^2/2\).
+        class(atwood_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, x(:), u(:)
+        real(dp), intent(out) :: force(:)
+        type(hyperdual_t), intent(out) :: held(:)
+        type(hyperdual_t) :: axle
+
+        force = 0.0_dp
+        force(2) = -self%m1*self%g
+        force(5) = -self%m2*self%g
+        axle = 0.5_dp*self%support_acceleration*t**2
+        held(1) = x(2) - axle + self%radius*x(7)
+        held(2) = x(5) - axle - self%radius*x(7)
+    end subroutine newton
 end module lagrangia_atwood

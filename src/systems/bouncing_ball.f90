@@ -7,7 +7,7 @@ module lagrangia_bouncing_ball
     !! of them in a finite time the ball rests, held by \(\lambda = mg\):
     !! $$ y \ge 0,\quad \lambda \ge 0,\quad \lambda y = 0 $$
     use lagrangia_description, only: between, coordinate, description_t, nonnegative, point, &
-                                     positive, quantity
+                                     positive, quantity, quantity_t
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(-)
     use lagrangia_kinds, only: dp
@@ -29,6 +29,7 @@ module lagrangia_bouncing_ball
         procedure :: energy
         procedure :: quantity => contact_force
         procedure :: positions
+        procedure :: newton
         procedure :: gap
         procedure :: impact
     end type bouncing_ball_t
@@ -51,6 +52,7 @@ contains
         d%quantities = [quantity("contact_force", "N", "lambda = m (y_ddot + g): of the floor "// &
                                  "on the ball, without the impacts")]
         d%points = [point("ball", self%m)]
+        d%reactions = [quantity_t ::]
         d%lagrangian = [character(len(d%title)) :: "m/2 y_dot^2 - m g y"]
         d%energy = "m/2 y_dot^2 + m g y"
         d%equations = [character(len(d%title)) :: &
@@ -152,4 +154,16 @@ contains
         r = hyperdual_t()
         r(2, 1) = q(1)
     end subroutine positions
+
+    pure subroutine newton(self, t, x, u, force, held)
+        !! Gravity; in flight nothing holds the ball.
+        class(bouncing_ball_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, x(:), u(:)
+        real(dp), intent(out) :: force(:)
+        type(hyperdual_t), intent(out) :: held(:)
+
+        held = hyperdual_t()
+        force = 0.0_dp
+        force(2) = -self%m*self%g
+    end subroutine newton
 end module lagrangia_bouncing_ball

@@ -7,8 +7,8 @@ module lagrangia_cart_pendulum
     use lagrangia_description, only: conserved, coordinate, description_t, point, positive, &
                                      nonnegative, quantity
     use lagrangia_errors, only: error_t
-    use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
-                                   operator(-), sin
+    use lagrangia_hyperdual, only: cos, dot_product, hyperdual_t, operator(*), operator(**), &
+                                   operator(+), operator(-), sin
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
     use lagrangia_system, only: check_parameters, lanes, system_t
@@ -35,6 +35,7 @@ module lagrangia_cart_pendulum
         procedure :: forces
         procedure :: quantity => momentum_or_force
         procedure :: positions
+        procedure :: newton
     end type cart_pendulum_t
 
 contains
@@ -63,6 +64,9 @@ contains
                          "(m1 + m2 sin(theta)^2): force along the rod")]
         end associate
         d%points = [point("cart", self%m1), point("bob", self%m2)]
+        d%reactions = [ &
+            quantity("track_force", "N", "of the track on the cart, upwards: y_cart = 0"), &
+            quantity("tension", "N", "of the rod: (l^2 - (x_bob - x)^2 - y_bob^2)/(2 l) = 0")]
         d%lagrangian = [character(len(d%title)) :: &
             "(m1 + m2)/2 x_dot^2 + m2/2 l^2 theta_dot^2 + m2 l x_dot theta_dot cos(theta)", &
             "+ m2 g l cos(theta)"]
@@ -248,4 +252,20 @@ contains
                                     0.0_dp, 1.0_dp/(sqrt(m2)*l)], [2, 2])
         end associate
     end subroutine linearise
+
+    pure subroutine newton(self, t, x, u, force, held)
+        !! Gravity on both; the track under the cart; the rod.
+        class(cart_pendulum_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, x(:), u(:)
+        real(dp), intent(out) :: force(:)
+        type(hyperdual_t), intent(out) :: held(:)
+        type(hyperdual_t) :: rod(3)
+
+        force = 0.0_dp
+        force(2) = -self%m1*self%g
+        force(5) = -self%m2*self%g
+        rod = x(4:6) - x(1:3)
+        held(1) = x(2)
+        held(2) = 0.5_dp/self%l*(self%l**2 - dot_product(rod, rod))
+    end subroutine newton
 end module lagrangia_cart_pendulum

@@ -49,6 +49,8 @@ module lagrangia_description
         type(parameter_t), allocatable :: parameters(:)
         type(quantity_t), allocatable :: quantities(:)   !! beside the energy
         type(point_t), allocatable :: points(:)
+        type(point_t), allocatable :: rotors(:)        !! what turns besides, "mass" in kg m^2
+        type(quantity_t), allocatable :: reactions(:)  !! of `newton`; none: it is not given
         integer :: dimensions = 2                     !! of the space that the points move in
         real(dp) :: energy_scale = 0.0_dp             !! J
         character(line_length) :: energy = ""         !! its formula

@@ -35,6 +35,7 @@ module lagrangia_driven_pendulum
         procedure :: energy
         procedure :: quantity => energy_or_force
         procedure :: positions
+        procedure :: newton
         procedure :: driven
     end type driven_pendulum_t
 
@@ -73,6 +74,7 @@ contains
             d%quantities(1:3:2)%scale = d%energy_scale
         end if
         d%points = [point("bob", self%m)]
+        d%reactions = [quantity("tension", "N", "of the rod: (l^2 - x^2 - (y - y_p)^2)/(2 l) = 0")]
         d%lagrangian = [character(len(d%title)) :: &
             "m/2 (l^2 theta_dot^2 + 2 l theta_dot y_p_dot sin(theta) + y_p_dot^2)", &
             "- m g (y_p - l cos(theta))"]
@@ -212,4 +214,18 @@ contains
             a(:, 1) = -(self%g - self%amplitude*w**2*c)/self%l*s
         end associate
     end subroutine accelerations_lanes
+
+    pure subroutine newton(self, t, x, u, force, held)
+        !! Gravity; the rod from the moving pivot, \((\ell^2 - x^2 - (y - y_p)^2)/2\ell = 0\).
+        class(driven_pendulum_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, x(:), u(:)
+        real(dp), intent(out) :: force(:)
+        type(hyperdual_t), intent(out) :: held(:)
+        type(hyperdual_t) :: y
+
+        force = 0.0_dp
+        force(2) = -self%m*self%g
+        y = x(2) - self%amplitude*cos(self%drive_frequency*t)
+        held(1) = 0.5_dp/self%l*(self%l**2 - x(1)**2 - y**2)
+    end subroutine newton
 end module lagrangia_driven_pendulum

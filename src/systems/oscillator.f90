@@ -4,7 +4,7 @@ module lagrangia_oscillator
     !! The notes write \(\partial L/\partial\dot x = m\,d\dot x/dt\), one derivative too many:
     !! the momentum is \(m\dot x\), and only its time derivative is \(m\ddot x\).
     use lagrangia_description, only: conserved, coordinate, description_t, nonnegative, point, &
-                                     positive, quantity
+                                     positive, quantity, quantity_t
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(-)
     use lagrangia_kinds, only: dp
@@ -28,6 +28,7 @@ module lagrangia_oscillator
         procedure :: linearise
         procedure :: quantity => force_or_momentum
         procedure :: positions
+        procedure :: newton
     end type oscillator_t
 
 contains
@@ -49,6 +50,7 @@ contains
         if (self%k <= 0.0_dp) d%quantities(2) = &
             conserved("p_x", "kg m/s", "m x_dot: momentum, x is cyclic without a spring", 0.0_dp)
         d%points = [point("mass", self%m)]
+        d%reactions = [quantity_t ::]
         d%lagrangian = [character(len(d%title)) :: "m/2 x_dot^2 - k/2 x^2"]
         d%energy = "m/2 x_dot^2 + k/2 x^2"
         d%equations = [character(len(d%title)) :: "m x_ddot + k x = 0"]
@@ -148,4 +150,16 @@ contains
         page%inverse = reshape([1.0_dp/sqrt(self%m)], [1, 1])
         page%omega2 = [self%k/self%m]
     end subroutine linearise
+
+    pure subroutine newton(self, t, x, u, force, held)
+        !! The spring along x; nothing holds the mass.
+        class(oscillator_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, x(:), u(:)
+        real(dp), intent(out) :: force(:)
+        type(hyperdual_t), intent(out) :: held(:)
+
+        held = hyperdual_t()
+        force = 0.0_dp
+        force(1) = -self%k*x(1)%re
+    end subroutine newton
 end module lagrangia_oscillator

@@ -6,8 +6,8 @@ module lagrangia_pendulum
     use lagrangia_description, only: conserved, coordinate, description_t, nonnegative, point, &
                                      positive, quantity
     use lagrangia_errors, only: error_t
-    use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
-                                   operator(-), sin
+    use lagrangia_hyperdual, only: cos, dot_product, hyperdual_t, operator(*), operator(**), &
+                                   operator(+), operator(-), sin
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
     use lagrangia_system, only: check_parameters, lanes, system_t
@@ -33,6 +33,7 @@ module lagrangia_pendulum
         procedure :: forces
         procedure :: quantity => momentum_or_tension
         procedure :: positions
+        procedure :: newton
     end type pendulum_t
 
 contains
@@ -56,6 +57,7 @@ contains
             conserved("L_z", "kg m^2/s", "m l^2 theta_dot: angular momentum, theta is cyclic "// &
                       "without gravity", 0.0_dp)
         d%points = [point("bob", self%m)]
+        d%reactions = [quantity("tension", "N", "of the rod: (l^2 - x^2 - y^2)/(2 l) = 0")]
         d%lagrangian = [character(len(d%title)) :: "m/2 l^2 theta_dot^2 + m g l cos(theta)"]
         d%energy = "m/2 l^2 theta_dot^2 - m g l cos(theta)"
         d%equations = [character(len(d%title)) :: "l theta_ddot + g sin(theta) = 0"]
@@ -189,4 +191,16 @@ contains
             page%inverse = reshape([1.0_dp/(sqrt(m)*l)], [1, 1])
         end associate
     end subroutine linearise
+
+    pure subroutine newton(self, t, x, u, force, held)
+        !! Gravity; the rod, \((\ell^2 - x^2 - y^2)/2\ell = 0\).
+        class(pendulum_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, x(:), u(:)
+        real(dp), intent(out) :: force(:)
+        type(hyperdual_t), intent(out) :: held(:)
+
+        force = 0.0_dp
+        force(2) = -self%m*self%g
+        held(1) = 0.5_dp/self%l*(self%l**2 - dot_product(x, x))
+    end subroutine newton
 end module lagrangia_pendulum

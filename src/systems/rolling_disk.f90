@@ -38,6 +38,8 @@ module lagrangia_rolling_disk
         procedure :: energy
         procedure :: quantity => momentum_or_friction
         procedure :: positions
+        procedure :: newton
+        procedure :: angles
         procedure :: constraint_rows
         procedure :: complete_velocities
         procedure :: pull
@@ -244,4 +246,28 @@ contains
             a(:, 2) = r*(-a(:, 3)*c + phi_dot*theta_dot*s)
         end associate
     end subroutine accelerations_lanes
+
+    pure subroutine angles(self, t, q, phi)
+        !! Roll and heading.
+        class(rolling_disk_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(:)
+        type(hyperdual_t), intent(out) :: phi(:)
+
+        phi = q(3:4)
+    end subroutine angles
+
+    pure subroutine newton(self, t, x, u, force, held)
+        !! Gravity, in axes along the plane and off it; the plane under the disk; rolling.
+        class(rolling_disk_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, x(:), u(:)
+        real(dp), intent(out) :: force(:)
+        type(hyperdual_t), intent(out) :: held(:)
+
+        force = 0.0_dp
+        force(1) = self%m*self%pull()
+        force(3) = -self%m*self%g*cos(self%incline)
+        held(1) = x(3) - self%r
+        held(2) = u(1) - self%r*sin(x(5))*u(4)
+        held(3) = u(2) + self%r*cos(x(5))*u(4)
+    end subroutine newton
 end module lagrangia_rolling_disk

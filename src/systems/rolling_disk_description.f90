@@ -60,6 +60,11 @@ contains
                           self%m*self%r*speed)
         end associate
         d%points = [point("centre", self%m)]
+        d%rotors = [point("roll", self%i_roll), point("heading", self%i_yaw)]
+        d%reactions = [ &
+            quantity("plane_force", "N", "of the plane on the disk, off it: z = r"), &
+            quantity("friction_x", "N", "x_dot - r sin(theta) phi_dot = 0"), &
+            quantity("friction_y", "N", "y_dot + r cos(theta) phi_dot = 0")]
         d%dimensions = 3
         d%lagrangian = [character(len(d%title)) :: &
             "m/2 (x_dot^2 + y_dot^2) + i_roll/2 phi_dot^2 + i_yaw/2 theta_dot^2 "// &

@@ -7,8 +7,8 @@ module lagrangia_rotating_hoop
     use lagrangia_description, only: coordinate, description_t, nonnegative, number, point, &
                                      positive, quantity
     use lagrangia_errors, only: error_t
-    use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
-                                   operator(-), sin
+    use lagrangia_hyperdual, only: cos, dot_product, hyperdual_t, operator(*), operator(**), &
+                                   operator(+), operator(-), sin
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
     use lagrangia_system, only: check_parameters, lanes, system_t
@@ -32,6 +32,7 @@ module lagrangia_rotating_hoop
         procedure :: linearise
         procedure :: quantity => energy_or_torque
         procedure :: positions
+        procedure :: newton
     end type rotating_hoop_t
 
 contains
@@ -63,6 +64,9 @@ contains
             d%quantities(1)%scale = d%energy_scale
         end if
         d%points = [point("bead", self%m)]
+        d%reactions = [ &
+            quantity("side_force", "N", "across the hoop: y cos(omega t) - x sin(omega t) = 0"), &
+            quantity("hoop_force", "N", "to its centre: (r^2 - x^2 - y^2 - z^2)/(2 r) = 0")]
         d%dimensions = 3
         d%lagrangian = [character(len(d%title)) :: &
             "m/2 r^2 (theta_dot^2 + omega^2 sin(theta)^2) + m g r cos(theta)"]
@@ -196,4 +200,17 @@ contains
             page%omega2 = [w2]
         end associate
     end subroutine linearise
+
+    pure subroutine newton(self, t, x, u, force, held)
+        !! Gravity; the hoop's plane, which turns; the hoop.
+        class(rotating_hoop_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, x(:), u(:)
+        real(dp), intent(out) :: force(:)
+        type(hyperdual_t), intent(out) :: held(:)
+
+        force = 0.0_dp
+        force(3) = -self%m*self%g
+        held(1) = x(2)*cos(self%omega*t) - x(1)*sin(self%omega*t)
+        held(2) = 0.5_dp/self%r*(self%r**2 - dot_product(x, x))
+    end subroutine newton
 end module lagrangia_rotating_hoop

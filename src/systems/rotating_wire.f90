@@ -7,7 +7,8 @@ module lagrangia_rotating_wire
     use lagrangia_description, only: conserved, coordinate, description_t, number, point, &
                                      positive, quantity
     use lagrangia_errors, only: error_t
-    use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), sin
+    use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
+                                   operator(-), sin
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
     use lagrangia_system, only: check_parameters, lanes, system_t
@@ -29,6 +30,7 @@ module lagrangia_rotating_wire
         procedure :: linearise
         procedure :: quantity => energy_or_force
         procedure :: positions
+        procedure :: newton
     end type rotating_wire_t
 
 contains
@@ -54,6 +56,8 @@ contains
             quantity("wire_force", "N", "2 m omega r_dot: push of the wire, across it")]
         d%quantities(2)%conserved = abs(self%omega) <= 0.0_dp
         d%points = [point("bead", self%m)]
+        d%reactions = [quantity("wire_force", "N", "of the wire, across it: y cos(omega t) - "// &
+                                "x sin(omega t) = 0")]
         d%lagrangian = [character(len(d%title)) :: "m/2 (r_dot^2 + omega^2 r^2)"]
         d%energy = "m/2 (r_dot^2 - omega^2 r^2)"
         d%equations = [character(len(d%title)) :: "r_ddot = omega^2 r"]
@@ -159,4 +163,15 @@ contains
         page%stiffness = reshape([-self%m*self%omega**2], [1, 1])
         page%omega2 = [-self%omega**2]
     end subroutine linearise
+
+    pure subroutine newton(self, t, x, u, force, held)
+        !! No force but the wire's, across it: \(y\cos\omega t - x\sin\omega t = 0\).
+        class(rotating_wire_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, x(:), u(:)
+        real(dp), intent(out) :: force(:)
+        type(hyperdual_t), intent(out) :: held(:)
+
+        force = 0.0_dp
+        held(1) = x(2)*cos(self%omega*t) - x(1)*sin(self%omega*t)
+    end subroutine newton
 end module lagrangia_rotating_wire

@@ -9,6 +9,7 @@ module lagrangia_system
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
+    use lagrangia_newtonian, only: newtonian_t
     use lagrangia_parameters, only: check_parameter, default_values
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -18,7 +19,7 @@ module lagrangia_system
 
     integer, parameter :: lanes = 8  !! states that `accelerations_lanes` takes at once
 
-    type, abstract :: system_t
+    type, abstract, extends(newtonian_t) :: system_t
         integer :: ndof = 0                  !! number of coordinates
         logical :: velocity_forces = .true.  !! accelerations depend on the velocities
         logical :: time_dependent = .false.  !! the Lagrangian contains the time

@@ -31,6 +31,7 @@ module lagrangia_wedge
         procedure :: energy
         procedure :: quantity => momentum_or_force
         procedure :: positions
+        procedure :: newton
     end type wedge_t
 
 contains
@@ -62,6 +63,10 @@ contains
             conserved("p_q1", "kg m/s", "m (q1_dot + q2_dot cos(alpha)): momentum along the "// &
                       "incline, q1 is cyclic if g sin(alpha) = 0", 0.0_dp)
         d%points = [point("block", self%m_block), point("wedge", self%m_wedge)]
+        d%reactions = [ &
+            quantity("plane_force", "N", "of the plane on the wedge, upwards: y_wedge = 0"), &
+            quantity("normal_force", "N", "of the wedge on the block: (x - q2) sin(alpha) + "// &
+                     "(y - y_wedge) cos(alpha) = 0")]
         d%lagrangian = [character(len(d%title)) :: &
             "(M + m)/2 q2_dot^2 + m/2 (q1_dot^2 + 2 q1_dot q2_dot cos(alpha)) + m g q1 sin(alpha)"]
         d%energy = "(M + m)/2 q2_dot^2 + m/2 (q1_dot^2 + 2 q1_dot q2_dot cos(alpha)) "// &
@@ -203,4 +208,18 @@ contains
             a(:, 2) = -m*g*s*c/d
         end associate
     end subroutine accelerations_lanes
+
+    pure subroutine newton(self, t, x, u, force, held)
+        !! Gravity on both; the plane under the wedge; the incline under the block.
+        class(wedge_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, x(:), u(:)
+        real(dp), intent(out) :: force(:)
+        type(hyperdual_t), intent(out) :: held(:)
+
+        force = 0.0_dp
+        force(2) = -self%m_block*self%g
+        force(5) = -self%m_wedge*self%g
+        held(1) = x(5)
+        held(2) = sin(self%alpha)*(x(1) - x(4)) + cos(self%alpha)*(x(2) - x(5))
+    end subroutine newton
 end module lagrangia_wedge

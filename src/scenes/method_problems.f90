@@ -1,4 +1,4 @@
-module method_problems
+module lagrangia_method_problems
     !! Motions known in closed form, on which methods are measured. The last has a magnetic field.
     use lagrangia_cart_pendulum, only: cart_pendulum_t
     use lagrangia_charged_particle, only: charged_particle_t
@@ -53,4 +53,4 @@ contains
         call method%prepare(system, error)
         refuses = allocated(error)
     end function refuses
-end module method_problems
+end module lagrangia_method_problems

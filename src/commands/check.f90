@@ -1,0 +1,147 @@
+module lagrangia_check
+    !! `lagrangia check [SYSTEM...]`: the audit of systems and methods, a table each.
+    use lagrangia_audit, only: audit_system
+    use lagrangia_audited, only: audited_t, read_audited
+    use lagrangia_catalogue, only: system_names
+    use lagrangia_command_line, only: command_line_t
+    use lagrangia_console, only: put_line
+    use lagrangia_description, only: name_length
+    use lagrangia_errors, only: error_t, fail, status_not_held
+    use lagrangia_findings, only: audit_t, claim_length, finding_t
+    use lagrangia_json, only: json_number, json_string
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_method_orders, only: audit_methods
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: check_command
+
+contains
+
+    subroutine check_command(line, error)
+        !! Audit the systems named, or all of them and the methods; fails if a claim does not hold.
+        type(command_line_t), intent(in) :: line
+        type(error_t), allocatable, intent(out) :: error
+        type(audited_t), allocatable :: audited(:)
+        type(audit_t) :: audit
+        logical :: methods
+        integer :: i
+
+        call choose(line, audited, methods, error)
+        if (allocated(error)) return
+        do i = 1, size(audited)
+            call audit_system(audited(i)%system, audit, audited(i)%fixed, audited(i)%given)
+        end do
+        if (methods) call audit_methods(audit)
+        if (line%has("json")) then
+            call put_json(audit)
+        else
+            call put_tables(audit)
+        end if
+        if (audit%broken() > 0) call fail(error, to_text(audit%broken())//" of "// &
+            to_text(size(audit%findings))//" claims do not hold", status_not_held)
+    end subroutine check_command
+
+    subroutine choose(line, audited, methods, error)
+        !! The systems named, where `methods` is a name too; or everything.
+        type(command_line_t), intent(in) :: line
+        type(audited_t), allocatable, intent(out) :: audited(:)
+        logical, intent(out) :: methods
+        type(error_t), allocatable, intent(out) :: error
+        character(name_length), allocatable :: names(:)
+        integer :: i
+
+        methods = size(line%arguments) == 0
+        if (methods) then
+            allocate (names, source=system_names())
+        else
+            allocate (names(size(line%arguments)))
+            do i = 1, size(names)
+                names(i) = line%arguments(i)%text
+            end do
+            methods = any(names == "methods")
+            names = pack(names, names /= "methods")
+        end if
+        call read_audited(names, line%values_of("set"), audited, error)
+    end subroutine choose
+
+    subroutine put_tables(audit)
+        !! A table for each system, one line a claim.
+        type(audit_t), intent(in) :: audit
+        integer :: i
+
+        do i = 1, size(audit%findings)
+            associate (row => audit%findings(i))
+                if (i == 1) then
+                    call put_head(row%system, "")
+                else if (row%system /= audit%findings(i - 1)%system) then
+                    call put_line("")
+                    call put_head(row%system, "")
+                end if
+                call put_line("  "//row%claim//short(row%worst)//short(row%noise)// &
+                              short(row%bound)//to_wide(row%states)//"  "// &
+                              merge("holds", "FAILS", row%holds))
+                if (row%remark /= "") call put_line("      "//trim(row%remark))
+            end associate
+        end do
+        call put_line("")
+        call put_line(to_text(size(audit%findings))//" claims, "//to_text(audit%broken())// &
+                      " do not hold")
+        call put_line("worst: the residual that is largest beside its noise, relative to the "// &
+                      "terms that add up; noise: what")
+        call put_line("rounding or the difference formula does to it; bound: what is allowed; "// &
+                      "states: random, as are parameters")
+    end subroutine put_tables
+
+    subroutine put_head(name, title)
+        !! Above the columns.
+        character(*), intent(in) :: name, title
+        character(claim_length + 2) :: wide
+
+        wide = trim(name)//title
+        call put_line(wide//"   worst   noise   bound states")
+    end subroutine put_head
+
+    pure function short(value) result(text)
+        !! Two digits.
+        real(dp), intent(in) :: value
+        character(8) :: text
+
+        text = "       0"
+        if (abs(value) > 0.0_dp .or. .not. abs(value) <= 0.0_dp) write (text, "(es8.1e2)") value
+    end function short
+
+    pure function to_wide(number) result(text)
+        !! In seven columns.
+        integer, intent(in) :: number
+        character(7) :: text
+
+        write (text, "(i7)") number
+    end function to_wide
+
+    subroutine put_json(audit)
+        !! The rows as an array of objects.
+        type(audit_t), intent(in) :: audit
+        integer :: i
+
+        call put_line("[")
+        do i = 1, size(audit%findings)
+            call put_line(json_row(audit%findings(i))// &
+                          trim(merge(",", " ", i < size(audit%findings))))
+        end do
+        call put_line("]")
+    end subroutine put_json
+
+    pure function json_row(row) result(json)
+        !! One claim.
+        type(finding_t), intent(in) :: row
+        character(:), allocatable :: json
+
+        json = '{"system": '//json_string(row%system)//', "claim": '//json_string(row%claim)// &
+               ', "worst": '//json_number(row%worst)//', "noise": '//json_number(row%noise)// &
+               ', "bound": '//json_number(row%bound)//', "states": '// &
+               json_number(int(row%states, i8))//', "holds": '// &
+               trim(merge("true ", "false", row%holds))//', "remark": '// &
+               json_string(row%remark)//"}"
+    end function json_row
+end module lagrangia_check

@@ -1,0 +1,114 @@
+module lagrangia_audit
+    !! The audit of a system: every claim it makes, at random states and parameters.
+    !!
+    !! Parameters and states are the same ones in every run. Every second draw puts parameters on
+    !! the edge of their domain (no gravity, no spring), where further quantities are conserved.
+    !! Velocities of a non-holonomic system are completed from the free ones.
+    use lagrangia_audit_equations, only: audit_accelerations, audit_constraints, audit_energy, &
+                                         audit_lanes, audit_momenta, claim_accelerations
+    use lagrangia_audit_motion, only: audit_gauss, audit_inertia, audit_rates, say_reactions
+    use lagrangia_audit_structure, only: audit_cyclic, audit_flags, audit_mass
+    use lagrangia_description, only: description_t
+    use lagrangia_diagnosis, only: diagnose
+    use lagrangia_errors, only: error_t
+    use lagrangia_findings, only: audit_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_random_draws, only: random_t
+    use lagrangia_system, only: default_values, system_t
+    implicit none (type, external)
+    private
+    public :: audit_system, draws
+
+    integer, parameter :: draws = 40  !! of parameters and states
+
+contains
+
+    subroutine audit_system(system, audit, fixed, given)
+        !! Add a row for each claim. On return `system` has the parameters of the last draw.
+        class(system_t), intent(inout) :: system
+        type(audit_t), intent(inout) :: audit
+        logical, intent(in), optional :: fixed(:)    !! parameters that stay as `given`
+        real(dp), intent(in), optional :: given(:)
+        type(random_t) :: random
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+        character(:), allocatable :: remark
+        real(dp), allocatable :: values(:), culprit(:)
+        logical :: all_free
+        integer :: i, row
+
+        call system%describe(d)
+        call audit%begin(trim(d%name))
+        all_free = .true.
+        if (present(fixed)) all_free = .not. any(fixed)
+        do i = 1, draws
+            call random%parameters(system, mod(i, 2) == 0, values, error, fixed, given)
+            if (.not. allocated(error)) &
+                call audit_state(system, random, mod(i, 2) == 1, all_free, audit, error)
+            if (allocated(error)) then
+                call audit%judge("parameters and states are taken", 1.0_dp, 0.0_dp, 1.0_dp)
+                call audit%say("parameters and states are taken", error%message)
+                return
+            end if
+            row = audit%row_of(claim_accelerations)
+            if (audit%findings(row)%holds .or. allocated(culprit)) cycle
+            allocate (culprit, source=values)
+        end do
+        if (allocated(culprit)) then
+            call system%configure(culprit, error)
+            call diagnose(system, remark)
+            call audit%say(claim_accelerations, remark)
+        end if
+        call show_reactions(system, values, d, audit, given)
+    end subroutine audit_system
+
+    subroutine show_reactions(system, values, d, audit, given)
+        !! Tensions and normal forces at one state, with the defaults or the parameters given.
+        class(system_t), intent(inout) :: system
+        real(dp), intent(in) :: values(:)           !! what `system` has
+        type(description_t), intent(in) :: d        !! with the defaults
+        type(audit_t), intent(inout) :: audit
+        real(dp), intent(in), optional :: given(:)
+        type(error_t), allocatable :: error
+        real(dp) :: q(system%ndof), v(system%ndof), free(system%ndof - system%constraints)
+
+        if (present(given)) then
+            call system%configure(given, error)
+        else
+            call system%configure(default_values(d), error)
+        end if
+        q = 0.5_dp
+        free = 1.0_dp
+        call system%complete_velocities(0.0_dp, q, free, v, error)
+        if (.not. allocated(error)) call say_reactions(audit, system, 0.0_dp, q, v)
+        call system%configure(values, error)
+    end subroutine show_reactions
+
+    subroutine audit_state(system, random, inside, all_free, audit, error)
+        !! Every claim, at one state.
+        class(system_t), intent(in) :: system
+        type(random_t), intent(inout) :: random
+        logical, intent(in) :: inside    !! no parameter was put on the edge of its domain
+        logical, intent(in) :: all_free  !! nor was one given
+        type(audit_t), intent(inout) :: audit
+        type(error_t), allocatable, intent(out) :: error
+        real(dp), allocatable :: q(:), v(:), other_q(:), other_v(:)
+        real(dp) :: t, other_t
+
+        call random%state(system, t, q, v, error)
+        if (allocated(error)) return
+        call random%state(system, other_t, other_q, other_v, error)
+        if (allocated(error)) return
+        call audit_accelerations(audit, system, t, q, v)
+        call audit_gauss(audit, system, t, q, v)
+        call audit_constraints(audit, system, t, q, v)
+        call audit_energy(audit, system, t, q, v)
+        call audit_rates(audit, system, t, q, v)
+        call audit_momenta(audit, system, t, q, v)
+        call audit_lanes(audit, system, t, q, v)
+        call audit_inertia(audit, system, t, q, v)
+        if (inside) call audit_mass(audit, system, t, q, v)
+        call audit_cyclic(audit, system, t, q, v)
+        call audit_flags(audit, system, t, q, v, other_t, other_v, inside .and. all_free)
+    end subroutine audit_state
+end module lagrangia_audit

@@ -1,0 +1,110 @@
+module lagrangia_audit_structure
+    !! What a system says of its structure: integrators and small oscillations rely on it.
+    use lagrangia_description, only: description_t
+    use lagrangia_findings, only: audit_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
+    use lagrangia_least_squares, only: smallest_pivot
+    use lagrangia_system, only: system_t
+    implicit none (type, external)
+    private
+    public :: audit_flags, audit_cyclic, audit_mass
+
+    real(dp), parameter :: yes = 0.0_dp, no = 1.0_dp
+
+contains
+
+    subroutine audit_flags(audit, system, t, q, v, other_t, other_v, generic)
+        !! `velocity_forces` and `time_dependent` say what is true: one that is false always, one
+        !! that is true for parameters off the edges of their domains. Equal means equal bits.
+        type(audit_t), intent(inout) :: audit
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(:), v(:), other_t, other_v(:)
+        logical, intent(in) :: generic
+        type(euler_lagrange_t) :: terms, later
+        real(dp) :: by_velocity, by_time
+        logical :: bound
+
+        by_velocity = change(system, t, q, v, t, other_v)
+        by_time = change(system, t, q, v, other_t, v)
+        ! on rolling systems other velocities would also have to roll
+        bound = system%constraints > 0
+        if (.not. system%velocity_forces) then
+            call verdict(by_velocity <= 0.0_dp, "velocity_forces", &
+                         "velocity_forces is false, yet the accelerations depend on velocities")
+        else if (generic .and. .not. bound) then
+            call verdict(by_velocity > 0.0_dp, "velocity_forces", &
+                         "velocity_forces is true, yet no acceleration depends on a velocity")
+        end if
+        call expand_lagrangian(system, t, q, v, terms)
+        call expand_lagrangian(system, other_t, q, v, later)
+        if (.not. system%time_dependent) then
+            call verdict(by_time <= 0.0_dp, "time_dependent", &
+                         "time_dependent is false, yet the accelerations depend on the time")
+            call verdict(abs(later%l - terms%l) <= 0.0_dp, "time_dependent", &
+                         "time_dependent is false, yet L depends on the time")
+        else if (generic) then
+            call verdict(abs(later%l - terms%l) > 0.0_dp, "time_dependent", &
+                         "time_dependent is true, yet L has no time in it")
+        end if
+    contains
+        subroutine verdict(good, flag, remark)
+            logical, intent(in) :: good
+            character(*), intent(in) :: flag, remark
+
+            call audit%judge(flag//" says what is true", merge(yes, no, good), epsilon(yes), 1.0_dp)
+            if (.not. good) call audit%say(flag//" says what is true", remark)
+        end subroutine verdict
+    end subroutine audit_flags
+
+    function change(system, t, q, v, other_t, other_v) result(difference)
+        !! Of the accelerations between two times and velocities.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(:), v(:), other_t, other_v(:)
+        real(dp) :: difference
+        real(dp) :: a(size(q)), b(size(q))
+
+        call system%accelerations(t, q, v, a)
+        call system%accelerations(other_t, q, other_v, b)
+        difference = maxval(abs(a - b))
+    end function change
+
+    subroutine audit_cyclic(audit, system, t, q, v)
+        !! The slope of L along the cyclic coordinate is zero, and there is such a coordinate.
+        type(audit_t), intent(inout) :: audit
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(:), v(:)
+        character(*), parameter :: claim = "the cyclic coordinate is cyclic"
+        type(euler_lagrange_t) :: terms
+        type(description_t) :: d
+
+        if (system%cyclic == 0) return
+        if (system%cyclic < 0 .or. system%cyclic > system%ndof) then
+            call audit%judge(claim, no, epsilon(no), 1.0_dp)
+            call audit%say(claim, "there is no coordinate of that number")
+            return
+        end if
+        call expand_lagrangian(system, t, q, v, terms)
+        call audit%judge(claim, abs(terms%dl_dq(system%cyclic)) &
+                         /(maxval(abs(terms%dl_dq)) + tiny(no)), epsilon(no), 1.0_dp)
+        if (abs(terms%dl_dq(system%cyclic)) <= 0.0_dp) return
+        call system%describe(d)
+        call audit%say(claim, "L depends on "//d%coordinates(system%cyclic)%name)
+    end subroutine audit_cyclic
+
+    subroutine audit_mass(audit, system, t, q, v)
+        !! \(\partial^2 L/\partial v\,\partial v\) is positive definite: by Cholesky, of the matrix
+        !! scaled to a diagonal of ones. The number shown is what the smallest pivot lacks of 1.
+        type(audit_t), intent(inout) :: audit
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(:), v(:)
+        character(*), parameter :: claim = "mass matrix is positive definite"
+        type(euler_lagrange_t) :: terms
+        real(dp) :: lack
+
+        call expand_lagrangian(system, t, q, v, terms)
+        lack = 1.0_dp - smallest_pivot(terms%mass)
+        call audit%judge(claim, lack, 1.0_dp - 100.0_dp*epsilon(lack), 1.0_dp)
+        if (.not. lack < 1.0_dp) call audit%say(claim, "a pivot is zero or negative")
+    end subroutine audit_mass
+end module lagrangia_audit_structure

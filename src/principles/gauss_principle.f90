@@ -1,0 +1,151 @@
+module lagrangia_gauss_principle
+    !! Gauss's principle of least constraint: of all accelerations that the constraints allow, the
+    !! actual ones make
+    !! $$ Z = \sum_i m_i\left(\ddot x_i - \frac{F_i}{m_i}\right)^2 $$
+    !! least. From Cartesian masses, forces and constraints alone, without a Lagrangian: an
+    !! independent witness of the equations of motion, also of non-holonomic systems.
+    !!
+    !! Constraints \(c(t, x) = 0\), differentiated twice, and \(g(t, x, \dot x) = 0\), linear in
+    !! \(\dot x\), differentiated once, are \(A\ddot x = b\). The force that they exert is
+    !! \(m\ddot x - F = A^\top\lambda\): \(\lambda\) is the tension or the normal force.
+    !!
+    !! Source: C. F. Gauss, J. reine angew. Math. 4, 232 (1829).
+    use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_hyperdual, only: hyperdual_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_least_squares, only: constrained_least_squares, least_squares
+    use lagrangia_system, only: system_t
+    implicit none (type, external)
+    private
+    public :: cartesian_t, least_constraint, new_cartesian
+
+    type :: cartesian_t
+        !! A state as Newton has it, and what Gauss makes of it. `n` Cartesian coordinates, `k`
+        !! constraints.
+        real(dp), allocatable :: mass(:)           !! (n), kg; kg m^2 of an angle
+        real(dp), allocatable :: x(:), x_dot(:)    !! (n), m or rad, and per s
+        real(dp), allocatable :: x_ddot(:)         !! (n), as the system's accelerations have it
+        real(dp), allocatable :: force(:)          !! (n), applied, N
+        real(dp), allocatable :: slope(:, :)       !! \(A\), (k, n)
+        real(dp), allocatable :: right(:)          !! \(b\), (k)
+        real(dp), allocatable :: held(:)           !! (k), zero if the state is one
+        real(dp), allocatable :: acceleration(:)   !! (n), Gauss's
+        real(dp), allocatable :: reaction(:)       !! \(\lambda\), (k)
+    contains
+        procedure :: least => least_of
+    end type cartesian_t
+
+contains
+
+    pure subroutine least_constraint(system, t, q, v, c, error)
+        !! Accelerations and reactions at one state; fails where the system has no `newton`.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        type(cartesian_t), intent(out) :: c
+        type(error_t), allocatable, intent(out) :: error
+        real(dp) :: a(system%ndof)
+
+        call system%accelerations(t, q, v, a)
+        call new_cartesian(system, t, q, v, a, c, error)
+        if (allocated(error)) return
+        call c%least(error)
+    end subroutine least_constraint
+
+    pure subroutine new_cartesian(system, t, q, v, a, c, error)
+        !! From generalised coordinates, velocities and accelerations to Cartesian ones; masses,
+        !! forces, and the constraints as \(A\ddot x = b\).
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof), a(system%ndof)
+        type(cartesian_t), intent(out) :: c
+        type(error_t), allocatable, intent(out) :: error
+        type(description_t) :: d
+        type(hyperdual_t) :: path(system%ndof)
+        type(hyperdual_t), allocatable :: r(:, :), x(:)
+        integer :: i, points, rotors
+
+        call system%describe(d)
+        if (.not. allocated(d%reactions)) then
+            call fail(error, trim(d%name)//" does not say what acts on its points")
+            return
+        end if
+        points = size(d%points)
+        rotors = 0
+        if (allocated(d%rotors)) rotors = size(d%rotors)
+        allocate (r(3, points), x(3*points + rotors), c%mass(3*points + rotors))
+        path%re = q
+        path%d1 = v
+        path%d2 = v
+        path%d12 = a
+        call system%positions(hyperdual_t(t, 1.0_dp, 1.0_dp, 0.0_dp), path, r)
+        x(:3*points) = reshape(r, [3*points])
+        do i = 1, points
+            c%mass(3*i - 2:3*i) = d%points(i)%mass
+        end do
+        if (rotors > 0) then
+            call system%angles(hyperdual_t(t, 1.0_dp, 1.0_dp, 0.0_dp), path, x(3*points + 1:))
+            c%mass(3*points + 1:) = d%rotors%mass
+        end if
+        allocate (c%x(size(x)), c%x_dot(size(x)), c%x_ddot(size(x)))
+        c%x = x%re
+        c%x_dot = x%d1
+        c%x_ddot = x%d12
+        call linearise(system, t, size(d%reactions), c)
+    end subroutine new_cartesian
+
+    pure subroutine linearise(system, t, k, c)
+        !! Forces; slopes of the constraints, one coordinate after the other; their rates at
+        !! constant velocity.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t
+        integer, intent(in) :: k
+        type(cartesian_t), intent(inout) :: c
+        type(hyperdual_t), dimension(size(c%x)) :: x, u
+        type(hyperdual_t) :: held(k)
+        integer :: i, holonomic
+
+        holonomic = k - system%constraints
+        allocate (c%force(size(c%x)), c%slope(k, size(c%x)), c%right(k), c%held(k))
+        x%re = c%x
+        u%re = c%x_dot
+        do i = 1, size(c%x)
+            x(i)%d1 = 1.0_dp
+            call system%newton(hyperdual_t(re=t), x, u, c%force, held)
+            c%slope(:holonomic, i) = held(:holonomic)%d1
+            x(i)%d1 = 0.0_dp
+            u(i)%d1 = 1.0_dp
+            call system%newton(hyperdual_t(re=t), x, u, c%force, held)
+            c%slope(holonomic + 1:, i) = held(holonomic + 1:)%d1
+            u(i)%d1 = 0.0_dp
+        end do
+        x%d1 = c%x_dot
+        x%d2 = c%x_dot
+        call system%newton(hyperdual_t(t, 1.0_dp, 1.0_dp, 0.0_dp), x, u, c%force, held)
+        c%held = held%re
+        c%right(:holonomic) = -held(:holonomic)%d12
+        c%right(holonomic + 1:) = -held(holonomic + 1:)%d1
+    end subroutine linearise
+
+    pure subroutine least_of(self, error)
+        !! Minimise \(Z\); then the multipliers from \(A^\top\lambda = m\ddot x - F\).
+        class(cartesian_t), intent(inout) :: self
+        type(error_t), allocatable, intent(out) :: error
+        real(dp) :: weight(size(self%x), size(self%x)), wanted(size(self%x))
+        real(dp) :: directions(size(self%x), size(self%right))
+        integer :: i
+
+        weight = 0.0_dp
+        wanted = 0.0_dp
+        do i = 1, size(self%x)
+            weight(i, i) = sqrt(self%mass(i))
+            if (self%mass(i) > 0.0_dp) wanted(i) = self%force(i)/weight(i, i)
+        end do
+        allocate (self%acceleration(size(self%x)), self%reaction(size(self%right)))
+        call constrained_least_squares(weight, wanted, self%slope, self%right, &
+                                       self%acceleration, error)
+        if (allocated(error)) return
+        wanted = self%mass*self%acceleration - self%force
+        directions = transpose(self%slope)
+        call least_squares(directions, wanted, self%reaction, error)
+    end subroutine least_of
+end module lagrangia_gauss_principle

@@ -1,0 +1,99 @@
+module lagrangia_random_draws
+    !! Parameters and states at random, the same ones in every run.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_system, only: default_values, system_t
+    implicit none (type, external)
+    private
+    public :: random_t
+
+    integer(i8), parameter :: first_seed = 20110901_i8
+
+    type :: random_t
+        !! A sequence of numbers.
+        integer(i8), private :: seed = first_seed
+    contains
+        procedure :: uniform
+        procedure :: parameters
+        procedure :: state
+    end type random_t
+
+contains
+
+    subroutine uniform(self, lower, upper, x)
+        !! The next number between `lower` and `upper`.
+        !!
+        !! Source: Park & Miller, Comm. ACM 31, 1192 (1988), with the multiplier of 1993.
+        class(random_t), intent(inout) :: self
+        real(dp), intent(in) :: lower, upper
+        real(dp), intent(out) :: x
+        integer(i8), parameter :: modulus = 2147483647_i8
+
+        self%seed = mod(48271_i8*self%seed, modulus)
+        x = lower + (upper - lower)*real(self%seed, dp)/modulus
+    end subroutine uniform
+
+    subroutine parameters(self, system, edges, values, error, fixed, given)
+        !! Parameters unlike 1 and unlike each other; with `edges` some lie on the edge of their
+        !! domain, or are zero, and some that have a formula are left to it. The `fixed` ones are
+        !! as `given`.
+        class(random_t), intent(inout) :: self
+        class(system_t), intent(inout) :: system
+        logical, intent(in) :: edges
+        real(dp), allocatable, intent(out) :: values(:)   !! what `system` was given
+        type(error_t), allocatable, intent(out) :: error  !! it refused them
+        logical, intent(in), optional :: fixed(:)
+        real(dp), intent(in), optional :: given(:)
+        type(description_t) :: d
+        real(dp) :: lowest, chance
+        integer :: i, j, k
+
+        call system%describe(d)
+        allocate (values, source=default_values(d))
+        k = 0
+        do i = 1, size(d%parameters)
+            associate (p => d%parameters(i))
+                lowest = max(p%lower, -2.0_dp)
+                if (p%open_lower) lowest = p%lower + 0.2_dp
+                do j = 1, p%count
+                    k = k + 1
+                    call self%uniform(lowest, min(p%upper, lowest + 4.0_dp), values(k))
+                    call self%uniform(0.0_dp, 1.0_dp, chance)
+                    if (.not. edges .or. chance > 0.4_dp) cycle
+                    if (len_trim(p%computed) > 0) then
+                        values(k) = ieee_value(1.0_dp, ieee_quiet_nan)
+                    else if (.not. p%open_lower) then
+                        values(k) = merge(p%lower, 0.0_dp, p%lower > -huge(1.0_dp))
+                    end if
+                end do
+            end associate
+        end do
+        if (present(fixed) .and. present(given)) then
+            where (fixed) values = given
+        end if
+        call system%configure(values, error)
+    end subroutine parameters
+
+    subroutine state(self, system, t, q, v, error)
+        !! A time, coordinates, and velocities that the constraints allow.
+        class(random_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(out) :: t
+        real(dp), allocatable, intent(out) :: q(:), v(:)
+        type(error_t), allocatable, intent(out) :: error  !! there are none
+        real(dp) :: given(system%ndof - system%constraints)
+        integer :: i
+
+        allocate (q(system%ndof), v(system%ndof))
+        call self%uniform(-2.0_dp, 3.0_dp, t)
+        do i = 1, system%ndof
+            call self%uniform(-3.0_dp, 3.0_dp, q(i))
+        end do
+        do i = 1, size(given)
+            call self%uniform(-3.0_dp, 3.0_dp, given(i))
+        end do
+        call system%complete_velocities(t, q, given, v, error)
+    end subroutine state
+end module lagrangia_random_draws
