@@ -81,6 +81,7 @@ module suites
     use test_small_oscillations, only: small_oscillations_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
+    use test_virtual_work, only: virtual_work_suite
     implicit none (type, external)
     private
     public :: load_tests
@@ -174,6 +175,7 @@ contains
         call suite%addTest(small_oscillations_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(text_suite())
+        call suite%addTest(virtual_work_suite())
     end function load_tests
 end module suites
 

@@ -8,10 +8,12 @@ module test_action
     use lagrangia_discrete_action, only: action_gradient, action_of, expand_action, find_path, &
                                          negative_curvatures
     use lagrangia_double_pendulum, only: double_pendulum_t
+    use lagrangia_driven_pendulum, only: driven_pendulum_t
     use lagrangia_errors, only: error_t
-    use lagrangia_kinds, only: dp
+    use lagrangia_kinds, only: dp, i8
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_pendulum, only: pendulum_t
+    use lagrangia_rk4, only: new_rk4, rk4_t
     use lagrangia_system, only: system_t
     use lagrangia_walker, only: walker_t
     implicit none (type, external)
@@ -227,17 +229,29 @@ contains
     end subroutine hopeless_paths_are_refused
 
     subroutine walker_starts_at_the_start()
-        !! Sample 1 is the start, sample 2 one step on; an unknown method is refused.
+        !! Sample 1 is the start, sample 2 one step on, also where the time matters; an unknown
+        !! method is refused.
         type(oscillator_t) :: system
         type(walker_t) :: walker
         type(error_t), allocatable :: error
-        real(dp) :: q(1, 3), v(1, 3)
+        type(driven_pendulum_t) :: driven
+        type(rk4_t) :: rk4
+        real(dp) :: q(1, 3), v(1, 3), angle(1), rate(1)
 
         call build(system, [1.0_dp, 4.0_dp])
         call walker%make("rk4", system, 0.0_dp, 0.01_dp, [0.3_dp], [0.7_dp], q, v, error)
         call assertFalse(allocated(error))
         call assertEqual([0.3_dp, 0.3_dp*cos(0.02_dp) + 0.35_dp*sin(0.02_dp), &
                           0.3_dp*cos(0.04_dp) + 0.35_dp*sin(0.04_dp)], q(1, :), 1e-9_dp)
+        call driven%configure([0.5_dp, 0.8_dp, 9.81_dp, 0.1_dp, 5.0_dp], error)
+        call assertFalse(allocated(error))
+        call walker%make("rk4", driven, 0.3_dp, 0.05_dp, [0.3_dp], [0.7_dp], q, v, error)
+        call new_rk4(rk4)
+        call rk4%prepare(driven, error)
+        angle = 0.3_dp
+        rate = 0.7_dp
+        call rk4%advance(driven, 0.3_dp, 0.05_dp, 0_i8, 2_i8, angle, rate)
+        call assertEqual([angle(1), rate(1)], [q(1, 3), v(1, 3)], 0.0_dp)
         call walker%make("rk5", system, 0.0_dp, 0.01_dp, [0.3_dp], [0.7_dp], q, v, error)
         call assertTrue(allocated(error))
     end subroutine walker_starts_at_the_start

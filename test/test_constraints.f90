@@ -3,7 +3,7 @@ module test_constraints
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_constraints, only: loop_of_disk
     use lagrangia_errors, only: error_t
-    use lagrangia_hyperdual, only: hyperdual, hyperdual_t, operator(*), operator(**)
+    use lagrangia_hyperdual, only: hyperdual, hyperdual_t, operator(*), operator(**), operator(-)
     use lagrangia_kinds, only: dp
     use lagrangia_lapack_rank, only: matrix_rank
     use lagrangia_lecture_constraints, only: classify, example_point, examples, &
@@ -22,6 +22,13 @@ module test_constraints
     contains
         procedure :: forms => engel_forms
     end type engel_t
+
+    type, extends(pfaffian_t) :: leaf_t
+        !! \(dz - y\,dx = 0\) on the leaves \(w - xz^2 - yz = c\): brackets add one direction to two,
+        !! and none leaves the leaf.
+    contains
+        procedure :: forms => leaf_forms
+    end type leaf_t
 
 contains
 
@@ -167,6 +174,7 @@ contains
         !! Engel's form grows 2, 3, 4. With \(dy - z^3dx\), \(dz - w\,dx\) the third dimension of
         !! \(z = 0\) comes from w alone, and y needs more brackets than are taken.
         type(engel_t) :: engel
+        type(leaf_t) :: leaf
         type(error_t), allocatable :: error
         integer :: dimensions(3)
 
@@ -180,6 +188,11 @@ contains
         call engel%growth([0.3_dp, -0.4_dp, 0.7_dp, 0.2_dp, 0.0_dp], dimensions, error)
         call assertEqual([2, 3, 4], dimensions)
         call engel%growth([0.3_dp, -0.4_dp, 0.0_dp, 0.2_dp, 0.0_dp], dimensions, error)
+        call assertEqual([2, 3, 3], dimensions)
+        leaf%coordinates = 4
+        leaf%rows = 2
+        leaf%timed = .false.
+        call leaf%growth([0.3_dp, -0.4_dp, 0.7_dp, 0.2_dp, 0.0_dp], dimensions, error)
         call assertEqual([2, 3, 3], dimensions)
     end subroutine brackets_of_brackets
 
@@ -212,4 +225,19 @@ contains
         a(2, 1) = (-1.0_dp)*x(4)
         a(2, 3) = hyperdual(1.0_dp)
     end subroutine engel_forms
+
+    pure subroutine leaf_forms(self, x, a)
+        !! Coordinates x, y, z, w.
+        class(leaf_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: x(self%coordinates + 1)
+        type(hyperdual_t), intent(out) :: a(self%rows, self%coordinates + 1)
+
+        a = hyperdual_t()
+        a(1, 1) = (-1.0_dp)*x(2)
+        a(1, 3) = hyperdual(1.0_dp)
+        a(2, 1) = (-1.0_dp)*x(3)**2
+        a(2, 2) = (-1.0_dp)*x(3)
+        a(2, 3) = (-2.0_dp)*x(1)*x(3) - x(2)
+        a(2, 4) = hyperdual(1.0_dp)
+    end subroutine leaf_forms
 end module test_constraints

@@ -82,6 +82,8 @@ contains
         call assertEqual(5, report%misses())
         differences = report%rows(7:)%difference
         call assertEqual([0.0_dp, 0.25_dp, 1.0_dp], differences, 1e-15_dp)
+        call assertTrue(index(statement_line(report%rows(1)), "  holds") > 0)
+        call assertTrue(index(statement_line(report%rows(6)), "  fails") > 0)
         call assertTrue(index(statement_line(report%rows(2)), "FAILS !") > 0)
         call assertTrue(index(statement_line(report%rows(5)), "HOLDS !") > 0)
     end subroutine rows_are_judged

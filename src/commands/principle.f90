@@ -15,6 +15,7 @@ module lagrangia_principle
     use lagrangia_scene_files, only: draw
     use lagrangia_system, only: system_box_t
     use lagrangia_text, only: nearest_name, quoted, to_text
+    use lagrangia_virtual_work, only: virtual_work_principle
     use lagrangia_walker, only: walker_t
     implicit none (type, external)
     private
@@ -29,7 +30,8 @@ module lagrangia_principle
         principle_t("action", "Hamilton: the actual path makes the action stationary"), &
         principle_t("constraints", "holonomic or not, fixed or moving; degrees of freedom"), &
         principle_t("gauge", "uniqueness: L and L + dF/dt tell the same motion"), &
-        principle_t("least-time", "Hero, Fermat: light takes a path of stationary time")]
+        principle_t("least-time", "Hero, Fermat: light takes a path of stationary time"), &
+        principle_t("virtual-work", "d'Alembert: constraint forces do no virtual work; Q_j")]
 
 contains
 
@@ -86,6 +88,9 @@ contains
             call gauge_principle(systems, report, error)
         case ("least-time")
             call least_time_principle(walker, report, error)
+        case ("virtual-work")
+            call every_system(systems)
+            call virtual_work_principle(systems, walker, report, error)
         case default
             near = nearest_name(name, principle_names())
             if (near /= "") then

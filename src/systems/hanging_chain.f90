@@ -6,8 +6,8 @@ module lagrangia_hanging_chain
     use lagrangia_description, only: conserved, coordinate, count_of, description_t, nonnegative, &
                                      point, positive, quantity
     use lagrangia_errors, only: error_t
-    use lagrangia_hyperdual, only: assignment(=), cos, hyperdual_t, operator(*), operator(**), &
-                                   operator(+), operator(-), sin
+    use lagrangia_hyperdual, only: assignment(=), cos, dot_product, hyperdual_t, operator(*), &
+                                   operator(**), operator(+), operator(-), sin
     use lagrangia_kinds, only: dp
     use lagrangia_laguerre, only: laguerre_zeros
     use lagrangia_linearised, only: linearised_t
@@ -34,6 +34,7 @@ module lagrangia_hanging_chain
         procedure :: linearise
         procedure :: quantity => momentum_or_tension
         procedure :: positions
+        procedure :: newton
     end type hanging_chain_t
 
 contains
@@ -61,6 +62,8 @@ contains
             conserved("L_z", "kg m^2/s", "sum of m (x y_dot - y x_dot): angular momentum about "// &
                       "the pivot, conserved without gravity", 0.0_dp)
         d%points = [(point("bob"//to_text(k), self%m), k=1, self%n)]
+        d%reactions = [(quantity("tension"//to_text(k), "N", "of rod "//to_text(k)// &
+                                 ": (l/n - (r_k - r_(k-1))^2 n/l)/2 = 0"), k=1, self%n)]
         d%lagrangian = [character(len(d%title)) :: &
             "sum over k of m/2 (x_k_dot^2 + y_k_dot^2) - m g y_k", &
             "x_k = l/n sum over i <= k of sin(theta_i), y_k = -l/n sum of cos(theta_i)"]
@@ -228,6 +231,26 @@ contains
             end do
         end associate
     end subroutine positions
+
+    pure subroutine newton(self, t, x, u, force, held)
+        !! Gravity; each rod, \((\ell^2 - (\mathbf r_k - \mathbf r_{k-1})^2)/2\ell = 0\).
+        class(hanging_chain_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, x(:), u(:)
+        real(dp), intent(out) :: force(:)
+        type(hyperdual_t), intent(out) :: held(:)
+        type(hyperdual_t) :: rod(3)
+        integer :: k
+
+        force = 0.0_dp
+        force(2::3) = -self%m*self%g
+        associate (l => self%l/self%n)
+            do k = 1, self%n
+                rod = x(3*k - 2:3*k)
+                if (k > 1) rod = rod - x(3*k - 5:3*k - 3)
+                held(k) = 0.5_dp/l*(l**2 - dot_product(rod, rod))
+            end do
+        end associate
+    end subroutine newton
 
     pure subroutine linearise(self, q, page)
         !! \(M_{ij} = m\ell^2\,(n + 1 - \max(i, j))\), \(K_{ii} = mg\ell\,(n + 1 - i)\), with signs
