@@ -243,6 +243,7 @@ contains
         !! With the residual force and the nearest equilibrium.
         call no_modes("rotating_hoop", [1.167_dp], "not an equilibrium of rotating_hoop: the "// &
                       "force on theta is 0.0117746253")
+        call no_modes("pendulum", [1.0_dp], "the nearest is --at 0.0")
         call no_modes("rotating_hoop", [1.167_dp], "N m; the nearest is --at 1.1675569038050")
         call no_modes("wedge", [0.0_dp, 0.0_dp], "N; none is near")
         call no_modes("pendulum", [0.0_dp, 1.0_dp], "--at takes 1 values for pendulum, not 2")

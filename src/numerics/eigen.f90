@@ -85,6 +85,7 @@ contains
         end if
         do j = 1, size(a, 2)
             do i = 1, j
+                if (abs(a(i, j) - a(j, i)) <= 0.0_dp) cycle  ! finite, too
                 if (.not. (ieee_is_finite(a(i, j)) .and. ieee_is_finite(a(j, i)))) then
                     call fail(error, name//"("//to_text(i)//", "//to_text(j)//") is not finite")
                 else if (abs(a(i, j) - a(j, i)) > 8.0_dp*epsilon(a)*max( &
@@ -101,13 +102,16 @@ contains
     pure subroutine orient(modes)
         !! Signs vary with the BLAS: let the largest component be positive (the first of equals).
         real(dp), intent(inout) :: modes(:, :)
+        real(dp) :: enough
         integer :: j, k
 
         do j = 1, size(modes, 2)
-            k = findloc(abs(modes(:, j)) >= (1.0_dp - 1e-8_dp)*maxval(abs(modes(:, j))), .true., 1)
-            if (k > 0) then
+            enough = (1.0_dp - 1e-8_dp)*maxval(abs(modes(:, j)))
+            do k = 1, size(modes, 1)
+                if (abs(modes(k, j)) < enough) cycle
                 if (modes(k, j) < 0.0_dp) modes(:, j) = -modes(:, j)
-            end if
+                exit
+            end do
         end do
     end subroutine orient
 
