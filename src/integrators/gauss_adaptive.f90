@@ -142,6 +142,10 @@ contains
             call self%inside%keep(self%t_new, self%s%q, self%s%v)
             call take_step(self, system, good)
             if (.not. good) exit
+            if (.not. self%dense) then
+                call self%inside%keep(self%t_new, self%s%q, self%s%v)
+                return
+            end if
             call self%inside%fit(system, self%t_new, self%s%q, self%s%v, self%s%known, &
                                  self%weight, good)
             self%evaluations = self%evaluations + 2*stages*self%inside%sweeps
