@@ -186,6 +186,7 @@ contains
             good = self%t_new + 0.25_dp*h > self%t_new
             if (.not. good) return
             call self%s%guess(self%t_new, h)
+            call self%s%coast()
             call solve(self, system, sweeps, ratio, good)
             self%evaluations = self%evaluations + stages*min(sweeps, most_sweeps)
             if (good) exit
@@ -204,8 +205,9 @@ contains
         self%t_old = self%t_new
         self%t_new = to
         grow = min(2.0_dp, safety*ratio)
-        if (self%won*(grow**4/best_rate)**(sweeps - 1) > 1.0_dp) &
+        if (self%won*(grow**4/best_rate)**(sweeps - 1) > 1.0_dp) then
             grow = (best_rate/self%won**(1.0_dp/(sweeps - 1)))**0.25_dp
+        end if
         self%h = merge(max(self%h, grow*h), grow*h, cut)
     end subroutine take_step
 
@@ -244,7 +246,7 @@ contains
         first = 1.0_dp
         last = 1.0_dp
         do sweeps = 1, most_sweeps
-            call self%s%sweep(system, .false.)
+            call self%s%sweep(system, exact=.false.)
             if (sweeps == 1) all = self%s%all_of(self%weight)
             change = self%s%change(self%weight)
             good = .false.
