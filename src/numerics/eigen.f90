@@ -57,6 +57,7 @@ contains
             call fail(error, "LAPACK found no eigenvalues (info = "//to_text(info)//")", &
                       status_library)
         end if
+        if (.not. (allocated(error) .or. all(ieee_is_finite(omega2)))) call out_of_range(error)
         do i = 1, n
             if (allocated(error)) exit
             if (factor(i, i)**2 <= 4*n*epsilon(1.0_dp)*inertia(i, i)) call fail(error, &
@@ -156,8 +157,20 @@ contains
         do j = rank + 1, n
             modes(:, n + 1 - j) = matmul(inverse, u(:, j))
         end do
+        if (.not. (all(ieee_is_finite(omega2)) .and. all(ieee_is_finite(modes)))) then
+            call out_of_range(error)
+            return
+        end if
         call orient(modes)
     end subroutine modes_from_factors
+
+    pure subroutine out_of_range(error)
+        !! Where products of what is given overflow.
+        type(error_t), allocatable, intent(out) :: error
+
+        call fail(error, "M or K, or omega^2, is beyond the range of doubles: other units are "// &
+                  "needed", status_library)
+    end subroutine out_of_range
 
     pure function residual_ratio(stiffness, inertia, omega2, modes) result(ratio)
         !! LAPACK's own measure \(\|KZ - MZ\Lambda\|/(\|K\|\,\|Z\|\,n\,\epsilon)\) in the 1-norm:
