@@ -122,6 +122,7 @@ contains
                 if (allocated(modes%page%omega2)) call assertEqual( &
                     modes%page%omega2, modes%omega2, 1e-13_dp*maxval(abs(modes%omega2)), &
                     trim(d%name)//": closed form")
+                call assertLessThan(modes%ratio, 30.0_dp, message=trim(d%name)//": residual")
             end do
         end do
         call assertTrue(by_hand >= 60, message="systems with a page")
@@ -146,6 +147,7 @@ contains
                                         0.5_dp, 1.0_dp], [0.0_dp, 0.0_dp, 0.0_dp], modes)
         call assertEqual([0.780776406404415137_dp, 1.0_dp, 1.28077640640441514_dp], &
                          sqrt(modes%omega2), 1e-14_dp)
+        call assertLessThan(modes%ratio, 30.0_dp, message="gyroscopic residual")
     end subroutine other_equilibria
 
     subroutine modes_are_normalised()
@@ -233,8 +235,8 @@ contains
         bad = good
         bad(1, 2) = 0.5_dp + 1e-14_dp
         call refused(bad, good, "K is not symmetric: K(1, 2) = 0.50000000000001, K(2, 1) = 0.5")
-        call refused(good*1e200_dp, good*1e-200_dp, "M or K, or omega^2, is beyond the range of "// &
-                     "doubles: other units are needed")
+        call refused(good*1e200_dp, good*1e-200_dp, "M or K, or omega^2, is beyond the range "// &
+                     "of doubles: other units are needed")
         bad = 0.5_dp  ! rounding decides whether Cholesky's method notices
         call refused(good, bad, "M is singular to working precision: its leading minor of "// &
                      "order 2 vanishes")
