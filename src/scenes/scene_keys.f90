@@ -191,8 +191,8 @@ contains
         call get_strings(tree, "scene", "event_columns", 1, most, scene%event_columns, error)
         if (allocated(error)) return
         if (any(of_the_run(scene%event_columns))) then
-            call refuse_value(tree, "scene", "event_columns", "errors and drifts are columns of "// &
-                              "the run, not of its events", error, &
+            call refuse_value(tree, "scene", "event_columns", &
+                              "errors and drifts are columns of the run, not of its events", error, &
                               findloc(of_the_run(scene%event_columns), .true., 1))
             return
         end if
