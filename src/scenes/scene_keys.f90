@@ -192,8 +192,8 @@ contains
         if (allocated(error)) return
         if (any(of_the_run(scene%event_columns))) then
             call refuse_value(tree, "scene", "event_columns", &
-                              "errors and drifts are columns of the run, not of its events", error, &
-                              findloc(of_the_run(scene%event_columns), .true., 1))
+                              "errors and drifts are columns of the run, not of its events", &
+                              error, findloc(of_the_run(scene%event_columns), .true., 1))
             return
         end if
         call get_event_key("event_plot")
