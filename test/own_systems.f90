@@ -30,12 +30,12 @@ module own_systems
     end type own_pivot_t
 
     type, extends(lagrangian_system_t) :: own_slope_t
-        !! A mass that \(\dot y = c\,\dot x\) keeps on a slope: two coordinates, one constraint.
+        !! A mass that \(\dot y = c\,\dot x\) keeps on a slope. Set `constraints` to 1.
     contains
         procedure :: outline => slope_outline
-        procedure :: configure => slope_configure
         procedure :: lagrangian => slope_lagrangian
         procedure :: constraint_rows => slope_rows
+        procedure :: complete_velocities => slope_velocities
     end type own_slope_t
 
     type, extends(lagrangian_system_t) :: own_skin_t
@@ -140,15 +140,6 @@ contains
         d%parameters = [number("c", "1", "slope", 0.75_dp)]
     end subroutine slope_outline
 
-    pure subroutine slope_configure(self, values, error)
-        class(own_slope_t), intent(inout) :: self
-        real(dp), intent(in) :: values(:)
-        type(error_t), allocatable, intent(out) :: error
-
-        self%constraints = 1
-        call self%lagrangian_system_t%configure(values, error)
-    end subroutine slope_configure
-
     pure function slope_lagrangian(self, t, q, v) result(l)
         class(own_slope_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
@@ -166,6 +157,15 @@ contains
         rows(1, 2) = hyperdual_t(1.0_dp)
         drift(1) = hyperdual_t()
     end subroutine slope_rows
+
+    pure subroutine slope_velocities(self, t, q, given, v, error)
+        class(own_slope_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), given(:)
+        real(dp), intent(out) :: v(self%ndof)
+        type(error_t), allocatable, intent(out) :: error
+
+        v = [1.0_dp, self%p(1)]*given(1)
+    end subroutine slope_velocities
 
     pure subroutine skin_outline(self, d)
         class(own_skin_t), intent(in) :: self

@@ -52,7 +52,7 @@ contains
     end function diagonal
 
     subroutine three_masses_between_walls()
-        !! \(\omega^2 = (2 - \sqrt2,\ 2,\ 2 + \sqrt2)\,k/m\), with sine shapes of \(u^\top M u = 1\).
+        !! \(\omega^2 = (2 - \sqrt2,\ 2,\ 2 + \sqrt2)\,k/m\); shapes are sines, \(u^\top M u = 1\).
         type(normal_modes_t) :: modes
         type(error_t), allocatable :: error
         real(dp), parameter :: mass = 0.25_dp, root = sqrt(2.0_dp)

@@ -3,7 +3,7 @@ module test_own_system
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use description_checks, only: check_description, check_refusals
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
-                     assertLessThan, assertTrue
+                     assertGreaterThan, assertLessThan, assertTrue
     use lagrangia_audit, only: audit_system
     use lagrangia_description, only: description_t
     use lagrangia_double_pendulum, only: double_pendulum_t
@@ -145,6 +145,7 @@ contains
         type(error_t), allocatable :: error
         real(dp) :: a(2)
 
+        slope%constraints = 1
         call slope%configure([0.75_dp], error)
         call slope%accelerations(0.0_dp, [0.3_dp, 0.2_dp], [4.0_dp, 3.0_dp], a)
         call assertEqual([-4.8_dp, -3.6_dp], a, 1e-14_dp)
@@ -195,15 +196,21 @@ contains
         integer :: k
 
         call audit_system(double, audit)
+        slope%constraints = 1
         call audit_system(slope, audit)
         do k = 1, 2
             skin%kind = k
             call audit_system(skin, audit)
         end do
-        call assertEqual(0, audit%broken())
+        do k = 1, size(audit%findings)
+            associate (row => audit%findings(k))
+                call assertTrue(row%holds, trim(row%system)//": "//trim(row%claim)//" "// &
+                                row%remark)
+            end associate
+        end do
+        call assertGreaterThan(size(audit%findings), 30, message="claims")
         skin%kind = 3
         call audit_system(skin, audit)
-        call assertEqual(1, audit%broken())
         associate (row => audit%findings(size(audit%findings)))
             call assertEqual("L is no number at any state tried", trim(row%remark))
         end associate

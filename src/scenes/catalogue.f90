@@ -44,8 +44,9 @@ module lagrangia_catalogue
     public :: new_system, nth_system, register_system, system_names
     public :: new_reference
     public :: refuse_name
+    public :: built_in
 
-    integer, parameter :: built_in = 13               !! systems
+    integer, parameter :: built_in = 13               !! systems: those of the lectures
     type(system_box_t), allocatable :: registered(:)  !! those that other programs brought
 
 contains

@@ -87,8 +87,8 @@ contains
         if (none) then
             call fail(error, "its description has no coordinates")
         else if (missing /= "") then
-            call fail(error, "its description leaves out '"//missing//"': allocate it, empty if "// &
-                      "there are none")
+            call fail(error, "its description leaves out '"//missing//"': allocate it, empty "// &
+                      "if there are none")
         end if
     end subroutine check_completeness
 

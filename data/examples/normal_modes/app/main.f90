@@ -1,6 +1,6 @@
 program main
-    !! Three masses between two walls, four equal springs: \(\omega^2 = 2 - \sqrt2,\ 2,\ 2 + \sqrt2\)
-    !! in units of k/m.
+    !! Three masses between two walls, four equal springs:
+    !! \(\omega^2 = (2 - \sqrt2,\ 2,\ 2 + \sqrt2)\,k/m\).
     use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
     use lagrangia, only: dp, error_t, normal_modes, normal_modes_t
     implicit none (type, external)
