@@ -55,12 +55,14 @@ module suites
     use test_namelist_limits, only: namelist_limits_suite
     use test_namelist_refusals, only: namelist_refusals_suite
     use test_namelist_values, only: namelist_values_suite
+    use test_normal_modes, only: normal_modes_suite
     use test_npy, only: npy_suite
     use test_number_text, only: number_text_suite
     use test_oscillator, only: oscillator_suite
     use test_outcome, only: outcome_suite
     use test_output_failures, only: output_failures_suite
     use test_output_file, only: output_file_suite
+    use test_own_system, only: own_system_suite
     use test_pendulum, only: pendulum_suite
     use test_period, only: period_suite
     use test_plan, only: plan_suite
@@ -68,6 +70,7 @@ module suites
     use test_principles, only: principles_suite
     use test_processes, only: processes_suite
     use test_quadrature, only: quadrature_suite
+    use test_register, only: register_suite
     use test_rheonomic, only: rheonomic_suite
     use test_rolling_disk, only: rolling_disk_suite
     use test_rolling_disk_reference, only: rolling_disk_reference_suite
@@ -148,12 +151,14 @@ contains
         call suite%addTest(namelist_limits_suite())
         call suite%addTest(namelist_refusals_suite())
         call suite%addTest(namelist_values_suite())
+        call suite%addTest(normal_modes_suite())
         call suite%addTest(npy_suite())
         call suite%addTest(number_text_suite())
         call suite%addTest(oscillator_suite())
         call suite%addTest(outcome_suite())
         call suite%addTest(output_failures_suite())
         call suite%addTest(output_file_suite())
+        call suite%addTest(own_system_suite())
         call suite%addTest(pendulum_suite())
         call suite%addTest(period_suite())
         call suite%addTest(plan_suite())
@@ -176,6 +181,7 @@ contains
         call suite%addTest(systems_suite())
         call suite%addTest(text_suite())
         call suite%addTest(virtual_work_suite())
+        call suite%addTest(register_suite())  ! the last: its system stays in the catalogue
     end function load_tests
 end module suites
 
