@@ -4,20 +4,42 @@ module lagrangia_dense_run
     use lagrangia_crossings, only: watch_t
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_events, only: event_box_t
-    use lagrangia_integrator, only: dense_integrator_t
+    use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_box_t
-    use lagrangia_run, only: plan_t
+    use lagrangia_run, only: plan_t, run
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: run_dense
+    public :: drive, run_dense
 
     integer, parameter :: most_at_once = 100  !! impacts at one time
 
 contains
+
+    subroutine drive(system, integrator, plan, events, observers, q, v, ended, error)
+        !! `run_dense` where samples or events may lie between the steps, else `run`.
+        class(system_t), intent(in) :: system
+        class(integrator_t), intent(inout) :: integrator
+        type(plan_t), intent(in) :: plan
+        type(event_box_t), intent(inout) :: events(:)
+        type(observer_box_t), intent(in) :: observers(:)
+        real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+        real(dp), intent(out) :: ended  !! time of the last sample, s
+        type(error_t), allocatable, intent(out) :: error
+
+        ended = plan%t0 + plan%duration
+        if (plan%equal > 0 .or. size(events) > 0) then
+            select type (integrator)
+            class is (dense_integrator_t)
+                call run_dense(system, integrator, plan, events, observers, q, v, ended, error)
+            end select
+        else
+            call run(system, integrator, plan, observers, q, v, error)
+        end if
+    end subroutine drive
 
     subroutine run_dense(system, method, plan, events, observers, q, v, ended, error)
         !! Integrate from `plan%t0` over `plan%duration`, showing the samples of the plan and the
