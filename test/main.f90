@@ -31,6 +31,7 @@ module suites
     use test_errors, only: errors_suite
     use test_events, only: events_suite
     use test_exact_maps, only: exact_maps_suite
+    use test_failure_contract, only: failure_contract_suite
     use test_gauge, only: gauge_suite
     use test_gauss, only: gauss_suite
     use test_gauss_adaptive, only: gauss_adaptive_suite
@@ -128,6 +129,7 @@ contains
         call suite%addTest(errors_suite())
         call suite%addTest(events_suite())
         call suite%addTest(exact_maps_suite())
+        call suite%addTest(failure_contract_suite())
         call suite%addTest(gauge_suite())
         call suite%addTest(gauss_suite())
         call suite%addTest(gauss_adaptive_suite())

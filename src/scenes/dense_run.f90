@@ -45,7 +45,7 @@ contains
         !! Integrate from `plan%t0` over `plan%duration`, showing the samples of the plan and the
         !! end to `observers`, and every event. The number of samples costs no evaluations.
         !!
-        !! A run that fails shows what was good; `q` and `v` are then the last good sample.
+        !! A run that fails has shown what was good up to `ended`, and `q` and `v` are as they were.
         class(system_t), intent(in) :: system
         class(dense_integrator_t), intent(inout) :: method
         type(plan_t), intent(in) :: plan
@@ -55,7 +55,7 @@ contains
         real(dp), intent(out) :: ended  !! time of the last sample, s
         type(error_t), allocatable, intent(out) :: error
         type(watch_t) :: watch
-        real(dp) :: t_end
+        real(dp) :: t_end, q_end(system%ndof), v_end(system%ndof)
         integer(i8) :: shown, last
         integer :: impacts
         logical :: stopped, restarted
@@ -86,6 +86,9 @@ contains
             if (.not. (stopped .or. restarted)) call show_samples(method%t_new)
             if (.not. allocated(error)) call look_around()
         end do
+        if (allocated(error)) return
+        q = q_end
+        v = v_end
     contains
         subroutine meet()
             !! An event: its impact, and whether the run ends or starts again.
@@ -140,12 +143,12 @@ contains
                           "motion diverges, or the step is too long", status_numbers)
                 return
             end if
-            q = q_now
-            v = v_now
+            q_end = q_now
+            v_end = v_now
             ended = t
             shown = shown + 1
             do i = 1, size(observers)
-                call observers(i)%item%observe(system, t, q, v, error)
+                call observers(i)%item%observe(system, t, q_end, v_end, error)
                 if (allocated(error)) return
             end do
         end subroutine show
