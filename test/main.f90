@@ -1,6 +1,7 @@
 module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
+    use test_accuracy, only: accuracy_suite
     use test_action, only: action_suite
     use test_amplitude, only: amplitude_suite
     use test_audit, only: audit_suite
@@ -16,6 +17,7 @@ module suites
     use test_command_line, only: command_line_suite
     use test_compensated, only: compensated_suite
     use test_compositions, only: compositions_suite
+    use test_concise, only: concise_suite
     use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
     use test_constraints, only: constraints_suite
@@ -30,6 +32,7 @@ module suites
     use test_errors, only: errors_suite
     use test_events, only: events_suite
     use test_exact_maps, only: exact_maps_suite
+    use test_failure_contract, only: failure_contract_suite
     use test_gauge, only: gauge_suite
     use test_gauss, only: gauss_suite
     use test_gauss_adaptive, only: gauss_adaptive_suite
@@ -83,6 +86,7 @@ module suites
     use test_shadow, only: shadow_suite
     use test_sinc, only: sinc_suite
     use test_small_oscillations, only: small_oscillations_suite
+    use test_statement, only: statement_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
     use test_virtual_work, only: virtual_work_suite
@@ -99,6 +103,7 @@ contains
         suite = TestSuite("lagrangia")
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
+        call suite%addTest(accuracy_suite())
         call suite%addTest(action_suite())
         call suite%addTest(amplitude_suite())
         call suite%addTest(audit_suite())
@@ -115,6 +120,7 @@ contains
         call suite%addTest(compensated_suite())
         call suite%addTest(compositions_suite())
         call suite%addTest(console_suite())
+        call suite%addTest(concise_suite())
         call suite%addTest(constant_accelerations_suite())
         call suite%addTest(constraints_suite())
         call suite%addTest(dense_run_suite())
@@ -128,6 +134,7 @@ contains
         call suite%addTest(errors_suite())
         call suite%addTest(events_suite())
         call suite%addTest(exact_maps_suite())
+        call suite%addTest(failure_contract_suite())
         call suite%addTest(gauge_suite())
         call suite%addTest(gauss_suite())
         call suite%addTest(gauss_adaptive_suite())
@@ -178,6 +185,7 @@ contains
         call suite%addTest(shadow_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(small_oscillations_suite())
+        call suite%addTest(statement_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(text_suite())
         call suite%addTest(virtual_work_suite())

@@ -23,7 +23,6 @@ module lagrangia_gauss_adaptive
     integer, parameter :: most_sweeps = 25
     real(dp), parameter :: best_rate = exp(-2.0_dp)
     real(dp), parameter :: noise = (64.0_dp*epsilon(1.0_dp))**2  !! of accelerations, squared
-    real(dp), parameter :: least_tolerance = 1e-14_dp
     real(dp), parameter :: share = 0.1_dp  !! of the tolerance that the iteration may leave
 
     type, extends(dense_integrator_t) :: gauss_adaptive_t
@@ -50,6 +49,7 @@ contains
         type(gauss_adaptive_t), intent(out) :: self
 
         self%name = "gauss16"
+        self%least_tolerance = 1e-14_dp
         self%title = "Gauss-Legendre collocation by tolerance (Butcher 1964)"
         self%order = 16
     end subroutine new_gauss16_adaptive
@@ -60,9 +60,9 @@ contains
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
 
-        if (.not. (self%tolerance >= least_tolerance .and. self%tolerance < 1.0_dp)) then
+        if (.not. (self%tolerance >= self%least_tolerance .and. self%tolerance < 1.0_dp)) then
             call fail(error, to_text(self%tolerance)//" is not allowed: gauss16 keeps "// &
-                      to_text(least_tolerance)//" and more, less than 1", key="tolerance")
+                      to_text(self%least_tolerance)//" and more, less than 1", key="tolerance")
             return
         end if
         call self%s%prepare(system%ndof)
@@ -176,7 +176,7 @@ contains
         logical :: cut
 
         do
-            to = next_time(self%t_new, self%h, self%t_end)
+            to = next_time(self%t_new, min(self%h, self%longest), self%t_end)
             h = to - self%t_new
             good = h > 4.0_dp*spacing(self%t_new)
             if (.not. good) return

@@ -165,7 +165,8 @@ contains
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
         integer(i8) :: k
 
-        if (any(abs(q - self%q_end) > 0.0_dp) .or. any(abs(v - self%v_end) > 0.0_dp)) then
+        if (.not. (all(abs(q - self%q_end) <= 0.0_dp) &
+                   .and. all(abs(v - self%v_end) <= 0.0_dp))) then
             self%q_low = 0.0_dp
             self%v_low = 0.0_dp
         end if

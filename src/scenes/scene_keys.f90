@@ -17,7 +17,7 @@ module lagrangia_scene_keys
     character(name_length), parameter :: keys(*) = [character(name_length) :: &
         "title", "system", "method", "compensated", "t0", "dt", "tolerance", "duration", "every", &
         "samples", "q", "v", "columns", "plot", "event", "event_columns", "event_plot", &
-        "period_of", "modes", "output"]
+        "period_of", "modes", "error_estimate", "output"]
     integer, parameter :: key_length = name_length + len("expect_")
     integer, parameter :: most = 10000  !! values of one key
 
@@ -140,6 +140,8 @@ contains
         call read_events(tree, system, scene, error)
         if (allocated(error)) return
         call get_logical(tree, "scene", "modes", scene%modes, error)
+        if (allocated(error)) return
+        call get_logical(tree, "scene", "error_estimate", scene%error_estimate, error)
         if (allocated(error)) return
         call get_string(tree, "scene", "period_of", scene%period_of, error)
         if (allocated(error)) return
