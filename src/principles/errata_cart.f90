@@ -127,6 +127,7 @@ contains
         end do
         call report%equal("d2L/dx_dot dtheta_dot = m2 l cos(theta) [kg m]", terms%mass(1, 2), &
                           m2*l*cos(theta), rounding)
+        call report%equal("as written it is 0", inertia(1, 2), 0.0_dp, rounding)
         call report%equal("as written, is it that?", inertia(1, 2), m2*l*cos(theta), rounding, &
                           control=.true.)
         call report%equal("d2L/dtheta_dot^2 as written: it is right", inertia(2, 2), &
