@@ -132,13 +132,15 @@ contains
         exact = .false.
         do sweeps = 1, most_sweeps
             call s%sweep(system, exact)
+            good = .true.
+            if (exact) return
             if (sweeps == 1) then
                 call weigh(s%n, s%h, s%v, s%f, weight)
                 all = s%all_of(weight)
             end if
             change = s%change(weight)
             good = change < huge(change)
-            if (exact .or. .not. good) return
+            if (.not. good) return
             if (sweeps == 2 .or. change > noise**2*all) then
                 worst = max(rate, change/before)
                 left = change*worst
