@@ -134,7 +134,7 @@ contains
         !! The last sweep changed the state by less than a small part of itself.
         type(gauss_stages_t), intent(in) :: s
         logical :: settled
-        real(dp), parameter :: small = 2.0_dp**(-36)
+        real(dp), parameter :: small = 2.0_dp**16*epsilon(1.0_dp)
 
         settled = all(s%h**2*s%change <= small**2*max(s%v**2, s%h**2*s%size_of) &
                       .or. s%h**4*s%change <= small**2*s%q**2)
