@@ -88,6 +88,7 @@ module suites
     use test_sinc, only: sinc_suite
     use test_small_oscillations, only: small_oscillations_suite
     use test_statement, only: statement_suite
+    use test_swings, only: swings_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
     use test_virtual_work, only: virtual_work_suite
@@ -188,6 +189,7 @@ contains
         call suite%addTest(sinc_suite())
         call suite%addTest(small_oscillations_suite())
         call suite%addTest(statement_suite())
+        call suite%addTest(swings_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(text_suite())
         call suite%addTest(virtual_work_suite())

@@ -60,12 +60,12 @@ contains
         end do
     end subroutine nth_method
 
-    subroutine new_trap(method, system, q, v)
+    subroutine new_trap(method, system, q, v, q0, v0)
         !! A charge in a trap or, where the method does not take it, an oscillator; both of about
-        !! 1 rad/s; the method is ready for it.
+        !! 1 rad/s; the method is ready for it. The start comes twice.
         class(integrator_t), intent(inout) :: method
         class(system_t), allocatable, intent(out) :: system
-        real(dp), allocatable, intent(out) :: q(:), v(:)
+        real(dp), allocatable, intent(out) :: q(:), v(:), q0(:), v0(:)
         type(error_t), allocatable :: error
 
         call new_system("charged_particle", system, error)
@@ -79,6 +79,8 @@ contains
         end if
         allocate (q(system%ndof), source=0.5_dp)
         allocate (v(system%ndof), source=-0.25_dp)
+        allocate (q0, source=q)
+        allocate (v0, source=v)
     end subroutine new_trap
 
     subroutine a_refusal_changes_nothing()
@@ -95,9 +97,7 @@ contains
             i = i + 1
             call nth_method(i, method)
             if (.not. allocated(method)) exit
-            call new_trap(method, system, q, v)
-            q_other = q
-            v_other = v
+            call new_trap(method, system, q, v, q_other, v_other)
             call method%advance(system, 0.3_dp, 0.1_dp, 0_i8, 3_i8, q, v)
             call nth_method(i, other)
             call other%prepare(system, error)
@@ -136,9 +136,7 @@ contains
             i = i + 1
             call nth_method(i, method)
             if (.not. allocated(method)) exit
-            call new_trap(method, system, q, v)
-            q0 = q
-            v0 = v
+            call new_trap(method, system, q, v, q0, v0)
             call method%try_advance(system, 0.0_dp, 1e3_dp, 0_i8, 200_i8, q, v, error)
             call assertTrue(allocated(error), trim(method%name)//" fails")
             if (.not. allocated(error)) return
@@ -172,9 +170,7 @@ contains
             i = i + 1
             call nth_method(i, method)
             if (.not. allocated(method)) exit
-            call new_trap(method, system, q, v)
-            q0 = q
-            v0 = v
+            call new_trap(method, system, q, v, q0, v0)
             call new_plan(plan, 0.0_dp, 1e3_dp, 2e5_dp, int(1 + 999*mod(i, 2), i8), error)
             call run(system, method, plan, [observer_box_t ::], q, v, error)
             call assertTrue(allocated(error), trim(method%name)//" fails")
@@ -283,9 +279,7 @@ contains
 
         call nth_integrator(1, fixed)
         call nth_adaptive(1, dense)
-        call new_trap(fixed, system, q, v)
-        q0 = q
-        v0 = v
+        call new_trap(fixed, system, q, v, q0, v0)
         box(1)%item => watcher
         watcher%patience = 3
         call new_plan(plan, 0.0_dp, 0.01_dp, 1.0_dp, 10_i8, error)

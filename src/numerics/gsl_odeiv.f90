@@ -9,7 +9,7 @@ module lagrangia_gsl_odeiv
         c_funptr, c_int, c_loc, c_long, c_null_funptr, c_null_ptr, c_ptr, c_size_t
     use lagrangia_errors, only: error_t, fail, status_library, status_numbers
     use lagrangia_gsl, only: gsl_reason, silence_gsl
-    use lagrangia_kinds, only: dp, i8
+    use lagrangia_kinds, only: dp, i8, this_part_needs_real64
     implicit none (type, external)
     private
     public :: gsl_driver_t, gsl_methods, gsl_success
