@@ -133,7 +133,7 @@ contains
         self%t_old = self%t_new
         retry = .false.
         do
-            h = self%h
+            h = min(self%h, self%longest)
             last = self%t_old + 1.01_dp*h >= self%t_end
             if (last) h = self%t_end - self%t_old
             if (.not. self%t_old + 0.1_dp*h > self%t_old) exit

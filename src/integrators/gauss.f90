@@ -16,8 +16,8 @@ module lagrangia_gauss
     public :: gauss_t, new_gauss16
 
     integer, parameter :: most_sweeps = 200
-    real(dp), parameter :: noise = 2.0_dp**(-50)   !! of accelerations, as a part of them
-    real(dp), parameter :: enough = 2.0_dp**(-62)  !! part of the state that may be left
+    real(dp), parameter :: noise = 4.0_dp*epsilon(1.0_dp)         !! of accelerations, relative
+    real(dp), parameter :: enough = epsilon(1.0_dp)*2.0_dp**(-10)  !! may be left, relative
 
     type, extends(integrator_t) :: gauss_t
         private
@@ -176,7 +176,7 @@ contains
         do d = 1, n
             weight(d) = max((v(d)/h)**2, sum(f(:, d)**2)/stages)
         end do
-        floor = max(2.0_dp**(-40)*maxval(weight), tiny(floor))
+        floor = max(2.0_dp**12*epsilon(floor)*maxval(weight), tiny(floor))
         do d = 1, n
             weight(d) = 1.0_dp/max(weight(d), floor)
         end do
@@ -186,7 +186,7 @@ contains
         !! The last sweep changed the state by less than a small part of itself.
         type(gauss_stages_t), intent(in) :: s
         logical :: settled
-        real(dp), parameter :: small = 2.0_dp**(-36)
+        real(dp), parameter :: small = 2.0_dp**16*epsilon(1.0_dp)
         real(dp) :: change, all
         integer :: d
 

@@ -23,7 +23,6 @@ module lagrangia_gauss_adaptive
     integer, parameter :: most_sweeps = 25
     real(dp), parameter :: best_rate = exp(-4.0_dp)  !! of a sweep, squared
     real(dp), parameter :: noise = (64.0_dp*epsilon(1.0_dp))**2  !! of accelerations, squared
-    real(dp), parameter :: least_tolerance = 1e-14_dp
     real(dp), parameter :: share = 0.1_dp  !! of the tolerance that the iteration may leave
     real(dp), parameter :: safety = 0.75_dp    !! of a step: rejected ones cost more than short ones
     real(dp), parameter :: try_again = 0.9_dp  !! of a rejected one, whose polynomial is known
@@ -51,6 +50,7 @@ contains
         type(gauss_adaptive_t), intent(out) :: self
 
         self%name = "gauss16"
+        self%least_tolerance = 1e-14_dp
         self%title = "Gauss-Legendre collocation by tolerance (Butcher 1964)"
         self%order = 16
     end subroutine new_gauss16_adaptive
@@ -61,9 +61,9 @@ contains
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
 
-        if (.not. (self%tolerance >= least_tolerance .and. self%tolerance < 1.0_dp)) then
+        if (.not. (self%tolerance >= self%least_tolerance .and. self%tolerance < 1.0_dp)) then
             call fail(error, to_text(self%tolerance)//" is not allowed: gauss16 keeps "// &
-                      to_text(least_tolerance)//" and more, less than 1", key="tolerance")
+                      to_text(self%least_tolerance)//" and more, less than 1", key="tolerance")
             return
         end if
         call self%s%prepare(system%ndof)
@@ -181,7 +181,7 @@ contains
         logical :: cut
 
         do
-            to = next_time(self%t_new, self%h, self%t_end)
+            to = next_time(self%t_new, min(self%h, self%longest), self%t_end)
             h = to - self%t_new
             good = self%t_new + 0.25_dp*h > self%t_new
             if (.not. good) return

@@ -3,6 +3,7 @@ module lagrangia_outcome
     use lagrangia_description, only: name_length
     use lagrangia_json, only: json_list, json_number, json_string
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_statement, only: stated_t, statement_json
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -28,12 +29,14 @@ module lagrangia_outcome
 
     type :: outcome_t
         character(:), allocatable :: scene, system, method, file
+        character(:), allocatable :: events         !! their data file, if there is one to draw
         real(dp) :: t = 0.0_dp
         real(dp), allocatable :: q(:), v(:)
         integer(i8) :: steps = 0, evaluations = 0, energy_evaluations = 0, rows = 0
         integer(i8) :: rejected = 0                 !! steps that were tried and taken back
         type(measure_t), allocatable :: drifts(:)   !! of the invariants
         type(measure_t), allocatable :: others(:)   !! `error`, `period`, ...
+        type(stated_t), allocatable :: state(:)     !! final, with errors, if that was asked
         integer :: error_from = 0                   !! 0: no error known
         real(dp) :: period = 0.0_dp                 !! measured, s; 0 if not
         real(dp) :: omega = 0.0_dp                  !! of the slowest small oscillation; or 0
@@ -166,14 +169,25 @@ contains
         else
             json = json//"null"
         end if
-        json = json//', "seconds": '//json_number(self%seconds)// &
-               ', "verdict": '//json_string(self%verdict())//', "file": '
-        if (self%file == "") then
-            json = json//"null}"
+        json = json//', "state": '
+        if (allocated(self%state)) then
+            json = json//statement_json(self%state)
         else
-            json = json//json_string(self%file)//"}"
+            json = json//"null"
         end if
+        json = json//', "seconds": '//json_number(self%seconds)// &
+               ', "verdict": '//json_string(self%verdict())// &
+               ', "file": '//json_path(self%file)//', "events": '//json_path(self%events)//"}"
     end function outcome_json
+
+    pure function json_path(path) result(json)
+        !! The path, or `null` where it is empty.
+        character(*), intent(in) :: path
+        character(:), allocatable :: json
+
+        json = "null"
+        if (path /= "") json = json_string(path)
+    end function json_path
 
     pure function find(measures, name) result(json)
         !! The worst of `name`, or `null`.
