@@ -6,6 +6,7 @@ module suites
     use test_amplitude, only: amplitude_suite
     use test_audit, only: audit_suite
     use test_bench, only: bench_suite
+    use test_blas_threads, only: blas_threads_suite
     use test_bouncing_ball, only: bouncing_ball_suite
     use test_canonical, only: canonical_suite
     use test_cart_pendulum, only: cart_pendulum_suite
@@ -57,12 +58,14 @@ module suites
     use test_namelist_limits, only: namelist_limits_suite
     use test_namelist_refusals, only: namelist_refusals_suite
     use test_namelist_values, only: namelist_values_suite
+    use test_normal_modes, only: normal_modes_suite
     use test_npy, only: npy_suite
     use test_number_text, only: number_text_suite
     use test_oscillator, only: oscillator_suite
     use test_outcome, only: outcome_suite
     use test_output_failures, only: output_failures_suite
     use test_output_file, only: output_file_suite
+    use test_own_system, only: own_system_suite
     use test_pendulum, only: pendulum_suite
     use test_period, only: period_suite
     use test_plan, only: plan_suite
@@ -70,6 +73,7 @@ module suites
     use test_principles, only: principles_suite
     use test_processes, only: processes_suite
     use test_quadrature, only: quadrature_suite
+    use test_register, only: register_suite
     use test_rheonomic, only: rheonomic_suite
     use test_rolling_disk, only: rolling_disk_suite
     use test_rolling_disk_reference, only: rolling_disk_reference_suite
@@ -105,6 +109,7 @@ contains
         call suite%addTest(amplitude_suite())
         call suite%addTest(audit_suite())
         call suite%addTest(bench_suite())
+        call suite%addTest(blas_threads_suite())
         call suite%addTest(bouncing_ball_suite())
         call suite%addTest(canonical_suite())
         call suite%addTest(cart_pendulum_suite())
@@ -154,12 +159,14 @@ contains
         call suite%addTest(namelist_limits_suite())
         call suite%addTest(namelist_refusals_suite())
         call suite%addTest(namelist_values_suite())
+        call suite%addTest(normal_modes_suite())
         call suite%addTest(npy_suite())
         call suite%addTest(number_text_suite())
         call suite%addTest(oscillator_suite())
         call suite%addTest(outcome_suite())
         call suite%addTest(output_failures_suite())
         call suite%addTest(output_file_suite())
+        call suite%addTest(own_system_suite())
         call suite%addTest(pendulum_suite())
         call suite%addTest(period_suite())
         call suite%addTest(plan_suite())
@@ -184,6 +191,7 @@ contains
         call suite%addTest(systems_suite())
         call suite%addTest(text_suite())
         call suite%addTest(virtual_work_suite())
+        call suite%addTest(register_suite())  ! the last: its system stays in the catalogue
     end function load_tests
 end module suites
 

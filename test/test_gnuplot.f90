@@ -180,6 +180,9 @@ contains
         text = gnuplot_script("it.dat", "", "", ["t", "x"], ["s", "m"], [0.0_dp, 0.0_dp], &
                               [1.0_dp, 0.0_dp], panels)
         call assertTrue(index(text, "set yrange [-1.0:1.0]") > 0, text)
+        text = gnuplot_script("it.dat", "", "", ["t", "x"], ["s", "m"], [0.0_dp, 2.0_dp], &
+                              [1.0_dp, 2.000001_dp], panels)
+        call assertTrue(index(text, "set yrange [1.8:2.2") > 0, "ticks alike: "//text)
         text = gnuplot_script("it.dat", "", "", ["t", "x"], ["s", "m"], [0.0_dp, 0.0_dp], &
                               [1.0_dp, 1.0_dp], panels)
         call assertEqual(0, index(text, "yrange"), "a curve that is not constant")

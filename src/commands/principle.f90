@@ -1,7 +1,7 @@
 module lagrangia_principle
     !! `lagrangia principle NAME`: both sides of a principle's statement, and their difference.
     use lagrangia_action, only: action_principle
-    use lagrangia_catalogue, only: nth_system, system_names
+    use lagrangia_catalogue, only: built_in, nth_system
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_constraints, only: constraints_principle
@@ -103,11 +103,11 @@ contains
     end subroutine principle_report
 
     subroutine every_system(systems)
-        !! The whole catalogue, with default parameters.
+        !! Those of the lectures, with default parameters.
         type(system_box_t), allocatable, intent(out) :: systems(:)
         integer :: i
 
-        allocate (systems(size(system_names())))
+        allocate (systems(built_in))
         do i = 1, size(systems)
             call nth_system(i, systems(i)%item)
         end do

@@ -8,7 +8,7 @@ module lagrangia_gauss_adaptive
     !!   are fewest where that factor is \(e^{-2}\). Where sweeps diverge the step is halved.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t, fail, status_numbers
-    use lagrangia_gauss_control, only: longer, measure, step_error, weigh
+    use lagrangia_gauss_control, only: longer, step_error, weigh
     use lagrangia_gauss_dense, only: gauss_dense_t
     use lagrangia_gauss_stages, only: gauss_stages_t
     use lagrangia_gauss_tables, only: stages
@@ -67,7 +67,7 @@ contains
         end if
         call self%s%prepare(system%ndof)
         call self%inside%prepare(system%ndof)
-        self%weight = self%s%change
+        self%weight = self%s%v
         self%evaluations = 0
         self%accepted = 0
         self%rejected = 0
@@ -142,6 +142,10 @@ contains
             call self%inside%keep(self%t_new, self%s%q, self%s%v)
             call take_step(self, system, good)
             if (.not. good) exit
+            if (.not. self%dense) then
+                call self%inside%keep(self%t_new, self%s%q, self%s%v)
+                return
+            end if
             call self%inside%fit(system, self%t_new, self%s%q, self%s%v, self%s%known, &
                                  self%weight, good)
             self%evaluations = self%evaluations + 2*stages*self%inside%sweeps
@@ -232,11 +236,13 @@ contains
         call weigh(self%s%n, self%s%h, self%tolerance, self%s%q, self%s%v, self%weight)
         self%rate = min(0.5_dp, self%rate*(self%s%h/self%s%h_known)**2)
         error = -1.0_dp
+        all = 0.0_dp
         first = 1.0_dp
         last = 1.0_dp
         do sweeps = 1, most_sweeps
-            call self%s%sweep(system)
-            call measure(self%s%n, self%weight, self%s%change, self%s%size_of, change, all)
+            call self%s%sweep(system, .false.)
+            if (sweeps == 1) all = self%s%all_of(self%weight)
+            change = self%s%change(self%weight)
             good = .false.
             if (.not. change < huge(1.0_dp)) exit
             if (sweeps == 1) then

@@ -15,7 +15,7 @@ module lagrangia_gauss_control
     use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
-    public :: longer, measure, step_error, weigh
+    public :: longer, step_error, weigh
 
     real(dp), parameter :: safety = 0.85_dp
     real(dp), parameter :: constant = 0.5_dp
@@ -35,21 +35,6 @@ contains
                                          h/max(1.0_dp, abs(q(d)))))**2
         end do
     end subroutine weigh
-
-    pure subroutine measure(n, weight, change, size_of, changes, all)
-        !! The accelerations' mean squares over the stages, and those of their change, weighted.
-        integer, intent(in) :: n
-        real(dp), intent(in) :: weight(n), change(n), size_of(n)
-        real(dp), intent(out) :: changes, all
-        integer :: d
-
-        changes = 0.0_dp
-        all = 0.0_dp
-        do d = 1, n
-            changes = changes + weight(d)*change(d)/stages
-            all = all + weight(d)*size_of(d)/stages
-        end do
-    end subroutine measure
 
     pure function step_error(n, modes, weight) result(error)
         !! Estimate of the error of the step, in units of the tolerance.

@@ -43,6 +43,7 @@ module lagrangia_integrator
         real(dp) :: t_old = 0.0_dp        !! s
         real(dp) :: t_new = 0.0_dp        !! s
         real(dp) :: t_end = 0.0_dp        !! no step goes beyond, s
+        logical :: dense = .true.         !! false: only the ends of steps are asked for: cheaper
         integer(i8) :: accepted = 0
         integer(i8) :: rejected = 0
     contains
@@ -103,7 +104,7 @@ module lagrangia_integrator
 
         pure subroutine state_at_i(self, t, q, v)
             !! Dense output: the state at `t` between `t_old` and `t_new`; at the ends exactly the
-            !! states of the steps. No evaluations of accelerations.
+            !! states of the steps. No evaluations of accelerations. At `t_new` if not `dense`.
             import :: dense_integrator_t, dp
             implicit none (type, external)
             class(dense_integrator_t), intent(in) :: self

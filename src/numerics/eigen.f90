@@ -11,9 +11,14 @@ module lagrangia_eigen
 
     integer, parameter :: small = 32  !! up to here dsygv is the faster one
 
+    interface normal_modes
+        !! `lagrangia_normal_modes` has another form of it.
+        module procedure matrix_modes
+    end interface normal_modes
+
 contains
 
-    pure subroutine normal_modes(stiffness, inertia, omega2, modes, error)
+    pure subroutine matrix_modes(stiffness, inertia, omega2, modes, error)
         !! Solve \(K u = \omega^2 M u\) with \(u^\top M u = 1\), \(\omega^2\) ascending; of each
         !! mode the component that is largest in magnitude is positive.
         !!
@@ -57,6 +62,7 @@ contains
             call fail(error, "LAPACK found no eigenvalues (info = "//to_text(info)//")", &
                       status_library)
         end if
+        if (.not. (allocated(error) .or. all(ieee_is_finite(omega2)))) call out_of_range(error)
         do i = 1, n
             if (allocated(error)) exit
             if (factor(i, i)**2 <= 4*n*epsilon(1.0_dp)*inertia(i, i)) call fail(error, &
@@ -68,7 +74,7 @@ contains
             return
         end if
         call orient(modes)
-    end subroutine normal_modes
+    end subroutine matrix_modes
 
     pure subroutine check_matrix(a, name, error)
         !! Square, not empty, finite, symmetric to rounding: that of an element, or of the sums of
@@ -156,8 +162,20 @@ contains
         do j = rank + 1, n
             modes(:, n + 1 - j) = matmul(inverse, u(:, j))
         end do
+        if (.not. (all(ieee_is_finite(omega2)) .and. all(ieee_is_finite(modes)))) then
+            call out_of_range(error)
+            return
+        end if
         call orient(modes)
     end subroutine modes_from_factors
+
+    pure subroutine out_of_range(error)
+        !! Where products of what is given overflow.
+        type(error_t), allocatable, intent(out) :: error
+
+        call fail(error, "M or K, or omega^2, is beyond the range of doubles: other units are "// &
+                  "needed", status_library)
+    end subroutine out_of_range
 
     pure function residual_ratio(stiffness, inertia, omega2, modes) result(ratio)
         !! LAPACK's own measure \(\|KZ - MZ\Lambda\|/(\|K\|\,\|Z\|\,n\,\epsilon)\) in the 1-norm:

@@ -9,7 +9,7 @@ module lagrangia_scene_keys
     use lagrangia_scene, only: expectation_t, scene_t
     use lagrangia_scene_tolerance, only: read_tolerance
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: join, to_text
+    use lagrangia_text, only: join, lower, to_text
     implicit none (type, external)
     private
     public :: keys, key_length, expectation_keys, read_columns, read_state, read_times
@@ -121,7 +121,8 @@ contains
         class(system_t), intent(in) :: system
         type(scene_t), intent(inout) :: scene
         type(error_t), allocatable, intent(out) :: error
-        character(key_length), allocatable :: names(:)
+        character(name_length), allocatable :: names(:)
+        character(key_length), allocatable :: expected(:)
         type(description_t) :: d
         real(dp) :: limit
         logical :: found
@@ -154,18 +155,19 @@ contains
                               trim(d%name)//" is not conserved, for L contains the time", error)
             return
         end if
-        names = expectation_keys(system)
+        names = judged(system)
+        expected = expectation_keys(system)
         allocate (scene%expectations(0))
         do i = 1, size(names)
-            call get_real(tree, "scene", trim(names(i)), limit, error, found=found)
+            call get_real(tree, "scene", trim(expected(i)), limit, error, found=found)
             if (allocated(error)) return
             if (.not. found) cycle
             if (limit < 0.0_dp) then
-                call refuse_value(tree, "scene", trim(names(i)), "a tolerance is at least 0", error)
+                call refuse_value(tree, "scene", trim(expected(i)), "a tolerance is at least 0", &
+                                  error)
                 return
             end if
-            scene%expectations = [scene%expectations, &
-                                  expectation_t(names(i)(len("expect_") + 1:), limit)]
+            scene%expectations = [scene%expectations, expectation_t(names(i), limit)]
         end do
         scene%output = scene%name
         call get_string(tree, "scene", "output", scene%output, error)
@@ -192,6 +194,12 @@ contains
         if (allocated(error)) return
         call get_strings(tree, "scene", "event_columns", 1, most, scene%event_columns, error)
         if (allocated(error)) return
+        if (any(of_the_run(scene%event_columns))) then
+            call refuse_value(tree, "scene", "event_columns", &
+                              "errors and drifts are columns of the run, not of its events", &
+                              error, findloc(of_the_run(scene%event_columns), .true., 1))
+            return
+        end if
         call get_event_key("event_plot")
         if (allocated(error)) return
         call get_strings(tree, "scene", "event_plot", 1, 8, scene%event_plots, error)
@@ -223,13 +231,24 @@ contains
         text = join(names, ", ")
     end function coordinates
 
+    pure function judged(system) result(names)
+        !! What can be judged.
+        class(system_t), intent(in) :: system
+        character(name_length), allocatable :: names(:)
+
+        names = [character(name_length) :: column_names(system, .true.), "period", "small_period"]
+    end function judged
+
     pure function expectation_keys(system) result(names)
-        !! `expect_` and what can be judged.
+        !! `expect_` and what can be judged, in lower case as all keys are.
         class(system_t), intent(in) :: system
         character(key_length), allocatable :: names(:)
+        integer :: i
 
-        names = "expect_"//[character(name_length) :: column_names(system, .true.), &
-                            "period", "small_period"]
+        names = "expect_"//judged(system)
+        do i = 1, size(names)
+            names(i) = lower(names(i))
+        end do
     end function expectation_keys
 
     pure function bad_output(name) result(bad)
