@@ -29,6 +29,7 @@ module suites
     use test_driven_pendulum, only: driven_pendulum_suite
     use test_echo, only: echo_suite
     use test_elliptic, only: elliptic_suite
+    use test_errata, only: errata_suite
     use test_errors, only: errors_suite
     use test_events, only: events_suite
     use test_exact_maps, only: exact_maps_suite
@@ -120,8 +121,8 @@ contains
         call suite%addTest(command_line_suite())
         call suite%addTest(compensated_suite())
         call suite%addTest(compositions_suite())
-        call suite%addTest(console_suite())
         call suite%addTest(concise_suite())
+        call suite%addTest(console_suite())
         call suite%addTest(constant_accelerations_suite())
         call suite%addTest(constraints_suite())
         call suite%addTest(dense_run_suite())
@@ -132,6 +133,7 @@ contains
         call suite%addTest(driven_pendulum_suite())
         call suite%addTest(echo_suite())
         call suite%addTest(elliptic_suite())
+        call suite%addTest(errata_suite())
         call suite%addTest(errors_suite())
         call suite%addTest(events_suite())
         call suite%addTest(exact_maps_suite())

@@ -19,7 +19,8 @@ module lagrangia_principle
     use lagrangia_walker, only: walker_t
     implicit none (type, external)
     private
-    public :: principle_command, principle_names, principle_report, statement_line
+    public :: principle_command, principle_names, principle_report, put_json, put_report, &
+              statement_line
 
     type :: principle_t
         character(16) :: name = ""
@@ -136,12 +137,12 @@ contains
         character(98) :: heading
         integer :: i, controls
 
-        call put_line(trim(report%title))
+        if (report%title /= "") call put_line(trim(report%title))
         heading = ""
         do i = 1, size(report%rows)
             if (report%rows(i)%heading /= heading .or. i == 1) then
                 heading = report%rows(i)%heading
-                call put_line("")
+                if (i > 1 .or. report%title /= "") call put_line("")
                 call put_line(trim(heading))
                 call put_line(repeat(" ", statement_length + 6)// &
                               "left          right  differ   bound")

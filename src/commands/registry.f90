@@ -43,6 +43,8 @@ module lagrangia_registry
                   "set at output json quiet"), &
         command_t("check", "[SYSTEM...]", "the audit: equations, invariants, structure, Gauss, "// &
                   "orders", -1, "set json"), &
+        command_t("errata", "[ID]", "the slips in the lecture notes, and what each would do", 1, &
+                  "json"), &
         command_t("principle", "[NAME]", "both sides of Hamilton's, d'Alembert's, Fermat's", 1, &
                   "output plot json"), &
         command_t("bench", "[PART...]", "run time against error, cost of a step, growth, "// &

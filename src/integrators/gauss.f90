@@ -16,8 +16,8 @@ module lagrangia_gauss
     public :: gauss_t, new_gauss16
 
     integer, parameter :: most_sweeps = 200
-    real(dp), parameter :: noise = 4.0_dp*epsilon(noise)           !! of accelerations, a part
-    real(dp), parameter :: enough = 2.0_dp**(-10)*epsilon(enough)  !! part of the state: may be left
+    real(dp), parameter :: noise = 4.0_dp*epsilon(1.0_dp)         !! of accelerations, relative
+    real(dp), parameter :: enough = epsilon(1.0_dp)*2.0_dp**(-10)  !! may be left, relative
 
     type, extends(integrator_t) :: gauss_t
         private
@@ -132,13 +132,15 @@ contains
         exact = .false.
         do sweeps = 1, most_sweeps
             call s%sweep(system, exact)
+            good = .true.
+            if (exact) return
             if (sweeps == 1) then
                 call weigh(s%n, s%h, s%v, s%f, weight)
                 all = s%all_of(weight)
             end if
             change = s%change(weight)
             good = change < huge(change)
-            if (exact .or. .not. good) return
+            if (.not. good) return
             if (sweeps == 2 .or. change > noise**2*all) then
                 worst = max(rate, change/before)
                 left = change*worst
@@ -168,7 +170,7 @@ contains
         do d = 1, n
             weight(d) = max((v(d)/h)**2, sum(f(:, d)**2)/stages)
         end do
-        floor = max(2.0_dp**(-40)*maxval(weight), tiny(floor))
+        floor = max(2.0_dp**12*epsilon(floor)*maxval(weight), tiny(floor))
         do d = 1, n
             weight(d) = 1.0_dp/max(weight(d), floor)
         end do
