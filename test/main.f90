@@ -79,6 +79,7 @@ module suites
     use test_shadow, only: shadow_suite
     use test_sinc, only: sinc_suite
     use test_small_oscillations, only: small_oscillations_suite
+    use test_stress, only: stress_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
     use test_virtual_work, only: virtual_work_suite
@@ -173,6 +174,7 @@ contains
         call suite%addTest(shadow_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(small_oscillations_suite())
+        call suite%addTest(stress_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(text_suite())
         call suite%addTest(virtual_work_suite())
