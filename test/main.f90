@@ -2,9 +2,10 @@ module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
     use test_action, only: action_suite
-    use test_audit, only: audit_suite
     use test_amplitude, only: amplitude_suite
+    use test_audit, only: audit_suite
     use test_bench, only: bench_suite
+    use test_blas_threads, only: blas_threads_suite
     use test_bouncing_ball, only: bouncing_ball_suite
     use test_canonical, only: canonical_suite
     use test_cart_pendulum, only: cart_pendulum_suite
@@ -94,19 +95,19 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("lagrangia")
-        call suite%addTest(amplitude_suite())
-        call suite%addTest(hanging_chain_suite())
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
         call suite%addTest(action_suite())
+        call suite%addTest(amplitude_suite())
         call suite%addTest(audit_suite())
         call suite%addTest(bench_suite())
+        call suite%addTest(blas_threads_suite())
         call suite%addTest(bouncing_ball_suite())
         call suite%addTest(canonical_suite())
         call suite%addTest(cart_pendulum_suite())
         call suite%addTest(catalogue_suite())
-        call suite%addTest(charged_particle_reference_suite())
         call suite%addTest(charged_particle_suite())
+        call suite%addTest(charged_particle_reference_suite())
         call suite%addTest(columns_suite())
         call suite%addTest(command_line_suite())
         call suite%addTest(compensated_suite())
@@ -115,8 +116,8 @@ contains
         call suite%addTest(constant_accelerations_suite())
         call suite%addTest(constraints_suite())
         call suite%addTest(dense_run_suite())
-        call suite%addTest(dop853_coefficients_suite())
         call suite%addTest(dop853_suite())
+        call suite%addTest(dop853_coefficients_suite())
         call suite%addTest(dop853_steps_suite())
         call suite%addTest(double_pendulum_suite())
         call suite%addTest(driven_pendulum_suite())
@@ -126,28 +127,27 @@ contains
         call suite%addTest(events_suite())
         call suite%addTest(exact_maps_suite())
         call suite%addTest(gauge_suite())
+        call suite%addTest(gauss_suite())
         call suite%addTest(gauss_adaptive_suite())
         call suite%addTest(gauss_dense_suite())
-        call suite%addTest(gauss_suite())
-        call suite%addTest(gauss_suite())
         call suite%addTest(gauss_tables_suite())
         call suite%addTest(gnuplot_suite())
-        call suite%addTest(gsl_odeiv_suite())
-        call suite%addTest(gsl_odeiv_suite())
         call suite%addTest(gsl_suite())
+        call suite%addTest(gsl_odeiv_suite())
+        call suite%addTest(hanging_chain_suite())
         call suite%addTest(hyperdual_suite())
         call suite%addTest(integrator_orders_suite())
         call suite%addTest(lanes_suite())
-        call suite%addTest(lapack_band_suite())
         call suite%addTest(lapack_suite())
+        call suite%addTest(lapack_band_suite())
         call suite%addTest(least_time_suite())
         call suite%addTest(method_refusals_suite())
         call suite%addTest(method_structure_suite())
         call suite%addTest(methods_suite())
+        call suite%addTest(namelist_suite())
         call suite%addTest(namelist_file_suite())
         call suite%addTest(namelist_limits_suite())
         call suite%addTest(namelist_refusals_suite())
-        call suite%addTest(namelist_suite())
         call suite%addTest(namelist_values_suite())
         call suite%addTest(npy_suite())
         call suite%addTest(number_text_suite())
@@ -163,8 +163,8 @@ contains
         call suite%addTest(processes_suite())
         call suite%addTest(quadrature_suite())
         call suite%addTest(rheonomic_suite())
-        call suite%addTest(rolling_disk_reference_suite())
         call suite%addTest(rolling_disk_suite())
+        call suite%addTest(rolling_disk_reference_suite())
         call suite%addTest(roots_suite())
         call suite%addTest(rotating_reference_suite())
         call suite%addTest(run_suite())

@@ -223,7 +223,7 @@ contains
         call refused("--systems=pendlum", "unknown system 'pendlum'; did you mean 'pendulum'?")
         call refused("step", "unknown part 'step'; did you mean 'steps'?")
         call refused("speed", "unknown part 'speed'; there are precision, steps, energy, "// &
-                     "growth, output")
+                     "growth, modes, output")
         call refused("--output=", "option '--output' needs the name of a folder")
         call refused("--tolerances=0", "tolerance '0' is not allowed: a number from 1e-16 to "// &
                      "below 1 is needed")

@@ -24,8 +24,8 @@ module test_constraints
     end type engel_t
 
     type, extends(pfaffian_t) :: leaf_t
-        !! \(dz - y\,dx = 0\) on the leaves \(w - xz^2 - yz = c\): brackets add one direction to two,
-        !! and none leaves the leaf.
+        !! \(dz - y\,dx = 0\) on the leaves \(w - xz^2 - yz = c\): brackets add one direction to
+        !! two, and none leaves the leaf.
     contains
         procedure :: forms => leaf_forms
     end type leaf_t

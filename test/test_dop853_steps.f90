@@ -48,8 +48,9 @@ contains
 
     subroutine steps_settle()
         !! On the oscillator \(x^2 + \dot x^2\) and with it the estimate are the same in every step,
-        !! so the step settles where \(e^{\alpha}/(0.9\,e^{\beta}) = 1\), \(\alpha = 1/8 - \beta/5\),
-        !! \(\beta = 0.04\): at the estimate \(e = 0.9^{1/(1/8 - 6\beta/5)}\).
+        !! so the step settles where \(e^{\alpha}/(0.9\,e^{\beta}) = 1\), with
+        !! \(\alpha = 1/8 - \beta/5\), \(\beta = 0.04\): at the estimate
+        !! \(e = 0.9^{1/(1/8 - 6\beta/5)}\).
         type(oscillator_t) :: system
         type(dop853_t) :: method
         type(error_t), allocatable :: error

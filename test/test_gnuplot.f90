@@ -39,8 +39,8 @@ contains
                         error)
         call assertFalse(allocated(error), "good panels")
         call assertEqual(3, size(panels))
-        call assertEqual([1, 2, 1], panels%x)
-        call assertEqual([1, 1, 3], panels%curves)
+        call assertEqual([1, 2, 1], [panels%x])
+        call assertEqual([1, 1, 3], [panels%curves])
         call assertEqual(3, panels(1)%y(1))
         call assertEqual(5, panels(2)%y(1))
         call assertEqual([2, 5, 4], panels(3)%y(:3))
@@ -54,8 +54,8 @@ contains
         character(*), parameter :: more_units(*) = [character(4) :: units, "1"]
 
         call new_panels([character(1) ::], more, more_units, panels, error)
-        call assertEqual([1, 1, 1, 1, 1], panels%x)
-        call assertEqual([2, 1, 1, 2, 1], panels%curves)
+        call assertEqual([1, 1, 1, 1, 1], [panels%x])
+        call assertEqual([2, 1, 1, 2, 1], [panels%curves])
         call assertEqual([2, 5], panels(1)%y(:2))
         call assertEqual(3, panels(2)%y(1))
         call assertEqual(4, panels(3)%y(1))
@@ -63,7 +63,7 @@ contains
         call assertEqual(8, panels(5)%y(1))
         call new_panels([character(1) ::], ["t", spread("x", 1, 9)], ["s", spread("m", 1, 9)], &
                         panels, error)
-        call assertEqual([8, 1], panels%curves, message="no more than eight curves in one")
+        call assertEqual([8, 1], [panels%curves], message="no more than eight curves in one")
     end subroutine panels_gather_by_unit
 
     subroutine wrong_panels_are_refused()
@@ -180,6 +180,9 @@ contains
         text = gnuplot_script("it.dat", "", "", ["t", "x"], ["s", "m"], [0.0_dp, 0.0_dp], &
                               [1.0_dp, 0.0_dp], panels)
         call assertTrue(index(text, "set yrange [-1.0:1.0]") > 0, text)
+        text = gnuplot_script("it.dat", "", "", ["t", "x"], ["s", "m"], [0.0_dp, 2.0_dp], &
+                              [1.0_dp, 2.000001_dp], panels)
+        call assertTrue(index(text, "set yrange [1.8:2.2") > 0, "ticks alike: "//text)
         text = gnuplot_script("it.dat", "", "", ["t", "x"], ["s", "m"], [0.0_dp, 0.0_dp], &
                               [1.0_dp, 1.0_dp], panels)
         call assertEqual(0, index(text, "yrange"), "a curve that is not constant")

@@ -137,8 +137,9 @@ contains
     end subroutine frequencies_are_laguerres
 
     subroutine many_bobs_go_to_bessel()
-        !! \(\omega_k \to \tfrac12 j_{0,k}\sqrt{g/L}\). The zeros of \(L_n\) are \(j^2/(4n + 2)\,(1 +
-        !! O(n^{-2}))\), so \(\omega_k^2\) is short of the limit by the fraction 1/(2n).
+        !! \(\omega_k \to \tfrac12 j_{0,k}\sqrt{g/L}\). The zeros of \(L_n\) are
+        !! \(j^2/(4n + 2)\,(1 + O(n^{-2}))\), so \(\omega_k^2\) is short of the limit by the
+        !! fraction 1/(2n).
         real(dp), parameter :: j0(2) = [2.404825557695772768622_dp, 5.520078110286310649597_dp]
         type(hanging_chain_t) :: chain
         type(linearised_t) :: page

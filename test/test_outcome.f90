@@ -42,6 +42,7 @@ contains
         outcome%system = "pendulum"
         outcome%method = "rk4"
         outcome%file = ""
+        outcome%events = ""
         outcome%remark = ""
         outcome%t = 2.5_dp
         outcome%q = [0.5_dp]
@@ -131,7 +132,7 @@ contains
         call contains_once(json, '"period": 1.5000000000000000E+000, '// &
                            '"period_error": 6.2500000000000000E-002')
         call contains_once(json, '"seconds": 2.0000000000000000E+000')
-        call contains_once(json, '"verdict": "holds", "file": "out/swing.dat"}')
+        call contains_once(json, '"verdict": "holds", "file": "out/swing.dat", "events": null}')
         outcome%error_from = from_half_step
         call contains_once(outcome_json(outcome), '"error_from": "estimate"')
     end subroutine json_of_a_full_outcome
@@ -147,7 +148,7 @@ contains
                            '"error_from": null')
         call contains_once(json, '"period": null, "period_error": null')
         call contains_once(json, '"omega": null')
-        call contains_once(json, '"verdict": "not judged", "file": null}')
+        call contains_once(json, '"verdict": "not judged", "file": null, "events": null}')
         outcome%q = [ieee_value(1.0_dp, ieee_quiet_nan), ieee_value(1.0_dp, ieee_positive_inf)]
         outcome%drifts = [measure_t("energy_drift", ieee_value(1.0_dp, ieee_positive_inf))]
         json = outcome_json(outcome)

@@ -128,6 +128,9 @@ contains
                      "event_columns = 't': there is no event to write down")
         call refused(scene//"event_plot = 't:theta'", &
                      "event_plot = 't:theta': there is no event to write down")
+        call refused(scene//"event = 'theta', event_columns = 't', 'theta', 'error'", &
+                     "event_columns = 'error': errors and drifts are columns of "// &
+                     "the run, not of its events")
         call refused(scene//"event = 'theta', event_columns = 't', 'tetha'", &
                      "event_columns = 'tetha': unknown column 'tetha'; did you mean 'theta'?")
         call refused(scene//"event = 'theta', event_plot = 'theta:tension'", &

@@ -122,6 +122,7 @@ contains
                 if (allocated(modes%page%omega2)) call assertEqual( &
                     modes%page%omega2, modes%omega2, 1e-13_dp*maxval(abs(modes%omega2)), &
                     trim(d%name)//": closed form")
+                call assertLessThan(modes%ratio, 30.0_dp, message=trim(d%name)//": residual")
             end do
         end do
         call assertTrue(by_hand >= 60, message="systems with a page")
@@ -146,6 +147,7 @@ contains
                                         0.5_dp, 1.0_dp], [0.0_dp, 0.0_dp, 0.0_dp], modes)
         call assertEqual([0.780776406404415137_dp, 1.0_dp, 1.28077640640441514_dp], &
                          sqrt(modes%omega2), 1e-14_dp)
+        call assertLessThan(modes%ratio, 30.0_dp, message="gyroscopic residual")
     end subroutine other_equilibria
 
     subroutine modes_are_normalised()
@@ -153,7 +155,7 @@ contains
         real(dp) :: k(3, 3), m(3, 3), unit(3, 3)
         real(dp), allocatable :: omega2(:), u(:, :)
         type(error_t), allocatable :: error
-        integer :: j
+        integer :: i, j
 
         k = reshape([3.0_dp, -1.0_dp, 0.2_dp, -1.0_dp, 2.0_dp, -0.7_dp, 0.2_dp, -0.7_dp, 1.5_dp], &
                     [3, 3])
@@ -174,6 +176,14 @@ contains
         call assertEqual(unit, matmul(transpose(u), matmul(k, u)), 1e-14_dp)
         call assertTrue(omega2(1) < omega2(2) .and. omega2(2) < omega2(3))
         call assertLessThan(residual_ratio(k, m, omega2, u), 30.0_dp)
+        do i = 1, 3  ! with each coordinate turned round in its turn
+            k(i, :) = -k(i, :)
+            k(:, i) = -k(:, i)
+            m(i, :) = -m(i, :)
+            m(:, i) = -m(:, i)
+            call normal_modes(k, m, omega2, u, error)
+            call assertTrue(all(maxval(u, 1) >= maxval(-u, 1)), message="sign, turned")
+        end do
     end subroutine modes_are_normalised
 
     subroutine hilbert_like_is_well_solved()
@@ -220,6 +230,13 @@ contains
         call refused(good, bad, "M(2, 2) is not finite")
         bad(2, 2) = -1.0_dp
         call refused(good, bad, "M is not positive definite: its leading minor of order 2 is not")
+        bad(1, 1) = -1.0_dp
+        call refused(good, bad, "M is not positive definite: its leading minor of order 1 is not")
+        bad = good
+        bad(1, 2) = 0.5_dp + 1e-14_dp
+        call refused(bad, good, "K is not symmetric: K(1, 2) = 0.50000000000001, K(2, 1) = 0.5")
+        call refused(good*1e200_dp, good*1e-200_dp, "M or K, or omega^2, is beyond the range "// &
+                     "of doubles: other units are needed")
         bad = 0.5_dp  ! rounding decides whether Cholesky's method notices
         call refused(good, bad, "M is singular to working precision: its leading minor of "// &
                      "order 2 vanishes")
@@ -243,6 +260,7 @@ contains
         !! With the residual force and the nearest equilibrium.
         call no_modes("rotating_hoop", [1.167_dp], "not an equilibrium of rotating_hoop: the "// &
                       "force on theta is 0.0117746253")
+        call no_modes("pendulum", [1.0_dp], "the nearest is --at 0.0")
         call no_modes("rotating_hoop", [1.167_dp], "N m; the nearest is --at 1.1675569038050")
         call no_modes("wedge", [0.0_dp, 0.0_dp], "N; none is near")
         call no_modes("pendulum", [0.0_dp, 1.0_dp], "--at takes 1 values for pendulum, not 2")

@@ -3,6 +3,7 @@ module test_virtual_work
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertGreaterThan, &
                      assertLessThanOrEqual
     use lagrangia_catalogue, only: nth_system
+    use lagrangia_dalembert, only: conservative_forces, dalembert
     use lagrangia_description, only: description_t
     use lagrangia_driven_pendulum, only: driven_pendulum_t
     use lagrangia_errors, only: error_t
@@ -13,7 +14,6 @@ module test_virtual_work
     use lagrangia_rotating_hoop, only: rotating_hoop_t
     use lagrangia_system, only: system_t
     use lagrangia_test_potentials, only: test_charge_t
-    use lagrangia_virtual_work, only: conservative_forces, dalembert
     use random_states, only: draw_parameters, draw_state, restart_random
     implicit none (type, external)
     private

@@ -11,8 +11,8 @@ module lagrangia_goals
     use lagrangia_work_precision, only: curve_t
     implicit none (type, external)
     private
-    public :: goals_of_dispatch, goals_of_energy, goals_of_growth, goals_of_output, &
-              goals_of_precision, new_goals
+    public :: goals_of_dispatch, goals_of_energy, goals_of_growth, goals_of_modes, &
+              goals_of_output, goals_of_precision, new_goals
 
     character(*), parameter :: rival = "gsl_rk8pd"
 
@@ -132,6 +132,16 @@ contains
                        ratio(many(5)%value, few(5)%value), 1.01_dp)
         end associate
     end subroutine goals_of_growth
+
+    pure subroutine goals_of_modes(modes, table)
+        !! The smallest eigenproblem, and the largest.
+        type(bench_table_t), intent(in) :: modes
+        type(bench_table_t), intent(inout) :: table
+
+        call judge(table, "modes of 2 by 2 matrices, us", modes%value("2", "us"), 3.0_dp)
+        call judge(table, "modes, n = "//trim(modes%row(modes%rows)%cells(1)%shown)// &
+                   ", with checks / LAPACK alone", modes%row(modes%rows)%cells(5)%value, 1.1_dp)
+    end subroutine goals_of_modes
 
     pure subroutine goals_of_output(output, table)
         !! Rows of four columns.

@@ -11,9 +11,10 @@ module lagrangia_bench
     use lagrangia_energy_bench, only: measure_energy
     use lagrangia_errors, only: error_t, fail
     use lagrangia_goals, only: goals_of_dispatch, goals_of_energy, goals_of_growth, &
-                               goals_of_output, goals_of_precision, new_goals
+                               goals_of_modes, goals_of_output, goals_of_precision, new_goals
     use lagrangia_growth_bench, only: measure_growth
     use lagrangia_machine, only: processor
+    use lagrangia_modes_bench, only: measure_modes
     use lagrangia_observer, only: observer_t
     use lagrangia_output_bench, only: measure_output
     use lagrangia_precision_tables, only: points_table, times_table
@@ -76,6 +77,11 @@ contains
                 if (allocated(error)) exit
                 call output%show(table, progress)
                 call goals_of_growth(table, goals)
+            case ("modes")
+                call measure_modes(choice%plan, table, error)
+                if (allocated(error)) exit
+                call output%show(table, progress)
+                call goals_of_modes(table, goals)
             case default
                 call measure_output(choice%folder, choice%plan, table, error)
                 if (allocated(error)) exit

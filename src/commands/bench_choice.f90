@@ -15,7 +15,7 @@ module lagrangia_bench_choice
     public :: bench_choice_t, parts, read_choice
 
     character(name_length), parameter :: parts(*) = [character(name_length) :: "precision", &
-        "steps", "energy", "growth", "output"]
+        "steps", "energy", "growth", "modes", "output"]
     real(dp), parameter :: least_tolerance = 1e-16_dp
 
     type :: bench_choice_t

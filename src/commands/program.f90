@@ -1,5 +1,6 @@
 module lagrangia_program
     !! The whole program: words in, one command, exit status out.
+    use lagrangia_blas_threads, only: use_one_blas_thread
     use lagrangia_catalogue, only: system_names
     use lagrangia_commands, only: dispatch
     use lagrangia_console, only: note
@@ -16,6 +17,7 @@ contains
         type(error_t), allocatable :: error
         integer :: status
 
+        call use_one_blas_thread()
         call check_names(error)
         if (.not. allocated(error)) call dispatch(error)
         status = status_ok

@@ -43,7 +43,7 @@ module lagrangia_registry
                   "set at output json quiet"), &
         command_t("check", "[SYSTEM...]", "the audit: equations, invariants, structure, Gauss, "// &
                   "orders", -1, "set json"), &
-        command_t("principle", "[NAME]", "Hamilton, d'Alembert, Fermat: both sides, in numbers", 1, &
+        command_t("principle", "[NAME]", "both sides of Hamilton's, d'Alembert's, Fermat's", 1, &
                   "output plot json"), &
         command_t("bench", "[PART...]", "run time against error, cost of a step, growth, "// &
                   "output; parts by name", -1, &
@@ -68,7 +68,7 @@ contains
             if (commands(which)%name == line%command) exit
         end do
         if (which > size(commands)) then
-            near = nearest_name(line%command, commands(2:)%name)
+            near = nearest_name(line%command, [commands(2:)%name])
             if (near /= "") then
                 near = "; did you mean '"//near//"'?"
             else

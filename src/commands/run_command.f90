@@ -106,6 +106,8 @@ contains
             call play(scene, system, folder, format, watcher, outcome, error)
             if (allocated(error) .or. .not. line%has("plot")) return
             call draw(outcome%file, kind, error)
+            if (allocated(error) .or. outcome%events == "") return
+            call draw(outcome%events, kind, error)
         end subroutine run_one
     end subroutine run_command
 

@@ -5,7 +5,7 @@ module lagrangia_c_library
         c_size_t
     implicit none (type, external)
     private
-    public :: c_access, c_chmod, c_errno, c_execvp, c_exit, c_fclose, c_fdopen, c_fflush, &
+    public :: c_access, c_chmod, c_dlsym, c_errno, c_execvp, c_exit, c_fclose, c_fdopen, c_fflush, &
               c_fileno, c_fopen, c_fork, c_free, c_fseek, c_fwrite, c_fwrite_reals, c_getpid, &
               c_isatty, c_lstat, c_mkdir, c_realpath, c_remove, c_rename, c_signal, c_stat, &
               c_strerror, c_strlen, c_waitpid, c_write
@@ -18,6 +18,14 @@ module lagrangia_c_library
             character(kind=c_char), intent(in) :: path(*), mode(*)
             type(c_ptr) :: stream
         end function c_fopen
+
+        function c_dlsym(library, name) bind(c, name="dlsym") result(address)
+            import :: c_char, c_funptr, c_ptr
+            implicit none (type, external)
+            type(c_ptr), value :: library
+            character(kind=c_char), intent(in) :: name(*)
+            type(c_funptr) :: address
+        end function c_dlsym
 
         function c_fdopen(descriptor, mode) bind(c, name="fdopen") result(stream)
             import :: c_char, c_int, c_ptr

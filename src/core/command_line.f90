@@ -105,7 +105,7 @@ contains
             if (name == "--"//trim(options(k)%name)) exit
         end do
         if (k > size(options)) then
-            near = nearest_name(name(verify(name//".", "-"):), options%name)
+            near = nearest_name(name(verify(name//".", "-"):), [options%name])
             if (near /= "") near = "; did you mean '--"//near//"'?"
             call fail(error, "unknown option "//quoted(name)//near)
             return

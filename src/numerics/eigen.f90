@@ -57,6 +57,7 @@ contains
             call fail(error, "LAPACK found no eigenvalues (info = "//to_text(info)//")", &
                       status_library)
         end if
+        if (.not. (allocated(error) .or. all(ieee_is_finite(omega2)))) call out_of_range(error)
         do i = 1, n
             if (allocated(error)) exit
             if (factor(i, i)**2 <= 4*n*epsilon(1.0_dp)*inertia(i, i)) call fail(error, &
@@ -85,6 +86,7 @@ contains
         end if
         do j = 1, size(a, 2)
             do i = 1, j
+                if (abs(a(i, j) - a(j, i)) <= 0.0_dp) cycle  ! finite, too
                 if (.not. (ieee_is_finite(a(i, j)) .and. ieee_is_finite(a(j, i)))) then
                     call fail(error, name//"("//to_text(i)//", "//to_text(j)//") is not finite")
                 else if (abs(a(i, j) - a(j, i)) > 8.0_dp*epsilon(a)*max( &
@@ -101,13 +103,16 @@ contains
     pure subroutine orient(modes)
         !! Signs vary with the BLAS: let the largest component be positive (the first of equals).
         real(dp), intent(inout) :: modes(:, :)
+        real(dp) :: enough
         integer :: j, k
 
         do j = 1, size(modes, 2)
-            k = findloc(abs(modes(:, j)) >= (1.0_dp - 1e-8_dp)*maxval(abs(modes(:, j))), .true., 1)
-            if (k > 0) then
+            enough = (1.0_dp - 1e-8_dp)*maxval(abs(modes(:, j)))
+            do k = 1, size(modes, 1)
+                if (abs(modes(k, j)) < enough) cycle
                 if (modes(k, j) < 0.0_dp) modes(:, j) = -modes(:, j)
-            end if
+                exit
+            end do
         end do
     end subroutine orient
 
@@ -152,8 +157,20 @@ contains
         do j = rank + 1, n
             modes(:, n + 1 - j) = matmul(inverse, u(:, j))
         end do
+        if (.not. (all(ieee_is_finite(omega2)) .and. all(ieee_is_finite(modes)))) then
+            call out_of_range(error)
+            return
+        end if
         call orient(modes)
     end subroutine modes_from_factors
+
+    pure subroutine out_of_range(error)
+        !! Where products of what is given overflow.
+        type(error_t), allocatable, intent(out) :: error
+
+        call fail(error, "M or K, or omega^2, is beyond the range of doubles: other units are "// &
+                  "needed", status_library)
+    end subroutine out_of_range
 
     pure function residual_ratio(stiffness, inertia, omega2, modes) result(ratio)
         !! LAPACK's own measure \(\|KZ - MZ\Lambda\|/(\|K\|\,\|Z\|\,n\,\epsilon)\) in the 1-norm:

@@ -16,6 +16,7 @@ module lagrangia_gnuplot
     character(*), parameter :: dots = "points pt 7 ps 0.5"
 
     integer, parameter :: most_curves = 8
+    real(dp), parameter :: told_apart = 1e-5_dp  !! by the six digits of a tick, relative
 
     type :: panel_t
         !! One picture: columns `y` over column `x`.
@@ -148,7 +149,8 @@ contains
             end if
             call script%add(line)
             line = "set autoscale y"
-            if (.not. any(high(panel%y(:panel%curves)) > low(panel%y(:panel%curves)))) then
+            if (all(high(panel%y(:panel%curves)) - low(panel%y(:panel%curves)) <= &
+                    told_apart*abs(low(panel%y(:panel%curves))))) then
                 width = max(0.1_dp*abs(low(y)), tiny(width))
                 if (abs(low(y)) <= 0.0_dp) width = 1.0_dp
                 if (panel%curves == 1) line = "set yrange ["//to_text(low(y) - width)//":"// &

@@ -166,6 +166,7 @@ contains
                 q = start
                 return
             end if
+            where (abs(q) <= 4.0_dp*epsilon(q)) q = 0.0_dp
             near = "the nearest is --at "//to_text(q(1))
             do i = 2, min(size(q), 6)
                 near = near//","//to_text(q(i))

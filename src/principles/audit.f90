@@ -89,15 +89,16 @@ contains
         type(audit_t), intent(inout) :: audit
         real(dp), intent(in), optional :: given(:)
         type(error_t), allocatable :: error
-        real(dp) :: q(system%ndof), v(system%ndof), free(system%ndof - system%constraints)
+        real(dp), allocatable :: q(:), v(:), free(:)
 
         if (present(given)) then
             call system%configure(given, error)
         else
             call system%configure(default_values(d), error)
         end if
-        q = 0.5_dp
-        free = 1.0_dp
+        allocate (q(system%ndof), source=0.5_dp)
+        allocate (v(system%ndof), source=0.0_dp)
+        allocate (free(system%ndof - system%constraints), source=1.0_dp)
         call system%complete_velocities(0.0_dp, q, free, v, error)
         if (.not. allocated(error)) call say_reactions(audit, system, 0.0_dp, q, v)
         call system%configure(values, error)

@@ -73,7 +73,7 @@ contains
         terms%force = terms%force + terms%dl_dq
     end subroutine expand_lagrangian
 
-    subroutine accelerations_from_lagrangian(system, t, q, v, a, multipliers, error)
+    pure subroutine accelerations_from_lagrangian(system, t, q, v, a, multipliers, error)
         !! Accelerations, and the multipliers \(\lambda\) of the non-holonomic constraints.
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)

@@ -58,17 +58,19 @@ contains
         if (allocated(error)) call record%table%file%abandon()
     end subroutine open_event_file
 
-    subroutine finish_event_file(scene, folder, format, record, panels, error)
+    subroutine finish_event_file(scene, folder, format, record, panels, drawn, error)
         !! Complete the file under its name; with more than one row, a script too.
         type(scene_t), intent(in) :: scene
         character(*), intent(in) :: folder, format
         type(event_record_t), intent(inout) :: record
         type(panel_t), intent(in) :: panels(:)
+        character(:), allocatable, intent(out) :: drawn  !! the data file, if it has a script
         type(error_t), allocatable, intent(out) :: error
         type(output_file_t) :: script
         character(:), allocatable :: path
         integer :: n
 
+        drawn = ""
         if (.not. allocated(record%table)) return
         call record%table%finish("events: "//to_text(record%rows), error)
         if (allocated(error) .or. record%rows < 2 .or. size(panels) == 0) return
@@ -81,5 +83,6 @@ contains
             trim(scene%title)//": events", record%columns%names(n), record%columns%units(n), &
             record%low, record%high, panels, dots))
         call script%commit(error)
+        if (.not. allocated(error)) drawn = path
     end subroutine finish_event_file
 end module lagrangia_event_files

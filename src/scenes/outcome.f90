@@ -28,6 +28,7 @@ module lagrangia_outcome
 
     type :: outcome_t
         character(:), allocatable :: scene, system, method, file
+        character(:), allocatable :: events         !! their data file, if there is one to draw
         real(dp) :: t = 0.0_dp
         real(dp), allocatable :: q(:), v(:)
         integer(i8) :: steps = 0, evaluations = 0, energy_evaluations = 0, rows = 0
@@ -167,13 +168,18 @@ contains
             json = json//"null"
         end if
         json = json//', "seconds": '//json_number(self%seconds)// &
-               ', "verdict": '//json_string(self%verdict())//', "file": '
-        if (self%file == "") then
-            json = json//"null}"
-        else
-            json = json//json_string(self%file)//"}"
-        end if
+               ', "verdict": '//json_string(self%verdict())// &
+               ', "file": '//json_path(self%file)//', "events": '//json_path(self%events)//"}"
     end function outcome_json
+
+    pure function json_path(path) result(json)
+        !! The path, or `null` where it is empty.
+        character(*), intent(in) :: path
+        character(:), allocatable :: json
+
+        json = "null"
+        if (path /= "") json = json_string(path)
+    end function json_path
 
     pure function find(measures, name) result(json)
         !! The worst of `name`, or `null`.

@@ -128,7 +128,7 @@ contains
         call take_modes(scene, system, outcome)
         if (allocated(p%event_record%table)) then
             call finish_event_file(scene, folder, format, p%event_record, p%event_panels, &
-                                   file_error)
+                                   outcome%events, file_error)
             if (allocated(file_error) .and. .not. allocated(error)) then
                 call move_alloc(file_error, error)
             end if
@@ -186,6 +186,7 @@ contains
         outcome%system = trim(scene%system)
         outcome%method = trim(scene%method)
         outcome%file = ""
+        outcome%events = ""
         outcome%remark = ""
         outcome%t = scene%t0
         outcome%q = scene%q

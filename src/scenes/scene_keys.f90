@@ -190,6 +190,12 @@ contains
         if (allocated(error)) return
         call get_strings(tree, "scene", "event_columns", 1, most, scene%event_columns, error)
         if (allocated(error)) return
+        if (any(of_the_run(scene%event_columns))) then
+            call refuse_value(tree, "scene", "event_columns", &
+                              "errors and drifts are columns of the run, not of its events", &
+                              error, findloc(of_the_run(scene%event_columns), .true., 1))
+            return
+        end if
         call get_event_key("event_plot")
         if (allocated(error)) return
         call get_strings(tree, "scene", "event_plot", 1, 8, scene%event_plots, error)

@@ -57,7 +57,7 @@ contains
         d%quantities = [ &
             quantity("L_z", "kg m^2/s", "sum of m (x y_dot - y x_dot): angular momentum about "// &
                      "the pivot"), &
-            quantity("tension", "N", "of the uppermost rod")]
+            quantity("tension1", "N", "of the uppermost rod")]
         if (self%g <= 0.0_dp) d%quantities(1) = &
             conserved("L_z", "kg m^2/s", "sum of m (x y_dot - y x_dot): angular momentum about "// &
                       "the pivot, conserved without gravity", 0.0_dp)

@@ -22,7 +22,7 @@ contains
 
         d%name = "spherical_pendulum"
         d%title = "a pendulum that swings in all directions"
-        d%coordinates = [coordinate("theta", "rad", "angle of the rod from the downward vertical"), &
+        d%coordinates = [coordinate("theta", "rad", "angle from the downward vertical"), &
                          coordinate("phi", "rad", "angle around the vertical")]
         d%parameters = [positive("m", "kg", "mass of the bob", self%value(1, 1.0_dp)), &
                         positive("l", "m", "length of the rod", self%value(2, 1.0_dp)), &

@@ -1,0 +1,109 @@
+module lagrangia_modes_bench
+    !! What an eigenproblem costs, beside LAPACK's bare driver in the same rounds.
+    use lagrangia_bench_table, only: bench_table_t, count_cell, new_bench_table, number_cell, &
+                                     word_cell
+    use lagrangia_description, only: name_length
+    use lagrangia_eigen, only: normal_modes
+    use lagrangia_errors, only: error_t
+    use lagrangia_hanging_chain, only: hanging_chain_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_lapack_eigen, only: dsygv, dsygvd
+    use lagrangia_linearised, only: linearised_t
+    use lagrangia_precision_curve, only: median
+    use lagrangia_stopwatch, only: effort_t, repetitions, seconds_since, ticks_now
+    implicit none (type, external)
+    private
+    public :: measure_modes
+
+    integer, parameter :: sizes(5) = [2, 10, 100, 300, 1000]
+    integer, parameter :: small = 32  !! up to here the driver is dsygv
+
+contains
+
+    subroutine measure_modes(plan, table, error)
+        !! Hanging chains of n bobs, \(K u = \omega^2 M u\) with full matrices.
+        type(effort_t), intent(in) :: plan
+        type(bench_table_t), intent(out) :: table
+        type(error_t), allocatable, intent(out) :: error
+        type(hanging_chain_t) :: chain
+        type(linearised_t) :: page
+        real(dp), allocatable :: q(:)
+        real(dp) :: ours(plan%rounds), bare(plan%rounds)
+        integer :: i, round, n
+
+        call new_bench_table(table, "modes", "n bobs of a hanging chain, K u = omega^2 M u", &
+                             [character(name_length) :: "n", "driver", "us", "driver_us", "ratio"])
+        do i = 1, size(sizes) - merge(1, 0, plan%quick)
+            n = sizes(i)
+            call chain%configure([real(n, dp), 1.0_dp, 1.0_dp, 9.81_dp], error)
+            if (allocated(error)) return
+            allocate (q(n), source=0.0_dp)
+            call chain%linearise(q, page)
+            deallocate (q)
+            do round = 1, plan%rounds
+                call time_ours(page%stiffness, page%mass, plan%shortest, ours(round), error)
+                if (allocated(error)) return
+                call time_driver(page%stiffness, page%mass, plan%shortest, bare(round))
+            end do
+            call table%add([count_cell(int(n, i8)), &
+                            word_cell(merge("dsygv ", "dsygvd", n <= small)), &
+                            number_cell(1e6_dp*median(ours), 3), &
+                            number_cell(1e6_dp*median(bare), 3), &
+                            number_cell(median(ours/bare), 3)])
+        end do
+    end subroutine measure_modes
+
+    subroutine time_ours(stiffness, mass, shortest, seconds, error)
+        !! With all checks, allocations and signs.
+        real(dp), intent(in) :: stiffness(:, :), mass(:, :), shortest
+        real(dp), intent(out) :: seconds
+        type(error_t), allocatable, intent(out) :: error
+        real(dp), allocatable :: omega2(:), modes(:, :)
+        integer(i8) :: start
+        integer :: times, k
+
+        times = 1
+        do
+            start = ticks_now()
+            do k = 1, times
+                call normal_modes(stiffness, mass, omega2, modes, error)
+                if (allocated(error)) return
+            end do
+            seconds = seconds_since(start)
+            if (seconds >= shortest) exit
+            times = max(2*times, repetitions(seconds/times, shortest))
+        end do
+        seconds = seconds/times
+    end subroutine time_ours
+
+    subroutine time_driver(stiffness, mass, shortest, seconds)
+        !! The driver alone: its workspace is there, and the copies that it overwrites are made
+        !! before the clock starts.
+        real(dp), intent(in) :: stiffness(:, :), mass(:, :), shortest
+        real(dp), intent(out) :: seconds
+        real(dp), allocatable :: a(:, :), b(:, :), w(:), work(:)
+        integer, allocatable :: iwork(:)
+        integer(i8) :: start
+        real(dp) :: total
+        integer :: n, times, info
+
+        n = size(mass, 1)
+        allocate (a(n, n), b(n, n), w(n), work(max(34*n, 1 + 6*n + 2*n*n)), iwork(3 + 5*n))
+        total = 0.0_dp
+        times = 0
+        do while (total < shortest)
+            a = stiffness
+            b = mass
+            start = ticks_now()
+            if (n <= small) then
+                call dsygv(1, "V", "L", n, a, n, b, n, w, work, size(work), info)
+            else
+                call dsygvd(1, "V", "L", n, a, n, b, n, w, work, size(work), iwork, size(iwork), &
+                            info)
+            end if
+            total = total + seconds_since(start)
+            times = times + 1
+        end do
+        seconds = total/times
+    end subroutine time_driver
+end module lagrangia_modes_bench

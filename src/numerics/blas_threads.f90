@@ -1,0 +1,50 @@
+module lagrangia_blas_threads
+    !! OpenBLAS starts a thread for every core. At our sizes they only cost, and their number
+    !! changes last digits. Other BLAS libraries have no such switch, and need none.
+    use, intrinsic :: iso_c_binding, only: c_associated, c_f_procpointer, c_funptr, c_int, &
+                                           c_null_char, c_null_ptr
+    use lagrangia_c_library, only: c_dlsym
+    implicit none (type, external)
+    private
+    public :: blas_threads, use_one_blas_thread
+
+    abstract interface
+        subroutine set_number(n) bind(c)
+            import :: c_int
+            implicit none (type, external)
+            integer(c_int), value :: n
+        end subroutine set_number
+
+        function get_number() bind(c) result(n)
+            import :: c_int
+            implicit none (type, external)
+            integer(c_int) :: n
+        end function get_number
+    end interface
+
+contains
+
+    subroutine use_one_blas_thread()
+        !! For a program to call once, at its start; nothing happens where it is not OpenBLAS.
+        procedure(set_number), pointer :: set
+        type(c_funptr) :: address
+
+        address = c_dlsym(c_null_ptr, "openblas_set_num_threads"//c_null_char)
+        if (.not. c_associated(address)) return
+        call c_f_procpointer(address, set)
+        call set(1_c_int)
+    end subroutine use_one_blas_thread
+
+    function blas_threads() result(n)
+        !! How many OpenBLAS would use; 1 where it is another BLAS.
+        integer :: n
+        procedure(get_number), pointer :: get
+        type(c_funptr) :: address
+
+        n = 1
+        address = c_dlsym(c_null_ptr, "openblas_get_num_threads"//c_null_char)
+        if (.not. c_associated(address)) return
+        call c_f_procpointer(address, get)
+        n = int(get())
+    end function blas_threads
+end module lagrangia_blas_threads
