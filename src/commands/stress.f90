@@ -6,7 +6,8 @@ module lagrangia_stress
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_observer, only: observer_t
     use lagrangia_progress, only: progress_t
-    use lagrangia_stress_rows, only: measure_row, row_t, rows
+    use lagrangia_stress_measures, only: measure_row
+    use lagrangia_stress_rows, only: row_t, rows
     use lagrangia_text, only: join, nearest_name, quoted, to_text
     use lagrangia_verdicts, only: verdict_t, verdicts_t
     use lagrangia_version, only: build_text
@@ -94,14 +95,12 @@ contains
         wide = [maxval(len_trim(list%of)), maxval(len_trim(list%measured))]
         call put_line("")
         call put_line(trim(row%name)//": "//trim(row%title))
-        do i = 1, size(row%meaning)
-            if (row%meaning(i) /= "") call put_line("  "//trim(row%meaning(i)))
-        end do
+        call put_line("  "//trim(row%meaning))
         do i = 1, size(list)
             associate (cells => list(i))
-                call put_line(trim("    "//left(cells%of, wide(1))//left(cells%measured, wide(2))// &
-                                   right(short(cells%value, 4), 11)//"  "// &
-                                   left(cells%allowed(), 16)//left(cells%word(), 6)//cells%remark))
+                call put_line(trim("  "//left(cells%of, wide(1))//left(cells%measured, wide(2))// &
+                                   right(short(cells%value, 4), 10)//"  "// &
+                                   left(cells%allowed(), 14)//left(cells%word(), 6)//cells%remark))
             end associate
         end do
     end subroutine put_table
