@@ -13,6 +13,7 @@ module lagrangia_run_command
     use lagrangia_scene_files, only: check_format, draw, script_path
     use lagrangia_scene_reader, only: read_scene
     use lagrangia_shipped, only: find_scene, shipped_scenes
+    use lagrangia_step_warning, only: step_warning
     use lagrangia_system, only: system_t
     use lagrangia_text, only: quoted, to_text
     use lagrangia_version, only: is_optimised
@@ -102,6 +103,7 @@ contains
 
             call read_scene(path, line%values_of("set"), scene, system, error)
             if (allocated(error)) return
+            call warn(path, step_warning(scene, system))
             call progress%restart(trim(scene%name))
             call play(scene, system, folder, format, watcher, outcome, error)
             if (allocated(error) .or. .not. line%has("plot")) return

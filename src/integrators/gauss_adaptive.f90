@@ -22,6 +22,7 @@ module lagrangia_gauss_adaptive
 
     integer, parameter :: most_sweeps = 25
     real(dp), parameter :: best_rate = exp(-2.0_dp)
+    real(dp), parameter :: least_rate = 0.01_dp  !! to expect of a step's first sweep
     real(dp), parameter :: noise = (64.0_dp*epsilon(1.0_dp))**2  !! of accelerations, squared
     real(dp), parameter :: least_tolerance = 1e-14_dp
     real(dp), parameter :: share = 0.1_dp  !! of the tolerance that the iteration may leave
@@ -230,7 +231,7 @@ contains
         real(dp) :: change, all, first, last
 
         call weigh(self%s%n, self%s%h, self%tolerance, self%s%q, self%s%v, self%weight)
-        self%rate = min(0.5_dp, self%rate*(self%s%h/self%s%h_known)**2)
+        self%rate = min(0.5_dp, max(least_rate, self%rate*(self%s%h/self%s%h_known)**2))
         error = -1.0_dp
         first = 1.0_dp
         last = 1.0_dp

@@ -66,7 +66,7 @@ contains
         class(system_t), intent(inout) :: system
         class(dense_integrator_t), intent(inout) :: method
         type(verdicts_t), intent(inout) :: verdicts
-        real(dp), parameter :: restitutions(*) = [0.1_dp, 0.5_dp, 0.8_dp, 0.99_dp]
+        real(dp), parameter :: restitutions(*) = [0.1_dp, 0.5_dp, 0.8_dp, 0.95_dp]
         type(counter_t), target :: counter
         real(dp) :: e, zeno, q(1), v(1)
         integer :: i

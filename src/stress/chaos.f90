@@ -87,26 +87,41 @@ contains
     end subroutine follow_growth
 
     subroutine follow_distance(system, method, other, n, distance)
-        !! `distance(k)`: between the coordinates by two methods after `k` intervals.
+        !! `distance(k)`: between the coordinates by two methods after `k` intervals; huge from
+        !! where one of them gives up.
         class(system_t), intent(in) :: system
         class(dense_integrator_t), intent(inout) :: method, other
         integer, intent(in) :: n
         real(dp), allocatable, intent(out) :: distance(:)
         type(error_t), allocatable :: error
-        real(dp), dimension(2) :: q, v, q_other, v_other
+        real(dp), dimension(2) :: q, v, q_other
         integer :: k
 
-        allocate (distance(n))
-        call method%prepare(system, error)
-        call other%prepare(system, error)
+        allocate (distance(n), source=huge(interval))
         q = start
         v = 0.0_dp
-        q_other = q
-        v_other = v
+        call method%prepare(system, error)
+        if (.not. allocated(error)) call other%prepare(system, error)
+        if (allocated(error)) return
+        call method%start(system, 0.0_dp, q, v, n*interval)
+        call other%start(system, 0.0_dp, q, v, n*interval)
         do k = 1, n
-            call method%advance(system, 0.0_dp, interval, k - 1_i8, 1_i8, q, v)
-            call other%advance(system, 0.0_dp, interval, k - 1_i8, 1_i8, q_other, v_other)
+            call walk(method, q)
+            if (.not. allocated(error)) call walk(other, q_other)
+            if (allocated(error)) return
             distance(k) = maxval(abs(q - q_other))
         end do
+    contains
+        subroutine walk(walker, q)
+            class(dense_integrator_t), intent(inout) :: walker
+            real(dp), intent(out) :: q(2)
+
+            q = 0.0_dp
+            do while (walker%t_new < k*interval)
+                call walker%step(system, error)
+                if (allocated(error)) return
+            end do
+            call walker%state_at(k*interval, q, v)
+        end subroutine walk
     end subroutine follow_distance
 end module lagrangia_chaos

@@ -7,6 +7,7 @@ module lagrangia_method_promises
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_method_problems, only: new_problem, problems, refuses
+    use lagrangia_number_text, only: field_width, write_row
     use lagrangia_observer, only: observer_box_t
     use lagrangia_parameters, only: default_values
     use lagrangia_run, only: new_plan, plan_t, run
@@ -14,7 +15,7 @@ module lagrangia_method_promises
     use lagrangia_verdicts, only: verdicts_t
     implicit none (type, external)
     private
-    public :: judge_bytes, judge_reversal, judge_scaling, judge_symplectic
+    public :: judge_bytes, judge_reversal, judge_scaling, judge_symplectic, judge_text
 
     real(dp), parameter :: dt = 0.02_dp        !! s
     integer(i8), parameter :: steps = 1000_i8
@@ -99,6 +100,24 @@ contains
         call verdicts%judge(method%name, "numbers that differ with the stride", &
                             real(different, dp), 0.0_dp, 0.0_dp)
     end subroutine judge_bytes
+
+    subroutine judge_text(verdicts)
+        !! Numbers of all sizes, written as the data files have them and read again.
+        type(verdicts_t), intent(inout) :: verdicts
+        character(field_width + 1) :: text
+        real(dp) :: x(1), y(1)
+        integer :: different, k, length
+
+        different = 0
+        do k = -1060, 1020
+            x = 2.0_dp**k*(1.0_dp + abs(sin(real(k, dp))))
+            call write_row(x, text, length)
+            read (text(:length - 1), *) y
+            different = different + differing(x, y)
+        end do
+        call verdicts%judge("text files", "numbers that do not come back", real(different, dp), &
+                            0.0_dp, 0.0_dp)
+    end subroutine judge_text
 
     pure function differing(x, y) result(number)
         !! How many numbers differ in a bit; those that are not finite do.
