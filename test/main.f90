@@ -80,7 +80,9 @@ module suites
     use test_shadow, only: shadow_suite
     use test_sinc, only: sinc_suite
     use test_small_oscillations, only: small_oscillations_suite
+    use test_step_warning, only: step_warning_suite
     use test_stress, only: stress_suite
+    use test_stress_systems, only: stress_systems_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
     use test_virtual_work, only: virtual_work_suite
@@ -174,7 +176,9 @@ contains
         call suite%addTest(shadow_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(small_oscillations_suite())
+        call suite%addTest(step_warning_suite())
         call suite%addTest(stress_suite())
+        call suite%addTest(stress_systems_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(text_suite())
         call suite%addTest(virtual_work_suite())

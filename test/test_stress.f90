@@ -1,12 +1,16 @@
 module test_stress
     !! The verdicts of `lagrangia stress` on methods: each is seen to hold, and to fail.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_edges_of_numbers, only: judge_edges
     use lagrangia_energy_growth, only: judge_energy_growth
     use lagrangia_errors, only: error_t
     use lagrangia_growth_law, only: growth_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_method_promises, only: judge_bytes, judge_reversal, judge_scaling, &
+                                         judge_symplectic, judge_text
     use lagrangia_methods, only: new_integrator
+    use lagrangia_rounding, only: judge_rounding
     use lagrangia_step_limits, only: judge_step_limit
     use lagrangia_verdicts, only: verdicts_t
     use spoiled_methods, only: new_spoiled, spoiled_t
@@ -25,7 +29,80 @@ contains
         call suite%addTest(TestMethod("laws_are_named", laws_are_named))
         call suite%addTest(TestMethod("step_limits_are_measured", step_limits_are_measured))
         call suite%addTest(TestMethod("energy_growth_is_named", energy_growth_is_named))
+        call suite%addTest(TestMethod("promises_are_held", promises_are_held))
+        call suite%addTest(TestMethod("rounding_is_told_apart", rounding_is_told_apart))
+        call suite%addTest(TestMethod("edges_of_numbers_are_seen", edges_of_numbers_are_seen))
     end function stress_suite
+
+    subroutine promises_are_held()
+        !! Friction is no canonical map and not reversible; what is added at every call depends on
+        !! the blocks, and, being no number of the system's units, on these.
+        type(spoiled_t) :: spoiled
+        class(integrator_t), allocatable :: method
+        type(error_t), allocatable :: error
+        type(verdicts_t) :: verdicts
+        integer :: i
+
+        call verdicts%begin("promises")
+        call new_integrator("verlet", method, error)
+        call judge_reversal(method, verdicts)
+        call judge_symplectic(method, verdicts)
+        call judge_bytes(method, verdicts)
+        call judge_scaling(method, verdicts)
+        call judge_text(verdicts)
+        call assertEqual(0, verdicts%broken())
+        call new_spoiled(spoiled, "verlet", damping=1e-8_dp)
+        call judge_reversal(spoiled, verdicts)
+        call judge_symplectic(spoiled, verdicts)
+        call new_spoiled(spoiled, "verlet", share=epsilon(1.0_dp))
+        call judge_bytes(spoiled, verdicts)
+        call new_spoiled(spoiled, "verlet", push=1e-12_dp)
+        call judge_scaling(spoiled, verdicts)
+        do i = 6, 9
+            call assertFalse(verdicts%list(i)%holds, verdicts%list(i)%measured)
+        end do
+        call new_integrator("rk4", method, error)
+        call judge_reversal(method, verdicts)
+        call assertEqual("stated", verdicts%list(10)%word())
+    end subroutine promises_are_held
+
+    subroutine rounding_is_told_apart()
+        !! Plain sums, taken for compensated ones, lose too much; a method that is not Verlet has
+        !! another energy.
+        class(integrator_t), allocatable :: method
+        type(error_t), allocatable :: error
+        type(verdicts_t) :: verdicts
+
+        call verdicts%begin("rounding")
+        call new_integrator("verlet", method, error)
+        call judge_rounding(method, "plain", 1000000_i8, verdicts)
+        call judge_rounding(method, "compensated", 1000000_i8, verdicts)
+        call new_integrator("verlet", method, error, compensated=.true.)
+        call judge_rounding(method, "compensated", 100000_i8, verdicts)
+        call new_integrator("velocity_verlet", method, error)
+        call judge_rounding(method, "plain", 10000_i8, verdicts)
+        call assertTrue(all(verdicts%list%holds .eqv. [.true., .false., .true., .false.]), &
+                        "plain, compensated")
+    end subroutine rounding_is_told_apart
+
+    subroutine edges_of_numbers_are_seen()
+        !! RK4 passes; what adds a constant is not linear, and what damps never overflows.
+        class(integrator_t), allocatable :: method
+        type(spoiled_t) :: spoiled
+        type(error_t), allocatable :: error
+        type(verdicts_t) :: verdicts
+
+        call verdicts%begin("edges")
+        call new_integrator("rk4", method, error)
+        call judge_edges(method, verdicts)
+        call assertEqual(0, verdicts%broken())
+        call new_spoiled(spoiled, "rk4", push=1e-3_dp)
+        call judge_edges(spoiled, verdicts)
+        call assertFalse(verdicts%list(6)%holds .or. verdicts%list(7)%holds, "amplitudes")
+        call new_spoiled(spoiled, "rk4", damping=0.5_dp)
+        call judge_edges(spoiled, verdicts)
+        call assertFalse(verdicts%list(13)%holds .or. verdicts%list(14)%holds, "overflow")
+    end subroutine edges_of_numbers_are_seen
 
     subroutine verdicts_hold_within_bounds()
         !! From both sides; NaN never; a statement has no bounds.

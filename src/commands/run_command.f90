@@ -99,11 +99,13 @@ contains
             character(*), intent(in) :: path
             type(error_t), allocatable, intent(out) :: error
             class(system_t), allocatable :: system
+            character(:), allocatable :: warning
             type(scene_t) :: scene
 
             call read_scene(path, line%values_of("set"), scene, system, error)
             if (allocated(error)) return
-            call warn(path, step_warning(scene, system))
+            warning = step_warning(scene, system)
+            if (warning /= "" .and. .not. quiet) call note(path//": "//warning)
             call progress%restart(trim(scene%name))
             call play(scene, system, folder, format, watcher, outcome, error)
             if (allocated(error) .or. .not. line%has("plot")) return

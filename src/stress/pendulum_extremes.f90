@@ -29,7 +29,7 @@ contains
         integer, parameter :: powers(*) = [1, 3, 6, 9, 12, 15]
         class(reference_t), allocatable :: reference
         character(:), allocatable :: of
-        real(dp) :: theta0, period, run
+        real(dp) :: theta0, period, closed, run
         integer :: i
 
         do i = 1, size(powers)
@@ -37,8 +37,10 @@ contains
             theta0 = real(pi, dp) - 10.0_dp**(-powers(i))
             period = exact_period(system, theta0)
             call new_reference(system, 0.0_dp, [theta0], [0.0_dp], reference)
+            closed = 0.0_dp
+            if (allocated(reference)) closed = reference%period
             call verdicts%judge(of, "period, closed form: relative error", &
-                                abs(reference%period/period - 1.0_dp), most=4.0_dp*epsilon(period), &
+                                abs(closed/period - 1.0_dp), most=4.0_dp*epsilon(period), &
                                 remark="T = "//short(period, 8)//" s")
             if (powers(i) > 12) cycle
             run = 4.0_dp*time_of_zero(method, system, [theta0], [0.0_dp], period)

@@ -51,7 +51,7 @@ contains
             if (name == "large_angles") call judge_large_angles(system, dense, verdicts)
         case ("mass_ratios", "massless", "chaos")
             call new_system("double_pendulum", system, error)
-            if (name == "mass_ratios") call judge_mass_ratios(system, dense, verdicts)
+            if (name == "mass_ratios") call judge_mass_ratios(system, dense, 0.01_dp, verdicts)
             if (name == "massless") call judge_massless(system, verdicts)
             if (name /= "chaos") return
             call new_adaptive("dop853", other)
