@@ -91,6 +91,8 @@ function examine(statement, head, word, used) {
         sub(/^(, *non_intrinsic *)?(:: *)?/, "", used)
         sub(/[^a-z0-9_].*$/, "", used)
         if (used == "omp_lib") return
+        if (used == "lagrangia_c_library" && expected != "lagrangia_console" && statement ~ /[ ,]c_(write|fdopen)( |,|$)/)
+            complain("only app/ and src/commands/ print: " statement)
         if (!(used in room_defining)) {
             complain("no file here defines the module " used)
         } else if (!may_use(room, room_defining[used])) {

@@ -78,6 +78,8 @@ module core kinds "if (f(x) > 1) write (unit = *, fmt=*) x";        refuses "onl
 module core kinds "use, intrinsic :: iso_fortran_env, only: output_unit"
 refuses "only app/ and src/commands/ print"
 module scenes catalogue "use lagrangia_console, only: put";         refuses "only app/ and src/commands/ print"
+module core kinds "use lagrangia_c_library, only: c_fflush, c_write"
+refuses "only app/ and src/commands/ print"
 module core kinds "STOP";                                           refuses "only app/ and src/commands/ stop"
 module core kinds "if (x) error stop 'now'";                        refuses "only app/ and src/commands/ stop"
 module core kinds "stop 3, quiet=.true.";                           refuses "only app/ and src/commands/ stop"

@@ -112,6 +112,22 @@ for system in $systems; do
     [ "$status" -eq 0 ] && grep -q '^L =$' "$work/out" || { check "describe $system" false; }
 done
 check "describe: every system of the list" [ "$(wc -w <<<"$systems")" -ge 11 ]
+run describe hanging_chain
+check "describe: a whole number" grep -q 'default 3;' "$work/out"
+
+# Small oscillations, the audit, the principles
+run modes cart_pendulum --set cart_pendulum%m1=2 --set cart_pendulum%m2=0.5 --set cart_pendulum%l=1.3 --json
+check "modes: a zero mode and (m1 + m2) g/(m1 l)" json 'd["omega2"][0] == 0 and d["label"][0] == "zero mode" and abs(d["omega2"][1]/(2.5*9.81/(2*1.3)) - 1) < 1e-14'
+run modes hanging_chain --set hanging_chain%n=200 --output "$work/modes"
+check "modes: a long chain, a file and a script a mode" eval '[ $status -eq 0 ] && [ "$(ls "$work/modes" | wc -l)" -eq 400 ]'
+refuses 2 "the nearest is --at 0.0" modes pendulum --at 1
+refuses 2 "takes 2 values" modes double_pendulum --at 0
+refuses 2 "greater than 0.0 is needed" modes cart_pendulum --set cart_pendulum%m1=0
+refuses 4 "other units are needed" modes pendulum --set pendulum%g=1e308 --set pendulum%l=1e-300
+run check pendulum rolling_disk --json
+check "check: every claim holds" json 'len(d) > 25 and all(row["holds"] for row in d)'
+run principle virtual-work --json
+check "principle: its controls fail, the rest holds" json 'all(row["holds"] != row["control"] for row in d) and any(row["control"] for row in d)'
 
 # status 1: a tolerance that does not hold
 run run pendulum --set scene%expect_error=1e-30 --output "$work/o"

@@ -1,8 +1,10 @@
 module lagrangia
     !! The public face of the toolkit, for other people's programs. Defines nothing.
     !!
-    !! A program with your own systems beside the lectures' is `call register_system(mine)` and
-    !! `call lagrangia_main()`: see `docs/your_own_system.md`.
+    !! A program with your own systems beside the lectures' is `call register_system(mine, error)`
+    !! and `call lagrangia_main(error)`: see `docs/your_own_system.md`. Small oscillations of your
+    !! own matrices are `call normal_modes(k, m, modes, error)`: see `data/examples/normal_modes`;
+    !! those of a system `call find_modes(system, q, wanted, modes, error)`.
     !!
     !! A system by its name, an integrator by its name, `run` to drive them:
     !!
@@ -20,9 +22,10 @@ module lagrangia
     !!     call new_plan(plan, 0.0_dp, 1e-3_dp, 20.0_dp, 10_i8, error)
     !!     call run(system, integrator, plan, nobody, q, v, error)
     use lagrangia_catalogue, only: new_reference, new_system, register_system, system_names
-    use lagrangia_description, only: conserved, coordinate, description_t, nonnegative, number, &
-                                     parameter_t, point, point_t, positive, quantity, &
-                                     quantity_t, vector
+    use lagrangia_description, only: between, conserved, coordinate, count_of, description_t, &
+                                     line_length, nonnegative, number, parameter_t, point, &
+                                     point_t, positive, quantity, quantity_t, vector
+    use lagrangia_eigen, only: residual_ratio
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: abs, assignment(=), atan, cos, cosh, dot_product, exp, &
                                    hyperdual, hyperdual_t, log, operator(*), operator(**), &
@@ -34,10 +37,13 @@ module lagrangia
                                   euler_lagrange_t, expand_lagrangian
     use lagrangia_lagrangian_system, only: lagrangian_system_t
     use lagrangia_methods, only: method_names, new_integrator
+    use lagrangia_normal_modes, only: is_oscillation, is_unstable, is_zero_mode, normal_modes, &
+                                      normal_modes_t
     use lagrangia_observer, only: observer_box_t, observer_t
     use lagrangia_program, only: lagrangia_main
     use lagrangia_reference, only: reference_t
     use lagrangia_run, only: new_plan, plan_t, run
+    use lagrangia_small_oscillations, only: find_modes, modes_t
     use lagrangia_system, only: check_parameters, default_values, system_t
     implicit none (type, external)
     public

@@ -1,6 +1,7 @@
 module suites
     !! Every suite. A new one takes two lines: one `use`, one `addTest`.
     use funit, only: TestSuite
+    use test_accuracy, only: accuracy_suite
     use test_action, only: action_suite
     use test_amplitude, only: amplitude_suite
     use test_audit, only: audit_suite
@@ -16,6 +17,7 @@ module suites
     use test_command_line, only: command_line_suite
     use test_compensated, only: compensated_suite
     use test_compositions, only: compositions_suite
+    use test_concise, only: concise_suite
     use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
     use test_constraints, only: constraints_suite
@@ -27,9 +29,11 @@ module suites
     use test_driven_pendulum, only: driven_pendulum_suite
     use test_echo, only: echo_suite
     use test_elliptic, only: elliptic_suite
+    use test_errata, only: errata_suite
     use test_errors, only: errors_suite
     use test_events, only: events_suite
     use test_exact_maps, only: exact_maps_suite
+    use test_failure_contract, only: failure_contract_suite
     use test_gauge, only: gauge_suite
     use test_gauss, only: gauss_suite
     use test_gauss_adaptive, only: gauss_adaptive_suite
@@ -55,12 +59,14 @@ module suites
     use test_namelist_limits, only: namelist_limits_suite
     use test_namelist_refusals, only: namelist_refusals_suite
     use test_namelist_values, only: namelist_values_suite
+    use test_normal_modes, only: normal_modes_suite
     use test_npy, only: npy_suite
     use test_number_text, only: number_text_suite
     use test_oscillator, only: oscillator_suite
     use test_outcome, only: outcome_suite
     use test_output_failures, only: output_failures_suite
     use test_output_file, only: output_file_suite
+    use test_own_system, only: own_system_suite
     use test_pendulum, only: pendulum_suite
     use test_period, only: period_suite
     use test_plan, only: plan_suite
@@ -68,6 +74,7 @@ module suites
     use test_principles, only: principles_suite
     use test_processes, only: processes_suite
     use test_quadrature, only: quadrature_suite
+    use test_register, only: register_suite
     use test_rheonomic, only: rheonomic_suite
     use test_rolling_disk, only: rolling_disk_suite
     use test_rolling_disk_reference, only: rolling_disk_reference_suite
@@ -80,9 +87,11 @@ module suites
     use test_shadow, only: shadow_suite
     use test_sinc, only: sinc_suite
     use test_small_oscillations, only: small_oscillations_suite
+    use test_statement, only: statement_suite
     use test_step_warning, only: step_warning_suite
     use test_stress, only: stress_suite
     use test_stress_systems, only: stress_systems_suite
+    use test_swings, only: swings_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
     use test_virtual_work, only: virtual_work_suite
@@ -99,6 +108,7 @@ contains
         suite = TestSuite("lagrangia")
         call suite%addTest(harness_suite())
         call suite%addTest(harness_order_suite())
+        call suite%addTest(accuracy_suite())
         call suite%addTest(action_suite())
         call suite%addTest(amplitude_suite())
         call suite%addTest(audit_suite())
@@ -114,6 +124,7 @@ contains
         call suite%addTest(command_line_suite())
         call suite%addTest(compensated_suite())
         call suite%addTest(compositions_suite())
+        call suite%addTest(concise_suite())
         call suite%addTest(console_suite())
         call suite%addTest(constant_accelerations_suite())
         call suite%addTest(constraints_suite())
@@ -125,9 +136,11 @@ contains
         call suite%addTest(driven_pendulum_suite())
         call suite%addTest(echo_suite())
         call suite%addTest(elliptic_suite())
+        call suite%addTest(errata_suite())
         call suite%addTest(errors_suite())
         call suite%addTest(events_suite())
         call suite%addTest(exact_maps_suite())
+        call suite%addTest(failure_contract_suite())
         call suite%addTest(gauge_suite())
         call suite%addTest(gauss_suite())
         call suite%addTest(gauss_adaptive_suite())
@@ -151,12 +164,14 @@ contains
         call suite%addTest(namelist_limits_suite())
         call suite%addTest(namelist_refusals_suite())
         call suite%addTest(namelist_values_suite())
+        call suite%addTest(normal_modes_suite())
         call suite%addTest(npy_suite())
         call suite%addTest(number_text_suite())
         call suite%addTest(oscillator_suite())
         call suite%addTest(outcome_suite())
         call suite%addTest(output_failures_suite())
         call suite%addTest(output_file_suite())
+        call suite%addTest(own_system_suite())
         call suite%addTest(pendulum_suite())
         call suite%addTest(period_suite())
         call suite%addTest(plan_suite())
@@ -179,9 +194,12 @@ contains
         call suite%addTest(step_warning_suite())
         call suite%addTest(stress_suite())
         call suite%addTest(stress_systems_suite())
+        call suite%addTest(statement_suite())
+        call suite%addTest(swings_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(text_suite())
         call suite%addTest(virtual_work_suite())
+        call suite%addTest(register_suite())  ! the last: its system stays in the catalogue
     end function load_tests
 end module suites
 

@@ -214,11 +214,25 @@ contains
     end subroutine signs_change_at_conjugate_points
 
     subroutine hopeless_paths_are_refused()
-        !! Two points of an oscillator so coarse that their Hessian vanishes: a conjugate point.
+        !! Two points of an oscillator so coarse that their Hessian vanishes: a conjugate point; a
+        !! guess far from any motion. The guess is as it was.
         type(oscillator_t) :: system
+        type(pendulum_t) :: pendulum
         type(error_t), allocatable :: error
-        real(dp), allocatable :: path(:, :)
+        real(dp), allocatable :: path(:, :), guess(:, :)
+        integer :: i
 
+        call build(pendulum, [1.0_dp, 1.0_dp, 9.81_dp])
+        allocate (guess, source=straight(1.0_dp, 2.0_dp, 40))
+        guess(1, 2:40) = [((-1)**i*(3.0_dp + i), i=2, 40)]
+        path = guess
+        call find_path(pendulum, 0.0_dp, 0.25_dp, path, error)
+        call assertTrue(allocated(error), "hopeless")
+        if (anyExceptions()) return
+        call assertEqual("path between two points: Newton's method does not converge", &
+                         error%message)
+        call assertEqual(guess, path, message="a guess as it was")
+        deallocate (path)
         call build(system, [1.0_dp, 2.0_dp])
         allocate (path, source=straight(1.0_dp, 2.0_dp, 2))
         call find_path(system, 0.0_dp, 1.0_dp, path, error)
@@ -226,6 +240,7 @@ contains
         if (anyExceptions()) return
         call assertEqual("path between two points: band system: the matrix is singular", &
                          error%message)
+        call assertEqual(straight(1.0_dp, 2.0_dp, 2), path, message="a guess as it was")
     end subroutine hopeless_paths_are_refused
 
     subroutine walker_starts_at_the_start()

@@ -1,10 +1,13 @@
 module test_gauss_dense
     !! The state between the ends of the steps of Gauss-Legendre collocation.
-    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertLessThan
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
+                     assertGreaterThan, assertLessThan
+    use lagrangia_adaptive_methods, only: adaptive_names, nth_adaptive
     use lagrangia_double_pendulum, only: double_pendulum_t
     use lagrangia_errors, only: error_t
     use lagrangia_gauss, only: gauss_t, new_gauss16
     use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
+    use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: system_t
     implicit none (type, external)
@@ -21,6 +24,7 @@ contains
         call suite%addTest(TestMethod("inside_steps_as_at_their_ends", &
                                       inside_steps_as_at_their_ends))
         call suite%addTest(TestMethod("states_at_the_ends", states_at_the_ends))
+        call suite%addTest(TestMethod("ends_alone_cost_less", ends_alone_cost_less))
     end function gauss_dense_suite
 
     subroutine ready(system, tolerance, method)
@@ -116,4 +120,46 @@ contains
         call method%advance(system, 0.5_dp, 2.5_dp, 0_i8, 1_i8, q, v)
         call assertEqual([q, v], [end_q, end_v], 0.0_dp, "steps of advance are the same")
     end subroutine states_at_the_ends
+
+    subroutine ends_alone_cost_less()
+        !! The same steps to the last bit, of every adaptive method, for fewer evaluations.
+        type(double_pendulum_t) :: system
+        class(dense_integrator_t), allocatable :: method
+        type(error_t), allocatable :: error
+        real(dp) :: q(2), v(2), end_q(2), end_v(2)
+        integer(i8) :: evaluations
+        integer :: i
+
+        call system%configure([1.3_dp, 0.7_dp, 0.9_dp, 1.7_dp, 9.81_dp], error)
+        do i = 1, size(adaptive_names())
+            call nth_adaptive(i, method)
+            call to_the_end(system, method, end_q, end_v)
+            evaluations = method%evaluations
+            method%dense = .false.
+            call to_the_end(system, method, q, v)
+            call assertEqual([end_q, end_v], [q, v], 0.0_dp, method%name)
+            call assertLessThan(method%evaluations, evaluations, message=method%name)
+        end do
+    end subroutine ends_alone_cost_less
+
+    subroutine to_the_end(system, method, q, v)
+        !! Step by step, asking at the ends; never where the last step began.
+        class(system_t), intent(in) :: system
+        class(dense_integrator_t), intent(inout) :: method
+        real(dp), intent(out) :: q(2), v(2)
+        type(error_t), allocatable :: error
+        real(dp) :: before
+
+        call method%prepare(system, error)
+        call method%start(system, 0.5_dp, [1.5_dp, 0.8_dp], [0.2_dp, -1.0_dp], 3.0_dp)
+        q(1) = 1.5_dp
+        do while (method%t_new < 3.0_dp)
+            before = q(1)
+            call method%step(system, error)
+            call assertFalse(allocated(error), "step")
+            if (anyExceptions()) return
+            call method%state_at(method%t_new, q, v)
+            call assertGreaterThan(abs(q(1) - before), 0.0_dp, message="it moved")
+        end do
+    end subroutine to_the_end
 end module test_gauss_dense

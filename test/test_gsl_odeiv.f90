@@ -169,7 +169,7 @@ contains
     end subroutine time_enters_the_jacobian
 
     function broken(t, y, rates, context) bind(c) result(status)
-        !! A right-hand side that fails: GSL_EBADFUNC.
+        !! A right-hand side that fails half-way: GSL_EBADFUNC.
         real(c_double), value :: t
         real(c_double), intent(in) :: y(*)
         real(c_double), intent(inout) :: rates(*)
@@ -177,7 +177,8 @@ contains
         integer(c_int) :: status
 
         rates(1) = y(1)
-        status = 9
+        rates(2) = 1.0_dp
+        status = merge(9, 0, t > 0.5_dp)
     end function broken
 
     subroutine refusals_have_words()
@@ -196,6 +197,10 @@ contains
         y = 1.0_dp
         call driver%integrate(t, 1.0_dp, y, error)
         call refused("odeiv2: GSL says: problem with user-supplied function", status_library)
+        call assertEqual([0.0_dp, 1.0_dp, 1.0_dp], [t, y], message="as they were")
+        call driver%fixed_steps(t, 0.1_dp, 10_i8, y, error)
+        call refused("odeiv2: GSL says: problem with user-supplied function", status_library)
+        call assertEqual([0.0_dp, 1.0_dp, 1.0_dp], [t, y], message="as they were")
         call driver%free()
         call driver%free()
     contains

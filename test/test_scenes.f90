@@ -38,6 +38,7 @@ contains
                                       overrides_are_checked_like_the_file))
         call suite%addTest(TestMethod("overrides_override", overrides_override))
         call suite%addTest(TestMethod("defaults_are_filled_in", defaults_are_filled_in))
+        call suite%addTest(TestMethod("capitals_can_be_expected", capitals_can_be_expected))
     end function scenes_suite
 
     subroutine refused(text, message, override)
@@ -268,4 +269,15 @@ contains
         call read("&scene system='pendulum' dt=1e-2 duration=1 samples=5 q=1 /", [word_t ::], scene)
         call assertEqual(20, int(scene%every))
     end subroutine defaults_are_filled_in
+
+    subroutine capitals_can_be_expected()
+        !! Keys are the same in capitals and small letters; columns keep their capitals.
+        type(scene_t) :: scene
+
+        call read(head//"expect_L_z_drift=1e-9 / &pendulum g=0 /", [word_t ::], scene)
+        call assertEqual(1, size(scene%expectations))
+        if (size(scene%expectations) /= 1) return
+        call assertEqual("L_z_drift", scene%expectations(1)%name)
+        call assertEqual(1e-9_dp, scene%expectations(1)%limit)
+    end subroutine capitals_can_be_expected
 end module test_scenes

@@ -22,7 +22,7 @@ module lagrangia_our_contestants
     end type fixed_contestant_t
 
     type, extends(contestant_t) :: adaptive_contestant_t
-        !! Steps of the method's own choice.
+        !! Steps of the method's own choice; nobody asks what is between them.
         class(dense_integrator_t), allocatable :: method
     contains
         procedure :: prepare => prepare_adaptive
@@ -95,6 +95,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
 
         self%method%tolerance = setting
+        self%method%dense = .false.
         call self%method%prepare(problem%system, error)
     end subroutine prepare_adaptive
 

@@ -5,6 +5,7 @@ module lagrangia_commands
     use lagrangia_command_line, only: command_line_t, command_words, parse_words, word_t
     use lagrangia_console, only: finish_console, put, put_line
     use lagrangia_describe, only: describe_command
+    use lagrangia_errata_command, only: errata_command
     use lagrangia_errors, only: error_t
     use lagrangia_interrupt, only: catch_interrupts
     use lagrangia_list, only: list_command
@@ -44,6 +45,7 @@ contains
         else
             select case (commands(which)%name)
             case ("check"); call check_command(line, error)
+            case ("errata"); call errata_command(line, error)
             case ("list"); call list_command(line, error)
             case ("describe"); call describe_command(line, error)
             case ("bench"); call bench_command(line, error)

@@ -70,6 +70,7 @@ contains
                 text = trim(p%computed)
                 if (text /= "") return
                 text = to_text(p%value(1))
+                if (p%whole) text = to_text(nint(p%value(1)))
                 do k = 2, p%count
                     text = text//", "//to_text(p%value(k))
                 end do

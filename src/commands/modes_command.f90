@@ -1,6 +1,5 @@
 module lagrangia_modes_command
     !! `lagrangia modes SYSTEM`: small oscillations, LAPACK's answer beside the page's.
-    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_description, only: description_t
@@ -110,7 +109,7 @@ contains
         do j = 1, n
             row = number(modes%omega2(j))
             if (modes%label(j) == is_oscillation) then
-                associate (w => sqrt(modes%omega2(j)))
+                associate (w => modes%omega(j))
                     row(20:) = number(w)//" "//number(w/(2.0_dp*pi))//" "//number(2.0_dp*pi/w)
                 end associate
             else if (modes%label(j) == is_unstable) then
@@ -239,14 +238,11 @@ contains
         character(*), intent(in) :: name
         type(modes_t), intent(in) :: modes
         character(:), allocatable :: json
-        real(dp) :: omega(size(modes%omega2))
         integer :: j
 
-        omega = ieee_value(omega, ieee_quiet_nan)
-        where (modes%label /= is_unstable) omega = sqrt(max(0.0_dp, modes%omega2))
         json = '{"system": '//json_string(name)//', "at": '//json_list(modes%at)// &
                ', "M": '//rows(modes%mass)//', "K": '//rows(modes%stiffness)// &
-               ', "omega2": '//json_list(modes%omega2)//', "omega": '//json_list(omega)// &
+               ', "omega2": '//json_list(modes%omega2)//', "omega": '//json_list(modes%omega)// &
                ', "label": ['
         do j = 1, size(modes%label)
             if (j > 1) json = json//", "

@@ -1,7 +1,7 @@
 module lagrangia_principle
     !! `lagrangia principle NAME`: both sides of a principle's statement, and their difference.
     use lagrangia_action, only: action_principle
-    use lagrangia_catalogue, only: nth_system, system_names
+    use lagrangia_catalogue, only: built_in, nth_system
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_constraints, only: constraints_principle
@@ -19,7 +19,8 @@ module lagrangia_principle
     use lagrangia_walker, only: walker_t
     implicit none (type, external)
     private
-    public :: principle_command, principle_names, principle_report, statement_line
+    public :: principle_command, principle_names, principle_report, put_json, put_report, &
+              statement_line
 
     type :: principle_t
         character(16) :: name = ""
@@ -103,11 +104,11 @@ contains
     end subroutine principle_report
 
     subroutine every_system(systems)
-        !! The whole catalogue, with default parameters.
+        !! Those of the lectures, with default parameters.
         type(system_box_t), allocatable, intent(out) :: systems(:)
         integer :: i
 
-        allocate (systems(size(system_names())))
+        allocate (systems(built_in))
         do i = 1, size(systems)
             call nth_system(i, systems(i)%item)
         end do
@@ -136,12 +137,12 @@ contains
         character(98) :: heading
         integer :: i, controls
 
-        call put_line(trim(report%title))
+        if (report%title /= "") call put_line(trim(report%title))
         heading = ""
         do i = 1, size(report%rows)
             if (report%rows(i)%heading /= heading .or. i == 1) then
                 heading = report%rows(i)%heading
-                call put_line("")
+                if (i > 1 .or. report%title /= "") call put_line("")
                 call put_line(trim(heading))
                 call put_line(repeat(" ", statement_length + 6)// &
                               "left          right  differ   bound")

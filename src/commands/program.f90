@@ -1,25 +1,29 @@
 module lagrangia_program
     !! The whole program: words in, one command, exit status out.
     use lagrangia_blas_threads, only: use_one_blas_thread
-    use lagrangia_catalogue, only: system_names
     use lagrangia_commands, only: dispatch
     use lagrangia_console, only: note
-    use lagrangia_description, only: name_length
-    use lagrangia_errors, only: error_t, fail, status_ok
+    use lagrangia_errors, only: error_t, status_ok
     implicit none (type, external)
     private
     public :: lagrangia_main
 
 contains
 
-    subroutine lagrangia_main()
-        !! Run the command that was typed, with all systems that were registered, and stop.
+    subroutine lagrangia_main(failed)
+        !! Run the command that was typed, with all systems that were registered, and stop. Where
+        !! something `failed` before, say so and stop with the status of that: what
+        !! `register_system` returned may be handed on, allocated or not.
+        type(error_t), intent(in), optional :: failed
         type(error_t), allocatable :: error
         integer :: status
 
         call use_one_blas_thread()
-        call check_names(error)
-        if (.not. allocated(error)) call dispatch(error)
+        if (present(failed)) then
+            allocate (error, source=failed)
+        else
+            call dispatch(error)
+        end if
         status = status_ok
         if (allocated(error)) then
             status = error%status
@@ -27,18 +31,4 @@ contains
         end if
         stop status, quiet=.true.
     end subroutine lagrangia_main
-
-    subroutine check_names(error)
-        !! No two systems of one name.
-        type(error_t), allocatable, intent(out) :: error
-        character(name_length), allocatable :: names(:)
-        integer :: i
-
-        allocate (names, source=system_names())
-        do i = 2, size(names)
-            if (all(names(:i - 1) /= names(i))) cycle
-            call fail(error, "two systems are called '"//trim(names(i))//"': give yours a new name")
-            return
-        end do
-    end subroutine check_names
 end module lagrangia_program

@@ -23,6 +23,7 @@ module lagrangia_registry
         option_t("output", needs_value, "DIR", "where data files go (default data/output)"), &
         option_t("format", needs_value, "text|csv|npy", "of the data files"), &
         option_t("plot", may_have_value, "svg|png", "draw the data files by gnuplot"), &
+        option_t("error-estimate", no_value, "", "state the final state to the digits that hold"), &
         option_t("quick", no_value, "", "measure less, in under 20 s"), &
         option_t("long", no_value, "", "up to 10^8 steps, for an hour"), &
         option_t("problems", needs_value, "P1,P3,...", "of the benchmark's work-precision part"), &
@@ -36,13 +37,15 @@ module lagrangia_registry
 
     type(command_t), parameter :: commands(*) = [ &
         command_t("", "", "run every scene in data/scenes and print the scorecard", 0, &
-                  "set output format plot json quiet"), &
+                  "set output format plot error-estimate json quiet"), &
         command_t("run", "SCENE...", "the same for .nml files, or shipped scenes by name", -1, &
-                  "set output format plot json quiet"), &
+                  "set output format plot error-estimate json quiet"), &
         command_t("modes", "SYSTEM", "small oscillations: M, K, frequencies, shapes", 1, &
                   "set at output json quiet"), &
         command_t("check", "[SYSTEM...]", "the audit: equations, invariants, structure, Gauss, "// &
                   "orders", -1, "set json"), &
+        command_t("errata", "[ID]", "the slips in the lecture notes, and what each would do", 1, &
+                  "json"), &
         command_t("principle", "[NAME]", "both sides of Hamilton's, d'Alembert's, Fermat's", 1, &
                   "output plot json"), &
         command_t("bench", "[PART...]", "run time against error, cost of a step, growth, "// &

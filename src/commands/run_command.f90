@@ -13,6 +13,7 @@ module lagrangia_run_command
     use lagrangia_scene_files, only: check_format, draw, script_path
     use lagrangia_scene_reader, only: read_scene
     use lagrangia_shipped, only: find_scene, shipped_scenes
+    use lagrangia_statement, only: statement_legend, statement_line
     use lagrangia_step_warning, only: step_warning
     use lagrangia_system, only: system_t
     use lagrangia_text, only: quoted, to_text
@@ -34,7 +35,7 @@ contains
         class(observer_t), pointer :: watcher
         type(outcome_t) :: outcome
         character(:), allocatable :: folder, format, kind
-        logical :: json, quiet
+        logical :: json, quiet, stated
         integer :: i, missed
 
         json = line%has("json")
@@ -57,6 +58,7 @@ contains
 
         watcher => progress
         missed = 0
+        stated = .false.
         if (json) then
             call put_line("[")
         else if (.not. quiet) then
@@ -76,6 +78,9 @@ contains
                 call put_line(outcome_json(outcome)//trim(merge(",", " ", i < size(paths))))
             else if (.not. quiet) then
                 call put_line(scorecard_row(outcome))
+                if (allocated(outcome%state)) call put_line("    at the end: "// &
+                                                            statement_line(outcome%state))
+                stated = stated .or. allocated(outcome%state)
             end if
             if (outcome%remark /= "" .and. .not. quiet) call note(paths(i)%text//": "// &
                 to_text(outcome%steps)//" steps"//outcome%remark)
@@ -90,6 +95,7 @@ contains
             call put_line("]")
         else if (.not. quiet) then
             call put_line(scorecard_legend)
+            if (stated) call put_line(statement_legend)
             call put_line("data files and gnuplot scripts: "//folder)
         end if
         if (missed > 0 .and. .not. allocated(error)) call fail(error, to_text(missed)//" of "// &
@@ -106,6 +112,7 @@ contains
             if (allocated(error)) return
             warning = step_warning(scene, system)
             if (warning /= "" .and. .not. quiet) call note(path//": "//warning)
+            scene%error_estimate = scene%error_estimate .or. line%has("error-estimate")
             call progress%restart(trim(scene%name))
             call play(scene, system, folder, format, watcher, outcome, error)
             if (allocated(error) .or. .not. line%has("plot")) return

@@ -45,9 +45,9 @@ contains
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
 
-        self%evaluations = 0
         select type (system)
         class is (gyrating_system_t)
+            self%evaluations = 0
             return
         end select
         call fail(error, "boris is for charges in magnetic fields", key="method")

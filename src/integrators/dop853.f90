@@ -26,7 +26,7 @@ module lagrangia_dop853
         real(dp), allocatable :: y(:), y0(:)   !! states (q, v) at the ends of the step
         real(dp), allocatable :: work(:)
         real(dp), allocatable :: k(:, :)       !! its slopes at the stages
-        real(dp), allocatable :: dense(:, :)   !! coefficients of the dense output
+        real(dp), allocatable :: inside(:, :)  !! coefficients of the dense output
     contains
         procedure :: prepare
         procedure :: advance
@@ -58,7 +58,7 @@ contains
         self%y0 = slopes(:, 1)
         self%work = slopes(:, 1)
         self%k = slopes
-        self%dense = transpose(slopes(:, :7))
+        self%inside = transpose(slopes(:, :7))
         self%evaluations = 0
         self%accepted = 0
         self%rejected = 0
@@ -100,7 +100,7 @@ contains
         self%y(:system%ndof) = q
         self%y(system%ndof + 1:) = v
         self%y0 = self%y
-        self%dense = 0.0_dp
+        self%inside = 0.0_dp
         call slope(system, system%ndof, t0, self%y, self%k(:, 1))
         size_y = norm(self%tolerance, self%y, self%y, self%y)
         size_slope = norm(self%tolerance, self%k(:, 1), self%y, self%y)
@@ -122,7 +122,7 @@ contains
 
     pure subroutine step(self, system, error)
         !! See `dense_integrator_t`. Eleven evaluations for the step, one for the slope at its end,
-        !! which is the next one's first stage, and three for its dense output.
+        !! which is the next one's first stage, and three for its dense output if that is wanted.
         class(dop853_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
@@ -133,7 +133,7 @@ contains
         self%t_old = self%t_new
         retry = .false.
         do
-            h = self%h
+            h = min(self%h, self%longest)
             last = self%t_old + 1.01_dp*h >= self%t_end
             if (last) h = self%t_end - self%t_old
             if (.not. self%t_old + 0.1_dp*h > self%t_old) exit
@@ -181,15 +181,21 @@ contains
     end function norm
 
     pure subroutine finish(self, system, h)
-        !! The slope at the end of an accepted step, and the coefficients of its dense output.
+        !! The slope at the end of an accepted step, and the coefficients of its dense output, if
+        !! wanted.
         class(dop853_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: h
 
-        call extra_stages(system, system%ndof, self%t_old, h, self%y0, self%y, self%k, &
-                          self%dense, self%work)
+        if (self%dense) then
+            call extra_stages(system, system%ndof, self%t_old, h, self%y0, self%y, self%k, &
+                              self%inside, self%work)
+            self%evaluations = self%evaluations + 4
+        else
+            call slope(system, system%ndof, self%t_old + h, self%y, self%k(:, 17))
+            self%evaluations = self%evaluations + 1
+        end if
         self%k(:, 1) = self%k(:, 17)
-        self%evaluations = self%evaluations + 4
     end subroutine finish
 
     pure subroutine state_at(self, t, q, v)
@@ -209,7 +215,7 @@ contains
         s = (t - self%t_old)/(self%t_new - self%t_old)
         r = 1.0_dp - s
         do i = 1, 2*n
-            associate (f => self%dense(:, i))
+            associate (f => self%inside(:, i))
                 y = self%y0(i) + s*(f(1) + r*(f(2) + s*(f(3) + r*(f(4) + s*(f(5) &
                                                                  + r*(f(6) + s*f(7)))))))
             end associate

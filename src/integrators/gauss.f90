@@ -16,11 +16,13 @@ module lagrangia_gauss
     public :: gauss_t, new_gauss16
 
     integer, parameter :: most_sweeps = 200
+    real(dp), parameter :: noise = 4.0_dp*epsilon(1.0_dp)         !! of accelerations, relative
+    real(dp), parameter :: enough = epsilon(1.0_dp)*2.0_dp**(-10)  !! may be left, relative
 
     type, extends(integrator_t) :: gauss_t
         private
         type(gauss_stages_t) :: s
-        real(dp), allocatable :: least(:)  !! change of `f` in the sweeps so far
+        real(dp), allocatable :: weight(:)  !! 1/(accelerations that matter), squared
         real(dp) :: t0 = 0.0_dp, dt = 0.0_dp
         integer(i8) :: next = -1           !! step that would go on from where `s` stands
     contains
@@ -48,7 +50,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
 
         call self%s%prepare(system%ndof)
-        self%least = self%s%change
+        self%weight = self%s%v
         self%next = -1
         self%evaluations = 0
     end subroutine prepare
@@ -72,7 +74,7 @@ contains
         end if
         do k = first, first + steps - 1
             call self%s%guess(t0 + k*dt, dt)
-            call solve(self%s, system, self%least, sweeps, good)
+            call solve(self%s, system, self%weight, sweeps, good)
             self%evaluations = self%evaluations + stages*min(sweeps, most_sweeps)
             if (.not. good) self%s%f = ieee_value(1.0_dp, ieee_quiet_nan)
             call self%s%expand()
@@ -105,38 +107,89 @@ contains
         same = x <= y .and. x >= y
     end function same
 
-    pure subroutine solve(s, system, least, sweeps, good)
-        !! Sweep until no degree of freedom changes less than it did before: what is left then is
-        !! noise. Changes that matter to the state may still shrink after some idle sweeps, the more
-        !! the slower they do, or diverge.
+    pure subroutine solve(s, system, weight, sweeps, good)
+        !! Sweep until what the next sweep leaves cannot add up to anything, even over a million
+        !! steps; that one is exact, and the last. A sweep is taken to leave as much of the error
+        !! as the worse of the last two did; where the changes are noise, as much as before.
+        !! Where noise hides the convergence, sweep until changes fall no more: changes that
+        !! matter may still shrink after some idle sweeps, the more the slower they do, or grow.
         type(gauss_stages_t), intent(inout) :: s
         class(system_t), intent(in) :: system
-        real(dp), intent(inout) :: least(s%n)
+        real(dp), intent(inout) :: weight(s%n)
         integer, intent(out) :: sweeps
         logical, intent(out) :: good
+        real(dp) :: change, all, before, least, rate, worst, left
         integer :: idle
+        logical :: exact
 
+        all = 0.0_dp
         least = huge(least)
+        before = 1.0_dp
+        rate = 0.0_dp
+        worst = 1.0_dp
+        left = 1.0_dp
         idle = 0
+        exact = .false.
         do sweeps = 1, most_sweeps
-            call s%sweep(system)
-            good = all(s%change < huge(1.0_dp))
+            call s%sweep(system, exact)
+            good = .true.
+            if (exact) return
+            if (sweeps == 1) then
+                call weigh(s%n, s%h, s%v, s%f, weight)
+                all = s%all_of(weight)
+            end if
+            change = s%change(weight)
+            good = change < huge(change)
             if (.not. good) return
+            if (sweeps == 2 .or. change > noise**2*all) then
+                worst = max(rate, change/before)
+                left = change*worst
+                if (sweeps > 1) rate = change/before
+            else
+                left = left*worst
+            end if
+            before = max(change, tiny(change))
             idle = idle + 1
-            if (any(s%change < least .and. s%change > 0.0_dp)) idle = 0
-            least = min(least, s%change)
-            if (idle > sweeps/10 .and. settled(s)) return
+            if (change < least) idle = 0
+            least = min(change, least)
+            exact = sweeps > 1 .and. left*worst <= enough**2
+            if (idle > sweeps/10 .and. .not. exact) exact = settled(s)
         end do
         good = settled(s)
     end subroutine solve
+
+    pure subroutine weigh(n, h, v, f, weight)
+        !! Accelerations are measured by the change of velocity that matters to the state; of a
+        !! coordinate that hardly moves a millionth of what matters to the others does.
+        integer, intent(in) :: n
+        real(dp), intent(in) :: h, v(n), f(stages, n)
+        real(dp), intent(out) :: weight(n)
+        real(dp) :: floor
+        integer :: d
+
+        do d = 1, n
+            weight(d) = max((v(d)/h)**2, sum(f(:, d)**2)/stages)
+        end do
+        floor = max(2.0_dp**12*epsilon(floor)*maxval(weight), tiny(floor))
+        do d = 1, n
+            weight(d) = 1.0_dp/max(weight(d), floor)
+        end do
+    end subroutine weigh
 
     pure function settled(s)
         !! The last sweep changed the state by less than a small part of itself.
         type(gauss_stages_t), intent(in) :: s
         logical :: settled
-        real(dp), parameter :: small = 2.0_dp**(-36)
+        real(dp), parameter :: small = 2.0_dp**16*epsilon(1.0_dp)
+        real(dp) :: change, all
+        integer :: d
 
-        settled = all(s%h**2*s%change <= small**2*max(s%v**2, s%h**2*s%size_of) &
-                      .or. s%h**4*s%change <= small**2*s%q**2)
+        settled = .true.
+        do d = 1, s%n
+            change = s%h**2*sum((s%f(:, d) - s%f_old(:, d))**2)
+            all = s%h**2*sum(s%f(:, d)**2)
+            settled = settled .and. (change <= small**2*max(s%v(d)**2, all) &
+                                     .or. s%h**2*change <= small**2*s%q(d)**2)
+        end do
     end function settled
 end module lagrangia_gauss

@@ -3,12 +3,12 @@ module lagrangia_gauss_adaptive
     !!
     !! - *Error.* See `lagrangia_gauss_control`.
     !! - *Iteration.* Sweeps end where what they would still change is a tenth of the tolerance.
-    !! - *Steps* are as long as the error allows, but not so long that sweeps converge slowly:
-    !!   a sweep wins a factor of about \((h/h_0)^2\), and \((1/h)/\log(h_0/h)\) sweeps a second
-    !!   are fewest where that factor is \(e^{-2}\). Where sweeps diverge the step is halved.
+    !! - *Steps* are as long as the error allows, but not so long that sweeps would converge
+    !!   slowly: a sweep wins a factor of about \((h/h_0)^2\), and \((1/h)/\log(h_0/h)\) sweeps a
+    !!   second are fewest where that factor is \(e^{-2}\). Where sweeps diverge the step is halved.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t, fail, status_numbers
-    use lagrangia_gauss_control, only: longer, measure, step_error, weigh
+    use lagrangia_gauss_control, only: longer, weigh
     use lagrangia_gauss_dense, only: gauss_dense_t
     use lagrangia_gauss_stages, only: gauss_stages_t
     use lagrangia_gauss_tables, only: stages
@@ -21,20 +21,20 @@ module lagrangia_gauss_adaptive
     public :: gauss_adaptive_t, new_gauss16_adaptive
 
     integer, parameter :: most_sweeps = 25
-    real(dp), parameter :: best_rate = exp(-2.0_dp)
-    real(dp), parameter :: least_rate = 0.01_dp  !! to expect of a step's first sweep
+    real(dp), parameter :: best_rate = exp(-4.0_dp)  !! of a sweep, squared
+    real(dp), parameter :: least_rate = 1e-4_dp      !! to expect of a step's first sweep, squared
     real(dp), parameter :: noise = (64.0_dp*epsilon(1.0_dp))**2  !! of accelerations, squared
-    real(dp), parameter :: least_tolerance = 1e-14_dp
     real(dp), parameter :: share = 0.1_dp  !! of the tolerance that the iteration may leave
+    real(dp), parameter :: safety = 0.75_dp    !! of a step: rejected ones cost more than short ones
+    real(dp), parameter :: try_again = 0.9_dp  !! of a rejected one, whose polynomial is known
 
     type, extends(dense_integrator_t) :: gauss_adaptive_t
         private
         type(gauss_stages_t) :: s
         type(gauss_dense_t) :: inside            !! the last step
         real(dp) :: h = 0.0_dp                   !! length to try next, s
-        real(dp) :: rate = 1.0_dp                !! by which the last sweep changed the changes
-        real(dp) :: mean_rate = 1.0_dp           !! the same, averaged over the step's sweeps
-        logical :: slow = .false.                !! `mean_rate` is more than the best one
+        real(dp) :: rate = 1.0_dp                !! of the last sweep: change over change, squared
+        real(dp) :: won = 1.0_dp                 !! the same of all sweeps of the step
         real(dp), allocatable :: weight(:)       !! 1/(wanted error of `f`), squared
     contains
         procedure :: prepare
@@ -51,6 +51,7 @@ contains
         type(gauss_adaptive_t), intent(out) :: self
 
         self%name = "gauss16"
+        self%least_tolerance = 1e-14_dp
         self%title = "Gauss-Legendre collocation by tolerance (Butcher 1964)"
         self%order = 16
     end subroutine new_gauss16_adaptive
@@ -61,14 +62,14 @@ contains
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
 
-        if (.not. (self%tolerance >= least_tolerance .and. self%tolerance < 1.0_dp)) then
+        if (.not. (self%tolerance >= self%least_tolerance .and. self%tolerance < 1.0_dp)) then
             call fail(error, to_text(self%tolerance)//" is not allowed: gauss16 keeps "// &
-                      to_text(least_tolerance)//" and more, less than 1", key="tolerance")
+                      to_text(self%least_tolerance)//" and more, less than 1", key="tolerance")
             return
         end if
         call self%s%prepare(system%ndof)
         call self%inside%prepare(system%ndof)
-        self%weight = self%s%change
+        self%weight = self%s%v
         self%evaluations = 0
         self%accepted = 0
         self%rejected = 0
@@ -143,6 +144,10 @@ contains
             call self%inside%keep(self%t_new, self%s%q, self%s%v)
             call take_step(self, system, good)
             if (.not. good) exit
+            if (.not. self%dense) then
+                call self%inside%keep(self%t_new, self%s%q, self%s%v)
+                return
+            end if
             call self%inside%fit(system, self%t_new, self%s%q, self%s%v, self%s%known, &
                                  self%weight, good)
             self%evaluations = self%evaluations + 2*stages*self%inside%sweeps
@@ -172,22 +177,22 @@ contains
         class(gauss_adaptive_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         logical, intent(out) :: good
-        real(dp) :: h, to, error
+        real(dp) :: h, to, ratio, grow
         integer :: sweeps
         logical :: cut
 
         do
-            to = next_time(self%t_new, self%h, self%t_end)
+            to = next_time(self%t_new, min(self%h, self%longest), self%t_end)
             h = to - self%t_new
-            good = h > 4.0_dp*spacing(self%t_new)
+            good = self%t_new + 0.25_dp*h > self%t_new
             if (.not. good) return
             call self%s%guess(self%t_new, h)
-            call solve(self, system, sweeps, error, good)
+            call solve(self, system, sweeps, ratio, good)
             self%evaluations = self%evaluations + stages*min(sweeps, most_sweeps)
             if (good) exit
             self%rejected = self%rejected + 1
-            if (error > 1.0_dp) then
-                self%h = h*longer(error)
+            if (ratio < 1.0_dp) then
+                self%h = h*max(0.2_dp, try_again*ratio)
                 call self%s%shorten()
             else
                 self%h = 0.5_dp*h
@@ -199,9 +204,11 @@ contains
         cut = h < 0.99_dp*self%h
         self%t_old = self%t_new
         self%t_new = to
-        h = h*min(2.0_dp, longer(error))
-        if (self%slow) h = min(h, (self%t_new - self%t_old)*sqrt(best_rate/self%mean_rate))
-        self%h = merge(max(self%h, h), h, cut)
+        grow = min(2.0_dp, safety*ratio)
+        if (self%won*(grow**4/best_rate)**(sweeps - 1) > 1.0_dp) then
+            grow = (best_rate/self%won**(1.0_dp/(sweeps - 1)))**0.25_dp
+        end if
+        self%h = merge(max(self%h, grow*h), grow*h, cut)
     end subroutine take_step
 
     pure function next_time(t, h, t_end) result(to)
@@ -219,44 +226,48 @@ contains
         end if
     end function next_time
 
-    pure subroutine solve(self, system, sweeps, error, good)
+    pure subroutine solve(self, system, sweeps, ratio, good)
         !! Sweep until what is left changes the end of the step by less than a share of the
         !! tolerance. Half-way there the error of the step can be told; `good` is false if it is
         !! too large, or if the sweeps diverge.
         type(gauss_adaptive_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         integer, intent(out) :: sweeps
-        real(dp), intent(out) :: error  !! in units of the tolerance; -1 if not known
+        real(dp), intent(out) :: ratio  !! by which the step could be longer; 1 if not known
         logical, intent(out) :: good
         real(dp) :: change, all, first, last
+        logical :: known
 
         call weigh(self%s%n, self%s%h, self%tolerance, self%s%q, self%s%v, self%weight)
-        self%rate = min(0.5_dp, max(least_rate, self%rate*(self%s%h/self%s%h_known)**2))
-        error = -1.0_dp
+        self%rate = min(0.25_dp, max(least_rate, self%rate*(self%s%h/self%s%h_known)**4))
+        ratio = 1.0_dp
+        known = .false.
+        all = 0.0_dp
         first = 1.0_dp
         last = 1.0_dp
         do sweeps = 1, most_sweeps
-            call self%s%sweep(system)
-            call measure(self%s%n, self%weight, self%s%change, self%s%size_of, change, all)
+            call self%s%sweep(system, .false.)
+            if (sweeps == 1) all = self%s%all_of(self%weight)
+            change = self%s%change(self%weight)
             good = .false.
             if (.not. change < huge(1.0_dp)) exit
             if (sweeps == 1) then
                 first = change
             else
-                self%rate = sqrt(change/last)
+                self%rate = change/last
             end if
             last = max(change, tiny(1.0_dp))
-            good = change*self%rate**2 <= (share*(1.0_dp - self%rate))**2 .or. change <= noise*all
-            if (error < 0.0_dp .and. (good .or. change**5 < all**3)) then
+            good = change*self%rate <= (share*(1.0_dp - self%rate))**2 .or. change <= noise*all
+            if (.not. known .and. (good .or. change**5 < all**3)) then
+                known = .true.
                 call self%s%expand()
-                error = step_error(self%s%n, self%s%modes, self%weight)
-                good = good .and. error <= 1.0_dp
-                if (error > 1.0_dp) exit
+                ratio = longer(self%s%n, self%s%modes, self%weight)
             end if
-            if (good .or. (sweeps > 4 .and. self%rate > 0.8_dp)) exit
+            good = good .and. ratio >= 1.0_dp
+            if (ratio < 1.0_dp) exit
+            if (good .or. (sweeps > 4 .and. self%rate > 0.64_dp)) exit
         end do
-        self%slow = change > first*best_rate**(2*(sweeps - 1))
-        if (self%slow) self%mean_rate = (change/first)**(0.5_dp/(sweeps - 1))
+        self%won = change/max(first, tiny(first))
     end subroutine solve
 
     pure subroutine state_at(self, t, q, v)

@@ -15,9 +15,8 @@ module lagrangia_gauss_control
     use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
-    public :: longer, measure, step_error, weigh
+    public :: longer, weigh
 
-    real(dp), parameter :: safety = 0.85_dp
     real(dp), parameter :: constant = 0.5_dp
 
 contains
@@ -36,46 +35,22 @@ contains
         end do
     end subroutine weigh
 
-    pure subroutine measure(n, weight, change, size_of, changes, all)
-        !! The accelerations' mean squares over the stages, and those of their change, weighted.
-        integer, intent(in) :: n
-        real(dp), intent(in) :: weight(n), change(n), size_of(n)
-        real(dp), intent(out) :: changes, all
-        integer :: d
-
-        changes = 0.0_dp
-        all = 0.0_dp
-        do d = 1, n
-            changes = changes + weight(d)*change(d)/stages
-            all = all + weight(d)*size_of(d)/stages
-        end do
-    end subroutine measure
-
-    pure function step_error(n, modes, weight) result(error)
-        !! Estimate of the error of the step, in units of the tolerance.
+    pure function longer(n, modes, weight) result(ratio)
+        !! By how much the step may be longer, or must be shorter, to have the wanted error: one
+        !! over the 16th root of the error in units of the tolerance.
         integer, intent(in) :: n
         real(dp), intent(in) :: modes(stages, n), weight(n)
-        real(dp) :: error, all, low, high
+        real(dp) :: ratio, all, high
         integer :: d
 
         all = tiny(1.0_dp)
-        low = 0.0_dp
-        high = 0.0_dp
+        high = tiny(1.0_dp)
         do d = 1, n
             all = all + weight(d)*(modes(1, d)**2 + modes(2, d)**2/3.0_dp &
                                    + modes(3, d)**2/5.0_dp + modes(4, d)**2/7.0_dp)
-            low = low + weight(d)*(modes(5, d)**2/9.0_dp + modes(6, d)**2/11.0_dp)
-            high = high + weight(d)*(modes(7, d)**2/13.0_dp + modes(8, d)**2/15.0_dp)
+            high = high + weight(d)*(1e-3_dp*(modes(5, d)**2/9.0_dp + modes(6, d)**2/11.0_dp) &
+                                     + modes(7, d)**2/13.0_dp + modes(8, d)**2/15.0_dp)
         end do
-        high = sqrt(high) + 0.03_dp*sqrt(low)
-        error = constant*high*sqrt(high/sqrt(all))**3
-    end function step_error
-
-    pure function longer(error) result(ratio)
-        !! By how much a step may be longer, or must be shorter, to have the wanted error.
-        real(dp), intent(in) :: error
-        real(dp) :: ratio
-
-        ratio = max(0.2_dp, safety/sqrt(sqrt(sqrt(sqrt(max(error, tiny(error)))))))
+        ratio = exp((0.75_dp*log(all) - 1.25_dp*log(high) - log(constant))/16.0_dp)
     end function longer
 end module lagrangia_gauss_control

@@ -6,9 +6,12 @@ module lagrangia_gauss_stages
     !! \(Q_i = q + \sum_j\mu_{ij}K_j\), the step ends at \(v + \sum_j L_j\), \(q + \sum_j K_j\),
     !! and one sweep of the iteration is \(F \leftarrow a(t + c h, Q, V)\).
     !!
-    !! Here a loop over the lanes says what an array statement would say better: the directive
-    !! keeps gfortran 12 from unrolling it before it vectorises, which costs a factor of 3.
-    use lagrangia_gauss_tables, only: legendre, mu, nodes, stages, weights
+    !! What the method preserves hangs on the last sweep of a step alone. The others take \(Q\)
+    !! from \(F\) at once, with the matrix \(a^2\): one product waits for the other no more, and
+    !! the velocities are left out where no force depends on them.
+    use lagrangia_gauss_kernels, only: apply, distance, end_state, exact_states, magnitude, &
+                                       quick_states
+    use lagrangia_gauss_tables, only: legendre, nodes, stages, weights
     use lagrangia_kinds, only: dp
     use lagrangia_system, only: lanes, system_t
     implicit none (type, external)
@@ -24,20 +27,23 @@ module lagrangia_gauss_stages
         real(dp) :: times(stages) = 0.0_dp             !! its nodes, s
         real(dp) :: hb(stages) = 0.0_dp                !! its weights, s
         real(dp), allocatable :: f(:, :)               !! accelerations of the stages
-        real(dp), allocatable :: f_new(:, :)
+        real(dp), allocatable :: f_old(:, :)           !! those before the last sweep
         real(dp), allocatable :: q_stage(:, :), v_stage(:, :)
-        real(dp), allocatable :: change(:)             !! of `f` in a sweep: sum of squares
-        real(dp), allocatable :: size_of(:)            !! of `f`: sum of squares
         real(dp) :: to_modes(stages, stages) = 0.0_dp
+        real(dp), allocatable :: start(:)              !! accelerations at `place`
         real(dp), allocatable :: modes(:, :)           !! Legendre coefficients 0 to 7 of `f`
         real(dp), allocatable :: known(:, :)           !! those of a step known from before:
         real(dp) :: h_known = 1.0_dp                   !! its length, s
         real(dp) :: from = 1.0_dp                      !! where in it the step at hand begins
+        real(dp) :: ahead(stages) = -1.0_dp            !! where in it the nodes are
+        real(dp) :: carry(stages, stages) = 0.0_dp     !! Legendre polynomials there
     contains
         procedure :: prepare
         procedure :: place
         procedure :: guess
         procedure :: sweep
+        procedure :: change
+        procedure :: all_of
         procedure :: expand
         procedure :: shorten
         procedure :: finish
@@ -59,10 +65,9 @@ contains
         self%q_low = state
         self%v = state
         self%v_low = state
-        self%change = state
-        self%size_of = state
+        self%start = state
         self%f = block
-        self%f_new = block
+        self%f_old = block
         self%q_stage = block
         self%v_stage = block
         self%modes = block
@@ -83,9 +88,9 @@ contains
         self%v(:) = v
         self%q_low(:) = 0.0_dp
         self%v_low(:) = 0.0_dp
-        call system%accelerations(t, q, v, self%change)
+        call system%accelerations(t, q, v, self%start)
         self%known(:, :) = 0.0_dp
-        self%known(1, :) = self%change
+        self%known(1, :) = self%start
         self%h_known = 1.0_dp
         self%from = 1.0_dp
     end subroutine place
@@ -94,6 +99,7 @@ contains
         !! Begin a step: carry the polynomial on that is known.
         class(gauss_stages_t), intent(inout) :: self
         real(dp), intent(in) :: t, h
+        real(dp) :: ahead(stages)
 
         self%t = t
         self%h = h
@@ -101,20 +107,48 @@ contains
         self%hb = h*weights
         self%hb(1) = 0.5_dp*h - (self%hb(2) + self%hb(3) + self%hb(4))
         self%hb(8) = self%hb(1)
-        call apply(self%n, legendre(self%from + h/self%h_known*nodes), self%known, &
-                   self%f)
+        ahead = self%from + h/self%h_known*nodes
+        if (any(abs(ahead - self%ahead) > 0.0_dp)) then
+            self%ahead = ahead
+            self%carry = legendre(ahead)
+        end if
+        call apply(self%n, self%carry, self%known, self%f)
     end subroutine guess
 
-    pure subroutine sweep(self, system)
-        !! The accelerations that the present ones imply.
+    pure subroutine sweep(self, system, exact)
+        !! The accelerations that the present ones imply; `exact` to the last bit.
         class(gauss_stages_t), intent(inout) :: self
         class(system_t), intent(in) :: system
+        logical, intent(in) :: exact
 
-        call stage_states(self%n, self%hb, self%q, self%q_low, self%v, self%v_low, self%f, &
-                          self%q_stage, self%v_stage)
-        call system%accelerations_lanes(self%times, self%q_stage, self%v_stage, self%f_new)
-        call take_over(self%n, self%f_new, self%f, self%change, self%size_of)
+        if (exact) then
+            call exact_states(self%n, self%hb, self%q, self%q_low, self%v, self%v_low, self%f, &
+                              self%f_old, self%q_stage, self%v_stage)
+        else
+            call quick_states(self%n, self%h, system%velocity_forces, self%q, self%q_low, &
+                              self%v, self%v_low, self%f, self%f_old, self%q_stage, &
+                              self%v_stage)
+        end if
+        call system%accelerations_lanes(self%times, self%q_stage, self%v_stage, self%f)
     end subroutine sweep
+
+    pure function change(self, weight)
+        !! Weighted mean square of what the last sweep changed.
+        class(gauss_stages_t), intent(in) :: self
+        real(dp), intent(in) :: weight(self%n)
+        real(dp) :: change
+
+        change = distance(self%n, weight, self%f, self%f_old)
+    end function change
+
+    pure function all_of(self, weight)
+        !! Weighted mean square of the accelerations.
+        class(gauss_stages_t), intent(in) :: self
+        real(dp), intent(in) :: weight(self%n)
+        real(dp) :: all_of
+
+        all_of = magnitude(self%n, weight, self%f)
+    end function all_of
 
     pure subroutine expand(self)
         !! The Legendre coefficients of the accelerations.
@@ -141,113 +175,4 @@ contains
         self%h_known = self%h
         self%from = 1.0_dp
     end subroutine finish
-
-    pure subroutine stage_states(n, hb, q, q_low, v, v_low, f, q_stage, v_stage)
-        !! Coordinates and velocities of the stages.
-        integer, intent(in) :: n
-        real(dp), intent(in) :: hb(lanes), q(n), q_low(n), v(n), v_low(n), f(lanes, n)
-        real(dp), intent(out) :: q_stage(lanes, n), v_stage(lanes, n)
-        integer :: d
-
-        do d = 1, n
-            call integrate(v(d), v_low(d), hb, f(:, d), v_stage(:, d))
-            call integrate(q(d), q_low(d), hb, v_stage(:, d), q_stage(:, d))
-        end do
-    end subroutine stage_states
-
-    pure subroutine integrate(start, low, hb, slope, y)
-        !! \(y_i = y_0 + \sum_j\mu_{ij}\,h b_j\,y'_j\), where \(y_0\) is a sum of two numbers.
-        real(dp), intent(in) :: start, low, hb(lanes), slope(lanes)
-        real(dp), intent(out) :: y(lanes)
-        real(dp) :: x(lanes)
-        integer :: i
-
-        !GCC$ vector
-        do i = 1, lanes
-            x(i) = hb(i)*slope(i)
-        end do
-        !GCC$ vector
-        do i = 1, lanes
-            y(i) = start + (low + (((mu(i, 1)*x(1) + mu(i, 2)*x(2)) &
-                                    + (mu(i, 3)*x(3) + mu(i, 4)*x(4))) &
-                                   + ((mu(i, 5)*x(5) + mu(i, 6)*x(6)) &
-                                      + (mu(i, 7)*x(7) + mu(i, 8)*x(8)))))
-        end do
-    end subroutine integrate
-
-    pure subroutine take_over(n, f_new, f, change, size_of)
-        !! The new accelerations, and by how much they differ from the old ones.
-        integer, intent(in) :: n
-        real(dp), intent(in) :: f_new(lanes, n)
-        real(dp), intent(inout) :: f(lanes, n)
-        real(dp), intent(out) :: change(n), size_of(n)
-        real(dp) :: x(lanes), y(lanes)
-        integer :: d, i
-
-        do d = 1, n
-            !GCC$ vector
-            do i = 1, lanes
-                x(i) = (f_new(i, d) - f(i, d))**2
-                y(i) = f_new(i, d)**2
-                f(i, d) = f_new(i, d)
-            end do
-            change(d) = total(x)
-            size_of(d) = total(y)
-        end do
-    end subroutine take_over
-
-    pure subroutine end_state(n, hb, f, q, q_low, v, v_low)
-        !! The state at the end of the step; what rounding takes from it goes into the low parts.
-        integer, intent(in) :: n
-        real(dp), intent(in) :: hb(lanes), f(lanes, n)
-        real(dp), intent(inout) :: q(n), q_low(n), v(n), v_low(n)
-        real(dp) :: v_stage(lanes)
-        integer :: d
-
-        do d = 1, n
-            call integrate(v(d), v_low(d), hb, f(:, d), v_stage)
-            call add(v(d), v_low(d), total(hb*f(:, d)))
-            call add(q(d), q_low(d), total(hb*v_stage))
-        end do
-    end subroutine end_state
-
-    pure subroutine apply(n, m, x, y)
-        !! Multiply the matrix `m` by every column of `x`.
-        integer, intent(in) :: n
-        real(dp), intent(in) :: m(lanes, lanes), x(lanes, n)
-        real(dp), intent(out) :: y(lanes, n)
-        integer :: d, i
-
-        do d = 1, n
-            !GCC$ vector
-            do i = 1, lanes
-                y(i, d) = ((m(i, 1)*x(1, d) + m(i, 2)*x(2, d)) &
-                           + (m(i, 3)*x(3, d) + m(i, 4)*x(4, d))) &
-                          + ((m(i, 5)*x(5, d) + m(i, 6)*x(6, d)) &
-                             + (m(i, 7)*x(7, d) + m(i, 8)*x(8, d)))
-            end do
-        end do
-    end subroutine apply
-
-    pure function total(x) result(s)
-        !! Sum over the lanes.
-        real(dp), intent(in) :: x(lanes)
-        real(dp) :: s, half(4)
-
-        half = x(1:4) + x(5:8)
-        s = (half(1) + half(3)) + (half(2) + half(4))
-    end function total
-
-    pure subroutine add(s, low, x)
-        !! Add `x` to the sum `s + low` (Knuth's two-sum).
-        real(dp), intent(inout) :: s, low
-        real(dp), intent(in) :: x
-        real(dp) :: y, new, part
-
-        y = low + x
-        new = s + y
-        part = new - s
-        low = (s - (new - part)) + (y - part)
-        s = new
-    end subroutine add
 end module lagrangia_gauss_stages

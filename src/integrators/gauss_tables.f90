@@ -14,7 +14,7 @@ module lagrangia_gauss_tables
     use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
-    public :: stages, nodes, weights, mu
+    public :: stages, nodes, weights, mu, butcher, nystrom
     public :: legendre
 
     integer, parameter :: stages = 8
@@ -53,6 +53,10 @@ module lagrangia_gauss_tables
     real(dp), parameter :: halved(0:16) = [0.5_dp, later]
     real(dp), parameter :: mu(stages, stages) = reshape( &
         merge(halved(abs(place)), 1.0_dp - halved(abs(place)), place > 0), [stages, stages])
+    real(dp), parameter :: butcher(stages, stages) = mu*spread(weights, 1, stages)
+    !! \(a_{ij}\), rounded
+    real(dp), parameter :: nystrom(stages, stages) = matmul(butcher, butcher)
+    !! \((a^2)_{ij}\), rounded
 
     real(dp), parameter :: up(6) = [1.5_dp, 5.0_dp/3.0_dp, 1.75_dp, 1.8_dp, 11.0_dp/6.0_dp, &
                                     13.0_dp/7.0_dp]

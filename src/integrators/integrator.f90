@@ -1,7 +1,8 @@
 module lagrangia_integrator
     !! The contract of an integrator: `prepare` refuses or allocates, `advance` cannot fail.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_description, only: line_length, name_length
-    use lagrangia_errors, only: error_t
+    use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
@@ -25,6 +26,8 @@ module lagrangia_integrator
         procedure(advance_i), deferred :: advance
         procedure :: compensated => no_compensated
         procedure :: properties
+        procedure, non_overridable :: refuse_state
+        procedure, non_overridable :: try_advance
     end type integrator_t
 
     type :: integrator_box_t
@@ -36,9 +39,12 @@ module lagrangia_integrator
         !! An integrator that walks step by step and knows the solution between the ends of its
         !! latest step, `t_old` to `t_new`. Adaptive ones choose their steps by `tolerance`.
         real(dp) :: tolerance = 1e-10_dp  !! of the local error, absolute below 1, relative above
+        real(dp) :: least_tolerance = 1e-15_dp  !! below, all is rounding
+        real(dp) :: longest = huge(1.0_dp)  !! no step is longer, but for 1 % at the end, s
         real(dp) :: t_old = 0.0_dp        !! s
         real(dp) :: t_new = 0.0_dp        !! s
         real(dp) :: t_end = 0.0_dp        !! no step goes beyond, s
+        logical :: dense = .true.         !! false: only the ends of steps are asked for: cheaper
         integer(i8) :: accepted = 0
         integer(i8) :: rejected = 0
     contains
@@ -99,7 +105,7 @@ module lagrangia_integrator
 
         pure subroutine state_at_i(self, t, q, v)
             !! Dense output: the state at `t` between `t_old` and `t_new`; at the ends exactly the
-            !! states of the steps. No evaluations of accelerations.
+            !! states of the steps. No evaluations of accelerations. At `t_new` if not `dense`.
             import :: dense_integrator_t, dp
             implicit none (type, external)
             class(dense_integrator_t), intent(in) :: self
@@ -115,6 +121,40 @@ contains
         class(integrator_t), intent(in) :: self
         class(integrator_t), allocatable, intent(out) :: variant
     end subroutine no_compensated
+
+    pure subroutine try_advance(self, system, t0, dt, first, steps, q, v, error)
+        !! `advance`, for a caller who wants to know: where that ends in a state that is not finite
+        !! `q` and `v` stay as they were, and the error says why.
+        class(integrator_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t0, dt
+        integer(i8), intent(in) :: first, steps
+        real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+        type(error_t), allocatable, intent(out) :: error
+        real(dp) :: q_new(system%ndof), v_new(system%ndof)
+
+        q_new = q
+        v_new = v
+        self%trouble = ""
+        call self%advance(system, t0, dt, first, steps, q_new, v_new)
+        call self%refuse_state(t0 + (first + steps)*dt, dt, q_new, v_new, error)
+        if (allocated(error)) return
+        q = q_new
+        v = v_new
+    end subroutine try_advance
+
+    pure subroutine refuse_state(self, t, dt, q, v, error)
+        !! Fail (status 3) if a state that the method made by steps of `dt` is not finite.
+        class(integrator_t), intent(in) :: self
+        real(dp), intent(in) :: t, dt, q(:), v(:)
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: why
+
+        if (all(ieee_is_finite(q)) .and. all(ieee_is_finite(v))) return
+        why = trim(self%trouble)
+        if (why == "") why = "the step dt = "//to_text(dt)//" s is too long, or the motion diverges"
+        call fail(error, "the state is not finite at t = "//to_text(t)//" s: "//why, status_numbers)
+    end subroutine refuse_state
 
     pure function properties(self) result(text)
         !! What the method preserves, in words.

@@ -114,7 +114,7 @@ contains
     end subroutine start
 
     pure subroutine step(self, system, error)
-        !! See `dense_integrator_t`. Never fails: a state that is not finite is seen by the run.
+        !! See `dense_integrator_t`. Fails where the method's step gives no finite state.
         class(stepwise_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
@@ -124,13 +124,16 @@ contains
         self%v0 = self%v1
         self%a0 = self%a1
         if (self%done < self%steps) then
-            call self%method%advance(system, self%t_start, self%dt, self%done, 1_i8, self%q1, &
-                                     self%v1)
+            call self%method%try_advance(system, self%t_start, self%dt, self%done, 1_i8, self%q1, &
+                                         self%v1, error)
+            if (allocated(error)) return
             self%done = self%done + 1
             self%t_new = self%t_start + self%done*self%dt
             if (self%done == self%steps .and. self%rest <= 0.0_dp) self%t_new = self%t_end
         else
-            call self%method%advance(system, self%t_old, self%rest, 0_i8, 1_i8, self%q1, self%v1)
+            call self%method%try_advance(system, self%t_old, self%rest, 0_i8, 1_i8, self%q1, &
+                                         self%v1, error)
+            if (allocated(error)) return
             self%t_new = self%t_end
         end if
         call system%accelerations(self%t_new, self%q1, self%v1, self%a1)

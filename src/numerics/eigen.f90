@@ -11,9 +11,14 @@ module lagrangia_eigen
 
     integer, parameter :: small = 32  !! up to here dsygv is the faster one
 
+    interface normal_modes
+        !! `lagrangia_normal_modes` has another form of it.
+        module procedure matrix_modes
+    end interface normal_modes
+
 contains
 
-    pure subroutine normal_modes(stiffness, inertia, omega2, modes, error)
+    pure subroutine matrix_modes(stiffness, inertia, omega2, modes, error)
         !! Solve \(K u = \omega^2 M u\) with \(u^\top M u = 1\), \(\omega^2\) ascending; of each
         !! mode the component that is largest in magnitude is positive.
         !!
@@ -69,7 +74,7 @@ contains
             return
         end if
         call orient(modes)
-    end subroutine normal_modes
+    end subroutine matrix_modes
 
     pure subroutine check_matrix(a, name, error)
         !! Square, not empty, finite, symmetric to rounding: that of an element, or of the sums of

@@ -7,7 +7,7 @@ module lagrangia_gsl
     use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_funloc, &
         c_funptr, c_int, c_loc, c_ptr, c_size_t
     use lagrangia_errors, only: error_t, fail, status_library, status_numbers
-    use lagrangia_kinds, only: dp
+    use lagrangia_kinds, only: dp, this_part_needs_real64
     use lagrangia_roots, only: scalar_function_t
     implicit none (type, external)
     private

@@ -9,7 +9,7 @@ module lagrangia_gsl_odeiv
         c_funptr, c_int, c_loc, c_long, c_null_funptr, c_null_ptr, c_ptr, c_size_t
     use lagrangia_errors, only: error_t, fail, status_library, status_numbers
     use lagrangia_gsl, only: gsl_reason, silence_gsl
-    use lagrangia_kinds, only: dp, i8
+    use lagrangia_kinds, only: dp, i8, this_part_needs_real64
     implicit none (type, external)
     private
     public :: gsl_driver_t, gsl_methods, gsl_success
@@ -157,25 +157,37 @@ contains
 
     subroutine fixed_steps(self, t, h, steps, y, error)
         !! `steps` steps of length `h` each; `t` and `y` move. GSL estimates the error of each and
-        !! fails where it is above the tolerance: give it a very large one.
+        !! fails where it is above the tolerance: give it a very large one. Then they stay.
         class(gsl_driver_t), intent(inout) :: self
         real(dp), intent(inout) :: t, y(:)
         real(dp), intent(in) :: h
         integer(i8), intent(in) :: steps
         type(error_t), allocatable, intent(out) :: error
+        real(dp) :: t_new, y_new(size(y))
 
-        call judge(gsl_odeiv2_driver_apply_fixed_step(self%driver, t, h, int(steps, c_long), y), &
-                   error)
+        t_new = t
+        y_new = y
+        call judge(gsl_odeiv2_driver_apply_fixed_step(self%driver, t_new, h, int(steps, c_long), &
+                                                      y_new), error)
+        if (allocated(error)) return
+        t = t_new
+        y = y_new
     end subroutine fixed_steps
 
     subroutine integrate(self, t, t_end, y, error)
-        !! Go to `t_end` with steps of GSL's choice.
+        !! Go to `t_end` with steps of GSL's choice; where that fails `t` and `y` stay.
         class(gsl_driver_t), intent(inout) :: self
         real(dp), intent(inout) :: t, y(:)
         real(dp), intent(in) :: t_end
         type(error_t), allocatable, intent(out) :: error
+        real(dp) :: t_new, y_new(size(y))
 
-        call judge(gsl_odeiv2_driver_apply(self%driver, t, t_end, y), error)
+        t_new = t
+        y_new = y
+        call judge(gsl_odeiv2_driver_apply(self%driver, t_new, t_end, y_new), error)
+        if (allocated(error)) return
+        t = t_new
+        y = y_new
     end subroutine integrate
 
     subroutine judge(status, error)

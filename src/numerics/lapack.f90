@@ -2,7 +2,7 @@ module lagrangia_lapack
     !! The one module that touches LAPACK: our errors on our side, the caller's arrays untouched.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_errors, only: error_t, fail, status_library
-    use lagrangia_kinds, only: dp
+    use lagrangia_kinds, only: dp, this_part_needs_real64
     implicit none (type, external)
     private
     public :: solve_linear

@@ -1,6 +1,6 @@
 module lagrangia_lapack_eigen
     !! LAPACK's eigenvalue and singular value routines; the other half of `lagrangia_lapack`.
-    use lagrangia_kinds, only: dp
+    use lagrangia_kinds, only: dp, this_part_needs_real64
     implicit none (type, external)
     private
     public :: dgejsv, dggev, dsygv, dsygvd

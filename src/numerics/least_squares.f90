@@ -2,7 +2,7 @@ module lagrangia_least_squares
     !! Small least-squares problems, free and with conditions, and a test of definiteness. LAPACK.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_errors, only: error_t, fail, status_library
-    use lagrangia_kinds, only: dp
+    use lagrangia_kinds, only: dp, this_part_needs_real64
     implicit none (type, external)
     private
     public :: constrained_least_squares, least_squares, smallest_pivot

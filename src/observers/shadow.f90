@@ -8,9 +8,7 @@ module lagrangia_shadow
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: shadow_t, distance, least_tolerance
-
-    real(dp), parameter :: least_tolerance = 1e-15_dp  !! below, all is rounding
+    public :: shadow_t, distance
 
     type :: shadow_t
         private
@@ -61,7 +59,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
 
         allocate (self%adaptive, source=integrator)
-        self%adaptive%tolerance = max(least_tolerance, 0.01_dp*integrator%tolerance)
+        self%adaptive%tolerance = max(integrator%least_tolerance, 0.01_dp*integrator%tolerance)
         call self%adaptive%prepare(system, error)
         if (allocated(error)) return
         call self%adaptive%start(system, t0, q, v, t_end)

@@ -5,13 +5,15 @@ module lagrangia_small_oscillations
     !! \(M\ddot\delta + G\dot\delta + K\delta = 0\) with \(M = L_{vv}\), \(G = L_{vq} - L_{qv}\) and
     !! \(K = -L_{qq}\): once from the page, once from the Lagrangian's exact second derivatives.
     use lagrangia_description, only: description_t, name_length
-    use lagrangia_eigen, only: modes_from_factors, normal_modes, residual_ratio
+    use lagrangia_eigen, only: modes_from_factors, residual_ratio
     use lagrangia_errors, only: error_t, fail, status_library
     use lagrangia_gyroscopic, only: gyroscopic_modes, gyroscopic_ratio, is_steady
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
     use lagrangia_linearised, only: linearised_t
+    use lagrangia_normal_modes, only: is_oscillation, is_unstable, is_zero_mode, normal_modes, &
+                                      normal_modes_t, put_labels, vanishing
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -19,18 +21,14 @@ module lagrangia_small_oscillations
     public :: modes_t, find_modes
     public :: is_oscillation, is_zero_mode, is_unstable
 
-    integer, parameter :: is_oscillation = 1, is_zero_mode = 2, is_unstable = 3
     integer, parameter :: largest_expansion = 60  !! coordinates; beyond, L is not differentiated
 
-    type :: modes_t
+    type, extends(normal_modes_t) :: modes_t
         real(dp), allocatable :: at(:)             !! the equilibrium
         type(linearised_t) :: page                 !! as derived by hand, where it was
         real(dp), allocatable :: mass(:, :), stiffness(:, :), gyroscopic(:, :)  !! what was solved
         real(dp) :: difference = -1.0_dp           !! of the page from L, relative; < 0: unknown
-        real(dp), allocatable :: omega2(:)         !! ascending, s^-2
-        real(dp), allocatable :: shapes(:, :)      !! column j belongs to `omega2(j)`
         real(dp), allocatable :: quadrature(:, :)  !! with \(G\): shape cos - quadrature sin
-        integer, allocatable :: label(:)
         real(dp) :: ratio = -1.0_dp                !! LAPACK's residual ratio
         character(40) :: method = ""
     end type modes_t
@@ -80,7 +78,7 @@ contains
         if (.not. allocated(modes%quadrature)) then
             modes%ratio = residual_ratio(k, m, modes%omega2, modes%shapes)
         end if
-        call put_labels(modes)
+        call label_modes(modes)
     end subroutine find_modes
 
     subroutine check_system(system, start, error)
@@ -247,17 +245,18 @@ contains
         modes%quadrature = aimag(shapes)
     end subroutine solve_gyroscopic
 
-    pure subroutine put_labels(modes)
-        !! Below rounding a frequency is a zero mode; a negative square is a growth rate.
+    pure subroutine label_modes(modes)
+        !! Below rounding a frequency is a zero mode, unless one of exact factors or slow only
+        !! beside a fast one.
         type(modes_t), intent(inout) :: modes
         logical :: vanishes(size(modes%omega2))
         real(dp) :: rounding, spring
         integer :: j
 
-        rounding = 16*size(modes%omega2)*epsilon(rounding)
-        vanishes = abs(modes%omega2) <= rounding*maxval(abs(modes%omega2))
+        vanishes = vanishing(modes%omega2)
         if (allocated(modes%page%root)) vanishes = abs(modes%omega2) <= 0.0_dp
         if (allocated(modes%quadrature)) then
+            rounding = 16*size(modes%omega2)*epsilon(rounding)
             do j = 1, size(vanishes)
                 ! a mode may be slow because the fast one is fast: then its spring is there
                 associate (u => modes%shapes(:, j), w => modes%quadrature(:, j))
@@ -268,8 +267,6 @@ contains
                 end associate
             end do
         end if
-        modes%label = merge(is_unstable, is_oscillation, modes%omega2 < 0.0_dp)
-        where (vanishes) modes%label = is_zero_mode
-        where (vanishes) modes%omega2 = 0.0_dp
-    end subroutine put_labels
+        call put_labels(vanishes, modes%omega2, modes%omega, modes%label)
+    end subroutine label_modes
 end module lagrangia_small_oscillations

@@ -106,29 +106,34 @@ contains
     end function action_gradient
 
     pure subroutine find_path(system, t0, h, path, error)
-        !! Solve \(\delta S_d = 0\) by Newton's method; the first and the last point stay.
+        !! Solve \(\delta S_d = 0\) by Newton's method; the first and the last point stay, and
+        !! all of them where it fails.
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t0, h
         real(dp), intent(inout) :: path(:, :)  !! a guess, then the stationary path
         type(error_t), allocatable, intent(out) :: error  !! no convergence, or a conjugate point
-        real(dp), allocatable :: gradient(:), band(:, :), change(:)
+        real(dp), allocatable :: found(:, :), gradient(:), band(:, :), change(:)
         integer :: n, points, step
         logical :: close_enough
 
         n = system%ndof
         points = size(path, 2)
         close_enough = .false.
+        allocate (found, source=path)
         do step = 1, most_steps
-            call expand_action(system, t0, h, path, gradient, band)
+            call expand_action(system, t0, h, found, gradient, band)
             if (.not. allocated(change)) allocate (change(size(gradient)))
             call solve_band(band, gradient, change, error)
             if (allocated(error)) then
                 call error%add_context("path between two points")
                 return
             end if
-            path(:, 2:points - 1) = path(:, 2:points - 1) - reshape(change, [n, points - 2])
-            if (close_enough) return
-            close_enough = maxval(abs(change)) <= nearly_there*maxval(abs(path))
+            found(:, 2:points - 1) = found(:, 2:points - 1) - reshape(change, [n, points - 2])
+            if (close_enough) then
+                path = found
+                return
+            end if
+            close_enough = maxval(abs(change)) <= nearly_there*maxval(abs(found))
         end do
         call fail(error, "path between two points: Newton's method does not converge", &
                   status_numbers)

@@ -1,5 +1,6 @@
 module lagrangia_flow
     !! How fast quantities of a system change along its motion.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_kinds, only: dp
     use lagrangia_system, only: system_t
     implicit none (type, external)
@@ -15,7 +16,8 @@ contains
     subroutine flow_derivative(system, i, t, q, v, rate, scale, noise)
         !! Time derivative of quantity `i` (0: the energy) along the equations of motion, by
         !! central differences of order 8 along \((1, \dot q, \ddot q)\), and the size of what
-        !! adds up to it: the changes with time, coordinates and velocities taken one by one.
+        !! adds up to it: the changes with time, coordinates and velocities taken one by one. The
+        !! step is shortened where it would leave the places where the quantity is a number.
         class(system_t), intent(in) :: system
         integer, intent(in) :: i
         real(dp), intent(in) :: t, q(:), v(:)
@@ -29,7 +31,11 @@ contains
         call system%accelerations(t, q, v, a)
         zero = 0.0_dp
         h = 0.02_dp/(1.0_dp + maxval(abs(v)) + maxval(abs(a)))
-        rate = slope(system, i, t, q, v, 1.0_dp, v, a, h, order8)
+        do k = 1, 20
+            rate = slope(system, i, t, q, v, 1.0_dp, v, a, h, order8)
+            if (ieee_is_finite(rate)) exit
+            h = 0.25_dp*h
+        end do
         scale = abs(slope(system, i, t, q, v, 1.0_dp, zero, zero, h, order8))
         do k = 1, size(q)
             one = zero

@@ -1,12 +1,14 @@
 module lagrangia_lagrangian_system
     !! A system of which only the Lagrangian is known: bring your own.
     !!
-    !! Extend `lagrangian_system_t` by `outline` (its name, coordinates and parameters) and by
+    !! Extend `lagrangian_system_t` by `outline` (its name, coordinates, parameters) and by
     !! `lagrangian`. Accelerations and energy then come from exact derivatives of L, slower than
     !! formulae written by hand: see `docs/your_own_system.md`. What integrators must know of its
     !! structure is found by trying. Formulae by hand may be added later, one by one, as the
     !! bindings of `system_t`: the audit checks them against L.
-    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    !!
+    !! L must be of degree two in the velocities, its mass matrix positive definite.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
@@ -31,7 +33,8 @@ module lagrangia_lagrangian_system
 
     abstract interface
         pure subroutine outline_i(self, d)
-            !! What `describe` must say: at least name, title, coordinates and parameters.
+            !! What `describe` must say: at least name, title and coordinates; parameters, if
+            !! there are any, with their defaults.
             import :: lagrangian_system_t, description_t
             implicit none (type, external)
             class(lagrangian_system_t), intent(in) :: self
@@ -42,7 +45,8 @@ module lagrangia_lagrangian_system
 contains
 
     pure function value(self, i, default)
-        !! Parameter `i`, for `outline`: its default as long as none was given.
+        !! Value `i` of the parameters, for what `outline` makes of them (the mass of a point,
+        !! the scale of a drift); the default as long as none was given.
         class(lagrangian_system_t), intent(in) :: self
         integer, intent(in) :: i
         real(dp), intent(in) :: default
@@ -53,9 +57,10 @@ contains
     end function value
 
     pure subroutine describe(self, d)
-        !! The outline, and something for all that it leaves out.
+        !! The outline with the parameters in it, and something for all that it leaves out.
         class(lagrangian_system_t), intent(in) :: self
         type(description_t), intent(out) :: d
+        integer :: i, first
 
         call self%outline(d)
         if (.not. allocated(d%parameters)) allocate (d%parameters(0))
@@ -73,6 +78,14 @@ contains
         if (d%energy == "") d%energy = "q_dot dL/dq_dot - L, by exact derivatives of L"
         if (d%constraint == "") d%constraint = "in the choice of coordinates"
         if (d%source == "") d%source = "your own"
+        if (.not. allocated(self%p)) return
+        first = 1
+        do i = 1, size(d%parameters)
+            associate (p => d%parameters(i))
+                p%value(:p%count) = self%p(first:first + p%count - 1)
+                first = first + p%count
+            end associate
+        end do
     end subroutine describe
 
     pure subroutine configure(self, values, error)
@@ -92,28 +105,40 @@ contains
 
     pure subroutine find_structure(self)
         !! Whether accelerations depend on the velocities, whether L depends on the time, and the
-        !! first cyclic coordinate: as some states of no particular kind have it.
+        !! first cyclic coordinate: as four states of no particular kind have it, where L is a
+        !! number (closer and closer to q = 0). Where there are none, the worst is assumed.
         class(lagrangian_system_t), intent(inout) :: self
-        integer, parameter :: tries = 3
         type(euler_lagrange_t) :: terms
         real(dp), dimension(self%ndof) :: q, v, a, b
         logical :: cyclic(self%ndof)
-        integer :: i, k
+        real(dp) :: t
+        integer :: i, k, used
 
         self%velocity_forces = .false.
         self%time_dependent = .false.
         cyclic = .true.
-        do k = 1, tries
-            q = [(sin(1.3_dp*i + 2.1_dp*k), i=1, self%ndof)]
+        used = 0
+        do k = 1, 60
+            t = 0.4_dp*k
+            q = [(0.8_dp**k*sin(1.3_dp*i + 2.1_dp*k), i=1, self%ndof)]
+            if (mod(k, 2) == 0) q = abs(q)  ! a radius is positive
             v = [(cos(0.7_dp*i + 1.7_dp*k), i=1, self%ndof)]
-            call expand_lagrangian(self, 0.4_dp*k, q, v, terms)
+            call expand_lagrangian(self, t, q, v, terms)
+            call self%accelerations(t, q, v, a)
+            if (.not. all(ieee_is_finite([terms%dl_dt, terms%dl_dq, a]))) cycle
             cyclic = cyclic .and. abs(terms%dl_dq) <= 0.0_dp
             self%time_dependent = self%time_dependent .or. abs(terms%dl_dt) > 0.0_dp
-            call self%accelerations(0.4_dp*k, q, v, a)
             v = 2.0_dp*v
-            call self%accelerations(0.4_dp*k, q, v, b)
-            self%velocity_forces = self%velocity_forces .or. maxval(abs(a - b)) > 0.0_dp
+            call self%accelerations(t, q, v, b)
+            self%velocity_forces = self%velocity_forces .or. .not. maxval(abs(a - b)) <= 0.0_dp
+            used = used + 1
+            if (used == 4) exit
         end do
+        if (used == 0) then
+            self%velocity_forces = .true.
+            self%time_dependent = .true.
+            cyclic = .false.
+        end if
         self%cyclic = findloc(cyclic, .true., 1)
     end subroutine find_structure
 

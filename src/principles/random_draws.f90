@@ -1,8 +1,9 @@
 module lagrangia_random_draws
     !! Parameters and states at random, the same ones in every run.
-    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_description, only: description_t
-    use lagrangia_errors, only: error_t
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: default_values, system_t
     implicit none (type, external)
@@ -83,23 +84,48 @@ contains
     end subroutine parameters
 
     subroutine state(self, system, t, q, v, error)
-        !! A time, coordinates, and velocities that the constraints allow.
+        !! A time, coordinates, and velocities that the constraints allow. Where L is no number,
+        !! other coordinates are drawn, closer and closer to 0.
         class(random_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(out) :: t
         real(dp), allocatable, intent(out) :: q(:), v(:)
         type(error_t), allocatable, intent(out) :: error  !! there are none
-        real(dp) :: given(system%ndof - system%constraints)
-        integer :: i
+        integer, parameter :: tries = 100
+        real(dp) :: given(system%ndof - system%constraints), widest
+        integer :: i, k
 
         allocate (q(system%ndof), v(system%ndof))
         call self%uniform(-2.0_dp, 3.0_dp, t)
-        do i = 1, system%ndof
-            call self%uniform(-3.0_dp, 3.0_dp, q(i))
+        widest = 3.0_dp
+        do k = 1, tries
+            do i = 1, system%ndof
+                call self%uniform(-widest, widest, q(i))
+            end do
+            do i = 1, size(given)
+                call self%uniform(-3.0_dp, 3.0_dp, given(i))
+            end do
+            call system%complete_velocities(t, q, given, v, error)
+            if (allocated(error)) return
+            if (is_inside(system, t, q, v)) return
+            widest = 0.8_dp*widest
         end do
-        do i = 1, size(given)
-            call self%uniform(-3.0_dp, 3.0_dp, given(i))
-        end do
-        call system%complete_velocities(t, q, given, v, error)
+        call fail(error, "L is no number at any state tried")
     end subroutine state
+
+    pure function is_inside(system, t, q, v) result(yes)
+        !! L is a number here and a little farther out: the state is not on the edge either.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(:), v(:)
+        logical :: yes
+        type(hyperdual_t) :: tt, qq(size(q)), vv(size(v)), here, outside
+
+        tt%re = t
+        qq%re = q
+        vv%re = v
+        here = system%lagrangian(tt, qq, vv)
+        qq%re = 1.2_dp*q
+        outside = system%lagrangian(tt, qq, vv)
+        yes = ieee_is_finite(here%re) .and. ieee_is_finite(outside%re)
+    end function is_inside
 end module lagrangia_random_draws

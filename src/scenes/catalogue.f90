@@ -19,6 +19,7 @@ module lagrangia_catalogue
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hanging_chain, only: hanging_chain_t
     use lagrangia_kinds, only: dp
+    use lagrangia_newcomer, only: check_newcomer
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_oscillator_reference, only: oscillator_reference_t, &
         new_oscillator_reference
@@ -43,25 +44,32 @@ module lagrangia_catalogue
     public :: new_system, nth_system, register_system, system_names
     public :: new_reference
     public :: refuse_name
+    public :: built_in
 
-    integer, parameter :: built_in = 13               !! systems
+    integer, parameter :: built_in = 13               !! systems: those of the lectures
     type(system_box_t), allocatable :: registered(:)  !! those that other programs brought
 
 contains
 
-    subroutine register_system(system)
-        !! Add a system of your own, behind the others. Its name must be a new one.
+    subroutine register_system(system, error)
+        !! Add a system of your own, behind the others. Fails, and adds nothing, where its name is
+        !! taken or cannot be typed, or its description has gaps.
         class(system_t), intent(in) :: system
+        type(error_t), allocatable, intent(out) :: error
         type(system_box_t), allocatable :: longer(:)
+        class(system_t), allocatable :: newcomer
         integer :: i, n
 
+        allocate (newcomer, source=system)
+        call check_newcomer(newcomer, system_names(), error)
+        if (allocated(error)) return
         n = 0
         if (allocated(registered)) n = size(registered)
         allocate (longer(n + 1))
         do i = 1, n
             call move_alloc(registered(i)%item, longer(i)%item)
         end do
-        allocate (longer(n + 1)%item, source=system)
+        call move_alloc(newcomer, longer(n + 1)%item)
         call move_alloc(longer, registered)
     end subroutine register_system
 

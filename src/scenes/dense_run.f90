@@ -4,26 +4,48 @@ module lagrangia_dense_run
     use lagrangia_crossings, only: watch_t
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_events, only: event_box_t
-    use lagrangia_integrator, only: dense_integrator_t
+    use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_box_t
-    use lagrangia_run, only: plan_t
+    use lagrangia_run, only: plan_t, run
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: run_dense
+    public :: drive, run_dense
 
     integer, parameter :: most_at_once = 100  !! impacts at one time
 
 contains
 
+    subroutine drive(system, integrator, plan, events, observers, q, v, ended, error)
+        !! `run_dense` where samples or events may lie between the steps, else `run`.
+        class(system_t), intent(in) :: system
+        class(integrator_t), intent(inout) :: integrator
+        type(plan_t), intent(in) :: plan
+        type(event_box_t), intent(inout) :: events(:)
+        type(observer_box_t), intent(in) :: observers(:)
+        real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+        real(dp), intent(out) :: ended  !! time of the last sample, s
+        type(error_t), allocatable, intent(out) :: error
+
+        ended = plan%t0 + plan%duration
+        if (plan%equal > 0 .or. size(events) > 0) then
+            select type (integrator)
+            class is (dense_integrator_t)
+                call run_dense(system, integrator, plan, events, observers, q, v, ended, error)
+            end select
+        else
+            call run(system, integrator, plan, observers, q, v, error)
+        end if
+    end subroutine drive
+
     subroutine run_dense(system, method, plan, events, observers, q, v, ended, error)
         !! Integrate from `plan%t0` over `plan%duration`, showing the samples of the plan and the
         !! end to `observers`, and every event. The number of samples costs no evaluations.
         !!
-        !! A run that fails shows what was good; `q` and `v` are then the last good sample.
+        !! A run that fails has shown what was good up to `ended`, and `q` and `v` are as they were.
         class(system_t), intent(in) :: system
         class(dense_integrator_t), intent(inout) :: method
         type(plan_t), intent(in) :: plan
@@ -33,7 +55,7 @@ contains
         real(dp), intent(out) :: ended  !! time of the last sample, s
         type(error_t), allocatable, intent(out) :: error
         type(watch_t) :: watch
-        real(dp) :: t_end
+        real(dp) :: t_end, q_end(system%ndof), v_end(system%ndof)
         integer(i8) :: shown, last
         integer :: impacts
         logical :: stopped, restarted
@@ -64,6 +86,9 @@ contains
             if (.not. (stopped .or. restarted)) call show_samples(method%t_new)
             if (.not. allocated(error)) call look_around()
         end do
+        if (allocated(error)) return
+        q = q_end
+        v = v_end
     contains
         subroutine meet()
             !! An event: its impact, and whether the run ends or starts again.
@@ -118,12 +143,12 @@ contains
                           "motion diverges, or the step is too long", status_numbers)
                 return
             end if
-            q = q_now
-            v = v_now
+            q_end = q_now
+            v_end = v_now
             ended = t
             shown = shown + 1
             do i = 1, size(observers)
-                call observers(i)%item%observe(system, t, q, v, error)
+                call observers(i)%item%observe(system, t, q_end, v_end, error)
                 if (allocated(error)) return
             end do
         end subroutine show

@@ -3,6 +3,7 @@ module lagrangia_outcome
     use lagrangia_description, only: name_length
     use lagrangia_json, only: json_list, json_number, json_string
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_statement, only: stated_t, statement_json
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -35,6 +36,7 @@ module lagrangia_outcome
         integer(i8) :: rejected = 0                 !! steps that were tried and taken back
         type(measure_t), allocatable :: drifts(:)   !! of the invariants
         type(measure_t), allocatable :: others(:)   !! `error`, `period`, ...
+        type(stated_t), allocatable :: state(:)     !! final, with errors, if that was asked
         integer :: error_from = 0                   !! 0: no error known
         real(dp) :: period = 0.0_dp                 !! measured, s; 0 if not
         real(dp) :: omega = 0.0_dp                  !! of the slowest small oscillation; or 0
@@ -164,6 +166,12 @@ contains
         json = json//', "omega_error": '
         if (self%omega_error >= 0.0_dp) then
             json = json//json_number(self%omega_error)
+        else
+            json = json//"null"
+        end if
+        json = json//', "state": '
+        if (allocated(self%state)) then
+            json = json//statement_json(self%state)
         else
             json = json//"null"
         end if

@@ -1,8 +1,9 @@
 module lagrangia_play
     !! One scene from its data to its data file, picture and row of the scorecard.
+    use lagrangia_accuracy, only: rehearse_finer, state_accuracy
     use lagrangia_catalogue, only: new_reference
     use lagrangia_columns, only: new_columns
-    use lagrangia_dense_run, only: run_dense
+    use lagrangia_dense_run, only: drive
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_event_files, only: finish_event_file, open_event_file
@@ -17,12 +18,13 @@ module lagrangia_play
     use lagrangia_period, only: period_t
     use lagrangia_record, only: record_t
     use lagrangia_reference, only: reference_t
-    use lagrangia_run, only: plan_t, run
+    use lagrangia_run, only: plan_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_files, only: abandon_files, finish_files, open_files
     use lagrangia_staging, only: stage_events, stage_method, stage_shadow
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
+    use lagrangia_witness, only: witness_t
     implicit none (type, external)
     private
     public :: play, rehearse, performance_t
@@ -32,6 +34,7 @@ module lagrangia_play
         type(plan_t) :: plan
         class(integrator_t), allocatable :: integrator
         class(reference_t), allocatable :: reference  !! absent: no closed form
+        type(witness_t) :: witness
         type(record_t) :: record
         type(period_t) :: period
         type(panel_t), allocatable :: panels(:)
@@ -52,6 +55,8 @@ contains
 
         call begin_outcome(scene, p%outcome)
         call stage_method(scene, system, p%plan, p%integrator, error)
+        if (allocated(error)) return
+        if (scene%error_estimate) call rehearse_finer(scene, system, error)
         if (allocated(error)) return
         call stage_events(scene, system, p%events, p%event_record, p%event_panels, error)
         if (allocated(error)) return
@@ -89,7 +94,7 @@ contains
         type(outcome_t), intent(out) :: outcome
         type(error_t), allocatable, intent(out) :: error
         type(performance_t), target :: p
-        type(observer_box_t) :: observers(4)
+        type(observer_box_t) :: observers(5)
         type(error_t), allocatable :: file_error
         integer :: n
 
@@ -107,6 +112,7 @@ contains
             end if
         end if
         n = 0
+        call join(p%witness)
         if (size(p%record%columns%items) > 0) call join(p%record)
         if (scene%period_of /= "") then
             call find_coordinate(system, scene%period_of, p%period%coordinate)
@@ -115,9 +121,15 @@ contains
         if (size(p%events) > 0) call join(p%event_record)
         if (associated(watcher)) call join(watcher)
         call timed_run(system, p, observers(:n), outcome, error)
+        if (scene%error_estimate .and. .not. allocated(error)) call state_accuracy(scene, system, &
+            p%witness, outcome%steps, watcher, outcome%state, error)
         if (allocated(error)) then
-            outcome%t = p%record%time
-            if (p%record%rows == 0) outcome%t = scene%t0
+            outcome%t = scene%t0
+            if (allocated(p%witness%q)) then
+                outcome%t = p%witness%t
+                outcome%q = p%witness%q
+                outcome%v = p%witness%v
+            end if
             if (error%status /= status_numbers) then
                 call abandon_files(p%record)
                 if (allocated(p%event_record%table)) call p%event_record%table%file%abandon()
@@ -157,22 +169,19 @@ contains
             to_text(p%plan%rest)//" s)"
         call system_clock(start, rate)
         outcome%steps = p%plan%steps + merge(1, 0, p%plan%rest > 0.0_dp)
-        outcome%t = p%plan%t0 + p%plan%duration
+        call drive(system, p%integrator, p%plan, p%events, observers, outcome%q, outcome%v, &
+                   outcome%t, error)
+        call system_clock(finish)
         if (p%plan%equal > 0 .or. size(p%events) > 0) then
             select type (method => p%integrator)
             class is (dense_integrator_t)
-                call run_dense(system, method, p%plan, p%events, observers, outcome%q, outcome%v, &
-                               outcome%t, error)
                 outcome%steps = method%accepted
                 outcome%rejected = method%rejected
-                if (.not. allocated(error) .and. outcome%t < p%plan%t0 + p%plan%duration) then
-                    outcome%remark = " (stopped by an event at t = "//to_text(outcome%t)//" s)"
-                end if
             end select
-        else
-            call run(system, p%integrator, p%plan, observers, outcome%q, outcome%v, error)
         end if
-        call system_clock(finish)
+        if (.not. allocated(error) .and. outcome%t < p%plan%t0 + p%plan%duration) then
+            outcome%remark = " (stopped by an event at t = "//to_text(outcome%t)//" s)"
+        end if
         outcome%seconds = real(finish - start, dp)/real(rate, dp)
         outcome%evaluations = p%integrator%evaluations
     end subroutine timed_run

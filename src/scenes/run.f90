@@ -1,7 +1,6 @@
 module lagrangia_run
     !! The one loop: a system, an integrator, and whoever wants to see the states.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use lagrangia_errors, only: error_t, fail, status_numbers
+    use lagrangia_errors, only: error_t, fail
     use lagrangia_integrator, only: integrator_t
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_kinds, only: dp, i8
@@ -104,15 +103,15 @@ contains
     subroutine run(system, integrator, plan, observers, q, v, error)
         !! Integrate from `t0` over `duration`, showing every sample and the end to `observers`.
         !!
-        !! A state that is not finite ends the run: `q` and `v` are then the last good sample, or
-        !! the start where there is none.
+        !! A state that is not finite ends the run, as does an observer's error or a signal. A run
+        !! that fails has shown what was good, and `q` and `v` are as they were.
         class(system_t), intent(in) :: system
         class(integrator_t), intent(inout) :: integrator
         type(plan_t), intent(in) :: plan
         type(observer_box_t), intent(in) :: observers(:)
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
         type(error_t), allocatable, intent(out) :: error
-        real(dp) :: q_good(system%ndof), v_good(system%ndof)
+        real(dp) :: q_start(system%ndof), v_start(system%ndof)
         integer(i8) :: done, block_end
 
         if (system%contacts > 0) then
@@ -122,8 +121,8 @@ contains
         call integrator%prepare(system, error)
         if (allocated(error)) return
         done = 0
-        q_good = q
-        v_good = v
+        q_start = q
+        v_start = v
         call show(plan%t0)
         do while (done < plan%steps .and. .not. allocated(error))
             block_end = min(plan%steps, done + longest_block, (done/plan%every + 1)*plan%every)
@@ -139,6 +138,9 @@ contains
             call integrator%advance(system, time_of(done), plan%rest, 0_i8, 1_i8, q, v)
             call show(plan%t0 + plan%duration)
         end if
+        if (.not. allocated(error)) return
+        q = q_start
+        v = v_start
     contains
         pure function time_of(k) result(t)
             integer(i8), intent(in) :: k
@@ -150,21 +152,10 @@ contains
 
         subroutine show(t)
             real(dp), intent(in) :: t
-            character(:), allocatable :: why
             integer :: i
 
-            if (.not. (all(ieee_is_finite(q)) .and. all(ieee_is_finite(v)))) then
-                why = trim(integrator%trouble)
-                if (why == "") why = "the step dt = "//to_text(plan%dt)//" s is too long, or "// &
-                                     "the motion diverges"
-                call fail(error, "the state is not finite at t = "//to_text(t)//" s: "//why, &
-                          status_numbers)
-                q = q_good
-                v = v_good
-                return
-            end if
-            q_good = q
-            v_good = v
+            call integrator%refuse_state(t, plan%dt, q, v, error)
+            if (allocated(error)) return
             do i = 1, size(observers)
                 call observers(i)%item%observe(system, t, q, v, error)
                 if (allocated(error)) return

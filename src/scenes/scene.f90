@@ -35,6 +35,7 @@ module lagrangia_scene
         character(120), allocatable :: events(:)   !! `'theta = 0.5 rising'`
         character(name_length), allocatable :: event_columns(:)
         character(200), allocatable :: event_plots(:)
+        logical :: error_estimate = .false.        !! state the error of the final state
         logical :: modes = .false.                 !! show omega of the small oscillations
         character(name_length) :: period_of = ""   !! a coordinate whose period is measured
         type(expectation_t), allocatable :: expectations(:)
@@ -74,6 +75,7 @@ contains
             call add_texts("event_columns", scene%event_columns)
             call add_texts("event_plot", scene%event_plots)
         end if
+        if (scene%error_estimate) call add("  error_estimate = .true.")
         if (scene%modes) call add("  modes = .true.")
         if (scene%period_of /= "") call add("  period_of = "//text_value(scene%period_of))
         do i = 1, size(scene%expectations)

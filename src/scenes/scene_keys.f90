@@ -9,7 +9,7 @@ module lagrangia_scene_keys
     use lagrangia_scene, only: expectation_t, scene_t
     use lagrangia_scene_tolerance, only: read_tolerance
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: join, to_text
+    use lagrangia_text, only: join, lower, to_text
     implicit none (type, external)
     private
     public :: keys, key_length, expectation_keys, read_columns, read_state, read_times
@@ -17,7 +17,7 @@ module lagrangia_scene_keys
     character(name_length), parameter :: keys(*) = [character(name_length) :: &
         "title", "system", "method", "compensated", "t0", "dt", "tolerance", "duration", "every", &
         "samples", "q", "v", "columns", "plot", "event", "event_columns", "event_plot", &
-        "period_of", "modes", "output"]
+        "period_of", "modes", "error_estimate", "output"]
     integer, parameter :: key_length = name_length + len("expect_")
     integer, parameter :: most = 10000  !! values of one key
 
@@ -121,7 +121,8 @@ contains
         class(system_t), intent(in) :: system
         type(scene_t), intent(inout) :: scene
         type(error_t), allocatable, intent(out) :: error
-        character(key_length), allocatable :: names(:)
+        character(name_length), allocatable :: names(:)
+        character(key_length), allocatable :: expected(:)
         type(description_t) :: d
         real(dp) :: limit
         logical :: found
@@ -140,6 +141,8 @@ contains
         if (allocated(error)) return
         call get_logical(tree, "scene", "modes", scene%modes, error)
         if (allocated(error)) return
+        call get_logical(tree, "scene", "error_estimate", scene%error_estimate, error)
+        if (allocated(error)) return
         call get_string(tree, "scene", "period_of", scene%period_of, error)
         if (allocated(error)) return
         if (scene%period_of /= "" .and. .not. any(d%coordinates%name == scene%period_of)) then
@@ -152,18 +155,19 @@ contains
                               trim(d%name)//" is not conserved, for L contains the time", error)
             return
         end if
-        names = expectation_keys(system)
+        names = judged(system)
+        expected = expectation_keys(system)
         allocate (scene%expectations(0))
         do i = 1, size(names)
-            call get_real(tree, "scene", trim(names(i)), limit, error, found=found)
+            call get_real(tree, "scene", trim(expected(i)), limit, error, found=found)
             if (allocated(error)) return
             if (.not. found) cycle
             if (limit < 0.0_dp) then
-                call refuse_value(tree, "scene", trim(names(i)), "a tolerance is at least 0", error)
+                call refuse_value(tree, "scene", trim(expected(i)), "a tolerance is at least 0", &
+                                  error)
                 return
             end if
-            scene%expectations = [scene%expectations, &
-                                  expectation_t(names(i)(len("expect_") + 1:), limit)]
+            scene%expectations = [scene%expectations, expectation_t(names(i), limit)]
         end do
         scene%output = scene%name
         call get_string(tree, "scene", "output", scene%output, error)
@@ -227,13 +231,24 @@ contains
         text = join(names, ", ")
     end function coordinates
 
+    pure function judged(system) result(names)
+        !! What can be judged.
+        class(system_t), intent(in) :: system
+        character(name_length), allocatable :: names(:)
+
+        names = [character(name_length) :: column_names(system, .true.), "period", "small_period"]
+    end function judged
+
     pure function expectation_keys(system) result(names)
-        !! `expect_` and what can be judged.
+        !! `expect_` and what can be judged, in lower case as all keys are.
         class(system_t), intent(in) :: system
         character(key_length), allocatable :: names(:)
+        integer :: i
 
-        names = "expect_"//[character(name_length) :: column_names(system, .true.), &
-                            "period", "small_period"]
+        names = "expect_"//judged(system)
+        do i = 1, size(names)
+            names(i) = lower(names(i))
+        end do
     end function expectation_keys
 
     pure function bad_output(name) result(bad)

@@ -9,7 +9,6 @@ module lagrangia_scene_tolerance
     use lagrangia_methods, only: method_names
     use lagrangia_namelist, only: get_integer, get_real, has_key, namelist_t, refuse_value
     use lagrangia_scene, only: scene_t
-    use lagrangia_shadow, only: least_tolerance
     use lagrangia_text, only: join, to_text
     implicit none (type, external)
     private
@@ -57,9 +56,10 @@ contains
         scene%tolerance = 1e-10_dp
         call get_real(tree, "scene", "tolerance", scene%tolerance, error)
         if (allocated(error)) return
-        if (scene%tolerance < least_tolerance) then
-            call refuse_value(tree, "scene", "tolerance", "is below the precision of numbers; "// &
-                              "the smallest sensible one is "//to_text(least_tolerance), error)
+        if (scene%tolerance < method%least_tolerance) then
+            call refuse_value(tree, "scene", "tolerance", "is below the precision of "// &
+                              "numbers; the smallest sensible one is "// &
+                              to_text(method%least_tolerance), error)
             return
         end if
         if (scene%tolerance > most_tolerance) then

@@ -4,7 +4,7 @@ module lagrangia_edges_of_numbers
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_observer, only: observer_box_t
+    use lagrangia_observer, only: observer_box_t, observer_t
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_rotating_wire, only: rotating_wire_t
     use lagrangia_run, only: new_plan, plan_t, run
@@ -15,6 +15,13 @@ module lagrangia_edges_of_numbers
     public :: judge_edges
 
     real(dp), parameter :: dt = 0.02_dp  !! s
+
+    type, extends(observer_t) :: last_t
+        !! The last state that was seen.
+        real(dp) :: x = 0.0_dp
+    contains
+        procedure :: observe
+    end type last_t
 
 contains
 
@@ -56,17 +63,29 @@ contains
         real(dp), intent(in) :: x0, duration
         real(dp), intent(out) :: x
         integer, intent(out) :: status
-        type(observer_box_t) :: nobody(0)
+        type(observer_box_t) :: observers(1)
+        type(last_t), target :: last
         type(error_t), allocatable :: error
         type(plan_t) :: plan
         real(dp) :: q(1), v(1)
 
+        observers(1)%item => last
         q = x0
         v = 0.0_dp
         call new_plan(plan, 0.0_dp, dt, duration, 50_i8, error)
-        call run(system, method, plan, nobody, q, v, error)
-        x = q(1)
+        call run(system, method, plan, observers, q, v, error)
+        x = last%x
         status = 0
         if (allocated(error)) status = error%status
     end subroutine end_of_run
+
+    subroutine observe(self, system, t, q, v, error)
+        !! Remember it.
+        class(last_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        type(error_t), allocatable, intent(out) :: error
+
+        self%x = q(1)
+    end subroutine observe
 end module lagrangia_edges_of_numbers

@@ -62,8 +62,9 @@ contains
             z = real(rates(i), qp)*t
             exact = r0*cosh(z) + v0*t
             if (z > 0.0_qp) exact = r0*cosh(z) + v0*t*sinhc(z)
-            call verdicts%judge("wire, omega = "//to_text(rates(i)), "r after 2 s: relative error", &
-                                real(abs(q(1)/exact - 1.0_qp), dp), most=few)
+            call verdicts%judge("wire, omega = "//to_text(rates(i)), &
+                                "r after 2 s: relative error", real(abs(q(1)/exact - 1.0_qp), &
+                                                                    dp), most=few)
         end do
     end subroutine judge_slow_wire
 

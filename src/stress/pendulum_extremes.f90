@@ -78,7 +78,7 @@ contains
         class(dense_integrator_t), intent(inout) :: method
         type(verdicts_t), intent(inout) :: verdicts
         real(dp), parameter :: angles(*) = [1e3_dp, 1e6_dp, 1e9_dp], t_end = 10.0_dp
-        real(dp) :: q(1), v(1), small(1), v_small(1)
+        real(dp) :: q(1), v(1), small(1), v_small(1), difference
         real(qp) :: wound
         integer :: i
 
@@ -90,9 +90,10 @@ contains
             v_small = v
             call move(method, system, t_end, q, v)
             call move(method, system, t_end, small, v_small)
+            difference = real(abs(q(1) - wound - small(1)), dp)
             call verdicts%judge("theta = "//to_text(angles(i)), &
-                                "difference after 10 s, last digits", real(abs(q(1) - wound - small(1)), &
-                                dp)/spacing(angles(i)), most=100.0_dp, remark= &
+                                "difference after 10 s, last digits", &
+                                difference/spacing(angles(i)), most=100.0_dp, remark= &
                                 "a last digit is "//short(spacing(angles(i)), 2)//" rad")
         end do
     end subroutine judge_large_angles

@@ -18,8 +18,8 @@ module lagrangia_stress_rows
               "A longer step multiplies the fastest oscillation every time, however slow the "// &
               "motion that you look at: 2/omega for Verlet, 2.83/omega for RK4."), &
         row_t("energy_growth", "energy error of a long run: its law, fitted", &
-              "Symplectic methods keep the energy near its value for ever, RK4 loses some every "// &
-              "step. Of a nearly exact method rounding is left: a random walk, the root of N."), &
+              "Symplectic methods keep the energy near its value for ever, RK4 loses some "// &
+              "every step. Of a nearly exact one rounding is left: a random walk, the root of N."), &
         row_t("rounding", "Verlet on the oscillator: what rounding alone does in 10^7 steps", &
               "Every sum drops half a digit at random; compensated sums (compensated = .true.) "// &
               "carry it along."), &
@@ -42,8 +42,8 @@ module lagrangia_stress_rows
               "An ordinary eigenvalue solver loses the slow mode beside a fast one; from the "// &
               "factors of M and K both have all digits. The motion becomes a simple pendulum's."), &
         row_t("massless", "m1 -> 0 in the double pendulum", &
-              "A bob without mass oscillates infinitely fast: its limit is a stiff problem, and "// &
-              "not the problem without the bob."), &
+              "A bob without mass oscillates infinitely fast: its limit is a stiff problem, "// &
+              "and not the problem without the bob."), &
         row_t("wedge_angles", "a block on a wedge: alpha -> 0 and pi/2", &
               "Flat: nothing slides; upright: free fall. The formula holds at both ends."), &
         row_t("slow_rotation", "omega -> 0 and B -> 0 in closed forms that divide by them", &

@@ -1,5 +1,5 @@
 module spherical_pendulum
-    !! A pendulum that swings in all directions. First step: only its Lagrangian.
+    !! A pendulum that swings in all directions. The first step: only its Lagrangian.
     use lagrangia, only: coordinate, cos, description_t, dp, hyperdual_t, lagrangian_system_t, &
                          nonnegative, operator(*), operator(**), operator(+), positive, sin
     implicit none (type, external)
@@ -24,9 +24,9 @@ contains
         d%title = "a pendulum that swings in all directions"
         d%coordinates = [coordinate("theta", "rad", "angle from the downward vertical"), &
                          coordinate("phi", "rad", "angle around the vertical")]
-        d%parameters = [positive("m", "kg", "mass of the bob", self%value(1, 1.0_dp)), &
-                        positive("l", "m", "length of the rod", self%value(2, 1.0_dp)), &
-                        nonnegative("g", "m/s^2", "gravity", self%value(3, 9.81_dp))]
+        d%parameters = [positive("m", "kg", "mass of the bob", 1.0_dp), &
+                        positive("l", "m", "length of the rod", 1.0_dp), &
+                        nonnegative("g", "m/s^2", "gravity", 9.81_dp)]
     end subroutine outline
 
     pure function lagrangian(self, t, q, v) result(l)

@@ -1,8 +1,8 @@
-module spherical_pendulum_by_hand
-    !! Second step: equations of motion by hand, faster, and checked against the Lagrangian; what
-    !! is conserved; where the bob is; and what Newton would say.
+module spherical_by_hand
+    !! The second step: equations of motion by hand, faster, and checked against the Lagrangian;
+    !! what is conserved; where the bob is; and what Newton would say.
     use lagrangia, only: conserved, cos, description_t, dot_product, dp, hyperdual_t, &
-                         operator(*), operator(-), point, quantity, sin
+                         line_length, operator(*), operator(-), point, quantity, sin
     use spherical_pendulum, only: spherical_pendulum_t
     implicit none (type, external)
     private
@@ -32,9 +32,9 @@ contains
         d%dimensions = 3
         d%points = [point("bob", self%value(1, 1.0_dp))]
         d%reactions = [quantity("tension", "N", "of the rod: (l^2 - x^2 - y^2 - z^2)/(2 l) = 0")]
-        d%lagrangian = [character(len(d%title)) :: &
+        d%lagrangian = [character(line_length) :: &
             "m/2 l^2 (theta_dot^2 + phi_dot^2 sin(theta)^2) + m g l cos(theta)"]
-        d%equations = [character(len(d%title)) :: &
+        d%equations = [character(line_length) :: &
             "theta_ddot = sin(theta) (cos(theta) phi_dot^2 - g/l)", &
             "phi_ddot = -2 theta_dot phi_dot cos(theta)/sin(theta)"]
     end subroutine outline
@@ -89,4 +89,4 @@ contains
         force = [0.0_dp, 0.0_dp, -self%p(1)*self%p(3)]
         held(1) = 0.5_dp/self%p(2)*(self%p(2)**2 - dot_product(x, x))
     end subroutine newton
-end module spherical_pendulum_by_hand
+end module spherical_by_hand

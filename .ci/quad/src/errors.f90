@@ -1,0 +1,1 @@
+../../../src/core/errors.f90

@@ -1,0 +1,1 @@
+../../../src/numerics/hyperdual_algebra.f90

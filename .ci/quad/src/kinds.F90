@@ -1,0 +1,1 @@
+../../../src/core/kinds.F90

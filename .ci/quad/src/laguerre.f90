@@ -1,0 +1,1 @@
+../../../src/numerics/laguerre.f90

@@ -1,0 +1,1 @@
+../../../src/numerics/vectors.f90

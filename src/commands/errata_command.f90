@@ -1,0 +1,184 @@
+module lagrangia_errata_command
+    !! `lagrangia errata [ID]`: the slips in the lecture notes, and what each would do, in numbers.
+    use lagrangia_command_line, only: command_line_t
+    use lagrangia_console, only: put_line
+    use lagrangia_errata, only: slip_numbers
+    use lagrangia_errata_ledger, only: kind_equation, kind_principle, slip_t, slips_of_the_notes
+    use lagrangia_errors, only: error_t, fail, status_not_held
+    use lagrangia_json, only: json_string
+    use lagrangia_principle, only: principle_report, put_json, put_report
+    use lagrangia_report, only: report_t, statement_t
+    use lagrangia_text, only: quoted, to_text
+    implicit none (type, external)
+    private
+    public :: errata_command, slip_report
+
+contains
+
+    subroutine errata_command(line, error)
+        !! One slip and its numbers; without an identifier a list of all, each computed.
+        type(command_line_t), intent(in) :: line
+        type(error_t), allocatable, intent(out) :: error
+        type(slip_t), allocatable :: slips(:)
+        type(report_t) :: report
+        character(:), allocatable :: id
+        integer :: k
+
+        allocate (slips, source=slips_of_the_notes())
+        if (size(line%arguments) == 0) then
+            call put_all(slips, line%has("json"), error)
+            return
+        end if
+        id = line%arguments(1)%text
+        if (scan(id(:min(1, len(id))), "0123456789") == 1) id = "E"//id
+        if (index(id, "e") == 1) id(1:1) = "E"
+        do k = 1, size(slips)
+            if (slips(k)%id == id) exit
+        end do
+        if (k > size(slips)) then
+            call fail(error, "unknown slip "//quoted(line%arguments(1)%text)//"; there are "// &
+                      trim(slips(1)%id)//" to "//trim(slips(size(slips))%id))
+            return
+        end if
+        call slip_report(slips(k), report, error)
+        if (allocated(error)) return
+        if (line%has("json")) then
+            call put_json(report)
+        else
+            call put_slip(slips(k), report)
+        end if
+        if (report%misses() > 0) call fail(error, to_text(report%misses())//" of "// &
+            to_text(size(report%rows))//" numbers do not come out", status_not_held)
+    end subroutine errata_command
+
+    subroutine slip_report(slip, report, error)
+        !! The numbers of a slip; of a slip of principle, those rows of the principle's report.
+        type(slip_t), intent(in) :: slip
+        type(report_t), intent(out) :: report
+        type(error_t), allocatable, intent(out) :: error
+        type(report_t) :: whole
+        integer :: k
+
+        call report%begin("")
+        if (slip%principle == "") then
+            call slip_numbers(slip%id, report, error)
+            return
+        end if
+        call principle_report(trim(slip%principle), whole, error)
+        if (allocated(error)) return
+        do k = 1, size(whole%rows)
+            if (belongs(slip%id, whole%rows(k))) report%rows = [report%rows, whole%rows(k)]
+        end do
+    end subroutine slip_report
+
+    pure function belongs(id, row) result(yes)
+        !! A row of a principle's report that shows this slip.
+        character(*), intent(in) :: id
+        type(statement_t), intent(in) :: row
+        logical :: yes
+
+        select case (id)
+        case ("E7")
+            yes = index(row%heading, "double pendulum, l1") == 1
+        case ("E9")
+            yes = index(row%name, "y dx - x dy") == 1 .or. index(row%name, "times 1/y") == 1 &
+                  .or. row%name == "is the disk integrable?"
+        case ("E10")
+            yes = index(row%name, "at rest") == 1
+        case ("E14")
+            yes = index(row%name, "y > 0") == 1
+        case ("E15")
+            yes = index(row%heading, "S[x + a sin") == 1 &
+                  .or. index(row%name, "oscillator, omega T = 4: floor") == 1
+        case ("E16")
+            yes = index(row%heading, "concave mirror") == 1 &
+                  .or. index(row%heading, "elliptic mirror") == 1
+        case default
+            yes = .false.
+        end select
+    end function belongs
+
+    subroutine put_slip(slip, report)
+        !! The whole story.
+        type(slip_t), intent(in) :: slip
+        type(report_t), intent(in) :: report
+
+        call put_line(trim(slip%id)//": "//trim(slip%subject))
+        call put_line("place       "//place_text(slip))
+        call put_line("as written  "//trim(slip%written))
+        call put_line("as derived  "//trim(slip%derived))
+        if (slip%effect /= "") call put_line("effect      "//trim(slip%effect))
+        if (size(report%rows) == 0) then
+            call put_line("numbers     none: it is a matter of letters or of history")
+            return
+        end if
+        call put_line("")
+        call put_report(report, "")
+        if (slip%principle /= "") call put_line("more: lagrangia principle "//trim(slip%principle))
+    end subroutine put_slip
+
+    pure function place_text(slip) result(text)
+        !! Where in the notes.
+        type(slip_t), intent(in) :: slip
+        character(:), allocatable :: text
+
+        text = "Phys 601, 1 September 2011"
+        if (index(slip%place, "II,") == 1) text = "Hamilton's Principle"
+        text = text//slip%place(index(slip%place, ","):)
+        text = trim(text)//" of the scan's text"
+    end function place_text
+
+    subroutine put_all(slips, json, error)
+        !! Two lines a slip; the numbers of each are computed, and must come out.
+        type(slip_t), intent(in) :: slips(:)
+        logical, intent(in) :: json
+        type(error_t), allocatable, intent(out) :: error
+        type(report_t) :: report
+        character(7) :: verdict
+        integer :: k, misses
+
+        misses = 0
+        if (json) call put_line("[")
+        do k = 1, size(slips)
+            call slip_report(slips(k), report, error)
+            if (allocated(error)) return
+            misses = misses + report%misses()
+            verdict = "shown"
+            if (size(report%rows) == 0) verdict = "listed"
+            if (report%misses() > 0) verdict = "NOT SO!"
+            if (json) then
+                call put_line(object(slips(k), trim(verdict))// &
+                              trim(merge(",", " ", k < size(slips))))
+            else
+                call put_line(slips(k)%id//"  "//slips(k)%kind//" "//verdict//"  "// &
+                              trim(slips(k)%subject)//" ("//trim(slips(k)%place)//")")
+                call put_line("       written  "//trim(slips(k)%written))
+                call put_line("       derived  "//trim(slips(k)%derived))
+            end if
+        end do
+        if (json) then
+            call put_line("]")
+        else
+            call put_line(to_text(count(slips%kind == kind_equation))//" equations, "// &
+                          to_text(count(slips%kind == kind_principle))//" principles; the rest "// &
+                          "may be the scanner's. Places: I is 1 September")
+            call put_line("2011, II is Hamilton's Principle, lines of the scan's text. "// &
+                          "'lagrangia errata E1' shows one in numbers.")
+        end if
+        if (misses > 0) call fail(error, to_text(misses)//" numbers do not come out", &
+                                  status_not_held)
+    end subroutine put_all
+
+    pure function object(slip, verdict) result(json)
+        !! One slip.
+        type(slip_t), intent(in) :: slip
+        character(*), intent(in) :: verdict
+        character(:), allocatable :: json
+
+        json = '{"id": '//json_string(trim(slip%id))//', "kind": '//json_string(trim(slip%kind))// &
+               ', "subject": '//json_string(trim(slip%subject))//', "place": '// &
+               json_string(place_text(slip))//', "written": '//json_string(trim(slip%written))// &
+               ', "derived": '//json_string(trim(slip%derived))//', "effect": '// &
+               json_string(trim(slip%effect))//', "numbers": '//json_string(verdict)//"}"
+    end function object
+end module lagrangia_errata_command

@@ -1,0 +1,102 @@
+module lagrangia_concise
+    !! Numbers with their uncertainty in the concise form: `0.48312(2)` is 0.48312 give or take
+    !! 0.00002. Source: JCGM 100:2008 (the GUM), sec. 7.2.2.
+    use lagrangia_kinds, only: dp
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: concise
+
+    integer, parameter :: wide = 64
+
+contains
+
+    pure function concise(value, error) result(text)
+        !! The digits of `value` that an error of `error` leaves: the error is rounded up to one
+        !! digit, which stands in brackets and counts in units of the last digit before it. All
+        !! digits where the error is 0. Both are finite.
+        real(dp), intent(in) :: value, error
+        character(:), allocatable :: text
+        character(1) :: digit
+        integer :: place, top
+
+        text = to_text(value)
+        if (error <= 0.0_dp) return
+        call round_up(error, digit, place)
+        top = place
+        if (abs(value) > 0.0_dp) top = max(place, power_of(value, 6))
+        if (place <= 0 .and. top >= -4 .and. top <= 6) then
+            text = fixed(value, -place)//"("//digit//")"
+        else
+            text = scientific(value, place, "("//digit//")")
+        end if
+    end function concise
+
+    pure subroutine round_up(error, digit, place)
+        !! The least `digit` times ten to `place` that is not less than `error`.
+        real(dp), intent(in) :: error
+        character(1), intent(out) :: digit
+        integer, intent(out) :: place
+        character(wide) :: buffer
+
+        write (buffer, "(es64.14e4)") error
+        buffer = adjustl(buffer)
+        digit = buffer(1:1)
+        place = power_of(error, 14)
+        if (verify(buffer(3:index(buffer, "E") - 1), "0") > 0) digit = achar(iachar(digit) + 1)
+        if (digit <= "9") return
+        digit = "1"
+        place = place + 1
+    end subroutine round_up
+
+    pure function power_of(number, digits) result(power)
+        !! Of ten, in `number` rounded to so many digits behind the first.
+        real(dp), intent(in) :: number
+        integer, intent(in) :: digits
+        integer :: power
+        character(wide) :: buffer, layout
+
+        write (layout, "(a, i0, a)") "(es64.", digits, "e4)"
+        write (buffer, layout) number
+        read (buffer(index(buffer, "E") + 1:), *) power
+    end function power_of
+
+    pure function fixed(value, digits) result(text)
+        !! With so many digits behind the point.
+        real(dp), intent(in) :: value
+        integer, intent(in) :: digits
+        character(:), allocatable :: text
+        character(wide) :: buffer, layout
+
+        write (layout, "(a, i0, a)") "(f64.", digits, ")"
+        write (buffer, layout) value
+        text = trim(adjustl(buffer))
+        if (digits == 0) text = text(:len(text) - 1)
+        if (verify(text, "-0.") == 0 .and. text(1:1) == "-") text = text(2:)
+    end function fixed
+
+    pure function scientific(value, place, behind) result(text)
+        !! `value` rounded to ten to `place`, with `behind` after its last digit and a power of ten.
+        real(dp), intent(in) :: value
+        integer, intent(in) :: place
+        character(*), intent(in) :: behind
+        character(:), allocatable :: text
+        character(wide) :: buffer, layout
+        integer :: top, digits
+
+        top = place - 1
+        if (abs(value) > 0.0_dp) top = power_of(value, 16)
+        if (top < place) then
+            text = to_text(nint(value/10.0_dp**place))//behind//"e"//to_text(place)
+            return
+        end if
+        digits = top - place
+        top = power_of(value, digits)
+        digits = top - place  ! one more where 9.99... became 10
+        write (layout, "(a, i0, a)") "(es64.", digits, "e4)"
+        write (buffer, layout) value
+        text = trim(adjustl(buffer(:index(buffer, "E") - 1)))
+        if (digits == 0) text = text(:len(text) - 1)
+        text = text//behind//"e"//to_text(top)
+    end function scientific
+end module lagrangia_concise

@@ -1,0 +1,36 @@
+module lagrangia_witness
+    !! The observer that keeps the latest sample, and how large each number of the state has been.
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_observer, only: observer_t
+    use lagrangia_system, only: system_t
+    implicit none (type, external)
+    private
+    public :: witness_t
+
+    type, extends(observer_t) :: witness_t
+        real(dp) :: t = 0.0_dp                     !! of the latest sample, s
+        real(dp), allocatable :: q(:), v(:)        !! that sample; absent: there was none
+        real(dp), allocatable :: q_most(:), v_most(:)  !! the largest magnitudes so far
+    contains
+        procedure :: observe
+    end type witness_t
+
+contains
+
+    subroutine observe(self, system, t, q, v, error)
+        !! See `observer_t`. Never fails.
+        class(witness_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        type(error_t), allocatable, intent(out) :: error
+
+        if (.not. allocated(self%q)) allocate (self%q_most, source=abs(q))
+        if (.not. allocated(self%q)) allocate (self%v_most, source=abs(v))
+        self%t = t
+        self%q = q
+        self%v = v
+        self%q_most = max(self%q_most, abs(q))
+        self%v_most = max(self%v_most, abs(v))
+    end subroutine observe
+end module lagrangia_witness

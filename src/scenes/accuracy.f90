@@ -1,0 +1,184 @@
+module lagrangia_accuracy
+    !! The error of a run's final state: the same scene twice more, finer and finer still.
+    !!
+    !! With steps of \(h, h/2, h/4\) and a method of order p the changes from one run to the next
+    !! shrink by \(2^{-p}\). The error of the first run is its distance to the third, and that one's
+    !! own, which is \(1/(2^p - 1)\) of the latest change. Where changes shrink less, by rounding,
+    !! chaos or too long a step, no number of the state is trusted more, beside its largest
+    !! magnitude, than the worst of all.
+    !! Source: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.,
+    !! sec. II.4.
+    use lagrangia_adaptive_methods, only: new_adaptive
+    use lagrangia_dense_run, only: drive
+    use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t
+    use lagrangia_event_record, only: event_record_t
+    use lagrangia_events, only: event_box_t
+    use lagrangia_gnuplot, only: panel_t
+    use lagrangia_integrator, only: dense_integrator_t, integrator_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_observer, only: observer_box_t, observer_t
+    use lagrangia_run, only: plan_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_staging, only: stage_events, stage_method
+    use lagrangia_statement, only: stated_t
+    use lagrangia_system, only: system_t
+    use lagrangia_witness, only: witness_t
+    implicit none (type, external)
+    private
+    public :: estimate, rehearse_finer, state_accuracy
+
+    character(*), parameter :: context = "the run that estimates the error"
+    real(dp), parameter :: vouched = 2.0_dp       !! stated error over estimate
+    real(dp), parameter :: caution = 5.0_dp       !! where the changes don't shrink as they should
+
+contains
+
+    subroutine rehearse_finer(scene, system, error)
+        !! Fails where the finest run would be refused.
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        type(error_t), allocatable, intent(out) :: error
+        class(integrator_t), allocatable :: integrator
+        type(plan_t) :: plan
+
+        call stage_method(finer(scene, 2), system, plan, integrator, error)
+        if (allocated(error)) call error%add_context(context)
+    end subroutine rehearse_finer
+
+    subroutine state_accuracy(scene, system, seen, steps, watcher, state, error)
+        !! Every number of the final state of `scene`, with its error; the time first if an event
+        !! ended the run. Fails where a finer run fails.
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        type(witness_t), intent(in) :: seen                !! of the run itself,
+        integer(i8), intent(in) :: steps                   !! and how many it took
+        class(observer_t), pointer, intent(in) :: watcher  !! hears the runs go on; may be null
+        type(stated_t), allocatable, intent(out) :: state(:)
+        type(error_t), allocatable, intent(out) :: error
+        type(witness_t) :: half, quarter
+        real(dp), allocatable :: first(:), second(:), third(:), most(:)
+        real(dp) :: shrinking, step
+
+        step = (seen%t - scene%t0)/max(steps, 1_i8)
+        call run_finer(finer(scene, 1), system, 0.5_dp*step, watcher, half, shrinking, error)
+        if (.not. allocated(error)) call run_finer(finer(scene, 2), system, 0.25_dp*step, watcher, &
+                                                   quarter, shrinking, error)
+        if (allocated(error)) then
+            call error%add_context(context)
+            return
+        end if
+        allocate (first, source=[seen%t, seen%q, seen%v])
+        allocate (second, source=[half%t, half%q, half%v])
+        allocate (third, source=[quarter%t, quarter%q, quarter%v])
+        allocate (most, source=[max(abs(scene%t0), abs(seen%t)), max(seen%q_most, half%q_most), &
+                                max(seen%v_most, half%v_most)])
+        call name_state(system, state)
+        state%value = first
+        state%most = most
+        state%error = vouched*estimate(first, second, third, most, shrinking)
+        if (seen%t >= scene%t0 + scene%duration) state = state(2:)
+    end subroutine state_accuracy
+
+    pure subroutine name_state(system, state)
+        !! Time, coordinates, velocities.
+        class(system_t), intent(in) :: system
+        type(stated_t), allocatable, intent(out) :: state(:)
+        type(description_t) :: d
+        integer :: i, n
+
+        n = system%ndof
+        call system%describe(d)
+        allocate (state(1 + 2*n))
+        state(1)%name = "t"
+        state(1)%unit = "s"
+        do i = 1, n
+            associate (q => d%coordinates(i))
+                state(1 + i)%name = q%name
+                state(1 + i)%unit = q%unit
+                state(1 + n + i)%name = trim(q%name)//"_dot"
+                state(1 + n + i)%unit = trim(q%unit)//"/s"
+            end associate
+        end do
+    end subroutine name_state
+
+    pure function estimate(first, second, third, most, shrinking) result(error)
+        !! Of the first of three runs, each number by itself.
+        real(dp), intent(in) :: first(:), second(:), third(:)
+        real(dp), intent(in) :: most(:)    !! largest magnitudes
+        real(dp), intent(in) :: shrinking  !! of the error from one run to the next, expected
+        real(dp) :: error(size(first))
+        real(dp) :: d1(size(first)), d2(size(first)), unit(size(first)), odd
+
+        d1 = abs(first - second)
+        d2 = abs(second - third)
+        unit = max(most, tiny(most))
+        error = abs(first - third) + d2/(shrinking - 1.0_dp)
+        odd = abs(shrinking*maxval(d2/unit) - maxval(d1/unit))/max(maxval(d1/unit), tiny(odd))
+        error = max(error, min(caution, odd)*most*maxval(error/unit), 2.0_dp*epsilon(most)*most)
+    end function estimate
+
+    function finer(scene, k) result(fine)
+        !! The scene at \(2^{-k}\) of its step or \(100^{-k}\) of its tolerance, if that can be had.
+        type(scene_t), intent(in) :: scene
+        integer, intent(in) :: k
+        type(scene_t) :: fine
+        class(dense_integrator_t), allocatable :: method
+
+        fine = scene
+        if (scene%tolerance > 0.0_dp) then
+            call new_adaptive(trim(scene%method), method)
+            fine%tolerance = max(method%least_tolerance, scene%tolerance/100.0_dp**k)
+        else
+            fine%dt = scene%duration/steps_of(scene, k)
+            fine%every = scene%every*2**k
+        end if
+    end function finer
+
+    pure function steps_of(scene, k) result(steps)
+        !! Their number in the finer run: \(2n + 1\) where n, or a part less, are in the one before.
+        !! Were they exactly halved, rounding could go the same way in all runs, unseen.
+        type(scene_t), intent(in) :: scene
+        integer, intent(in) :: k
+        real(dp) :: steps
+
+        steps = 2.0_dp**k*(anint(scene%duration/scene%dt) + 1.0_dp) - 1.0_dp
+    end function steps_of
+
+    subroutine run_finer(scene, system, longest, watcher, seen, shrinking, error)
+        !! From the start to the end, or to the event that ends it. A method that chooses its steps
+        !! may find no reason in the tolerance to shorten them: hence the bound.
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: longest  !! step of a method that chooses them, s
+        class(observer_t), pointer, intent(in) :: watcher
+        type(witness_t), target, intent(inout) :: seen
+        real(dp), intent(out) :: shrinking  !! of the error at half the step, a tenth of tolerance
+        type(error_t), allocatable, intent(out) :: error
+        class(integrator_t), allocatable :: integrator
+        type(plan_t) :: plan
+        type(event_box_t), allocatable :: events(:)
+        type(event_record_t) :: record
+        type(panel_t), allocatable :: panels(:)
+        type(observer_box_t) :: observers(2)
+        real(dp) :: q(system%ndof), v(system%ndof), t
+
+        shrinking = 10.0_dp  ! at least, by a hundredth of the tolerance
+        call stage_method(scene, system, plan, integrator, error)
+        if (allocated(error)) return
+        select type (integrator)
+        class is (dense_integrator_t)
+            integrator%longest = longest
+        end select
+        call stage_events(scene, system, events, record, panels, error)
+        if (allocated(error)) return
+        observers(1)%item => seen
+        if (associated(watcher)) observers(2)%item => watcher
+        q = scene%q
+        v = scene%v
+        call drive(system, integrator, plan, events, &
+                   observers(:merge(2, 1, associated(watcher))), q, v, t, error)
+        if (scene%tolerance > 0.0_dp) return
+        shrinking = 2.0_dp**integrator%order
+    end subroutine run_finer
+end module lagrangia_accuracy

@@ -1,0 +1,94 @@
+module lagrangia_statement
+    !! The final state of a run, each number only to the digits that its error leaves.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_concise, only: concise
+    use lagrangia_description, only: name_length
+    use lagrangia_json, only: json_number, json_string
+    use lagrangia_kinds, only: dp
+    implicit none (type, external)
+    private
+    public :: stated_t
+    public :: statement_json, statement_legend, statement_line
+
+    character(*), parameter :: statement_legend = &
+        "0.48312(2): 0.48312 give or take 0.00002, twice Richardson's estimate from the "// &
+        "same run at"//new_line("a")//"a half and a quarter of the step, or at 1e-2 and "// &
+        "1e-4 of the tolerance and shorter steps"
+
+    type :: stated_t
+        !! One number of the final state.
+        character(name_length) :: name = ""
+        character(16) :: unit = ""
+        real(dp) :: value = 0.0_dp
+        real(dp) :: error = 0.0_dp  !! vouched for: twice the estimate
+        real(dp) :: most = 0.0_dp   !! the largest magnitude in the run
+    contains
+        procedure :: resolved
+        procedure :: text
+    end type stated_t
+
+contains
+
+    elemental function resolved(self)
+        !! Whether any digit is left: the error is less than a tenth of the amplitude.
+        class(stated_t), intent(in) :: self
+        logical :: resolved
+
+        resolved = ieee_is_finite(self%error) .and. &
+                   (self%error <= 0.0_dp .or. self%error < 0.1_dp*self%most)
+    end function resolved
+
+    pure function text(self)
+        !! `0.48312(2)`, or `no digit left`.
+        class(stated_t), intent(in) :: self
+        character(:), allocatable :: text
+
+        text = "no digit left"
+        if (self%resolved()) text = concise(self%value, self%error)
+    end function text
+
+    pure function statement_line(state) result(line)
+        !! `theta = 0.48312(2) rad, theta_dot = no digit left`.
+        type(stated_t), intent(in) :: state(:)
+        character(:), allocatable :: line
+        integer :: i
+
+        line = ""
+        do i = 1, size(state)
+            if (i > 1) line = line//", "
+            line = line//trim(state(i)%name)//" = "//state(i)%text()
+            if (state(i)%resolved()) line = trim(line//" "//unit_of(state(i)))
+        end do
+    end function statement_line
+
+    pure function unit_of(stated) result(unit)
+        !! Its unit, if it has one.
+        type(stated_t), intent(in) :: stated
+        character(:), allocatable :: unit
+
+        unit = trim(stated%unit)
+        if (unit == "1") unit = ""
+    end function unit_of
+
+    pure function statement_json(state) result(json)
+        !! `{"theta": {"value": , "error": , "text": "0.48312(2)"}}`; the text is `null` where no
+        !! digit is left.
+        type(stated_t), intent(in) :: state(:)
+        character(:), allocatable :: json
+        integer :: i
+
+        json = "{"
+        do i = 1, size(state)
+            if (i > 1) json = json//", "
+            json = json//json_string(trim(state(i)%name))//': {"value": '// &
+                   json_number(state(i)%value)//', "error": '//json_number(state(i)%error)// &
+                   ', "text": '
+            if (state(i)%resolved()) then
+                json = json//json_string(state(i)%text())//"}"
+            else
+                json = json//"null}"
+            end if
+        end do
+        json = json//"}"
+    end function statement_json
+end module lagrangia_statement

@@ -1,0 +1,207 @@
+module test_accuracy
+    !! What a run says of its error, beside the truth.
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertGreaterThan, &
+                     assertLessThan, assertLessThanOrEqual
+    use lagrangia_accuracy, only: estimate
+    use lagrangia_adaptive_methods, only: adaptive_names
+    use lagrangia_catalogue, only: new_reference, new_system
+    use lagrangia_description, only: name_length
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_methods, only: method_names
+    use lagrangia_observer, only: observer_t
+    use lagrangia_outcome, only: outcome_t
+    use lagrangia_play, only: play
+    use lagrangia_random_draws, only: random_t
+    use lagrangia_reference, only: reference_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_system, only: system_t
+    use stated_text, only: read_concise
+    implicit none (type, external)
+    private
+    public :: accuracy_suite
+
+    character(16), parameter :: solved(*) = [character(16) :: "pendulum", "cart_pendulum", &
+                                             "charged_particle", "oscillator", "rotating_wire", &
+                                             "wedge", "rolling_disk"]
+
+contains
+
+    function accuracy_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("accuracy")
+        call suite%addTest(TestMethod("fixed_steps_know_their_error", fixed_steps_know_their_error))
+        call suite%addTest(TestMethod("adaptive_steps_know_their_error", &
+                                      adaptive_steps_know_their_error))
+        call suite%addTest(TestMethod("long_steps_claim_no_wrong_digit", &
+                                      long_steps_claim_no_wrong_digit))
+        call suite%addTest(TestMethod("repeated_rounding_is_seen", repeated_rounding_is_seen))
+        call suite%addTest(TestMethod("what_does_not_shrink_is_not_trusted", &
+                                      what_does_not_shrink_is_not_trusted))
+    end function accuracy_suite
+
+    subroutine fixed_steps_know_their_error()
+        !! Every method, beside the closed forms of seven systems.
+        character(name_length), allocatable :: names(:)
+        integer :: i
+
+        allocate (names, source=method_names())
+        do i = 1, size(names)
+            call check_method(trim(names(i)), .false., 0.005_dp, 0.1_dp)
+            if (anyExceptions()) return
+        end do
+    end subroutine fixed_steps_know_their_error
+
+    subroutine adaptive_steps_know_their_error()
+        !! By tolerances, down to where rounding rules.
+        character(name_length), allocatable :: names(:)
+        integer :: i
+
+        allocate (names, source=adaptive_names())
+        do i = 1, size(names)
+            call check_method(trim(names(i)), .true., 1e-13_dp, 1e-4_dp)
+        end do
+    end subroutine adaptive_steps_know_their_error
+
+    subroutine long_steps_claim_no_wrong_digit()
+        !! Too long for any order to show, or unstable: then few digits or none are claimed.
+        call check_method("rk4", .false., 0.2_dp, 2.0_dp, only_digits=.true.)
+        call check_method("verlet", .false., 0.2_dp, 2.0_dp, only_digits=.true.)
+        call check_method("midpoint", .false., 0.2_dp, 2.0_dp, only_digits=.true.)
+    end subroutine long_steps_claim_no_wrong_digit
+
+    subroutine repeated_rounding_is_seen()
+        !! Where accelerations are constant every step may round the same way, and would at half
+        !! the step too.
+        call check_method("velocity_verlet", .false., 1.5e-3_dp, 3e-3_dp, only_digits=.true., &
+                          systems=["wedge"], draws=100)
+    end subroutine repeated_rounding_is_seen
+
+    subroutine what_does_not_shrink_is_not_trusted()
+        !! Changes to a quarter, as they should: each number by itself, the one that does not change
+        !! to two units in its largest values' last place. Other changes: together.
+        real(dp), parameter :: most(3) = [1.0_dp, 10.0_dp, 4.0_dp]
+        real(dp), parameter :: zero(3) = 0.0_dp
+        real(dp) :: error(3)
+
+        ! errors 16, 4, 1 in units of 2**-10
+        error = estimate([16.0_dp, 0.0_dp, 0.0_dp]/1024, [4.0_dp, 0.0_dp, 0.0_dp]/1024, &
+                         [1.0_dp, 0.0_dp, 0.0_dp]/1024, most, 4.0_dp)
+        call assertEqual([16.0_dp/1024, 20.0_dp*epsilon(most), 8.0_dp*epsilon(most)], error, &
+                         4.0_dp*epsilon(most), "as they should")
+        ! as large a change again: three times what is expected too much
+        error = estimate([1.0_dp, 0.0_dp, 0.0_dp]/1024, zero, [1.0_dp, 0.0_dp, 0.0_dp]/1024, most, &
+                         4.0_dp)
+        call assertEqual([1.0_dp, 10.0_dp, 4.0_dp]/1024, error, 4.0_dp*epsilon(most), "together")
+        ! a larger change: no more than five times
+        error = estimate(zero, zero, [3.0_dp, 0.0_dp, 0.0_dp]/1024, most, 4.0_dp)
+        call assertEqual(5.0_dp*[4.0_dp, 40.0_dp, 16.0_dp]/1024, error, 4.0_dp*epsilon(most), &
+                         "warily")
+    end subroutine what_does_not_shrink_is_not_trusted
+
+    subroutine check_method(name, adaptive, shortest, longest, only_digits, systems, draws)
+        !! Random scenes of every solved system that the method takes. The error of a state
+        !! relative to its largest values is estimated within a factor of 0.85 to 3 wherever it is
+        !! neither rounding nor large; and no digit that is claimed is wrong, wherever.
+        character(*), intent(in) :: name
+        logical, intent(in) :: adaptive
+        real(dp), intent(in) :: shortest, longest  !! step or tolerance
+        logical, intent(in), optional :: only_digits
+        character(*), intent(in), optional :: systems(:)
+        integer, intent(in), optional :: draws
+        type(random_t) :: random
+        type(outcome_t) :: outcome
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: truth(:)
+        real(dp) :: actual, estimate, centre, bracket
+        real(dp) :: rounding  !! of the closed forms, relative
+        logical :: known
+        character(16), allocatable :: names(:)
+        integer :: i, k, n, counted, most
+
+        allocate (names, source=solved)
+        if (present(systems)) names = [character(16) :: systems]
+        rounding = 3e-14_dp
+        if (present(systems)) rounding = 8.0_dp*epsilon(rounding)
+        most = 5
+        if (present(draws)) most = draws
+        counted = 0
+        do i = 1, size(names)
+            do k = 1, most
+                call draw(random, trim(names(i)), name, adaptive, shortest, longest, outcome, &
+                          truth, known, error)
+                if (allocated(error) .or. .not. known) cycle
+                counted = counted + 1
+                actual = 0.0_dp
+                estimate = 0.0_dp
+                do n = 1, size(truth)
+                    associate (s => outcome%state(n))
+                        if (s%resolved()) then
+                            call read_concise(s%text(), centre, bracket)
+                            call assertLessThanOrEqual(abs(centre - truth(n)), bracket + &
+                                rounding*s%most, message=name//" "//trim(names(i))//": "// &
+                                trim(s%name)//" = "//s%text())
+                        end if
+                        if (s%most <= 0.0_dp) cycle
+                        actual = max(actual, abs(s%value - truth(n))/s%most)
+                        estimate = max(estimate, 0.5_dp*s%error/s%most)
+                    end associate
+                end do
+                if (present(only_digits) .or. actual < 1e-10_dp .or. actual > 1e-3_dp) cycle
+                call assertGreaterThan(estimate, 0.85_dp*actual, message=name//" "//names(i))
+                call assertLessThan(estimate, 3.0_dp*actual, message=name//" "//names(i))
+            end do
+        end do
+        call assertGreaterThan(counted, most/2, message=name//": scenes that count")
+    end subroutine check_method
+
+    subroutine draw(random, name, method, adaptive, shortest, longest, outcome, truth, known, error)
+        !! A run of a random scene, and its true end, if that is known.
+        type(random_t), intent(inout) :: random
+        character(*), intent(in) :: name, method
+        logical, intent(in) :: adaptive
+        real(dp), intent(in) :: shortest, longest
+        type(outcome_t), intent(out) :: outcome
+        real(dp), allocatable, intent(out) :: truth(:)
+        logical, intent(out) :: known
+        type(error_t), allocatable, intent(out) :: error
+        class(system_t), allocatable :: system
+        class(reference_t), allocatable :: reference
+        class(observer_t), pointer :: nobody
+        type(scene_t) :: scene
+        real(dp) :: x, q(7), v(7)
+
+        known = .false.
+        nobody => null()
+        call new_system(name, system, error)
+        call random%parameters(system, .false., scene%parameters, error)
+        call random%state(system, scene%t0, scene%q, scene%v, error)
+        if (allocated(error)) return
+        scene%source = "random"
+        scene%system = name
+        scene%method = method
+        scene%error_estimate = .true.
+        allocate (scene%columns(0), scene%plots(0), scene%expectations(0))
+        call random%uniform(0.5_dp, 3.0_dp, scene%duration)
+        call random%uniform(log(shortest), log(longest), x)
+        if (adaptive) then
+            scene%tolerance = exp(x)
+            scene%samples = 20
+        else
+            scene%dt = min(exp(x), 0.4_dp*scene%duration)
+            scene%every = 3
+        end if
+        call play(scene, system, "", "text", nobody, outcome, error)
+        if (allocated(error)) return
+        call new_reference(system, scene%t0, scene%q, scene%v, reference)
+        if (.not. allocated(reference)) return
+        known = reference%has_state
+        if (.not. known) return
+        associate (n => system%ndof)
+            call reference%state_at(scene%t0 + scene%duration, q(:n), v(:n))
+            truth = [q(:n), v(:n)]
+        end associate
+    end subroutine draw
+end module test_accuracy

@@ -1,0 +1,231 @@
+module test_own_system
+    !! A system of which only L was written: the same motion as by hand, and it may join.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+    use description_checks, only: check_description, check_refusals
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
+                     assertGreaterThan, assertLessThan, assertTrue
+    use lagrangia_audit, only: audit_system
+    use lagrangia_description, only: description_t
+    use lagrangia_double_pendulum, only: double_pendulum_t
+    use lagrangia_errors, only: error_t
+    use lagrangia_findings, only: audit_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_pendulum, only: pendulum_t
+    use lagrangia_small_oscillations, only: find_modes, modes_t
+    use lagrangia_system, only: default_values, system_t
+    use own_systems, only: own_double_t, own_pendulum_t, own_pivot_t, own_skin_t, own_slope_t
+    use random_states, only: draw_parameters, draw_state, restart_random
+    implicit none (type, external)
+    private
+    public :: own_system_suite
+
+contains
+
+    function own_system_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("own_system")
+        call suite%addTest(TestMethod("pendulum_moves_as_by_hand", pendulum_moves_as_by_hand))
+        call suite%addTest(TestMethod("double_pendulum_moves_as_by_hand", &
+                                      double_pendulum_moves_as_by_hand))
+        call suite%addTest(TestMethod("structure_is_found", structure_is_found))
+        call suite%addTest(TestMethod("structure_where_l_is_a_number", &
+                                      structure_where_l_is_a_number))
+        call suite%addTest(TestMethod("constraints_are_kept", constraints_are_kept))
+        call suite%addTest(TestMethod("no_inertia_is_not_a_number", no_inertia_is_not_a_number))
+        call suite%addTest(TestMethod("descriptions_are_complete", descriptions_are_complete))
+        call suite%addTest(TestMethod("audits_hold", audits_hold))
+        call suite%addTest(TestMethod("modes_are_found", modes_are_found))
+    end function own_system_suite
+
+    subroutine pendulum_moves_as_by_hand()
+        type(own_pendulum_t) :: own
+        type(pendulum_t) :: hand
+
+        call compare(own, hand)
+    end subroutine pendulum_moves_as_by_hand
+
+    subroutine double_pendulum_moves_as_by_hand()
+        type(own_double_t) :: own
+        type(double_pendulum_t) :: hand
+
+        call compare(own, hand)
+    end subroutine double_pendulum_moves_as_by_hand
+
+    subroutine compare(own, hand)
+        !! Accelerations, energy and flags at random parameters and states. Both solve the same
+        !! equations; the tolerance is that of some hundred operations behind a mass matrix of
+        !! condition up to some hundred.
+        class(system_t), intent(inout) :: own, hand
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: q(:), v(:), a(:), b(:)
+        real(dp) :: t, scale
+        integer :: i
+
+        call restart_random()
+        do i = 1, 40
+            call draw_parameters(hand, edges=mod(i, 4) == 0)
+            call own%configure(parameters_of(hand), error)
+            call assertFalse(allocated(error), "parameters")
+            if (anyExceptions()) return
+            call assertEqual(parameters_of(hand), parameters_of(own))
+            call assertEqual(hand%ndof, own%ndof)
+            call assertTrue(hand%velocity_forces .eqv. own%velocity_forces, "velocity_forces")
+            call assertTrue(hand%time_dependent .eqv. own%time_dependent, "time_dependent")
+            call draw_state(hand, t, q, v)
+            allocate (a(hand%ndof), b(hand%ndof))
+            call hand%accelerations(t, q, v, a)
+            call own%accelerations(t, q, v, b)
+            scale = maxval(abs(a)) + maxval(abs(v))**2
+            call assertLessThan(maxval(abs(a - b)), 1e3_dp*epsilon(scale)*scale, &
+                                message="accelerations")
+            scale = abs(hand%energy(t, q, v)) + 1.0_dp
+            call own%momenta(t, q, v, b)
+            scale = scale + abs(dot_product(b, v))
+            ! up to a constant, which is that of rest at q
+            call assertEqual(hand%energy(t, q, v) - hand%energy(t, q, 0.0_dp*v), &
+                             own%energy(t, q, v) - own%energy(t, q, 0.0_dp*v), &
+                             1e2_dp*epsilon(scale)*scale, "energy")
+            deallocate (a, b)
+        end do
+    end subroutine compare
+
+    function parameters_of(system) result(values)
+        !! As the description has them.
+        class(system_t), intent(in) :: system
+        real(dp), allocatable :: values(:)
+        type(description_t) :: d
+
+        call system%describe(d)
+        allocate (values, source=default_values(d))
+    end function parameters_of
+
+    subroutine structure_is_found()
+        !! With the parameters of the moment: without gravity an angle is cyclic, and a pivot at
+        !! rest leaves L without the time.
+        type(own_pendulum_t) :: pendulum
+        type(own_pivot_t) :: pivot
+        type(own_double_t) :: double
+        type(error_t), allocatable :: error
+
+        call pendulum%configure([0.5_dp, 1.2_dp, 9.81_dp], error)
+        call assertEqual(0, pendulum%cyclic)
+        call assertFalse(pendulum%velocity_forces .or. pendulum%time_dependent)
+        call pendulum%configure([0.5_dp, 1.2_dp, 0.0_dp], error)
+        call assertEqual(1, pendulum%cyclic)
+        call pivot%configure([0.3_dp], error)
+        call assertTrue(pivot%time_dependent, "moving pivot")
+        call assertFalse(pivot%velocity_forces, "forces of a moving pivot")
+        call pivot%configure([0.0_dp], error)
+        call assertFalse(pivot%time_dependent, "pivot at rest")
+        call double%configure([1.0_dp, 2.0_dp, 0.5_dp, 0.7_dp, 9.81_dp], error)
+        call assertTrue(double%velocity_forces, "two rods")
+        call assertEqual(0, double%cyclic)
+    end subroutine structure_is_found
+
+    subroutine structure_where_l_is_a_number()
+        !! Even in a corner; where there is no such place, nothing may be relied on.
+        type(own_skin_t) :: system
+        type(error_t), allocatable :: error
+        integer :: k
+
+        do k = 1, 3
+            system%kind = k
+            call system%configure([real(dp) ::], error)
+            call assertEqual(merge(0, 2, k == 3), system%cyclic)
+            call assertTrue(system%velocity_forces .eqv. k == 3, "velocity_forces")
+            call assertTrue(system%time_dependent .eqv. k == 3, "time_dependent")
+        end do
+    end subroutine structure_where_l_is_a_number
+
+    subroutine constraints_are_kept()
+        !! Down a slope c: \(\ddot x = -g c/(1 + c^2)\), \(\ddot y = c\,\ddot x\).
+        type(own_slope_t) :: slope
+        type(error_t), allocatable :: error
+        real(dp) :: a(2)
+
+        slope%constraints = 1
+        call slope%configure([0.75_dp], error)
+        call slope%accelerations(0.0_dp, [0.3_dp, 0.2_dp], [4.0_dp, 3.0_dp], a)
+        call assertEqual([-4.8_dp, -3.6_dp], a, 1e-14_dp)
+    end subroutine constraints_are_kept
+
+    subroutine no_inertia_is_not_a_number()
+        !! A mass matrix that is singular gives no accelerations, not wrong ones.
+        type(own_double_t) :: system
+        type(error_t), allocatable :: error
+        real(dp) :: a(2)
+
+        call system%configure([1.0_dp, 2.0_dp, 0.5_dp, 0.7_dp, 9.81_dp], error)
+        system%p(4) = 0.0_dp
+        call system%accelerations(0.0_dp, [0.3_dp, 0.2_dp], [4.0_dp, 3.0_dp], a)
+        call assertTrue(all(ieee_is_nan(a)), "accelerations")
+        call system%configure([1.0_dp, 2.0_dp, 0.5_dp, 0.0_dp, 9.81_dp], error)
+        call assertTrue(allocated(error), "a length of 0")
+        if (.not. allocated(error)) return
+        call assertEqual("own_double: l2 = 0.0 is not allowed: greater than 0.0", error%message)
+        call assertEqual(0.0_dp, system%p(4), message="and nothing changed")
+    end subroutine no_inertia_is_not_a_number
+
+    subroutine descriptions_are_complete()
+        !! As those of the lectures' systems, whatever the outline leaves out.
+        type(own_pendulum_t) :: pendulum
+        type(own_double_t) :: double
+        type(own_skin_t) :: skin
+        type(description_t) :: d
+
+        call check_description(pendulum)
+        call check_refusals(pendulum)
+        call check_description(double)
+        call check_refusals(double)
+        call check_description(skin)
+        call pendulum%describe(d)
+        call assertEqual(0.5_dp, d%points(1)%mass)
+        pendulum%p = [0.7_dp, 1.0_dp, 1.0_dp]
+        call pendulum%describe(d)
+        call assertEqual(0.7_dp, d%points(1)%mass, message="with the parameters in it")
+    end subroutine descriptions_are_complete
+
+    subroutine audits_hold()
+        !! Also where L is a number in a corner only; where it is none, that is said.
+        type(own_skin_t) :: skin
+        type(own_double_t) :: double
+        type(own_slope_t) :: slope
+        type(audit_t) :: audit
+        integer :: k
+
+        call audit_system(double, audit)
+        slope%constraints = 1
+        call audit_system(slope, audit)
+        do k = 1, 2
+            skin%kind = k
+            call audit_system(skin, audit)
+        end do
+        do k = 1, size(audit%findings)
+            associate (row => audit%findings(k))
+                call assertTrue(row%holds, trim(row%system)//": "//trim(row%claim)//" "// &
+                                row%remark)
+            end associate
+        end do
+        call assertGreaterThan(size(audit%findings), 30, message="claims")
+        skin%kind = 3
+        call audit_system(skin, audit)
+        associate (row => audit%findings(size(audit%findings)))
+            call assertEqual("L is no number at any state tried", trim(row%remark))
+        end associate
+    end subroutine audits_hold
+
+    subroutine modes_are_found()
+        !! \(\omega^2 = g/\ell\).
+        type(own_pendulum_t) :: pendulum
+        type(modes_t) :: modes
+        type(error_t), allocatable :: error
+
+        call pendulum%configure([0.5_dp, 1.2_dp, 9.81_dp], error)
+        call find_modes(pendulum, [0.0_dp], .true., modes, error)
+        call assertFalse(allocated(error))
+        if (allocated(error)) return
+        call assertEqual(9.81_dp/1.2_dp, modes%omega2(1), 1e-14_dp)
+    end subroutine modes_are_found
+end module test_own_system

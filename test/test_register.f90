@@ -1,0 +1,132 @@
+module test_register
+    !! Systems from outside join the catalogue, or are refused and leave it as it was.
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
+    use lagrangia_catalogue, only: new_system, register_system, system_names
+    use lagrangia_command_line, only: word_t
+    use lagrangia_description, only: conserved, description_t, name_length, quantity
+    use lagrangia_errors, only: error_t, status_usage
+    use lagrangia_kinds, only: dp
+    use lagrangia_scene, only: scene_t
+    use lagrangia_scene_reader, only: parse_scene
+    use lagrangia_system, only: system_t
+    use own_systems, only: own_named_t, own_pendulum_t
+    use plain_system, only: plain_system_t
+    implicit none (type, external)
+    private
+    public :: register_suite
+
+contains
+
+    function register_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("register")
+        call suite%addTest(TestMethod("it_joins_the_others", it_joins_the_others))
+        call suite%addTest(TestMethod("taken_names_are_refused", taken_names_are_refused))
+        call suite%addTest(TestMethod("malformed_names_are_refused", malformed_names_are_refused))
+        call suite%addTest(TestMethod("gaps_are_refused", gaps_are_refused))
+    end function register_suite
+
+    subroutine it_joins_the_others()
+        !! At the end of the list, found by its name with its defaults, in scenes with others; and
+        !! from now on walked over by the tests that walk over the catalogue.
+        type(own_pendulum_t) :: own
+        character(name_length), allocatable :: before(:), after(:)
+        class(system_t), allocatable :: system
+        type(scene_t) :: scene
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+        real(dp) :: a(1), values(3)
+
+        allocate (before, source=system_names())
+        call register_system(own, error)
+        call assertFalse(allocated(error), "it may join")
+        allocate (after, source=system_names())
+        call assertTrue(size(after) == size(before) + 1, "one more")
+        if (anyExceptions()) return
+        call assertTrue(all(before == after(:size(before))), "the others stay")
+        call assertEqual("own_pendulum", after(size(after)))
+        call new_system("own_pendulum", system, error)
+        call assertFalse(allocated(error), "by its name")
+        if (anyExceptions()) return
+        call system%describe(d)
+        values = d%parameters%value(1)
+        call assertEqual([0.5_dp, 1.2_dp, 9.81_dp], values)
+        call system%accelerations(0.0_dp, [0.3_dp], [0.0_dp], a)
+        call assertEqual(-9.81_dp/1.2_dp*sin(0.3_dp), a(1), 1e-14_dp)
+        call assertFalse(allocated(own%p), "what was handed over is as it was")
+        call parse_scene("&scene system='own_pendulum' method='verlet' dt=1e-2 duration=1 q=1 "// &
+                         "columns='t','x_bob' / &own_pendulum l=2 /", "s.nml", [word_t ::], &
+                         scene, system, error)
+        call assertFalse(allocated(error), "in a scene")
+        if (anyExceptions()) return
+        call assertEqual([0.5_dp, 2.0_dp, 9.81_dp], scene%parameters)
+        call refused(own, "system 'own_pendulum': there is a system of that name: give yours "// &
+                     "another one")
+    end subroutine it_joins_the_others
+
+    subroutine refused(system, message)
+        !! Assert that it may not join for this reason, and that nothing changed.
+        class(system_t), intent(in) :: system
+        character(*), intent(in) :: message
+        character(name_length), allocatable :: before(:), after(:)
+        type(error_t), allocatable :: error
+
+        allocate (before, source=system_names())
+        call register_system(system, error)
+        call assertTrue(allocated(error), "refused: "//message)
+        if (.not. allocated(error)) return
+        call assertEqual(message, error%message)
+        call assertEqual(status_usage, error%status)
+        allocate (after, source=system_names())
+        call assertEqual(size(before), size(after), "nobody joined")
+    end subroutine refused
+
+    subroutine taken_names_are_refused()
+        !! By the lectures' systems, by the scene itself, by the table of methods.
+        call refused(own_named_t(name="double_pendulum"), "system 'double_pendulum': there is "// &
+                     "a system of that name: give yours another one")
+        call refused(own_named_t(name="scene"), "system 'scene': the name is reserved: give "// &
+                     "yours another one")
+        call refused(own_named_t(name="methods"), "system 'methods': the name is reserved: "// &
+                     "give yours another one")
+    end subroutine taken_names_are_refused
+
+    subroutine malformed_names_are_refused()
+        !! What a scene could not say: of the system, its parameters, its columns.
+        character(*), parameter :: small = "small letters, digits and _ make one, a letter first"
+        character(*), parameter :: long = "a_pendulum_whose_name_has_no_end"
+        type(own_named_t) :: own
+
+        call refused(own_named_t(name=""), "system '': '' is no name: "//small)
+        call refused(own_named_t(name="Mine"), "system 'Mine': 'Mine' is no name: "//small)
+        call refused(own_named_t(name="2nd"), "system '2nd': '2nd' is no name: "//small)
+        call refused(own_named_t(name="a b"), "system 'a b': 'a b' is no name: "//small)
+        call refused(own_named_t(name="my/own"), "system 'my/own': 'my/own' is no name: "//small)
+        call refused(own_named_t(name=" own"), "system ' own': ' own' is no name: "//small)
+        call refused(own_named_t(name=long), "system '"//long//"': the name is too long, or "// &
+                     "was cut off: at most 31 characters")
+        call refused(own_named_t(parameter="M"), "system 'own': 'M' is no name: "//small)
+        call refused(own_named_t(parameter="l"), "system 'own': two parameters are called 'l'")
+        call refused(own_named_t(coordinate="my angle"), "system 'own': 'my angle' is no "// &
+                     "name: letters, digits and _ make one, a letter first")
+        call refused(own_named_t(coordinate="t"), "system 'own': two columns are called 't'")
+        own%more = [conserved("theta_dot", "1/s", "clashes", 1.0_dp)]
+        call refused(own, "system 'own': two columns are called 'theta_dot'")
+        own%more = [quantity("energy_drift", "1", "clashes")]
+        call refused(own, "system 'own': two columns are called 'energy_drift'")
+    end subroutine malformed_names_are_refused
+
+    subroutine gaps_are_refused()
+        !! No coordinates, lists left out, defaults that are not allowed.
+        type(own_named_t) :: own
+        type(plain_system_t) :: plain
+
+        own%empty = .true.
+        call refused(own, "system 'own': its description has no coordinates")
+        call refused(plain, "system 'plain': its description has no coordinates")
+        call refused(own_named_t(mass=-1.0_dp), "system 'own': own: m = -1.0 is not allowed: "// &
+                     "greater than 0.0")
+    end subroutine gaps_are_refused
+end module test_register
