@@ -22,6 +22,7 @@ module lagrangia_gauss_adaptive
 
     integer, parameter :: most_sweeps = 25
     real(dp), parameter :: best_rate = exp(-4.0_dp)  !! of a sweep, squared
+    real(dp), parameter :: least_rate = 1e-4_dp      !! to expect of a step's first sweep, squared
     real(dp), parameter :: noise = (64.0_dp*epsilon(1.0_dp))**2  !! of accelerations, squared
     real(dp), parameter :: share = 0.1_dp  !! of the tolerance that the iteration may leave
     real(dp), parameter :: safety = 0.75_dp    !! of a step: rejected ones cost more than short ones
@@ -239,7 +240,7 @@ contains
         logical :: known
 
         call weigh(self%s%n, self%s%h, self%tolerance, self%s%q, self%s%v, self%weight)
-        self%rate = min(0.25_dp, self%rate*(self%s%h/self%s%h_known)**4)
+        self%rate = min(0.25_dp, max(least_rate, self%rate*(self%s%h/self%s%h_known)**4))
         ratio = 1.0_dp
         known = .false.
         all = 0.0_dp
