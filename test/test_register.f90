@@ -105,8 +105,8 @@ contains
         call refused(own_named_t(name="a b"), "system 'a b': 'a b' is no name: "//small)
         call refused(own_named_t(name="my/own"), "system 'my/own': 'my/own' is no name: "//small)
         call refused(own_named_t(name=" own"), "system ' own': ' own' is no name: "//small)
-        call refused(own_named_t(name=long), "system '"//long//"': the name is too long, or was "// &
-                     "cut off: at most 31 characters")
+        call refused(own_named_t(name=long), "system '"//long//"': the name is too long, or "// &
+                     "was cut off: at most 31 characters")
         call refused(own_named_t(parameter="M"), "system 'own': 'M' is no name: "//small)
         call refused(own_named_t(parameter="l"), "system 'own': two parameters are called 'l'")
         call refused(own_named_t(coordinate="my angle"), "system 'own': 'my angle' is no "// &

@@ -16,8 +16,8 @@ module lagrangia_gauss
     public :: gauss_t, new_gauss16
 
     integer, parameter :: most_sweeps = 200
-    real(dp), parameter :: noise = 4.0_dp*epsilon(1.0_dp)         !! of accelerations, as a part of them
-    real(dp), parameter :: enough = epsilon(1.0_dp)*2.0_dp**(-10)  !! part of the state that may be left
+    real(dp), parameter :: noise = 4.0_dp*epsilon(1.0_dp)         !! of accelerations, relative
+    real(dp), parameter :: enough = epsilon(1.0_dp)*2.0_dp**(-10)  !! may be left, relative
 
     type, extends(integrator_t) :: gauss_t
         private

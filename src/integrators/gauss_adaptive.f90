@@ -204,8 +204,9 @@ contains
         self%t_old = self%t_new
         self%t_new = to
         grow = min(2.0_dp, safety*ratio)
-        if (self%won*(grow**4/best_rate)**(sweeps - 1) > 1.0_dp) &
+        if (self%won*(grow**4/best_rate)**(sweeps - 1) > 1.0_dp) then
             grow = (best_rate/self%won**(1.0_dp/(sweeps - 1)))**0.25_dp
+        end if
         self%h = merge(max(self%h, grow*h), grow*h, cut)
     end subroutine take_step
 
