@@ -5,6 +5,7 @@ module suites
     use test_action, only: action_suite
     use test_amplitude, only: amplitude_suite
     use test_audit, only: audit_suite
+    use test_auto, only: auto_suite
     use test_bench, only: bench_suite
     use test_blas_threads, only: blas_threads_suite
     use test_bouncing_ball, only: bouncing_ball_suite
@@ -112,6 +113,7 @@ contains
         call suite%addTest(action_suite())
         call suite%addTest(amplitude_suite())
         call suite%addTest(audit_suite())
+        call suite%addTest(auto_suite())
         call suite%addTest(bench_suite())
         call suite%addTest(blas_threads_suite())
         call suite%addTest(bouncing_ball_suite())

@@ -44,6 +44,7 @@ contains
         outcome%file = ""
         outcome%events = ""
         outcome%remark = ""
+        outcome%choice = ""
         outcome%t = 2.5_dp
         outcome%q = [0.5_dp]
         outcome%v = [-0.25_dp]

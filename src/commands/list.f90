@@ -2,6 +2,7 @@ module lagrangia_list
     !! `lagrangia list [systems|methods|scenes]`: what there is, one a line.
     use lagrangia_adaptive_methods, only: nth_adaptive
     use lagrangia_catalogue, only: nth_system
+    use lagrangia_choice, only: auto
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: put_line
     use lagrangia_description, only: description_t
@@ -92,6 +93,7 @@ contains
                 call put(adaptive%name, "order "//to_text(adaptive%order)//", steps by "// &
                          "tolerance: "//adaptive%title)
             end do
+            call put(auto, "a closed form where one is known; otherwise the fastest of these")
         end subroutine list_methods
 
         subroutine list_scenes(error)

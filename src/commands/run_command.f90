@@ -82,6 +82,8 @@ contains
                                                             statement_line(outcome%state))
                 stated = stated .or. allocated(outcome%state)
             end if
+            if (outcome%choice /= "" .and. .not. quiet) call note(paths(i)%text//": "// &
+                outcome%choice)
             if (outcome%remark /= "" .and. .not. quiet) call note(paths(i)%text//": "// &
                 to_text(outcome%steps)//" steps"//outcome%remark)
             if (allocated(scene_error)) then

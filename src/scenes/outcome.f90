@@ -9,15 +9,17 @@ module lagrangia_outcome
     private
     public :: outcome_t, measure_t
     public :: outcome_json, scorecard_head, scorecard_legend, scorecard_row
-    public :: from_closed_form, from_half_step
+    public :: from_closed_form, from_half_step, from_steps
 
     character(*), parameter :: scorecard_legend = &
         "drift: the largest change of an invariant, relative to its start or natural size"// &
         new_line("a")//"error: the largest, absolute below 1 and relative above; exact: "// &
         "against a closed"//new_line("a")//"form, estimate: against the same run at half the "// &
-        "step or a hundredth of the tolerance"
+        "step or a hundredth of the tolerance,"//new_line("a")//"steps: a closed form against "// &
+        "steps of gauss16"
 
     integer, parameter :: from_closed_form = 1, from_half_step = 2
+    integer, parameter :: from_steps = 3  !! of a method, where the run is the closed form
 
     type :: measure_t
         !! The largest magnitude of one judged or shown quantity.
@@ -42,6 +44,7 @@ module lagrangia_outcome
         real(dp) :: omega = 0.0_dp                  !! of the slowest small oscillation; or 0
         real(dp) :: omega_error = -1.0_dp           !! of all frequencies from the closed form
         real(dp) :: seconds = 0.0_dp
+        character(:), allocatable :: choice         !! `auto took ...`; "" if a method was named
         character(:), allocatable :: remark         !! about the steps; "" if there is none
         character(:), allocatable :: failure        !! the run itself failed
     contains
@@ -148,6 +151,7 @@ contains
         select case (self%error_from)
         case (from_closed_form); json = json//'"exact"'
         case (from_half_step); json = json//'"estimate"'
+        case (from_steps); json = json//'"steps"'
         case default; json = json//"null"
         end select
         json = json//', "period": '
@@ -176,18 +180,19 @@ contains
             json = json//"null"
         end if
         json = json//', "seconds": '//json_number(self%seconds)// &
+               ', "choice": '//json_text(self%choice)// &
                ', "verdict": '//json_string(self%verdict())// &
-               ', "file": '//json_path(self%file)//', "events": '//json_path(self%events)//"}"
+               ', "file": '//json_text(self%file)//', "events": '//json_text(self%events)//"}"
     end function outcome_json
 
-    pure function json_path(path) result(json)
-        !! The path, or `null` where it is empty.
-        character(*), intent(in) :: path
+    pure function json_text(text) result(json)
+        !! The text, or `null` where it is empty.
+        character(*), intent(in) :: text
         character(:), allocatable :: json
 
         json = "null"
-        if (path /= "") json = json_string(path)
-    end function json_path
+        if (text /= "") json = json_string(text)
+    end function json_text
 
     pure function find(measures, name) result(json)
         !! The worst of `name`, or `null`.
@@ -229,6 +234,7 @@ contains
         error_text = "-"
         if (self%error_from == from_closed_form) error_text = short(self%error())//" exact"
         if (self%error_from == from_half_step) error_text = short(self%error())//" estimate"
+        if (self%error_from == from_steps) error_text = short(self%error())//" steps"
         period_text = "-"
         do i = 1, size(self%others)
             if (index(self%others(i)%name, "period") == 0) cycle

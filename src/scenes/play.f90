@@ -2,6 +2,7 @@ module lagrangia_play
     !! One scene from its data to its data file, picture and row of the scorecard.
     use lagrangia_accuracy, only: rehearse_finer, state_accuracy
     use lagrangia_catalogue, only: new_reference
+    use lagrangia_choice, only: exact, settle_method
     use lagrangia_columns, only: new_columns
     use lagrangia_dense_run, only: drive
     use lagrangia_description, only: description_t, name_length
@@ -14,7 +15,8 @@ module lagrangia_play
     use lagrangia_kinds, only: dp, i8
     use lagrangia_measures, only: take_measures, take_modes
     use lagrangia_observer, only: observer_box_t, observer_t
-    use lagrangia_outcome, only: from_closed_form, from_half_step, measure_t, outcome_t
+    use lagrangia_outcome, only: from_closed_form, from_half_step, from_steps, &
+                                 measure_t, outcome_t
     use lagrangia_period, only: period_t
     use lagrangia_record, only: record_t
     use lagrangia_reference, only: reference_t
@@ -31,6 +33,7 @@ module lagrangia_play
 
     type :: performance_t
         !! All that one scene needs to run.
+        type(scene_t) :: scene                        !! its method is not `auto`, but what that is
         type(plan_t) :: plan
         class(integrator_t), allocatable :: integrator
         class(reference_t), allocatable :: reference  !! absent: no closed form
@@ -53,14 +56,15 @@ contains
         type(performance_t), intent(inout) :: p
         type(error_t), allocatable, intent(out) :: error
 
-        call begin_outcome(scene, p%outcome)
-        call stage_method(scene, system, p%plan, p%integrator, error)
+        call new_reference(system, scene%t0, scene%q, scene%v, p%reference)
+        call settle_method(scene, system, p%reference, p%scene, p%outcome%choice)
+        call begin_outcome(p%scene, p%outcome)
+        call stage_method(p%scene, system, p%plan, p%integrator, error, p%reference)
         if (allocated(error)) return
-        if (scene%error_estimate) call rehearse_finer(scene, system, error)
+        if (scene%error_estimate) call rehearse_finer(p%scene, system, error)
         if (allocated(error)) return
         call stage_events(scene, system, p%events, p%event_record, p%event_panels, error)
         if (allocated(error)) return
-        call new_reference(system, scene%t0, scene%q, scene%v, p%reference)
         call new_record(scene, system, p, error)
         if (allocated(error)) return
         call new_panels(scene%plots, scene%columns, p%record%columns%units(p%record%shown), &
@@ -102,7 +106,8 @@ contains
         outcome = p%outcome
         if (allocated(error)) return
         if (folder /= "") then
-            call open_files(scene, system, folder, format, p%record, outcome%file, error)
+            call open_files(scene, system, outcome%choice, folder, format, p%record, &
+                            outcome%file, error)
             if (allocated(error)) return
             if (size(p%events) > 0) call open_event_file(scene, system, folder, format, p%events, &
                                                          p%event_record, error)
@@ -121,8 +126,8 @@ contains
         if (size(p%events) > 0) call join(p%event_record)
         if (associated(watcher)) call join(watcher)
         call timed_run(system, p, observers(:n), outcome, error)
-        if (scene%error_estimate .and. .not. allocated(error)) call state_accuracy(scene, system, &
-            p%witness, outcome%steps, watcher, outcome%state, error)
+        if (scene%error_estimate .and. .not. allocated(error)) call state_accuracy(p%scene, &
+            system, p%witness, outcome%steps, watcher, outcome%state, error)
         if (allocated(error)) then
             outcome%t = scene%t0
             if (allocated(p%witness%q)) then
@@ -165,14 +170,15 @@ contains
         type(error_t), allocatable, intent(out) :: error
         integer(i8) :: start, finish, rate
 
-        if (p%plan%rest > 0.0_dp) outcome%remark = " (the last one shortened to "// &
+        if (p%plan%rest > 0.0_dp .and. p%scene%method /= exact) outcome%remark = &
+            " (the last one shortened to "// &
             to_text(p%plan%rest)//" s)"
         call system_clock(start, rate)
         outcome%steps = p%plan%steps + merge(1, 0, p%plan%rest > 0.0_dp)
         call drive(system, p%integrator, p%plan, p%events, observers, outcome%q, outcome%v, &
                    outcome%t, error)
         call system_clock(finish)
-        if (p%plan%equal > 0 .or. size(p%events) > 0) then
+        if (p%plan%equal > 0 .or. size(p%events) > 0 .or. p%scene%method == exact) then
             select type (method => p%integrator)
             class is (dense_integrator_t)
                 outcome%steps = method%accepted
@@ -224,10 +230,11 @@ contains
             if (allocated(p%reference)) then
                 if (p%reference%has_state) p%outcome%error_from = from_closed_form
             end if
+            if (p%scene%method == exact) p%outcome%error_from = from_steps
             if (p%outcome%error_from == from_closed_form) then
                 allocate (p%record%reference, source=p%reference)
-            else if (any(scene%expectations%name == "error")) then
-                p%outcome%error_from = from_half_step
+            else if (any(scene%expectations%name == "error") .or. p%scene%method == exact) then
+                if (p%scene%method /= exact) p%outcome%error_from = from_half_step
                 allocate (p%record%shadow)
                 call stage_shadow(scene, system, p%plan, p%integrator, p%record%shadow, error)
                 if (allocated(error)) return

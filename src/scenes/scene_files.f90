@@ -90,15 +90,16 @@ contains
                   status_file)
     end subroutine draw
 
-    subroutine open_files(scene, system, folder, format, record, path, error)
+    subroutine open_files(scene, system, choice, folder, format, record, path, error)
         !! Open the data file, under a temporary name until `finish_files`, and write its header.
         type(scene_t), intent(in) :: scene
         class(system_t), intent(in) :: system
+        character(*), intent(in) :: choice  !! which method, and why; "" if the scene names it
         character(*), intent(in) :: folder, format
         type(record_t), intent(inout) :: record
         character(:), allocatable, intent(out) :: path
         type(error_t), allocatable, intent(out) :: error
-        character(scene_line_length) :: first, build
+        character(scene_line_length) :: first, last(2)
         type(description_t) :: d
         logical :: itself
 
@@ -114,8 +115,9 @@ contains
         if (allocated(error)) return
         call system%describe(d)
         first = "lagrangia "//version//": "//scene%title
-        build = "build: "//build_text()
-        call record%table%begin([first, scene_lines(scene, d), build], &
+        last(1) = choice
+        last(2) = "build: "//build_text()
+        call record%table%begin([first, scene_lines(scene, d), pack(last, last /= "")], &
                                 record%columns%names(record%shown), &
                                 record%columns%units(record%shown), error)
         if (allocated(error)) call record%table%file%abandon()

@@ -2,6 +2,7 @@ module lagrangia_scene_tolerance
     !! The keys that say whether a scene's method takes steps of `dt` or chooses them.
     use lagrangia_adaptive_methods, only: adaptive_names, new_adaptive
     use lagrangia_catalogue, only: refuse_name
+    use lagrangia_choice, only: auto, workhorse
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t
@@ -27,10 +28,19 @@ contains
         class(dense_integrator_t), allocatable :: method
         character(name_length), allocatable :: names(:)
 
-        call new_adaptive(trim(scene%method), method)
-        allocate (names, source=method_names())
+        if (scene%method == auto) then
+            call new_adaptive(workhorse, method)
+        else
+            call new_adaptive(trim(scene%method), method)
+        end if
+        allocate (names, source=[character(name_length) :: method_names(), auto])
         if (.not. allocated(method)) then
             call refuse_fixed(tree, trim(scene%method), names, error)
+            return
+        end if
+        if (scene%method == auto .and. scene%compensated) then
+            call refuse_value(tree, "scene", "compensated", "name the method that is to have "// &
+                              "such sums: '"//auto//"' chooses among all", error)
             return
         end if
         if (has_key(tree, "scene", "dt")) then

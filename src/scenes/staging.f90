@@ -1,16 +1,19 @@
 module lagrangia_staging
     !! From a scene to its method, the plan of its run, and the events that it looks for.
     use lagrangia_adaptive_methods, only: new_adaptive
+    use lagrangia_choice, only: exact, workhorse
     use lagrangia_columns, only: new_columns
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_event_record, only: event_record_t
     use lagrangia_events, only: column_event_t, contact_event_t, event_box_t, new_column_event, &
                                 new_contact_event
+    use lagrangia_exact_motion, only: exact_motion_t, new_exact_motion
     use lagrangia_gnuplot, only: new_panels, panel_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp
     use lagrangia_methods, only: new_integrator, prepare_integrator
+    use lagrangia_reference, only: reference_t
     use lagrangia_run, only: new_plan, new_sampled_plan, plan_t
     use lagrangia_scene, only: scene_t
     use lagrangia_shadow, only: shadow_t
@@ -22,27 +25,34 @@ module lagrangia_staging
 
 contains
 
-    subroutine stage_method(scene, system, plan, integrator, error)
+    subroutine stage_method(scene, system, plan, integrator, error, closed_form)
         !! The scene's method, ready for the system. Where there are events, a method of fixed step
-        !! is made dense.
+        !! is made dense. `closed_form` takes its place if the method is `exact`.
         type(scene_t), intent(in) :: scene
         class(system_t), intent(in) :: system
         type(plan_t), intent(out) :: plan
         class(integrator_t), allocatable, intent(out) :: integrator
         type(error_t), allocatable, intent(out) :: error
+        class(reference_t), allocatable, intent(in), optional :: closed_form
         class(dense_integrator_t), allocatable :: adaptive
         class(integrator_t), allocatable :: fixed
         type(stepwise_t) :: stepwise
+        type(exact_motion_t) :: motion
 
         if (scene%tolerance > 0.0_dp) then
             call new_sampled_plan(plan, scene%t0, scene%duration, scene%samples, error)
-            if (allocated(error)) return
+        else
+            call new_plan(plan, scene%t0, scene%dt, scene%duration, scene%every, error)
+        end if
+        if (allocated(error)) return
+        if (scene%method == exact .and. present(closed_form)) then
+            call new_exact_motion(motion, closed_form)
+            allocate (integrator, source=motion)
+        else if (scene%tolerance > 0.0_dp) then
             call new_adaptive(trim(scene%method), adaptive)
             adaptive%tolerance = scene%tolerance
             allocate (integrator, source=adaptive)
         else
-            call new_plan(plan, scene%t0, scene%dt, scene%duration, scene%every, error)
-            if (allocated(error)) return
             call new_integrator(trim(scene%method), fixed, error, scene%compensated)
             if (allocated(error)) return
             if (allocated(scene%events)) then
@@ -99,19 +109,26 @@ contains
     end subroutine stage_events
 
     subroutine stage_shadow(scene, system, plan, integrator, shadow, error)
-        !! A finer run beside the scene's, to estimate its error.
+        !! A finer run beside the scene's, to estimate its error; beside a closed form, steps.
         type(scene_t), intent(in) :: scene
         class(system_t), intent(in) :: system
         type(plan_t), intent(in) :: plan
         class(integrator_t), intent(in) :: integrator
         type(shadow_t), intent(inout) :: shadow
         type(error_t), allocatable, intent(out) :: error
+        class(dense_integrator_t), allocatable :: witness
 
         if (system%contacts > 0) then
             call fail(error, "no error is estimated across impacts", key="expect_error")
             return
         end if
         select type (integrator)
+        type is (exact_motion_t)
+            call new_adaptive(workhorse, witness)
+            witness%tolerance = 0.0_dp  ! the least that there is
+            call shadow%start_adaptive(witness, system, plan%t0, plan%t0 + plan%duration, scene%q, &
+                                       scene%v, error)
+            return
         type is (stepwise_t)
             call shadow%start(integrator%method, system, plan%t0, plan%dt, scene%q, scene%v, error)
             return
