@@ -2,8 +2,8 @@
 # The rules of the house that no compiler knows:
 #
 # - arrows point left: core < numerics < systems < references, integrators, principles, oscillations
-#   < observers < scenes < ensembles < bench < commands < app. Of the four rooms on one level only
-#   oscillations may use another: principles. src/lagrangia.f90 uses what it likes; nobody uses it.
+#   < observers < scenes < ensembles < bench < stress < commands < app. Of the four rooms on one
+#   level only oscillations may use another: principles. src/lagrangia.f90 uses what it likes; nobody uses it.
 # - integrators and observers name no concrete system, observers no concrete integrator.
 # - only app/ and src/commands/ print or stop; lagrangia_console, which knows how, is theirs.
 # - src/ROOM/NAME.f90 holds one module, lagrangia_NAME, in at most 300 lines; app/main.f90 in 100.
@@ -114,7 +114,7 @@ function examine(statement, head, word, used) {
 }
 
 BEGIN {
-    rooms = split("core numerics systems middle observers scenes ensembles bench commands app", order, " ")
+    rooms = split("core numerics systems middle observers scenes ensembles bench stress commands app", order, " ")
     for (i = 1; i <= rooms; i++) {
         level[order[i]] = i
         prints_not[order[i]] = order[i] != "commands" && order[i] != "app"

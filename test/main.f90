@@ -89,6 +89,9 @@ module suites
     use test_sinc, only: sinc_suite
     use test_small_oscillations, only: small_oscillations_suite
     use test_statement, only: statement_suite
+    use test_step_warning, only: step_warning_suite
+    use test_stress, only: stress_suite
+    use test_stress_systems, only: stress_systems_suite
     use test_swings, only: swings_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
@@ -190,6 +193,9 @@ contains
         call suite%addTest(shadow_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(small_oscillations_suite())
+        call suite%addTest(step_warning_suite())
+        call suite%addTest(stress_suite())
+        call suite%addTest(stress_systems_suite())
         call suite%addTest(statement_suite())
         call suite%addTest(swings_suite())
         call suite%addTest(systems_suite())

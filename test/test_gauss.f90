@@ -32,6 +32,7 @@ contains
         call suite%addTest(TestMethod("steps_can_be_undone", steps_can_be_undone))
         call suite%addTest(TestMethod("cuts_leave_no_trace", cuts_leave_no_trace))
         call suite%addTest(TestMethod("energy_walks_at_random", energy_walks_at_random))
+        call suite%addTest(TestMethod("energy_has_no_bias", energy_has_no_bias))
         call suite%addTest(TestMethod("time_and_velocities_count", time_and_velocities_count))
         call suite%addTest(TestMethod("disk_rolls", disk_rolls))
         call suite%addTest(TestMethod("rest_and_constant_forces", rest_and_constant_forces))
@@ -193,6 +194,27 @@ contains
         end do
         call assertLessThan(drift, 4e-14_dp, message="energy")
     end subroutine energy_walks_at_random
+
+    subroutine energy_has_no_bias()
+        !! The mean of 24 walks as above, of 10000 steps that are three times as long: 3e-15 each,
+        !! and 6e-16 of all. Sweeps that are inexact up to the last but one make 2.6e-15, though
+        !! each of these runs alone hides it.
+        type(pendulum_t) :: system
+        type(error_t), allocatable :: error
+        real(dp) :: q(1), v(1), e, drift
+        integer :: k
+
+        call system%configure([1.0_dp, 1.0_dp, 9.81_dp], error)
+        drift = 0.0_dp
+        do k = 1, 24
+            q = 2.2_dp - 0.05_dp*k
+            v = 0.0_dp
+            e = system%energy(0.0_dp, q, v)
+            call go(system, 0.0_dp, 0.14_dp, 10000_i8, q, v)
+            drift = drift + (system%energy(0.0_dp, q, v) - e)/9.81_dp/24.0_dp
+        end do
+        call assertLessThan(abs(drift), 1.8e-15_dp, message="mean energy")
+    end subroutine energy_has_no_bias
 
     subroutine time_and_velocities_count()
         !! A wrong time or velocity of a stage shows against steps of an eighth.

@@ -3,6 +3,7 @@ module test_method_structure
     !! not declare a property is seen not to have it.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertGreaterThan, assertLessThan, &
                      assertTrue
+    use lagrangia_canonical_defect, only: canonical_defect
     use lagrangia_catalogue, only: nth_system
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
@@ -65,57 +66,6 @@ contains
                                    message=trim(method%name)//": not symplectic")
         end do
     end subroutine symplectic_as_declared
-
-    function canonical_defect(method, system, t, q, v) result(defect)
-        !! The largest element of \(J^\top\Omega J - \Omega\), relative to the terms it consists of.
-        class(integrator_t), intent(inout) :: method
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t, q(:), v(:)
-        real(dp) :: defect
-        real(dp), parameter :: weight(4) = [4.0_dp/5.0_dp, -1.0_dp/5.0_dp, 4.0_dp/105.0_dp, &
-                                            -1.0_dp/280.0_dp]
-        real(dp) :: x(2*size(q)), ahead(2*size(q)), behind(2*size(q))
-        real(dp), dimension(2*size(q), 2*size(q)) :: jacobian, omega
-        real(dp) :: h
-        integer :: i, k, n
-
-        n = size(q)
-        x(:n) = q
-        call system%momenta(t, q, v, x(n + 1:))
-        omega = 0.0_dp
-        jacobian = 0.0_dp
-        do i = 1, 2*n
-            if (i <= n) omega(i, n + i) = 1.0_dp
-            if (i <= n) omega(n + i, i) = -1.0_dp
-            h = 0.005_dp
-            if (i > n) h = h*(1.0_dp + maxval(abs(x(n + 1:))))
-            do k = 1, 4
-                ahead = x
-                ahead(i) = x(i) + k*h
-                behind = x
-                behind(i) = x(i) - k*h
-                call step(ahead)
-                call step(behind)
-                jacobian(:, i) = jacobian(:, i) + weight(k)/h*(ahead - behind)
-            end do
-        end do
-        defect = maxval(abs(matmul(transpose(jacobian), matmul(omega, jacobian)) - omega) &
-                        /(1.0_dp + matmul(transpose(abs(jacobian)), &
-                                          matmul(abs(omega), abs(jacobian)))))
-    contains
-        subroutine step(y)
-            real(dp), intent(inout) :: y(:)
-            real(dp), dimension(size(q)) :: p, qq, vv
-            real(dp), parameter :: dt = 0.05_dp
-
-            qq = y(:n)
-            p = y(n + 1:)
-            call system%velocities(t, qq, p, vv)
-            call method%advance(system, t, dt, 0_i8, 1_i8, qq, vv)
-            call system%momenta(t + dt, qq, vv, p)
-            y = [qq, p]
-        end subroutine step
-    end function canonical_defect
 
     subroutine reversible_as_declared()
         !! As many steps back as forth lead to the start, on every system with random states.

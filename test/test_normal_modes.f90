@@ -32,8 +32,10 @@ contains
         k = 0.0_dp
         do i = 1, n
             k(i, i) = 2.0_dp
-            if (i > 1) k(i, i - 1) = -1.0_dp
-            if (i < n) k(i, i + 1) = -1.0_dp
+        end do
+        do i = 2, n
+            k(i, i - 1) = -1.0_dp
+            k(i - 1, i) = -1.0_dp
         end do
         if (walls) return
         k(1, 1) = 1.0_dp

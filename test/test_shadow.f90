@@ -3,11 +3,14 @@ module test_shadow
     use funit, only: TestMethod, TestSuite, assertEqual, assertGreaterThan, assertLessThan
     use lagrangia_catalogue, only: new_reference
     use lagrangia_errors, only: error_t
+    use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: new_integrator
     use lagrangia_pendulum, only: pendulum_t
+    use lagrangia_random_draws, only: random_t
     use lagrangia_reference, only: reference_t
+    use lagrangia_rolling_disk, only: rolling_disk_t
     use lagrangia_shadow, only: distance, shadow_t
     implicit none (type, external)
     private
@@ -25,6 +28,8 @@ contains
         call suite%addTest(TestMethod("rk4_is_estimated_well", rk4_is_estimated_well))
         call suite%addTest(TestMethod("verlet_is_estimated_well", verlet_is_estimated_well))
         call suite%addTest(TestMethod("midpoint_is_estimated_well", midpoint_is_estimated_well))
+        call suite%addTest(TestMethod("steps_that_no_tolerance_shortens_are_estimated", &
+                                      steps_that_no_tolerance_shortens_are_estimated))
     end function shadow_suite
 
     subroutine distance_is_absolute_below_1_and_relative_above()
@@ -97,4 +102,41 @@ contains
         actual = distance(q, truth)
         call assertEqual(1.0_dp, estimate/actual, 0.1_dp, name//": after a shortened step")
     end subroutine check_estimate
+
+    subroutine steps_that_no_tolerance_shortens_are_estimated()
+        !! Short motions of a rolling disk: of the steps that gauss16 takes some are as long by a
+        !! hundredth of the tolerance, and their error is not that of the tolerance.
+        type(rolling_disk_t) :: system
+        type(gauss_adaptive_t) :: method
+        class(reference_t), allocatable :: reference
+        type(random_t) :: random
+        type(shadow_t), allocatable :: shadow
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: parameters(:), q(:), v(:)
+        real(dp) :: truth(4), ignored(4), t, duration, estimate, actual
+        integer :: k
+
+        call new_gauss16_adaptive(method)
+        do k = 1, 60
+            call random%parameters(system, .false., parameters, error)
+            call random%state(system, t, q, v, error)
+            call random%uniform(0.5_dp, 4.0_dp, duration)
+            call random%uniform(-10.0_dp, -3.0_dp, method%tolerance)
+            method%tolerance = 10.0_dp**method%tolerance
+            call new_reference(system, t, q, v, reference)
+            if (allocated(shadow)) deallocate (shadow)
+            allocate (shadow)
+            call shadow%start_adaptive(method, system, t, t + duration, q, v, error)
+            call method%prepare(system, error)
+            call method%start(system, t, q, v, t + duration)
+            do while (method%t_new < t + duration)
+                call method%step(system, error)
+            end do
+            call method%state_at(t + duration, q, v)
+            call shadow%estimate(system, t + duration, q, estimate, error)
+            call reference%state_at(t + duration, truth, ignored)
+            actual = distance(q, truth)
+            call assertGreaterThan(estimate, 0.5_dp*actual - 1e-12_dp, message="estimate")
+        end do
+    end subroutine steps_that_no_tolerance_shortens_are_estimated
 end module test_shadow

@@ -13,6 +13,7 @@ module lagrangia_commands
     use lagrangia_principle, only: principle_command
     use lagrangia_registry, only: check_line, commands, help_text, options
     use lagrangia_run_command, only: run_command
+    use lagrangia_stress, only: stress_command
     use lagrangia_unfinished, only: remove_unfinished
     use lagrangia_version, only: build_text, version
     implicit none (type, external)
@@ -48,6 +49,7 @@ contains
             case ("list"); call list_command(line, error)
             case ("describe"); call describe_command(line, error)
             case ("bench"); call bench_command(line, error)
+            case ("stress"); call stress_command(line, error)
             case ("modes"); call modes_command(line, error)
             case ("principle"); call principle_command(line, error)
             case default; call run_command(line, error)

@@ -25,6 +25,7 @@ module lagrangia_registry
         option_t("plot", may_have_value, "svg|png", "draw the data files by gnuplot"), &
         option_t("error-estimate", no_value, "", "state the final state to the digits that hold"), &
         option_t("quick", no_value, "", "measure less, in under 20 s"), &
+        option_t("long", no_value, "", "up to 10^8 steps, for an hour"), &
         option_t("problems", needs_value, "P1,P3,...", "of the benchmark's work-precision part"), &
         option_t("methods", needs_value, "rk4,gsl_rk8pd,...", "that are measured"), &
         option_t("systems", needs_value, "pendulum,...", "whose steps are measured"), &
@@ -50,6 +51,8 @@ module lagrangia_registry
         command_t("bench", "[PART...]", "run time against error, cost of a step, growth, "// &
                   "output; parts by name", -1, &
                   "quick problems methods systems tolerances output plot json quiet"), &
+        command_t("stress", "[ROW...]", "numerical stability: limits, long runs, hard numbers; "// &
+                  "rows by name", -1, "long json quiet"), &
         command_t("list", "[systems|methods|scenes]", "what there is, one a line", 1, ""), &
         command_t("describe", "SYSTEM", "coordinates, parameters, L, equations, invariants", 1, "")]
 

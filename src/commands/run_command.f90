@@ -14,6 +14,7 @@ module lagrangia_run_command
     use lagrangia_scene_reader, only: read_scene
     use lagrangia_shipped, only: find_scene, shipped_scenes
     use lagrangia_statement, only: statement_legend, statement_line
+    use lagrangia_step_warning, only: step_warning
     use lagrangia_system, only: system_t
     use lagrangia_text, only: quoted, to_text
     use lagrangia_version, only: is_optimised
@@ -106,10 +107,13 @@ contains
             character(*), intent(in) :: path
             type(error_t), allocatable, intent(out) :: error
             class(system_t), allocatable :: system
+            character(:), allocatable :: warning
             type(scene_t) :: scene
 
             call read_scene(path, line%values_of("set"), scene, system, error)
             if (allocated(error)) return
+            warning = step_warning(scene, system)
+            if (warning /= "" .and. .not. quiet) call note(path//": "//warning)
             scene%error_estimate = scene%error_estimate .or. line%has("error-estimate")
             call progress%restart(trim(scene%name))
             call play(scene, system, folder, format, watcher, outcome, error)

@@ -34,6 +34,7 @@ contains
         self%title = "drift, push, turn, push, drift (Boris 1970)"
         self%order = 2
         self%energy_order = 2
+        self%step_limit = 2.0_dp
         self%reversible = .true.
         self%keeps_speed = .true.
     end subroutine new_boris

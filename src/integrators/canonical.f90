@@ -83,6 +83,7 @@ contains
         self%name = "stormer_verlet"
         self%title = "generalised Stormer-Verlet in (q, p), implicit (de Vogelaere 1956)"
         self%order = 2
+        self%step_limit = 2.0_dp
         self%energy_order = 2
         self%symplectic = .true.
         self%reversible = .true.

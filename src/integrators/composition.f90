@@ -110,6 +110,7 @@ contains
         self%title = row%title
         self%order = row%order
         self%energy_order = row%order
+        self%step_limit = row%step_limit
         self%symplectic = .true.
         self%reversible = .true.
         self%drift = real(row%drift, dp)

@@ -10,7 +10,7 @@ module lagrangia_composition_table
     !! which the tests evaluate in quadruple precision. Where conditions are fewer than numbers,
     !! \(\gamma_1\) is the printed one, and in the last row no number moves by more than 4e-15.
     use lagrangia_description, only: line_length, name_length
-    use lagrangia_kinds, only: qp
+    use lagrangia_kinds, only: dp, qp
     implicit none (type, external)
     private
     public :: row_t, nth_row
@@ -19,6 +19,7 @@ module lagrangia_composition_table
         character(name_length) :: name = ""
         character(line_length) :: title = ""  !! a few words and the source
         integer :: order = 0                  !! 0: there is no such row
+        real(dp) :: step_limit = 0.0_dp       !! \(\omega h\) where a step's trace leaves [-2, 2]
         logical :: kick_first = .false.       !! made of velocity Verlet: kick, drift, kick
         real(qp), allocatable :: gamma(:)     !! of a composition; their sum is 1
         real(qp), allocatable :: drift(:)     !! one more than `kick`, or one less
@@ -71,36 +72,43 @@ contains
         case default
             row%order = 0
         case (1)
-            call fill(row, "verlet", 2, [1.0_qp], "drift, kick, drift (Verlet 1967)")
+            call fill(row, "verlet", 2, 2.0_dp, [1.0_qp], "drift, kick, drift (Verlet 1967)")
         case (2)
-            call fill(row, "velocity_verlet", 2, [1.0_qp], &
+            call fill(row, "velocity_verlet", 2, 2.0_dp, [1.0_qp], &
                       "kick, drift, kick: leapfrog (Verlet 1967)", .true.)
         case (3)
-            call fill(row, "yoshida4", 4, yoshida4, "3 Verlet steps (Forest & Ruth, Yoshida 1990)")
+            call fill(row, "yoshida4", 4, 1.573402_dp, yoshida4, &
+                      "3 Verlet steps (Forest & Ruth, Yoshida 1990)")
         case (4)
-            call fill(row, "suzuki4", 4, suzuki4, "5 Verlet steps (Suzuki 1990)")
+            call fill(row, "suzuki4", 4, 2.720975_dp, suzuki4, "5 Verlet steps (Suzuki 1990)")
         case (5)
-            call fill(row, "yoshida6", 6, yoshida6, "7 Verlet steps (Yoshida 1990, solution A)")
+            call fill(row, "yoshida6", 6, 2.269058_dp, yoshida6, &
+                      "7 Verlet steps (Yoshida 1990, solution A)")
         case (6)
-            call fill(row, "kahan_li6", 6, kahan_li6, "9 Verlet steps (Kahan & Li 1997, s9odr6a)")
+            call fill(row, "kahan_li6", 6, 2.532627_dp, kahan_li6, &
+                      "9 Verlet steps (Kahan & Li 1997, s9odr6a)")
         case (7)
-            call fill(row, "yoshida8", 8, yoshida8, "15 Verlet steps (Yoshida 1990, solution D)")
+            call fill(row, "yoshida8", 8, 2.356508_dp, yoshida8, &
+                      "15 Verlet steps (Yoshida 1990, solution D)")
         case (8)
-            call fill(row, "kahan_li8", 8, kahan_li8, "17 Verlet steps (Kahan & Li 1997, s17odr8a)")
+            call fill(row, "kahan_li8", 8, 3.096439_dp, kahan_li8, &
+                      "17 Verlet steps (Kahan & Li 1997, s17odr8a)")
         case (9)
             row%name = "blanes_moan6"
             row%title = "14 kicks, the best of these (Blanes & Moan 2002, SRKN14a)"
             row%order = 6
+            row%step_limit = 3.140925_dp
             row%drift = [blanes_moan6_drift, blanes_moan6_drift(7:1:-1)]
             row%kick = [blanes_moan6_kick, blanes_moan6_kick(7:1:-1)]
         end select
     end subroutine nth_row
 
-    pure subroutine fill(row, name, order, half, title, kick_first)
+    pure subroutine fill(row, name, order, step_limit, half, title, kick_first)
         !! A composition of Verlet steps: mirror the half that the table gives, and merge.
         type(row_t), intent(inout) :: row
         character(*), intent(in) :: name, title
         integer, intent(in) :: order
+        real(dp), intent(in) :: step_limit
         real(qp), intent(in) :: half(:)
         logical, intent(in), optional :: kick_first
         real(qp) :: gamma(2*size(half) - 1), shared(2*size(half))
@@ -108,6 +116,7 @@ contains
         row%name = name
         row%title = title
         row%order = order
+        row%step_limit = step_limit
         gamma = [half, half(size(half) - 1:1:-1)]
         shared = 0.5_qp*([gamma, 0.0_qp] + [0.0_qp, gamma])
         row%gamma = gamma

@@ -24,6 +24,7 @@ module lagrangia_gauss
         type(gauss_stages_t) :: s
         real(dp), allocatable :: weight(:)  !! 1/(accelerations that matter), squared
         real(dp) :: t0 = 0.0_dp, dt = 0.0_dp
+        integer :: blind = 0               !! sweeps that need not be measured in the next step
         integer(i8) :: next = -1           !! step that would go on from where `s` stands
     contains
         procedure :: prepare
@@ -70,12 +71,14 @@ contains
 
         if (.not. goes_on(self, t0, dt, first, q, v)) then
             call self%s%place(system, t0 + first*dt, q, v)
+            self%blind = 0
             self%evaluations = self%evaluations + 1
         end if
         do k = first, first + steps - 1
             call self%s%guess(t0 + k*dt, dt)
-            call solve(self%s, system, self%weight, sweeps, good)
+            call solve(self%s, system, self%blind, self%weight, sweeps, good)
             self%evaluations = self%evaluations + stages*min(sweeps, most_sweeps)
+            self%blind = max(0, min(sweeps - 5, sweeps/2))
             if (.not. good) self%s%f = ieee_value(1.0_dp, ieee_quiet_nan)
             call self%s%expand()
             call self%s%finish()
@@ -107,7 +110,7 @@ contains
         same = x <= y .and. x >= y
     end function same
 
-    pure subroutine solve(s, system, weight, sweeps, good)
+    pure subroutine solve(s, system, blind, weight, sweeps, good)
         !! Sweep until what the next sweep leaves cannot add up to anything, even over a million
         !! steps; that one is exact, and the last. A sweep is taken to leave as much of the error
         !! as the worse of the last two did; where the changes are noise, as much as before.
@@ -115,47 +118,50 @@ contains
         !! matter may still shrink after some idle sweeps, the more the slower they do, or grow.
         type(gauss_stages_t), intent(inout) :: s
         class(system_t), intent(in) :: system
+        integer, intent(in) :: blind            !! sweeps before changes are worth measuring
         real(dp), intent(inout) :: weight(s%n)
         integer, intent(out) :: sweeps
         logical, intent(out) :: good
         real(dp) :: change, all, before, least, rate, worst, left
         integer :: idle
-        logical :: exact
 
-        all = 0.0_dp
-        least = huge(least)
-        before = 1.0_dp
+        call s%coast()
+        do sweeps = 1, blind
+            call s%sweep(system, exact=.false.)
+        end do
+        call s%sweep(system, exact=.true.)
+        call weigh(s%n, s%h, s%v, s%f, weight)
+        all = s%all_of(weight)
+        change = s%change(weight)
+        least = change
         rate = 0.0_dp
         worst = 1.0_dp
         left = 1.0_dp
         idle = 0
-        exact = .false.
-        do sweeps = 1, most_sweeps
-            call s%sweep(system, exact)
-            good = .true.
-            if (exact) return
-            if (sweeps == 1) then
-                call weigh(s%n, s%h, s%v, s%f, weight)
-                all = s%all_of(weight)
-            end if
+        do sweeps = blind + 2, most_sweeps
+            before = max(change, tiny(change))
+            call s%sweep(system, exact=.false.)
             change = s%change(weight)
             good = change < huge(change)
             if (.not. good) return
-            if (sweeps == 2 .or. change > noise**2*all) then
+            if (change > noise**2*all .or. sweeps == blind + 2) then
                 worst = max(rate, change/before)
+                rate = change/before
                 left = change*worst
-                if (sweeps > 1) rate = change/before
             else
                 left = left*worst
             end if
-            before = max(change, tiny(change))
             idle = idle + 1
             if (change < least) idle = 0
             least = min(change, least)
-            exact = sweeps > 1 .and. left*worst <= enough**2
-            if (idle > sweeps/10 .and. .not. exact) exact = settled(s)
+            good = left*worst <= enough**2
+            if (idle > sweeps/10 .and. .not. good) good = settled(s)
+            if (good) exit
         end do
-        good = settled(s)
+        if (sweeps > most_sweeps) good = settled(s)
+        if (.not. good) return
+        sweeps = sweeps + 1
+        call s%sweep(system, exact=.true.)
     end subroutine solve
 
     pure subroutine weigh(n, h, v, f, weight)

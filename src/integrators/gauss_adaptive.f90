@@ -22,6 +22,7 @@ module lagrangia_gauss_adaptive
 
     integer, parameter :: most_sweeps = 25
     real(dp), parameter :: best_rate = exp(-4.0_dp)  !! of a sweep, squared
+    real(dp), parameter :: least_rate = 1e-4_dp      !! to expect of a step's first sweep, squared
     real(dp), parameter :: noise = (64.0_dp*epsilon(1.0_dp))**2  !! of accelerations, squared
     real(dp), parameter :: share = 0.1_dp  !! of the tolerance that the iteration may leave
     real(dp), parameter :: safety = 0.75_dp    !! of a step: rejected ones cost more than short ones
@@ -186,6 +187,7 @@ contains
             good = self%t_new + 0.25_dp*h > self%t_new
             if (.not. good) return
             call self%s%guess(self%t_new, h)
+            call self%s%coast()
             call solve(self, system, sweeps, ratio, good)
             self%evaluations = self%evaluations + stages*min(sweeps, most_sweeps)
             if (good) exit
@@ -238,14 +240,14 @@ contains
         logical :: known
 
         call weigh(self%s%n, self%s%h, self%tolerance, self%s%q, self%s%v, self%weight)
-        self%rate = min(0.25_dp, self%rate*(self%s%h/self%s%h_known)**4)
+        self%rate = min(0.25_dp, max(least_rate, self%rate*(self%s%h/self%s%h_known)**4))
         ratio = 1.0_dp
         known = .false.
         all = 0.0_dp
         first = 1.0_dp
         last = 1.0_dp
         do sweeps = 1, most_sweeps
-            call self%s%sweep(system, .false.)
+            call self%s%sweep(system, exact=.false.)
             if (sweeps == 1) all = self%s%all_of(self%weight)
             change = self%s%change(self%weight)
             good = .false.

@@ -9,7 +9,8 @@ module lagrangia_gauss_kernels
     use lagrangia_system, only: lanes
     implicit none (type, external)
     private
-    public :: apply, distance, end_state, exact_states, magnitude, quick_states
+    public :: apply, distance, end_state, exact_states, free_states, magnitude, &
+              quick_states
 
 contains
 
@@ -27,34 +28,55 @@ contains
         end do
     end subroutine exact_states
 
-    pure subroutine quick_states(n, h, moving, q, q_low, v, v_low, f, f_old, q_stage, &
-                                 v_stage)
-        !! The same from \(a\) and \(a^2\); no velocities unless they matter (`moving`).
+    pure subroutine free_states(n, h, q, v, f_old, q_stage, v_stage)
+        !! Where the stages are without accelerations.
         integer, intent(in) :: n
-        real(dp), intent(in) :: h, q(n), q_low(n), v(n), v_low(n), f(lanes, n)
-        logical, intent(in) :: moving
-        real(dp), intent(out) :: f_old(lanes, n), q_stage(lanes, n)
-        real(dp), intent(inout) :: v_stage(lanes, n)
+        real(dp), intent(in) :: h, q(n), v(n)
+        real(dp), intent(out) :: f_old(lanes, n), q_stage(lanes, n), v_stage(lanes, n)
         integer :: d, i
 
-        f_old = f
         do d = 1, n
             !GCC$ vector
             do i = 1, lanes
-                q_stage(i, d) = q(d) + ((q_low(d) + h*v(d)*nodes(i)) &
-                    + h**2*(((nystrom(i, 1)*f(1, d) + nystrom(i, 2)*f(2, d)) &
-                             + (nystrom(i, 3)*f(3, d) + nystrom(i, 4)*f(4, d))) &
-                            + ((nystrom(i, 5)*f(5, d) + nystrom(i, 6)*f(6, d)) &
-                               + (nystrom(i, 7)*f(7, d) + nystrom(i, 8)*f(8, d)))))
+                f_old(i, d) = 0.0_dp
+                q_stage(i, d) = q(d) + h*v(d)*nodes(i)
+                v_stage(i, d) = v(d)
+            end do
+        end do
+    end subroutine free_states
+
+    pure subroutine quick_states(n, h, moving, f, f_old, q_stage, v_stage)
+        !! What the change of `f` since `f_old` adds to them, by \(a\) and \(a^2\); to the
+        !! velocities only if they matter (`moving`).
+        integer, intent(in) :: n
+        real(dp), intent(in) :: h, f(lanes, n)
+        logical, intent(in) :: moving
+        real(dp), intent(inout) :: f_old(lanes, n), q_stage(lanes, n), v_stage(lanes, n)
+        real(dp) :: x(lanes)
+        integer :: d, i
+
+        do d = 1, n
+            !GCC$ vector
+            do i = 1, lanes
+                x(i) = f(i, d) - f_old(i, d)
+                f_old(i, d) = f(i, d)
+            end do
+            !GCC$ vector
+            do i = 1, lanes
+                q_stage(i, d) = q_stage(i, d) &
+                    + h**2*(((nystrom(i, 1)*x(1) + nystrom(i, 2)*x(2)) &
+                             + (nystrom(i, 3)*x(3) + nystrom(i, 4)*x(4))) &
+                            + ((nystrom(i, 5)*x(5) + nystrom(i, 6)*x(6)) &
+                               + (nystrom(i, 7)*x(7) + nystrom(i, 8)*x(8))))
             end do
             if (.not. moving) cycle
             !GCC$ vector
             do i = 1, lanes
-                v_stage(i, d) = v(d) + (v_low(d) &
-                    + h*(((butcher(i, 1)*f(1, d) + butcher(i, 2)*f(2, d)) &
-                          + (butcher(i, 3)*f(3, d) + butcher(i, 4)*f(4, d))) &
-                         + ((butcher(i, 5)*f(5, d) + butcher(i, 6)*f(6, d)) &
-                            + (butcher(i, 7)*f(7, d) + butcher(i, 8)*f(8, d)))))
+                v_stage(i, d) = v_stage(i, d) &
+                    + h*(((butcher(i, 1)*x(1) + butcher(i, 2)*x(2)) &
+                          + (butcher(i, 3)*x(3) + butcher(i, 4)*x(4))) &
+                         + ((butcher(i, 5)*x(5) + butcher(i, 6)*x(6)) &
+                            + (butcher(i, 7)*x(7) + butcher(i, 8)*x(8))))
             end do
         end do
     end subroutine quick_states

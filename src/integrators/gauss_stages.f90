@@ -6,11 +6,13 @@ module lagrangia_gauss_stages
     !! \(Q_i = q + \sum_j\mu_{ij}K_j\), the step ends at \(v + \sum_j L_j\), \(q + \sum_j K_j\),
     !! and one sweep of the iteration is \(F \leftarrow a(t + c h, Q, V)\).
     !!
-    !! What the method preserves hangs on the last sweep of a step alone. The others take \(Q\)
-    !! from \(F\) at once, with the matrix \(a^2\): one product waits for the other no more, and
-    !! the velocities are left out where no force depends on them.
-    use lagrangia_gauss_kernels, only: apply, distance, end_state, exact_states, magnitude, &
-                                       quick_states
+    !! An exact sweep does just this. The others add to the stages what a change of \(F\) makes,
+    !! to \(Q\) by the matrix \(a^2\) at once: one product waits for the other no more, and the
+    !! velocities are left out where no force depends on them. What the method preserves needs
+    !! the last sweep of a step to be exact, and one before, when little is left to change: else
+    !! the rounding of these matrices makes the energy drift.
+    use lagrangia_gauss_kernels, only: apply, distance, end_state, exact_states, free_states, &
+                                       magnitude, quick_states
     use lagrangia_gauss_tables, only: legendre, nodes, stages, weights
     use lagrangia_kinds, only: dp
     use lagrangia_system, only: lanes, system_t
@@ -41,6 +43,7 @@ module lagrangia_gauss_stages
         procedure :: prepare
         procedure :: place
         procedure :: guess
+        procedure :: coast
         procedure :: sweep
         procedure :: change
         procedure :: all_of
@@ -115,6 +118,13 @@ contains
         call apply(self%n, self%carry, self%known, self%f)
     end subroutine guess
 
+    pure subroutine coast(self)
+        !! Stages without accelerations: what inexact sweeps may begin with.
+        class(gauss_stages_t), intent(inout) :: self
+
+        call free_states(self%n, self%h, self%q, self%v, self%f_old, self%q_stage, self%v_stage)
+    end subroutine coast
+
     pure subroutine sweep(self, system, exact)
         !! The accelerations that the present ones imply; `exact` to the last bit.
         class(gauss_stages_t), intent(inout) :: self
@@ -125,9 +135,8 @@ contains
             call exact_states(self%n, self%hb, self%q, self%q_low, self%v, self%v_low, self%f, &
                               self%f_old, self%q_stage, self%v_stage)
         else
-            call quick_states(self%n, self%h, system%velocity_forces, self%q, self%q_low, &
-                              self%v, self%v_low, self%f, self%f_old, self%q_stage, &
-                              self%v_stage)
+            call quick_states(self%n, self%h, system%velocity_forces, self%f, self%f_old, &
+                              self%q_stage, self%v_stage)
         end if
         call system%accelerations_lanes(self%times, self%q_stage, self%v_stage, self%f)
     end subroutine sweep

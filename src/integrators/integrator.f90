@@ -17,6 +17,7 @@ module lagrangia_integrator
         integer :: energy_order = 0           !! of its error, which stays bounded; 0: it may drift
         logical :: symplectic = .false.       !! a step is a canonical map of (q, p)
         logical :: reversible = .false.       !! a step back undoes a step, but for rounding
+        real(dp) :: step_limit = 0.0_dp       !! omega dt of a stable oscillation; 0: none known
         logical :: keeps_speed = .false.      !! |v| where a uniform magnetic field acts alone
         integer(i8) :: evaluations = 0        !! of accelerations or forces, since `prepare`
         character(line_length) :: trouble = ""  !! why `advance` gave NaN, where the method knows

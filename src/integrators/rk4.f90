@@ -51,6 +51,7 @@ contains
         self%name = "rk4"
         self%title = "classical Runge-Kutta, any system (Kutta 1901)"
         self%order = 4
+        self%step_limit = sqrt(8.0_dp)
     end subroutine set_up
 
     subroutine compensated(self, variant)

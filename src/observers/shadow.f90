@@ -14,6 +14,7 @@ module lagrangia_shadow
         private
         class(integrator_t), allocatable :: integrator
         class(dense_integrator_t), allocatable :: adaptive
+        class(dense_integrator_t), allocatable :: probe  !! takes the run's steps, to count them
         real(dp) :: t0 = 0.0_dp
         real(dp) :: h = 0.0_dp        !! half the step of the run
         integer(i8) :: done = 0       !! half steps taken
@@ -59,6 +60,10 @@ contains
         type(error_t), allocatable, intent(out) :: error
 
         allocate (self%adaptive, source=integrator)
+        allocate (self%probe, source=integrator)
+        call self%probe%prepare(system, error)
+        if (allocated(error)) return
+        call self%probe%start(system, t0, q, v, t_end)
         self%adaptive%tolerance = max(integrator%least_tolerance, 0.01_dp*integrator%tolerance)
         call self%adaptive%prepare(system, error)
         if (allocated(error)) return
@@ -80,6 +85,7 @@ contains
 
         deviation = 0.0_dp
         if (allocated(self%adaptive)) then
+            if (allocated(self%probe)) call bound_steps(self, system)
             do while (self%adaptive%t_new < t)
                 call self%adaptive%step(system, error)
                 if (allocated(error)) call error%add_context("the run that estimates the error")
@@ -100,4 +106,22 @@ contains
         deviation = distance(q, self%q)*2.0_dp**self%integrator%order &
                     /(2.0_dp**self%integrator%order - 1.0_dp)
     end subroutine estimate
+
+    pure subroutine bound_steps(self, system)
+        !! No step longer than half the run's mean one: a method may find no reason in the tighter
+        !! tolerance to take shorter ones, and would repeat the run. One that fails will say so.
+        type(shadow_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        type(error_t), allocatable :: error
+        real(dp) :: t0
+
+        t0 = self%probe%t_new
+        do while (self%probe%t_new < self%probe%t_end .and. .not. allocated(error))
+            call self%probe%step(system, error)
+        end do
+        if (self%probe%accepted > 0) then
+            self%adaptive%longest = 0.5_dp*(self%probe%t_new - t0)/self%probe%accepted
+        end if
+        deallocate (self%probe)
+    end subroutine bound_steps
 end module lagrangia_shadow

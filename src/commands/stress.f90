@@ -1,0 +1,136 @@
+module lagrangia_stress
+    !! `lagrangia stress [ROW...]`: numerical stability, a table for each row.
+    use lagrangia_bench_table, only: short
+    use lagrangia_command_line, only: command_line_t
+    use lagrangia_console, only: put_line
+    use lagrangia_errors, only: error_t, fail, status_not_held
+    use lagrangia_observer, only: observer_t
+    use lagrangia_progress, only: progress_t
+    use lagrangia_stress_measures, only: measure_row
+    use lagrangia_stress_rows, only: row_t, rows
+    use lagrangia_text, only: join, nearest_name, quoted, to_text
+    use lagrangia_verdicts, only: verdict_t, verdicts_t
+    use lagrangia_version, only: build_text
+    implicit none (type, external)
+    private
+    public :: stress_command
+
+contains
+
+    subroutine stress_command(line, error)
+        !! Measure the rows named, or all; fails (status 1) if a bound does not hold.
+        type(command_line_t), intent(in) :: line
+        type(error_t), allocatable, intent(out) :: error
+        type(verdicts_t) :: verdicts
+        type(progress_t), target :: progress
+        class(observer_t), pointer :: watcher
+        logical :: chosen(size(rows)), json, quiet
+        integer :: i, last
+
+        call choose(line, chosen, error)
+        if (allocated(error)) return
+        json = line%has("json")
+        quiet = line%has("quiet") .and. .not. json
+        watcher => progress
+        if (json) then
+            call put_line("[")
+        else if (.not. quiet) then
+            call put_line("build: "//build_text(brief=.true.))
+        end if
+        last = 0
+        do i = 1, size(rows)
+            if (.not. chosen(i)) cycle
+            call progress%restart("stress "//trim(rows(i)%name))
+            call measure_row(trim(rows(i)%name), line%has("long"), watcher, verdicts, error)
+            call progress%clear()
+            if (allocated(error)) return
+            if (json) then
+                call put_objects(verdicts%list(last + 1:), last == 0)
+            else if (.not. quiet) then
+                call put_table(rows(i), verdicts%list(last + 1:))
+            end if
+            last = size(verdicts%list)
+        end do
+        if (json) then
+            call put_line("]")
+        else if (.not. quiet) then
+            call put_line("")
+            call put_line(to_text(last)//" lines, "//to_text(verdicts%broken())//" do not hold")
+        end if
+        if (verdicts%broken() > 0) call fail(error, to_text(verdicts%broken())//" of "// &
+            to_text(last)//" bounds do not hold", status_not_held)
+    end subroutine stress_command
+
+    pure subroutine choose(line, chosen, error)
+        !! The rows named, or all of them.
+        type(command_line_t), intent(in) :: line
+        logical, intent(out) :: chosen(:)
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: near
+        integer :: i
+
+        chosen = size(line%arguments) == 0
+        do i = 1, size(line%arguments)
+            associate (name => line%arguments(i)%text)
+                where (rows%name == name) chosen = .true.
+                if (any(rows%name == name)) cycle
+                near = nearest_name(name, rows%name)
+                if (near /= "") then
+                    near = "did you mean '"//near//"'?"
+                else
+                    near = "there are "//join(rows%name, ", ")
+                end if
+                call fail(error, "unknown row "//quoted(name)//"; "//near)
+                return
+            end associate
+        end do
+    end subroutine choose
+
+    subroutine put_table(row, list)
+        !! What is measured, what it means, and a line a case.
+        type(row_t), intent(in) :: row
+        type(verdict_t), intent(in) :: list(:)
+        integer :: wide(2), i
+
+        wide = [maxval(len_trim(list%of)), maxval(len_trim(list%measured))]
+        call put_line("")
+        call put_line(trim(row%name)//": "//trim(row%title))
+        call put_line("  "//trim(row%meaning))
+        do i = 1, size(list)
+            associate (cells => list(i))
+                call put_line(trim("  "//left(cells%of, wide(1))//left(cells%measured, wide(2))// &
+                                   right(short(cells%value, 4), 10)//"  "// &
+                                   left(cells%allowed(), 14)//left(cells%word(), 6)//cells%remark))
+            end associate
+        end do
+    end subroutine put_table
+
+    pure function left(text, width) result(cell)
+        !! And two blanks behind.
+        character(*), intent(in) :: text
+        integer, intent(in) :: width
+        character(width + 2) :: cell
+
+        cell = text
+    end function left
+
+    pure function right(text, width) result(cell)
+        !! The end of the cell is that of the text.
+        character(*), intent(in) :: text
+        integer, intent(in) :: width
+        character(:), allocatable :: cell
+
+        cell = repeat(" ", max(0, width - len(text)))//text
+    end function right
+
+    subroutine put_objects(list, first)
+        !! Objects of the one array.
+        type(verdict_t), intent(in) :: list(:)
+        logical, intent(in) :: first
+        integer :: i
+
+        do i = 1, size(list)
+            call put_line(trim(merge(" ", ",", first .and. i == 1))//list(i)%object())
+        end do
+    end subroutine put_objects
+end module lagrangia_stress

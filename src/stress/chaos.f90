@@ -1,0 +1,127 @@
+module lagrangia_chaos
+    !! A chaotic double pendulum: how fast errors grow, and after which time no digit is left.
+    use lagrangia_bench_table, only: short
+    use lagrangia_errors, only: error_t
+    use lagrangia_integrator, only: dense_integrator_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_system, only: system_t
+    use lagrangia_verdicts, only: verdicts_t
+    implicit none (type, external)
+    private
+    public :: judge_chaos
+
+    real(dp), parameter :: interval = 0.25_dp, no_digit = 1.0_dp  !! s; rad
+    real(dp), parameter :: start(2) = [2.0_dp, 1.0_dp]            !! rad, at rest
+
+contains
+
+    subroutine judge_chaos(system, method, other, duration, verdicts)
+        !! The growth of a small difference, followed along the motion and rescaled on the way,
+        !! gives Lyapunov's exponent and a bound: an error made at \(s\) grows by
+        !! \(G(t)/G(s)\). Two methods at their tightest tolerances must part where the bound says
+        !! that a rounding error has become as large as the motion.
+        class(system_t), intent(in) :: system
+        class(dense_integrator_t), intent(inout) :: method, other
+        real(dp), intent(in) :: duration  !! s
+        type(verdicts_t), intent(inout) :: verdicts
+        real(dp), parameter :: loose = 1e-10_dp, tight = 1e-14_dp
+        real(dp), allocatable :: growth(:), distance(:)
+        real(dp) :: excess, predicted, measured
+        integer :: k, n
+
+        n = nint(duration/interval)
+        method%tolerance = tight
+        other%tolerance = tight
+        call follow_growth(system, method, n, growth)
+        call verdicts%judge("Lyapunov's exponent", "ln(growth)/time, 1/s", growth(n)/duration, &
+                            least=0.1_dp, remark="every "//short(log(10.0_dp)*duration/ &
+                            growth(n), 2)//" s cost a digit")
+        predicted = interval*findloc(growth > -log(epsilon(loose)), .true., 1)
+        call follow_distance(system, method, other, n, distance)
+        measured = interval*findloc(.not. distance < no_digit, .true., 1)
+        call verdicts%judge("two methods, tol. 1e-14", "time when they part, s", measured, &
+                            0.5_dp*predicted, 2.0_dp*predicted, "after t = "// &
+                            short(measured, 3)//" s no digit is left")
+        other%tolerance = loose
+        call follow_distance(system, method, other, n, distance)
+        excess = 0.0_dp
+        do k = 1, n
+            if (.not. distance(k) < 0.1_dp*no_digit) exit
+            excess = max(excess, distance(k)/(loose*(1.0_dp + k*interval)*exp(growth(k) - &
+                                              minval([0.0_dp, growth(:k)]))))
+        end do
+        call verdicts%judge("tolerance 1e-10", "error / (tolerance growth)", excess, &
+                            most=10.0_dp, remark="up to t = "//short((k - 1)*interval, 3)//" s")
+    end subroutine judge_chaos
+
+    subroutine follow_growth(system, method, n, growth)
+        !! `growth(k)`: the logarithm of what a small difference is multiplied by in `k` intervals.
+        class(system_t), intent(in) :: system
+        class(dense_integrator_t), intent(in) :: method
+        integer, intent(in) :: n
+        real(dp), allocatable, intent(out) :: growth(:)
+        real(dp), parameter :: small = 1e-7_dp
+        class(dense_integrator_t), allocatable :: one, two
+        type(error_t), allocatable :: error
+        real(dp), dimension(2) :: q, v, q_two, v_two
+        real(dp) :: ratio
+        integer :: k
+
+        allocate (growth(0:n), source=0.0_dp)
+        allocate (one, source=method)
+        allocate (two, source=method)
+        call one%prepare(system, error)
+        call two%prepare(system, error)
+        q = start
+        v = 0.0_dp
+        q_two = q + small*[0.5_dp, -0.5_dp]
+        v_two = v + small*[0.5_dp, 0.5_dp]
+        do k = 1, n
+            call one%advance(system, 0.0_dp, interval, k - 1_i8, 1_i8, q, v)
+            call two%advance(system, 0.0_dp, interval, k - 1_i8, 1_i8, q_two, v_two)
+            ratio = norm2([q_two - q, v_two - v])/small
+            growth(k) = growth(k - 1) + log(ratio)
+            q_two = q + (q_two - q)/ratio
+            v_two = v + (v_two - v)/ratio
+        end do
+    end subroutine follow_growth
+
+    subroutine follow_distance(system, method, other, n, distance)
+        !! `distance(k)`: between the coordinates by two methods after `k` intervals; huge from
+        !! where one of them gives up.
+        class(system_t), intent(in) :: system
+        class(dense_integrator_t), intent(inout) :: method, other
+        integer, intent(in) :: n
+        real(dp), allocatable, intent(out) :: distance(:)
+        type(error_t), allocatable :: error
+        real(dp), dimension(2) :: q, v, q_other
+        integer :: k
+
+        allocate (distance(n), source=huge(interval))
+        q = start
+        v = 0.0_dp
+        call method%prepare(system, error)
+        if (.not. allocated(error)) call other%prepare(system, error)
+        if (allocated(error)) return
+        call method%start(system, 0.0_dp, q, v, n*interval)
+        call other%start(system, 0.0_dp, q, v, n*interval)
+        do k = 1, n
+            call walk(method, q)
+            if (.not. allocated(error)) call walk(other, q_other)
+            if (allocated(error)) return
+            distance(k) = maxval(abs(q - q_other))
+        end do
+    contains
+        subroutine walk(walker, q)
+            class(dense_integrator_t), intent(inout) :: walker
+            real(dp), intent(out) :: q(2)
+
+            q = 0.0_dp
+            do while (walker%t_new < k*interval)
+                call walker%step(system, error)
+                if (allocated(error)) return
+            end do
+            call walker%state_at(k*interval, q, v)
+        end subroutine walk
+    end subroutine follow_distance
+end module lagrangia_chaos

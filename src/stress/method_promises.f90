@@ -1,0 +1,198 @@
+module lagrangia_method_promises
+    !! What methods promise, held against runs: canonical maps, reversal, the same bytes however a
+    !! run is cut, and exact scaling by powers of two.
+    use lagrangia_canonical_defect, only: canonical_defect
+    use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t
+    use lagrangia_integrator, only: integrator_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_method_problems, only: new_problem, problems, refuses
+    use lagrangia_number_text, only: field_width, write_row
+    use lagrangia_observer, only: observer_box_t
+    use lagrangia_parameters, only: default_values
+    use lagrangia_run, only: new_plan, plan_t, run
+    use lagrangia_system, only: system_t
+    use lagrangia_verdicts, only: verdicts_t
+    implicit none (type, external)
+    private
+    public :: judge_bytes, judge_reversal, judge_scaling, judge_symplectic, judge_text
+
+    real(dp), parameter :: dt = 0.02_dp        !! s
+    integer(i8), parameter :: steps = 1000_i8
+
+contains
+
+    subroutine judge_symplectic(method, verdicts)
+        !! The defect of a step over the problems; of a method that declares nothing it is stated.
+        class(integrator_t), intent(inout) :: method
+        type(verdicts_t), intent(inout) :: verdicts
+        real(dp), parameter :: rounding = 1e-10_dp  !! epsilon over the differences' step, 300 times
+        character(*), parameter :: measured = "largest of J'WJ - W"
+        class(system_t), allocatable :: system
+        real(dp), allocatable :: q(:), v(:)
+        real(dp) :: worst
+        integer :: k
+
+        worst = 0.0_dp
+        do k = 1, problems
+            call new_problem(k, system, q, v)
+            if (refuses(method, system)) cycle
+            worst = max(worst, canonical_defect(method, system, 0.0_dp, q, v))
+        end do
+        if (method%symplectic) then
+            call verdicts%judge(method%name, measured, worst, most=rounding)
+        else
+            call verdicts%judge(method%name, measured, worst, remark="does not declare it")
+        end if
+    end subroutine judge_symplectic
+
+    subroutine judge_reversal(method, verdicts)
+        !! A thousand steps forth and back, over the problems.
+        class(integrator_t), intent(inout) :: method
+        type(verdicts_t), intent(inout) :: verdicts
+        real(dp), parameter :: rounding = 1e-11_dp  !! 2000 steps of 10 epsilon, carried on
+        character(*), parameter :: measured = "distance after 1000 steps and back"
+        class(system_t), allocatable :: system
+        real(dp), allocatable :: q(:), v(:), q0(:), v0(:)
+        real(dp) :: worst
+        integer :: k
+
+        worst = 0.0_dp
+        do k = 1, problems
+            call new_problem(k, system, q0, v0)
+            if (refuses(method, system)) cycle
+            q = q0
+            v = v0
+            call method%advance(system, 0.0_dp, dt, 0_i8, steps, q, v)
+            call method%advance(system, steps*dt, -dt, 0_i8, steps, q, v)
+            worst = max(worst, maxval(abs(q - q0)), maxval(abs(v - v0)))
+        end do
+        if (method%reversible) then
+            call verdicts%judge(method%name, measured, worst, most=rounding)
+        else
+            call verdicts%judge(method%name, measured, worst, remark="does not declare it")
+        end if
+    end subroutine judge_reversal
+
+    subroutine judge_bytes(method, verdicts)
+        !! Runs that are looked at every 1, 7, 64, 1000 steps end in the same bits.
+        class(integrator_t), intent(inout) :: method
+        type(verdicts_t), intent(inout) :: verdicts
+        integer(i8), parameter :: strides(4) = [1000_i8, 1_i8, 7_i8, 64_i8]
+        class(system_t), allocatable :: system
+        type(observer_box_t) :: nobody(0)
+        type(plan_t) :: plan
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: q(:), v(:), whole(:)
+        integer :: different, i, k
+
+        different = 0
+        do k = 1, problems
+            do i = 1, size(strides)
+                call new_problem(k, system, q, v)
+                if (refuses(method, system)) cycle
+                call new_plan(plan, 0.0_dp, dt, steps*dt, strides(i), error)
+                call run(system, method, plan, nobody, q, v, error)
+                if (i == 1) whole = [q, v]
+                different = different + differing([q, v], whole)
+            end do
+        end do
+        call verdicts%judge(method%name, "numbers that differ with the stride", &
+                            real(different, dp), 0.0_dp, 0.0_dp)
+    end subroutine judge_bytes
+
+    subroutine judge_text(verdicts)
+        !! Numbers of all sizes, written as the data files have them and read again.
+        type(verdicts_t), intent(inout) :: verdicts
+        character(field_width + 1) :: text
+        real(dp) :: x(1), y(1)
+        integer :: different, k, length
+
+        different = 0
+        do k = -1060, 1020
+            x = 2.0_dp**k*(1.0_dp + abs(sin(real(k, dp))))
+            call write_row(x, text, length)
+            read (text(:length - 1), *) y
+            different = different + differing(x, y)
+        end do
+        call verdicts%judge("text files", "numbers that do not come back", real(different, dp), &
+                            0.0_dp, 0.0_dp)
+    end subroutine judge_text
+
+    pure function differing(x, y) result(number)
+        !! How many numbers differ in a bit; those that are not finite do.
+        real(dp), intent(in) :: x(:), y(:)
+        integer :: number
+
+        number = count(.not. (transfer(x, [0_i8]) == transfer(y, [0_i8]) .and. &
+                              abs(x) <= huge(x)))
+    end function differing
+
+    subroutine judge_scaling(method, verdicts)
+        !! Other units of mass, length and time, each smaller by a power of two, change no digit.
+        class(integrator_t), intent(inout) :: method
+        type(verdicts_t), intent(inout) :: verdicts
+        integer, parameter :: smaller(3, 4) = reshape([0, 0, 0, 3, 0, 0, 0, 5, 0, 0, 0, 4], [3, 4])
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(description_t) :: d
+        real(dp), allocatable :: q(:), v(:), parameters(:), whole(:), length(:), speed(:)
+        real(dp) :: second
+        integer :: different, i, k, first
+
+        different = 0
+        do k = 1, problems
+            do i = 1, size(smaller, 2)
+                call new_problem(k, system, q, v)
+                call system%describe(d)
+                parameters = default_values(d)
+                first = 1
+                call scale_parameters()
+                call system%configure(parameters, error)
+                if (refuses(method, system)) cycle
+                length = factor_of(d%coordinates%unit, smaller(1, i), smaller(2, i), smaller(3, i))
+                second = 2.0_dp**smaller(3, i)
+                speed = length/second
+                q = length*q
+                v = speed*v
+                call method%advance(system, 0.0_dp, second*dt, 0_i8, steps, q, v)
+                if (i == 1) whole = [q, v]
+                different = different + differing([q/length, v/speed], whole)
+            end do
+        end do
+        call verdicts%judge(method%name, "numbers that differ with the units", &
+                            real(different, dp), 0.0_dp, 0.0_dp)
+    contains
+        subroutine scale_parameters()
+            integer :: j
+
+            do j = 1, size(d%parameters)
+                associate (last => first + d%parameters(j)%count - 1)
+                    parameters(first:last) = factor_of(d%parameters(j)%unit, smaller(1, i), &
+                                                       smaller(2, i), smaller(3, i)) &
+                                             *parameters(first:last)
+                    first = last + 1
+                end associate
+            end do
+        end subroutine scale_parameters
+    end subroutine judge_scaling
+
+    elemental function factor_of(unit, kilogram, metre, second) result(factor)
+        !! By which numbers in this unit grow where the three are smaller by so many powers of two.
+        character(*), intent(in) :: unit
+        integer, intent(in) :: kilogram, metre, second
+        real(dp) :: factor
+        integer :: power
+
+        select case (unit)
+        case ("kg"); power = kilogram
+        case ("m"); power = metre
+        case ("m/s^2"); power = metre - 2*second
+        case ("N/m"); power = kilogram - 2*second
+        case ("V/m"); power = kilogram + metre - 2*second
+        case ("T"); power = kilogram - second
+        case default; power = 0
+        end select
+        factor = 2.0_dp**power
+    end function factor_of
+end module lagrangia_method_promises

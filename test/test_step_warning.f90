@@ -1,0 +1,72 @@
+module test_step_warning
+    !! The warning before a run that blows up.
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse
+    use lagrangia_command_line, only: word_t
+    use lagrangia_errors, only: error_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_scene_reader, only: parse_scene
+    use lagrangia_step_warning, only: step_warning
+    use lagrangia_system, only: system_t
+    implicit none (type, external)
+    private
+    public :: step_warning_suite
+
+contains
+
+    function step_warning_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("step_warning")
+        call suite%addTest(TestMethod("long_steps_are_warned_of", long_steps_are_warned_of))
+        call suite%addTest(TestMethod("nothing_is_said_without_a_limit", &
+                                      nothing_is_said_without_a_limit))
+    end function step_warning_suite
+
+    function warning_of(system_name, steps) result(text)
+        !! Of a scene with these keys.
+        character(*), intent(in) :: system_name, steps
+        character(:), allocatable :: text
+        type(scene_t) :: scene
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+
+        call parse_scene("&scene system = '"//system_name//"', duration = 10.0, "//steps//" /"// &
+                         new_line("a")//"&"//system_name//" /", "a.nml", [word_t ::], scene, &
+                         system, error)
+        call assertFalse(allocated(error), steps)
+        text = "not read"
+        if (.not. allocated(error)) text = step_warning(scene, system)
+    end function warning_of
+
+    subroutine long_steps_are_warned_of()
+        !! Of the fastest mode, by the method's own limit: omega = sqrt(k/m) = 1 for the oscillator,
+        !! sqrt(9.81 (2 + sqrt(2))) = 5.787 for the double pendulum.
+        call assertEqual("dt = 2.01 s exceeds the step limit 2.0 s of verlet (2.0/omega_max, "// &
+                         "omega_max = 1.0 rad/s): small oscillations would grow at every step", &
+                         warning_of("oscillator", "method = 'verlet', dt = 2.01, q = 1.0"))
+        call assertEqual("", warning_of("oscillator", "method = 'verlet', dt = 1.99, q = 1.0"))
+        call assertEqual("", warning_of("oscillator", "method = 'rk4', dt = 2.82, q = 1.0"))
+        call assertEqual("dt = 2.84 s", first_words( &
+                         warning_of("oscillator", "method = 'rk4', dt = 2.84, q = 1.0")))
+        call assertEqual("", warning_of("double_pendulum", "dt = 0.488, q = 0.5, 0.0"))
+        call assertEqual("dt = 0.49 s", first_words( &
+                         warning_of("double_pendulum", "dt = 0.49, q = 0.5, 0.0")))
+    end subroutine long_steps_are_warned_of
+
+    pure function first_words(text) result(words)
+        !! Up to the unit.
+        character(*), intent(in) :: text
+        character(:), allocatable :: words
+
+        words = text(:max(0, index(text, " exceeds") - 1))
+    end function first_words
+
+    subroutine nothing_is_said_without_a_limit()
+        !! Methods that are stable or choose their steps, systems without an equilibrium.
+        call assertEqual("", warning_of("oscillator", "method = 'gauss16', dt = 5.0, q = 1.0"))
+        call assertEqual("", warning_of("oscillator", "method = 'dop853', tolerance = 1e-6, "// &
+                                        "samples = 10, q = 1.0"))
+        call assertEqual("", warning_of("atwood", "method = 'rk4', dt = 5.0, q = 1.0"))
+    end subroutine nothing_is_said_without_a_limit
+end module test_step_warning

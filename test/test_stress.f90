@@ -1,0 +1,203 @@
+module test_stress
+    !! The verdicts of `lagrangia stress` on methods: each is seen to hold, and to fail.
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_edges_of_numbers, only: judge_edges
+    use lagrangia_energy_growth, only: judge_energy_growth
+    use lagrangia_errors, only: error_t
+    use lagrangia_growth_law, only: growth_t
+    use lagrangia_integrator, only: integrator_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_method_promises, only: judge_bytes, judge_reversal, judge_scaling, &
+                                         judge_symplectic, judge_text
+    use lagrangia_methods, only: new_integrator
+    use lagrangia_rounding, only: judge_rounding
+    use lagrangia_step_limits, only: judge_step_limit
+    use lagrangia_verdicts, only: verdicts_t
+    use spoiled_methods, only: new_spoiled, spoiled_t
+    implicit none (type, external)
+    private
+    public :: stress_suite
+
+contains
+
+    function stress_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("stress")
+        call suite%addTest(TestMethod("verdicts_hold_within_bounds", verdicts_hold_within_bounds))
+        call suite%addTest(TestMethod("laws_are_named", laws_are_named))
+        call suite%addTest(TestMethod("step_limits_are_measured", step_limits_are_measured))
+        call suite%addTest(TestMethod("energy_growth_is_named", energy_growth_is_named))
+        call suite%addTest(TestMethod("promises_are_held", promises_are_held))
+        call suite%addTest(TestMethod("rounding_is_told_apart", rounding_is_told_apart))
+        call suite%addTest(TestMethod("edges_of_numbers_are_seen", edges_of_numbers_are_seen))
+    end function stress_suite
+
+    subroutine promises_are_held()
+        !! Friction is no canonical map and not reversible; what is added at every call depends on
+        !! the blocks, and, being no number of the system's units, on these.
+        type(spoiled_t) :: spoiled
+        class(integrator_t), allocatable :: method
+        type(error_t), allocatable :: error
+        type(verdicts_t) :: verdicts
+        integer :: i
+
+        call verdicts%begin("promises")
+        call new_integrator("verlet", method, error)
+        call judge_reversal(method, verdicts)
+        call judge_symplectic(method, verdicts)
+        call judge_bytes(method, verdicts)
+        call judge_scaling(method, verdicts)
+        call judge_text(verdicts)
+        call assertEqual(0, verdicts%broken())
+        call new_spoiled(spoiled, "verlet", damping=1e-8_dp)
+        call judge_reversal(spoiled, verdicts)
+        call judge_symplectic(spoiled, verdicts)
+        call new_spoiled(spoiled, "verlet", share=epsilon(1.0_dp))
+        call judge_bytes(spoiled, verdicts)
+        call new_spoiled(spoiled, "verlet", push=1e-12_dp)
+        call judge_scaling(spoiled, verdicts)
+        do i = 6, 9
+            call assertFalse(verdicts%list(i)%holds, verdicts%list(i)%measured)
+        end do
+        call new_integrator("rk4", method, error)
+        call judge_reversal(method, verdicts)
+        call assertEqual("stated", verdicts%list(10)%word())
+    end subroutine promises_are_held
+
+    subroutine rounding_is_told_apart()
+        !! Plain sums, taken for compensated ones, lose too much; a method that is not Verlet has
+        !! another energy.
+        class(integrator_t), allocatable :: method
+        type(error_t), allocatable :: error
+        type(verdicts_t) :: verdicts
+
+        call verdicts%begin("rounding")
+        call new_integrator("verlet", method, error)
+        call judge_rounding(method, "plain", 1000000_i8, verdicts)
+        call judge_rounding(method, "compensated", 1000000_i8, verdicts)
+        call new_integrator("verlet", method, error, compensated=.true.)
+        call judge_rounding(method, "compensated", 100000_i8, verdicts)
+        call new_integrator("velocity_verlet", method, error)
+        call judge_rounding(method, "plain", 10000_i8, verdicts)
+        call assertTrue(all(verdicts%list%holds .eqv. [.true., .false., .true., .false.]), &
+                        "plain, compensated")
+    end subroutine rounding_is_told_apart
+
+    subroutine edges_of_numbers_are_seen()
+        !! RK4 passes; what adds a constant is not linear, and what damps never overflows.
+        class(integrator_t), allocatable :: method
+        type(spoiled_t) :: spoiled
+        type(error_t), allocatable :: error
+        type(verdicts_t) :: verdicts
+
+        call verdicts%begin("edges")
+        call new_integrator("rk4", method, error)
+        call judge_edges(method, verdicts)
+        call assertEqual(0, verdicts%broken())
+        call new_spoiled(spoiled, "rk4", push=1e-3_dp)
+        call judge_edges(spoiled, verdicts)
+        call assertFalse(verdicts%list(6)%holds .or. verdicts%list(7)%holds, "amplitudes")
+        call new_spoiled(spoiled, "rk4", damping=0.5_dp)
+        call judge_edges(spoiled, verdicts)
+        call assertFalse(verdicts%list(13)%holds .or. verdicts%list(14)%holds, "overflow")
+    end subroutine edges_of_numbers_are_seen
+
+    subroutine verdicts_hold_within_bounds()
+        !! From both sides; NaN never; a statement has no bounds.
+        type(verdicts_t) :: verdicts
+        real(dp) :: nan
+
+        nan = 0.0_dp
+        nan = nan/nan
+        call verdicts%begin("a_row")
+        call verdicts%judge("small", "x", 1.0_dp, most=1.0_dp)
+        call verdicts%judge("large", "x", 1.5_dp, most=1.0_dp)
+        call verdicts%judge("low", "x", 0.5_dp, 1.0_dp, 2.0_dp)
+        call verdicts%judge("inside", "x", 1.5_dp, 1.0_dp, 2.0_dp)
+        call verdicts%judge("nothing", "x", nan, most=1.0_dp)
+        call verdicts%judge("no bounds", "x", 3.0_dp)
+        call verdicts%judge("no number", "x", nan)
+        call assertTrue(all(verdicts%list%holds .eqv. [.true., .false., .false., .true., .false., &
+                                                       .true., .false.]), "verdicts")
+        call assertEqual(4, verdicts%broken())
+        call assertEqual("<= 1.0", verdicts%list(1)%allowed())
+        call assertEqual("1.000 .. 2.000", verdicts%list(4)%allowed())
+        call assertEqual("-", verdicts%list(6)%allowed())
+        call assertEqual("FAILS", verdicts%list(2)%word())
+        call assertEqual("stated", verdicts%list(6)%word())
+        call assertEqual('{"row": "a_row", "case": "nothing", "measured": "x", "value": null, '// &
+                         '"least": null, "most": 1.0000000000000000E+000, "holds": false, '// &
+                         '"remark": ""}', verdicts%list(5)%object())
+    end subroutine verdicts_hold_within_bounds
+
+    subroutine laws_are_named()
+        !! Powers with a little noise, and what overflows.
+        type(growth_t) :: growth(5)
+        real(dp) :: n
+        integer(i8) :: k
+
+        do k = 100, 1000000, 100
+            n = real(k, dp)
+            call growth(1)%see(k, 1e-3_dp*abs(cos(n)))
+            call growth(2)%see(k, 1e-15_dp*sqrt(n)*(1.0_dp + 0.1_dp*sin(n)))
+            call growth(3)%see(k, 1e-9_dp*n*(1.0_dp + 0.1_dp*sin(n)))
+            call growth(4)%see(k, 1e-15_dp*n**2)
+            call growth(5)%see(k, exp(n))
+        end do
+        call assertEqual("bounded", growth(1)%law())
+        call assertEqual("sqrt N", growth(2)%law())
+        call assertEqual("linear", growth(3)%law())
+        call assertEqual("faster than linear", growth(4)%law())
+        call assertTrue(growth(5)%worst >= huge(n), "overflow is seen")
+        call assertEqual("linear: 0.0011 after 1000000 steps", growth(3)%remark())
+    end subroutine laws_are_named
+
+    subroutine step_limits_are_measured()
+        !! What Verlet and RK4 declare is so; another claim fails, and so does a method whose map
+        !! of one step says other than its runs.
+        class(integrator_t), allocatable :: method
+        type(spoiled_t) :: spoiled
+        type(error_t), allocatable :: error
+        type(verdicts_t) :: verdicts
+
+        call verdicts%begin("step_limits")
+        call new_integrator("verlet", method, error)
+        call judge_step_limit(method, 2000_i8, verdicts)
+        call assertEqual(2.0_dp, verdicts%list(1)%value, 1e-3_dp, "verlet")
+        call new_integrator("rk4", method, error)
+        call judge_step_limit(method, 20000_i8, verdicts)
+        call assertEqual(2.0_dp*sqrt(2.0_dp), verdicts%list(3)%value, 1e-3_dp, "rk4")
+        call assertEqual(0, verdicts%broken())
+        method%step_limit = 2.9_dp
+        call judge_step_limit(method, 1000_i8, verdicts)
+        call assertFalse(verdicts%list(5)%holds, "another claim")
+        call new_spoiled(spoiled, "verlet", damping=-1e-2_dp)
+        call judge_step_limit(spoiled, 1000_i8, verdicts)
+        call assertFalse(verdicts%list(7)%holds, "energy is fed in at every step")
+    end subroutine step_limits_are_measured
+
+    subroutine energy_growth_is_named()
+        !! Verlet's stays, RK4's grows with the steps, and that of a symplectic method with a
+        !! little friction, too, though it declares otherwise.
+        class(integrator_t), allocatable :: method
+        type(spoiled_t) :: spoiled
+        type(error_t), allocatable :: error
+        type(verdicts_t) :: verdicts
+
+        call verdicts%begin("energy_growth")
+        call new_integrator("verlet", method, error)
+        call judge_energy_growth(method, 100000_i8, verdicts)
+        call assertTrue(verdicts%list(1)%holds, "verlet")
+        call assertEqual("bounded", verdicts%list(1)%remark(:7))
+        call new_integrator("rk4", method, error)
+        call judge_energy_growth(method, 400000_i8, verdicts)
+        call assertTrue(verdicts%list(2)%holds, "rk4")
+        call assertEqual("linear", verdicts%list(2)%remark(:6))
+        call new_spoiled(spoiled, "suzuki4", damping=1e-7_dp)
+        call judge_energy_growth(spoiled, 500000_i8, verdicts)
+        call assertFalse(verdicts%list(3)%holds, "friction")
+        call assertEqual("linear", verdicts%list(3)%remark(:6))
+    end subroutine energy_growth_is_named
+end module test_stress

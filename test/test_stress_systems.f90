@@ -1,0 +1,192 @@
+module test_stress_systems
+    !! The verdicts of `lagrangia stress` on systems: each is seen to hold, and to fail.
+    use careless_systems, only: careless_ball_t, careless_double_t, careless_pendulum_t, &
+                                careless_wedge_t
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_adaptive_methods, only: new_adaptive
+    use lagrangia_bounces, only: judge_elastic, judge_zeno
+    use lagrangia_bouncing_ball, only: bouncing_ball_t
+    use lagrangia_catalogue, only: new_system
+    use lagrangia_chaos, only: judge_chaos
+    use lagrangia_double_pendulum, only: double_pendulum_t
+    use lagrangia_errors, only: error_t
+    use lagrangia_extreme_masses, only: exact_omega2, judge_mass_ratios, judge_massless
+    use lagrangia_integrator, only: dense_integrator_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_limits_of_systems, only: judge_slow_disk, judge_slow_wire, judge_wedge, &
+                                           judge_weak_field
+    use lagrangia_pendulum, only: pendulum_t
+    use lagrangia_pendulum_extremes, only: exact_period, judge_large_angles, judge_separatrix
+    use lagrangia_system, only: system_t
+    use lagrangia_verdicts, only: verdicts_t
+    use lagrangia_wedge, only: wedge_t
+    implicit none (type, external)
+    private
+    public :: stress_systems_suite
+
+contains
+
+    function stress_systems_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("stress_systems")
+        call suite%addTest(TestMethod("the_pendulum_at_its_extremes", the_pendulum_at_its_extremes))
+        call suite%addTest(TestMethod("masses_of_all_sizes", masses_of_all_sizes))
+        call suite%addTest(TestMethod("steep_and_flat_wedges", steep_and_flat_wedges))
+        call suite%addTest(TestMethod("slow_turns", slow_turns))
+        call suite%addTest(TestMethod("bounces", bounces))
+        call suite%addTest(TestMethod("chaos_takes_digits", chaos_takes_digits))
+    end function stress_systems_suite
+
+    subroutine check_all(verdicts, hold, what)
+        !! All lines hold, or none of those of `what` does; then start anew.
+        type(verdicts_t), intent(inout) :: verdicts
+        logical, intent(in) :: hold
+        character(*), intent(in) :: what
+        integer :: i
+
+        do i = 1, size(verdicts%list)
+            associate (line => verdicts%list(i))
+                if (hold) call assertTrue(line%holds, trim(line%of)//" "//line%measured)
+                if (.not. hold .and. index(line%measured, what) > 0) call assertFalse(line%holds, &
+                    "careless: "//trim(line%of)//" "//line%measured)
+            end associate
+        end do
+        call assertTrue(any(index(verdicts%list%measured, what) > 0), what)
+        deallocate (verdicts%list)
+        call verdicts%begin("next")
+    end subroutine check_all
+
+    subroutine new_method(name, tolerance, method)
+        character(*), intent(in) :: name
+        real(dp), intent(in) :: tolerance
+        class(dense_integrator_t), allocatable, intent(out) :: method
+
+        call new_adaptive(name, method)
+        method%tolerance = tolerance
+    end subroutine new_method
+
+    subroutine the_pendulum_at_its_extremes()
+        !! The period beside numbers from a table; then near the top, and wound up.
+        class(dense_integrator_t), allocatable :: method
+        type(pendulum_t) :: system
+        type(careless_pendulum_t) :: careless
+        type(error_t), allocatable :: error
+        type(verdicts_t) :: verdicts
+
+        call system%configure([1.0_dp, 1.0_dp, 1.0_dp], error)
+        call assertEqual(8.3497529269184947344_dp, exact_period(system, 2.0_dp), 2e-15_dp, "2 rad")
+        call assertEqual(16.155539372393374764_dp, exact_period(system, 3.0_dp), 4e-15_dp, "3 rad")
+        call careless%configure([1.0_dp, 1.0_dp, 9.81_dp], error)
+        call new_method("gauss16", 1e-13_dp, method)
+        call verdicts%begin("near_separatrix")
+        call judge_separatrix(system, method, verdicts)
+        call check_all(verdicts, .true., "run")
+        call judge_large_angles(system, method, verdicts)
+        call check_all(verdicts, .true., "last digits")
+        call judge_separatrix(careless, method, verdicts)
+        call assertFalse(verdicts%list(2)%holds .or. verdicts%list(4)%holds, "a careless run")
+        call check_all(verdicts, .false., "closed form")
+        call judge_large_angles(careless, method, verdicts)
+        call check_all(verdicts, .false., "last digits")
+    end subroutine the_pendulum_at_its_extremes
+
+    subroutine masses_of_all_sizes()
+        !! The formula in quadruple precision solves the characteristic equation; a rod that is off
+        !! by 1e-12 is seen, a mass of zero too.
+        class(dense_integrator_t), allocatable :: method
+        type(double_pendulum_t) :: system
+        type(careless_double_t) :: careless
+        type(verdicts_t) :: verdicts
+        real(dp) :: omega2(2)
+
+        omega2 = exact_omega2(3.0_dp, 2.0_dp)
+        call assertEqual(9.81_dp**2*5.0_dp/(3.0_dp*0.7_dp), product(omega2), 1e-12_dp, "product")
+        call assertEqual(9.81_dp*5.0_dp*1.7_dp/(3.0_dp*0.7_dp), sum(omega2), 1e-13_dp, "sum")
+        call new_method("gauss16", 1e-11_dp, method)
+        call verdicts%begin("mass_ratios")
+        call judge_massless(system, verdicts)
+        call check_all(verdicts, .true., "refused")
+        call judge_massless(careless, verdicts)
+        call assertFalse(verdicts%list(7)%holds, "slow mode, 1e-100")
+        call check_all(verdicts, .false., "refused")
+        call judge_mass_ratios(careless, method, 0.0_dp, verdicts)
+        call check_all(verdicts, .false., "frequencies")
+        call judge_mass_ratios(system, method, 1e-5_dp, verdicts)
+        call check_all(verdicts, .true., "from one")
+    end subroutine masses_of_all_sizes
+
+    subroutine steep_and_flat_wedges()
+        !! Both ends; a constant that is far below the last digit elsewhere is not there.
+        type(wedge_t) :: system
+        type(careless_wedge_t) :: careless
+        type(verdicts_t) :: verdicts
+
+        call verdicts%begin("wedge")
+        call judge_wedge(system, verdicts)
+        call check_all(verdicts, .true., "accelerations")
+        call judge_wedge(careless, verdicts)
+        call check_all(verdicts, .false., "accelerations")
+    end subroutine steep_and_flat_wedges
+
+    subroutine slow_turns()
+        !! Closed forms hold; a system that has none, or takes other parameters, does not.
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(verdicts_t) :: verdicts
+        integer :: i
+        character(16), parameter :: names(4) = [character(16) :: "rotating_wire", "rolling_disk", &
+                                                "charged_particle", "oscillator"]
+
+        call verdicts%begin("slow_rotation")
+        do i = 1, 4
+            call new_system(trim(names(i)), system, error)
+            select case (i)
+            case (1); call judge_slow_wire(system, verdicts)
+            case (2); call judge_slow_disk(system, verdicts)
+            case (3); call judge_weak_field(system, verdicts)
+            case default; call judge_slow_wire(system, verdicts)
+            end select
+            if (i < 4) call check_all(verdicts, .true., "after 2 s")
+            if (i == 4) call assertFalse(any(verdicts%list(:2)%holds), "another system")
+        end do
+    end subroutine slow_turns
+
+    subroutine bounces()
+        !! A restitution off by 1e-10 is seen; a ball that never rests, too.
+        class(dense_integrator_t), allocatable :: method
+        type(bouncing_ball_t) :: system
+        type(careless_ball_t) :: careless
+        type(verdicts_t) :: verdicts
+
+        call new_method("dop853", 1e-12_dp, method)
+        call verdicts%begin("bounces")
+        call judge_elastic(system, method, verdicts)
+        call check_all(verdicts, .true., "20 bounces")
+        call judge_zeno(system, method, verdicts)
+        call check_all(verdicts, .true., "height")
+        call judge_elastic(careless, method, verdicts)
+        call check_all(verdicts, .false., "20 bounces")
+        call judge_zeno(careless, method, verdicts)
+        call check_all(verdicts, .false., "time of the last")
+    end subroutine bounces
+
+    subroutine chaos_takes_digits()
+        !! Without gravity the motion is integrable: then the exponent is none.
+        class(dense_integrator_t), allocatable :: method, other
+        type(double_pendulum_t) :: system
+        type(error_t), allocatable :: error
+        type(verdicts_t) :: verdicts
+
+        call new_method("gauss16", 1e-13_dp, method)
+        call new_method("dop853", 1e-13_dp, other)
+        call system%configure([1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 9.81_dp], error)
+        call verdicts%begin("chaos")
+        call judge_chaos(system, method, other, 40.0_dp, verdicts)
+        call check_all(verdicts, .true., "part")
+        call system%configure([1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 0.0_dp], error)
+        call judge_chaos(system, method, other, 40.0_dp, verdicts)
+        call check_all(verdicts, .false., "ln(growth)")
+    end subroutine chaos_takes_digits
+end module test_stress_systems
