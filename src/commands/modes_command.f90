@@ -35,6 +35,9 @@ contains
             call fail(error, "modes of what? 'lagrangia list systems' shows the names")
             return
         end if
+        if (line%value_of("output", "data/output") == "") call fail(error, &
+            "option '--output' needs the name of a folder")
+        if (allocated(error)) return
         call read_named_system(line%arguments(1)%text, line%values_of("set"), system, error)
         if (allocated(error)) return
         allocate (at(system%ndof), source=0.0_dp)

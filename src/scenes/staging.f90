@@ -125,7 +125,7 @@ contains
         select type (integrator)
         type is (exact_motion_t)
             call new_adaptive(workhorse, witness)
-            witness%tolerance = witness%least_tolerance
+            witness%tolerance = 100.0_dp*witness%least_tolerance  ! the shadow's is the least
             call shadow%start_adaptive(witness, system, plan%t0, plan%t0 + plan%duration, scene%q, &
                                        scene%v, error)
             return

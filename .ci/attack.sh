@@ -1,0 +1,200 @@
+#!/usr/bin/env bash
+# Output under attack: full disks, closed and broken pipes, folders that refuse, signals, odd names.
+# Nothing is lost in silence, nothing is half-written, what was there survives, no shell is started,
+# the status is right and the message one line. Usage: attack.sh [PROGRAM]; takes some seconds.
+set -u
+cd "$(dirname "$0")/.." || exit 2
+program=${1:-}
+for found in $(ls -t build/gfortran_*/app/lagrangia 2>/dev/null); do # bench wants an optimised one
+    [ -z "$program" ] && "$found" --version | grep -q ', optimised' && program=$found
+done
+[ -x "$program" ] || { echo "no program: fpm build --profile release"; exit 2; }
+program=$(realpath "$program")
+work=$(mktemp -d) || exit 2
+mkdir "$work/data" # so that shipped scenes have their names there too
+ln -s "$PWD/data/scenes" "$PWD/data/reference" "$work/data"
+disk=""
+finish() {
+    [ -z "$disk" ] || umount "$disk"
+    rm -rf "$work"
+}
+trap finish EXIT
+count=0
+failures=0
+status=0
+
+check() { # check CLAIM COMMAND...: the claim holds if the command succeeds
+    count=$((count + 1))
+    if ("${@:2}") >/dev/null 2>&1; then
+        printf 'ok      %s\n' "$1"
+    else
+        printf 'FAILED  %s\n' "$1"
+        printf '        | %s\n' "status $status" "stderr: $(head -c 400 "$work/err")"
+        failures=$((failures + 1))
+    fi
+}
+
+run() { # run WORDS...: status, $work/out, $work/err
+    timeout 20 "$program" "$@" >"$work/out" 2>"$work/err" </dev/null
+    status=$?
+}
+
+one_line() { # ours, short, and no backtrace
+    [ "$(wc -l <"$work/err")" -eq 1 ] && grep -q '^lagrangia: ' "$work/err" &&
+        [ "$(wc -c <"$work/err")" -le 1000 ] && ! grep -qi 'backtrace\|#0 ' "$work/err"
+}
+
+leftovers() { # no temporary in the folder
+    [ -z "$(find "$1" -name '.lagrangia-*')" ]
+}
+
+# Every command that writes: its words, and the files that it makes in the folder of --output
+writers=("run pendulum" "modes double_pendulum" "principle least-time"
+    "bench precision --quick --quiet --problems P1 --methods rk4")
+: >"$work/err"
+makes=()
+for writer in "${writers[@]}"; do
+    rm -rf "$work/made"
+    run $writer --output "$work/made"
+    [ $status -eq 0 ] || head -n 3 "$work/err"
+    makes+=("$(cd "$work/made" 2>/dev/null && ls | tr '\n' ' ')")
+    check "$writer: works, one file at least" eval '[ $status -eq 0 ] && [ -n "${makes[-1]}" ]'
+done
+
+plant() { # plant FOLDER FILES...: old content under each name
+    local file
+    for file in "${@:2}"; do printf 'old %s\n' "$file" >"$1/$file"; done
+}
+
+unharmed() { # unharmed FOLDER FILES...: bit for bit
+    local file
+    for file in "${@:2}"; do [ "$(cat "$1/$file")" = "old $file" ] || return 1; done
+}
+
+for i in "${!writers[@]}"; do
+    writer=${writers[i]}
+    echo data >"$work/file"
+    run $writer --output "$work/file"
+    check "$writer: the folder is a file" eval '[ $status -eq 5 ] && one_line && [ "$(cat "$work/file")" = data ]'
+    run $writer --output /dev/full
+    check "$writer: --output /dev/full" eval '[ $status -eq 5 ] && one_line && [ -c /dev/full ]'
+    run $writer --output /proc/none
+    check "$writer: a folder that cannot be made" eval '[ $status -eq 5 ] && one_line'
+    run $writer --output ""
+    check "$writer: --output without a name" eval '[ $status -eq 2 ] && one_line'
+    run $writer --output "$(printf '%0300d' 0)"
+    check "$writer: a name of 300 characters" eval '[ $status -eq 5 ] && one_line'
+    mkdir -p "$work/deep"
+    run $writer --output "$work/deep/$i/b/c"
+    check "$writer: missing folders are made" eval '[ $status -eq 0 ] && [ "$(ls "$work/deep/$i/b/c" | tr "\n" " ")" = "${makes[i]}" ]'
+    mkdir "$work/taken$i"
+    (cd "$work/taken$i" && mkdir ${makes[i]})
+    run $writer --output "$work/taken$i"
+    check "$writer: the file is a folder" eval '[ $status -eq 5 ] && one_line && leftovers "$work/taken$i"'
+    mkdir "$work/small$i"
+    plant "$work/small$i" ${makes[i]}
+    (ulimit -f 0; timeout 20 "$program" $writer --output "$work/small$i" >/dev/null 2>&1)
+    status=$?
+    check "$writer: no byte may be written; the old files live" eval '[ $status -eq 5 ] && unharmed "$work/small$i" ${makes[i]} && leftovers "$work/small$i"'
+    for name in "a b" "it's" '"q"' '$(touch owned)' '`touch owned`' '; touch owned;' $'new\nline' -- '-dash' 'ä→'; do
+        [ "$name" = -- ] && continue
+        (cd "$work" && timeout 20 "$program" $writer "--output=$name" >"$work/out" 2>"$work/err" </dev/null)
+        status=$?
+        check "$writer: --output=$(printf %q "$name")" eval '[ $status -eq 0 ] && [ -d "$work/$name" ] && [ ! -e "$work/owned" ]'
+        rm -rf "${work:?}/$name"
+    done
+    (set -o pipefail; timeout 20 "$program" $writer --output "$work/p" 2>"$work/err" >&-)
+    status=$?
+    case $writer in
+        *--quiet*) ;;
+        *) check "$writer: stdout is closed" eval '[ $status -eq 5 ] && one_line'
+           timeout 20 "$program" $writer --output "$work/p" 2>"$work/err" >/dev/full
+           status=$?
+           check "$writer: stdout is full" eval '[ $status -eq 5 ] && one_line' ;;
+    esac
+    if [ "$(id -u)" -ne 0 ]; then
+        mkdir "$work/locked$i"
+        plant "$work/locked$i" ${makes[i]}
+        chmod 555 "$work/locked$i"
+        run $writer --output "$work/locked$i"
+        check "$writer: a read-only folder" eval '[ $status -eq 5 ] && one_line && unharmed "$work/locked$i" ${makes[i]}'
+        chmod 755 "$work/locked$i"
+    fi
+done
+[ "$(id -u)" -ne 0 ] || echo "skipped read-only folders: root may write everywhere"
+
+# A disk that is full
+mkdir "$work/disk"
+if [ "$(id -u)" -eq 0 ] && mount -t tmpfs -o size=64k none "$work/disk" 2>/dev/null; then
+    disk=$work/disk
+    for i in "${!writers[@]}"; do
+        plant "$disk" ${makes[i]}
+        head -c 1M /dev/zero >"$disk/filler" 2>/dev/null
+        run ${writers[i]} --output "$disk"
+        check "${writers[i]}: the disk is full" eval '[ $status -eq 5 ] && one_line && unharmed "$disk" ${makes[i]} && leftovers "$disk"'
+        rm "$disk"/*
+    done
+else
+    echo "skipped a full disk: no tmpfs may be mounted here (ulimit -f stands in for it)"
+fi
+
+# The output is the scene itself
+scene="&scene system='pendulum' output='me.nml' dt=1e-2 duration=1 q=1 /"
+echo "$scene" >"$work/me.nml"
+same() { [ "$(cat "$work/me.nml")" = "$scene" ]; }
+run run "$work/me.nml" --output "$work"
+check "the output is the scene" eval '[ $status -eq 2 ] && one_line && same'
+for kind in -s ""; do
+    mkdir -p "$work/l$kind"
+    ln $kind "$work/me.nml" "$work/l$kind/me.nml"
+    run run "$work/me.nml" --output "$work/l$kind"
+    check "the output is a link (ln $kind) to the scene" eval '[ $status -eq 2 ] && one_line && same'
+    mv "$work/l$kind/me.nml" "$work/l$kind/x.gp"
+    run run "$work/me.nml" --output "$work/l$kind" --set scene%output=x.dat
+    check "the script is a link (ln $kind) to the scene" eval '[ $status -eq 2 ] && one_line && same'
+done
+for odd in ../up /abs 'a/../../b' ''; do
+    run run pendulum --output "$work/o" --set "scene%output='$odd'"
+    check "scene%output='$odd' is refused" eval '[ $status -eq 2 ] && one_line && [ ! -e "$work/up.dat" ]'
+done
+
+# Pipes: a reader that has seen enough
+for writer in "list methods" "run --help" "describe pendulum" "modes double_pendulum --json"; do
+    (trap '' XFSZ; { timeout 20 "$program" $writer 2>"$work/err"; echo $? >"$work/status"; } | true)
+    status=$(cat "$work/status")
+    check "$writer | true: at most a line on stderr, no backtrace" eval '[ "$(wc -l <"$work/err")" -le 1 ] && case $status in 0|5|141) ;; *) false ;; esac'
+done
+
+# Signals in the middle, kill -9, two runs of one file
+begin() { # begin FOLDER: a long run in the background; returns when its temporary is there
+    "$program" run pendulum --set scene%duration=1e6 --set scene%every=1000 --output "$1" >"$work/out" 2>"$work/err" &
+    child=$!
+    for _ in $(seq 200); do
+        [ -n "$(find "$1" -name ".lagrangia-$child-*" 2>/dev/null)" ] && return
+        sleep 0.02
+    done
+}
+set -m # else a shell lets its background jobs ignore SIGINT
+for pair in INT:130 TERM:143 KILL:137; do
+    mkdir "$work/${pair%:*}"
+    plant "$work/${pair%:*}" pendulum.dat pendulum.gp
+    begin "$work/${pair%:*}"
+    kill -"${pair%:*}" $child
+    wait $child 2>/dev/null
+    status=$?
+    check "SIG${pair%:*}: status ${pair#*:}, the old files live" eval '[ $status -eq '"${pair#*:}"' ] && unharmed "$work/${pair%:*}" pendulum.dat pendulum.gp'
+    [ "${pair%:*}" = KILL ] || check "SIG${pair%:*}: one line, no temporary" eval 'one_line && leftovers "$work/${pair%:*}"'
+done
+# SIGKILL leaves a hidden temporary: nobody takes it away, and it must be in nobody's way
+run run pendulum --output "$work/KILL"
+check "after SIGKILL the next run works" eval '[ $status -eq 0 ] && [ "$(head -c 12 "$work/KILL/pendulum.dat")" = "# lagrangia 0" ]'
+
+run run pendulum --output "$work/alone"
+for _ in 1 2 3 4; do
+    "$program" run pendulum --quiet --output "$work/both" 2>"$work/err" &
+done
+wait
+check "four runs into one file: it is whole" eval 'diff -r "$work/alone" "$work/both"'
+
+echo "$count claims, $failures failed"
+exit $((failures > 0))
