@@ -1,5 +1,5 @@
 module lagrangia_choice
-    !! `method = 'auto'`: a closed form, or the fastest of ours; and why.
+    !! `method = 'auto'`: a closed form, or the fastest of ours for most systems; and why.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_description, only: name_length
     use lagrangia_kinds, only: dp
@@ -63,7 +63,7 @@ contains
             return
         end if
         method = stepping(system, scene%tolerance > 0.0_dp)
-        why = why//"; of the methods this one is the fastest to a given error"
+        why = why//"; of the methods this one is mostly the fastest to a given error"
     contains
         function gives_states() result(yes)
             logical :: yes
