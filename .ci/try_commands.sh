@@ -60,10 +60,11 @@ sys.exit(0 if eval(sys.argv[2]) else 1)' "$work/out" "$1"
 # The main job
 run --output "$work/all"
 check "main job: status 0" [ "$status" -eq 0 ]
-check "main job: nothing on stderr but remarks on steps" eval '! grep -v "steps (" "$work/err"'
+check "main job: nothing on stderr but remarks on steps and methods" eval '! grep -v -e "steps (" -e ": auto took " "$work/err"'
 scenes=$(ls data/scenes/*.nml | wc -l)
 check "main job: a row a scene" eval '[ "$(grep -c " holds$" "$work/out")" -eq "$scenes" ]'
 check "main job: a data file and a script a scene" eval 'for f in data/scenes/*.nml; do f=${f##*/}; [ -s "$work/all/${f%.nml}.dat" ] && [ -s "$work/all/${f%.nml}.gp" ] || exit 1; done'
+check "main job: the header says what auto took" grep -q "^# auto took exact: closed form: " "$work/all/cart_pendulum_auto.dat"
 check "main job: no temporary left" leftovers
 run --output "$work/again"
 check "the same bytes again" diff -r "$work/all" "$work/again"

@@ -1,10 +1,11 @@
 module test_auto
     !! `method = 'auto'`: closed forms where there are any, steps where not, and it says which.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
                      assertGreaterThan, assertLessThan, assertTrue
     use lagrangia_adaptive_methods, only: new_adaptive
     use lagrangia_catalogue, only: new_reference, nth_system
-    use lagrangia_choice, only: auto, workhorse
+    use lagrangia_choice, only: auto, settle_method, workhorse
     use lagrangia_command_line, only: word_t
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
@@ -21,6 +22,12 @@ module test_auto
     implicit none (type, external)
     private
     public :: auto_suite
+
+    type, extends(reference_t) :: endless_t
+        !! A closed form that overflows.
+    contains
+        procedure :: state_at
+    end type endless_t
 
     character(*), parameter :: swing = "&scene system = 'pendulum', method = 'auto', "// &
         "duration = 3.0, q = 2.0, v = 0.5"
@@ -39,6 +46,8 @@ contains
                                       a_closed_form_is_not_its_own_witness))
         call suite%addTest(TestMethod("steps_where_no_closed_form_is", &
                                       steps_where_no_closed_form_is))
+        call suite%addTest(TestMethod("a_closed_form_may_not_reach_the_end", &
+                                      a_closed_form_may_not_reach_the_end))
         call suite%addTest(TestMethod("events_and_estimates_need_steps", &
                                       events_and_estimates_need_steps))
         call suite%addTest(TestMethod("periods_are_measured_all_the_same", &
@@ -134,6 +143,37 @@ contains
         call check_steps("&scene system = 'double_pendulum', method = 'auto', duration = 1, "// &
                          "q = 1, 2 /", "no closed form is known from this start")
     end subroutine steps_where_no_closed_form_is
+
+    pure subroutine state_at(self, t, q, v)
+        !! No number.
+        class(endless_t), intent(in) :: self
+        real(dp), intent(in) :: t
+        real(dp), intent(out) :: q(self%ndof), v(self%ndof)
+
+        q = 1.0_dp
+        v = ieee_value(v, ieee_quiet_nan)
+    end subroutine state_at
+
+    subroutine a_closed_form_may_not_reach_the_end()
+        !! One that overflows, and one that knows the period only.
+        class(system_t), allocatable :: system
+        class(reference_t), allocatable :: closed_form
+        type(error_t), allocatable :: error
+        type(scene_t) :: scene, settled
+        character(:), allocatable :: choice
+
+        call parse_scene(swing//" /", "a.nml", [word_t ::], scene, system, error)
+        allocate (endless_t :: closed_form)
+        closed_form%ndof = 1
+        call settle_method(scene, system, closed_form, settled, choice)
+        call assertEqual(workhorse, settled%method, "no numbers")
+        call new_reference(system, 0.0_dp, scene%q, scene%v, closed_form)
+        closed_form%has_state = .false.
+        call settle_method(scene, system, closed_form, settled, choice)
+        call assertEqual(workhorse, settled%method, "no states")
+        call assertEqual(1, index(choice, "auto took "//workhorse//": the closed form does not "// &
+                                  "give every state; "), choice)
+    end subroutine a_closed_form_may_not_reach_the_end
 
     subroutine events_and_estimates_need_steps()
         !! They lie between steps, or come from finer ones.

@@ -3,13 +3,10 @@ module test_gauss
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertGreaterThan, &
                      assertLessThan, assertTrue
-    use lagrangia_adaptive_methods, only: new_adaptive
     use lagrangia_catalogue, only: new_reference
     use lagrangia_errors, only: error_t
     use lagrangia_gauss, only: gauss_t, new_gauss16
-    use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_methods, only: new_integrator
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_pendulum, only: pendulum_t
     use lagrangia_reference, only: reference_t
@@ -37,7 +34,6 @@ contains
         call suite%addTest(TestMethod("disk_rolls", disk_rolls))
         call suite%addTest(TestMethod("rest_and_constant_forces", rest_and_constant_forces))
         call suite%addTest(TestMethod("divergence_is_not_hidden", divergence_is_not_hidden))
-        call suite%addTest(TestMethod("catalogue_has_both", catalogue_has_both))
     end function gauss_suite
 
     subroutine order_on_the_pendulum()
@@ -287,20 +283,4 @@ contains
         call assertLessThan(abs(system%energy(0.0_dp, q, v)/0.5e6_dp - 1.0_dp), 1e-11_dp, &
                             message="energy is a quadratic invariant")
     end subroutine divergence_is_not_hidden
-
-    subroutine catalogue_has_both()
-        !! By name, and by whether steps are to be chosen.
-        class(integrator_t), allocatable :: method
-        class(dense_integrator_t), allocatable :: chooser
-        type(error_t), allocatable :: error
-
-        call new_integrator("gauss16", method, error)
-        select type (method)
-        class is (dense_integrator_t)
-            call assertTrue(.false., "the fixed step is the first choice")
-        end select
-        call assertEqual(16, method%order, "order")
-        call new_adaptive("gauss16", chooser)
-        call assertTrue(allocated(chooser), "by tolerance")
-    end subroutine catalogue_has_both
 end module test_gauss

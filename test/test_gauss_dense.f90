@@ -1,14 +1,15 @@
 module test_gauss_dense
     !! The state between the ends of the steps of Gauss-Legendre collocation.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
-                     assertGreaterThan, assertLessThan
-    use lagrangia_adaptive_methods, only: adaptive_names, nth_adaptive
+                     assertGreaterThan, assertLessThan, assertTrue
+    use lagrangia_adaptive_methods, only: adaptive_names, new_adaptive, nth_adaptive
     use lagrangia_double_pendulum, only: double_pendulum_t
     use lagrangia_errors, only: error_t
     use lagrangia_gauss, only: gauss_t, new_gauss16
     use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
-    use lagrangia_integrator, only: dense_integrator_t
+    use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_methods, only: new_integrator
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -25,6 +26,7 @@ contains
                                       inside_steps_as_at_their_ends))
         call suite%addTest(TestMethod("states_at_the_ends", states_at_the_ends))
         call suite%addTest(TestMethod("ends_alone_cost_less", ends_alone_cost_less))
+        call suite%addTest(TestMethod("catalogue_has_both", catalogue_has_both))
     end function gauss_dense_suite
 
     subroutine ready(system, tolerance, method)
@@ -162,4 +164,20 @@ contains
             call assertGreaterThan(abs(q(1) - before), 0.0_dp, message="it moved")
         end do
     end subroutine to_the_end
+
+    subroutine catalogue_has_both()
+        !! By name, and by whether steps are to be chosen.
+        class(integrator_t), allocatable :: method
+        class(dense_integrator_t), allocatable :: chooser
+        type(error_t), allocatable :: error
+
+        call new_integrator("gauss16", method, error)
+        select type (method)
+        class is (dense_integrator_t)
+            call assertTrue(.false., "the fixed step is the first choice")
+        end select
+        call assertEqual(16, method%order, "order")
+        call new_adaptive("gauss16", chooser)
+        call assertTrue(allocated(chooser), "by tolerance")
+    end subroutine catalogue_has_both
 end module test_gauss_dense

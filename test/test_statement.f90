@@ -49,6 +49,14 @@ contains
         call play(scene, system, "", "text", nobody, outcome, error)
     end subroutine perform
 
+    pure function one(text) result(words)
+        !! One override; gfortran 12 loses the memory of an array constructor's.
+        character(*), intent(in) :: text
+        type(word_t) :: words(1)
+
+        words(1)%text = text
+    end function one
+
     subroutine chaos_leaves_no_digit()
         !! After 60 s of a double pendulum, rounding alone has grown to the size of the motion,
         !! by either method; after 3 s there are digits.
@@ -60,7 +68,7 @@ contains
         type(outcome_t) :: outcome
         type(error_t), allocatable :: error
 
-        call perform(swing, [word_t("scene%duration=3")], outcome, error)
+        call perform(swing, one("scene%duration=3"), outcome, error)
         call assertTrue(all(outcome%state%resolved()), "3 s")
         call perform(swing, [word_t ::], outcome, error)
         call assertFalse(any(outcome%state%resolved()), statement_line(outcome%state))
@@ -81,7 +89,7 @@ contains
         integer :: i
 
         do i = 1, size(methods)
-            call perform(text, [word_t("scene%method="//trim(methods(i)))], outcome, error)
+            call perform(text, one("scene%method="//trim(methods(i))), outcome, error)
             call assertFalse(allocated(error), "it runs")
             if (allocated(error)) return
             call assertEqual(3, size(outcome%state))
@@ -103,7 +111,7 @@ contains
         class(system_t), allocatable :: system
         type(scene_t) :: scene
 
-        call perform(text, [word_t("scene%error_estimate=.false.")], outcome, error)
+        call perform(text, one("scene%error_estimate=.false."), outcome, error)
         call assertFalse(allocated(error), "the step itself is long enough")
         call parse_scene(text, "a.nml", [word_t ::], scene, system, error)
         call assertTrue(allocated(error), "a quarter of it is not")
@@ -157,7 +165,7 @@ contains
         call system%describe(d)
         allocate (lines, source=scene_lines(scene, d))
         call assertTrue(any(lines == "  error_estimate = .true."), "it is echoed")
-        call perform(text, [word_t("scene%error_estimate=.false.")], outcome, error)
+        call perform(text, one("scene%error_estimate=.false."), outcome, error)
         call assertFalse(allocated(outcome%state), "no statement")
         call perform(text, [word_t ::], outcome, error)
         call assertTrue(allocated(outcome%state), "a statement")

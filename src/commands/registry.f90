@@ -25,7 +25,7 @@ module lagrangia_registry
         option_t("plot", may_have_value, "svg|png", "draw the data files by gnuplot"), &
         option_t("error-estimate", no_value, "", "state the final state to the digits that hold"), &
         option_t("quick", no_value, "", "measure less, in under 20 s"), &
-        option_t("long", no_value, "", "up to 10^8 steps, for an hour"), &
+        option_t("long", no_value, "", "up to 10^8 steps of every method"), &
         option_t("problems", needs_value, "P1,P3,...", "of the benchmark's work-precision part"), &
         option_t("methods", needs_value, "rk4,gsl_rk8pd,...", "that are measured"), &
         option_t("systems", needs_value, "pendulum,...", "whose steps are measured"), &

@@ -125,7 +125,7 @@ contains
         select type (integrator)
         type is (exact_motion_t)
             call new_adaptive(workhorse, witness)
-            witness%tolerance = 0.0_dp  ! the least that there is
+            witness%tolerance = witness%least_tolerance
             call shadow%start_adaptive(witness, system, plan%t0, plan%t0 + plan%duration, scene%q, &
                                        scene%v, error)
             return

@@ -19,7 +19,7 @@ module lagrangia_stress_rows
               "motion that you look at: 2/omega for Verlet, 2.83/omega for RK4."), &
         row_t("energy_growth", "energy error of a long run: its law, fitted", &
               "Symplectic methods keep the energy near its value for ever, RK4 loses some "// &
-              "every step. Of a nearly exact one rounding is left: a random walk, the root of N."), &
+              "at every step. Of a nearly exact one rounding is left: a random walk, sqrt(N)."), &
         row_t("rounding", "Verlet on the oscillator: what rounding alone does in 10^7 steps", &
               "Every sum drops half a digit at random; compensated sums (compensated = .true.) "// &
               "carry it along."), &
