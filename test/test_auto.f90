@@ -212,8 +212,8 @@ contains
         if (allocated(error)) return
         call assertEqual(workhorse, outcome%method)
         call assertGreaterThan(int(min(outcome%steps, outcome%evaluations)), 0, message=text)
-        call assertEqual("auto took "//workhorse//": "//why//"; of the methods this one is the "// &
-                         "fastest to a given error", outcome%choice)
+        call assertEqual("auto took "//workhorse//": "//why//"; of the methods this one is "// &
+                         "mostly the fastest to a given error", outcome%choice)
         call assertTrue((index(text, "error_estimate") > 0) .eqv. allocated(outcome%state), &
                         "an estimate where it is asked for: "//text)
     end subroutine check_steps

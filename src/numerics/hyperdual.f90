@@ -94,6 +94,8 @@ contains
             r = 1.0_dp
         case (1)
             r = x
+        case (2)
+            r = chain(x, x%re*x%re, 2.0_dp*x%re, 2.0_dp)  ! a call of the library less
         case default
             r = chain(x, x%re**n, n*x%re**(n - 1), real(n, dp)*(n - 1)*x%re**(n - 2))
         end select
