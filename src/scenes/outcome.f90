@@ -186,11 +186,12 @@ contains
     end function outcome_json
 
     pure function json_text(text) result(json)
-        !! The text, or `null` where it is empty.
-        character(*), intent(in) :: text
+        !! The text, or `null` where it is empty or not there.
+        character(*), intent(in), optional :: text
         character(:), allocatable :: json
 
         json = "null"
+        if (.not. present(text)) return
         if (text /= "") json = json_string(text)
     end function json_text
 

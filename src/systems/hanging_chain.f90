@@ -3,16 +3,14 @@ module lagrangia_hanging_chain
     !!
     !! One bob is the pendulum, two are the double pendulum. The equations are solved for the
     !! tensions of the rods first: their matrix is tridiagonal, so accelerations cost O(n).
-    use lagrangia_description, only: conserved, coordinate, count_of, description_t, nonnegative, &
-                                     point, positive, quantity
+    use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: assignment(=), cos, dot_product, hyperdual_t, operator(*), &
                                    operator(**), operator(+), operator(-), sin
     use lagrangia_kinds, only: dp
     use lagrangia_laguerre, only: laguerre_zeros
     use lagrangia_linearised, only: linearised_t
-    use lagrangia_system, only: check_parameters, system_t
-    use lagrangia_text, only: to_text
+    use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
     public :: hanging_chain_t
@@ -29,6 +27,7 @@ module lagrangia_hanging_chain
         procedure :: describe
         procedure :: configure
         procedure :: accelerations
+        procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
         procedure :: linearise
@@ -37,50 +36,16 @@ module lagrangia_hanging_chain
         procedure :: newton
     end type hanging_chain_t
 
+    interface
+        pure module subroutine describe(self, d)
+            !! See `system_t`; in `lagrangia_hanging_chain_description`.
+            implicit none (type, external)
+            class(hanging_chain_t), intent(in) :: self
+            type(description_t), intent(out) :: d
+        end subroutine describe
+    end interface
+
 contains
-
-    pure subroutine describe(self, d)
-        !! See `system_t`.
-        class(hanging_chain_t), intent(in) :: self
-        type(description_t), intent(out) :: d
-        integer :: k
-
-        d%name = "hanging_chain"
-        d%title = "equal bobs on equal rods, a chain that hangs; n = 1, 2: the pendulums"
-        d%coordinates = [(coordinate("theta"//to_text(k), "rad", "angle of rod "//to_text(k)// &
-                                     " from the downward vertical"), k=1, self%n)]
-        d%parameters = [count_of("n", "number of bobs", self%n, most), &
-                        positive("m", "kg", "mass of each bob", self%m), &
-                        positive("l", "m", "length of the whole chain, each rod l/n", self%l), &
-                        nonnegative("g", "m/s^2", "gravity", self%g)]
-        d%energy_scale = 0.5_dp*(self%n + 1)*self%m*self%g*self%l
-        d%quantities = [ &
-            quantity("L_z", "kg m^2/s", "sum of m (x y_dot - y x_dot): angular momentum about "// &
-                     "the pivot"), &
-            quantity("tension1", "N", "of the uppermost rod")]
-        if (self%g <= 0.0_dp) d%quantities(1) = &
-            conserved("L_z", "kg m^2/s", "sum of m (x y_dot - y x_dot): angular momentum about "// &
-                      "the pivot, conserved without gravity", 0.0_dp)
-        d%points = [(point("bob"//to_text(k), self%m), k=1, self%n)]
-        d%reactions = [(quantity("tension"//to_text(k), "N", "of rod "//to_text(k)// &
-                                 ": (l/n - (r_k - r_(k-1))^2 n/l)/2 = 0"), k=1, self%n)]
-        d%lagrangian = [character(len(d%title)) :: &
-            "sum over k of m/2 (x_k_dot^2 + y_k_dot^2) - m g y_k", &
-            "x_k = l/n sum over i <= k of sin(theta_i), y_k = -l/n sum of cos(theta_i)"]
-        d%energy = "sum over k of m/2 (x_k_dot^2 + y_k_dot^2) + m g y_k"
-        d%equations = [character(len(d%title)) :: &
-            "m l/n theta_k_ddot = T_(k+1) sin(theta_(k+1) - theta_k)", &
-            "    - T_(k-1) sin(theta_k - theta_(k-1)),  k > 1", &
-            "m l/n theta_1_ddot = T_2 sin(theta_2 - theta_1) - m g sin(theta_1)", &
-            "2 T_k - T_(k+1) cos(theta_(k+1) - theta_k) - T_(k-1) cos(theta_k - theta_(k-1))", &
-            "    = m l/n theta_k_dot^2,  k > 1,  T_(n+1) = 0", &
-            "T_1 - T_2 cos(theta_2 - theta_1) = m l/n theta_1_dot^2 + m g cos(theta_1)"]
-        d%constraint = "holonomic, scleronomic: (x_k - x_(k-1))^2 + (y_k - y_(k-1))^2 = (l/n)^2"
-        d%notes = [character(len(d%title)) :: &
-            "omega^2 = n g/l times the zeros of Laguerre's polynomial L_n.", &
-            "As n grows omega goes to j0,k/2 sqrt(g/l), j0,k the zeros of Bessel's J_0."]
-        d%source = "Phys 601, 1 September 2011: double planar pendulum, continued"
-    end subroutine describe
 
     pure subroutine configure(self, values, error)
         !! Parameters: n, m, l, g.
@@ -106,12 +71,12 @@ contains
         class(hanging_chain_t), intent(in) :: self
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
         real(dp), intent(out) :: a(self%ndof)
-        real(dp) :: tau(self%ndof), s(self%ndof), l
+        real(dp) :: tau(most), s(most), l  ! of fixed size: not on the heap
         integer :: k
 
         associate (n => self%n, g => self%g)
             l = self%l/n
-            call tensions(self, q, v, tau)
+            call tensions(self, q, v, tau(:n))
             do k = 1, n - 1
                 s(k) = sin(q(k + 1) - q(k))
             end do
@@ -130,7 +95,7 @@ contains
         class(hanging_chain_t), intent(in) :: self
         real(dp), intent(in) :: q(self%ndof), v(self%ndof)
         real(dp), intent(out) :: tau(self%ndof)
-        real(dp) :: c(self%ndof), pivot(self%ndof)
+        real(dp) :: c(most), pivot(most)
         integer :: k
 
         associate (n => self%n)
@@ -148,6 +113,37 @@ contains
             end do
         end associate
     end subroutine tensions
+
+    pure subroutine accelerations_lanes(self, t, q, v, a)
+        !! `accelerations`, in all lanes at once.
+        class(hanging_chain_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+        real(dp), dimension(lanes, most) :: tau, s, c, pivot
+        integer :: k
+
+        associate (n => self%n, g => self%g, l => self%l/self%n)
+            tau(:, 1) = l*v(:, 1)**2 + g*cos(q(:, 1))
+            pivot(:, 1) = 1.0_dp
+            do k = 1, n - 1
+                s(:, k) = q(:, k + 1) - q(:, k)
+                c(:, k) = cos(s(:, k))
+                s(:, k) = sin(s(:, k))
+                pivot(:, k + 1) = 2.0_dp - c(:, k)**2/pivot(:, k)
+                tau(:, k + 1) = l*v(:, k + 1)**2 + c(:, k)/pivot(:, k)*tau(:, k)
+            end do
+            tau(:, n) = tau(:, n)/pivot(:, n)
+            do k = n - 1, 1, -1
+                tau(:, k) = (tau(:, k) + c(:, k)*tau(:, k + 1))/pivot(:, k)
+            end do
+            a(:, 1) = -g*sin(q(:, 1))
+            do k = 1, n - 1
+                a(:, k) = (a(:, k) + tau(:, k + 1)*s(:, k))/l
+                a(:, k + 1) = -tau(:, k)*s(:, k)
+            end do
+            a(:, n) = a(:, n)/l
+        end associate
+    end subroutine accelerations_lanes
 
     pure function lagrangian(self, t, q, v) result(l)
         !! $$ L = \sum_k \tfrac12 m(\dot x_k^2 + \dot y_k^2) - mgy_k,\quad
