@@ -39,7 +39,8 @@ module own_systems
     end type own_slope_t
 
     type, extends(lagrangian_system_t) :: own_skin_t
-        !! L is a number for r > 0 only (`inside`), for |r| < 1e-3 only, or nowhere; `s` is cyclic.
+        !! L is a number for r > 0 only, for |r| < 1e-3 only, nowhere, or where eight coordinates
+        !! are positive; else `s` is cyclic.
         integer :: kind = 1
     contains
         procedure :: outline => skin_outline
@@ -170,10 +171,13 @@ contains
     pure subroutine skin_outline(self, d)
         class(own_skin_t), intent(in) :: self
         type(description_t), intent(out) :: d
+        integer :: i
 
         d%name = "own_skin"
         d%title = "a system that is not everywhere"
         d%coordinates = [coordinate("r", "m", "restricted"), coordinate("s", "m", "cyclic")]
+        if (self%kind == 4) d%coordinates = [(coordinate("r"//achar(48 + i), "m", "positive"), &
+                                              i=1, 8)]
     end subroutine skin_outline
 
     pure function skin_lagrangian(self, t, q, v) result(l)
@@ -185,6 +189,7 @@ contains
         select case (self%kind)
         case (1); l = l + log(q(1))
         case (2); l = l + sqrt(1e-6_dp - q(1)**2)
+        case (4); l = l + sum(log(q))
         case default; l = l + sqrt(-1.0_dp - q(1)**2)
         end select
     end function skin_lagrangian

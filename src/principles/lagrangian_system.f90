@@ -125,7 +125,7 @@ contains
             v = [(cos(0.7_dp*i + 1.7_dp*k), i=1, self%ndof)]
             call expand_lagrangian(self, t, q, v, terms)
             call self%accelerations(t, q, v, a)
-            if (.not. all(ieee_is_finite([terms%dl_dt, terms%dl_dq, a]))) cycle
+            if (.not. all(ieee_is_finite([terms%l, terms%dl_dt, terms%dl_dq, a]))) cycle
             cyclic = cyclic .and. abs(terms%dl_dq) <= 0.0_dp
             self%time_dependent = self%time_dependent .or. abs(terms%dl_dt) > 0.0_dp
             v = 2.0_dp*v
