@@ -41,6 +41,7 @@ module suites
     use test_gauge, only: gauge_suite
     use test_gauss, only: gauss_suite
     use test_gauss_adaptive, only: gauss_adaptive_suite
+    use test_gauss_control, only: gauss_control_suite
     use test_gauss_dense, only: gauss_dense_suite
     use test_gauss_tables, only: gauss_tables_suite
     use test_gnuplot, only: gnuplot_suite
@@ -152,6 +153,7 @@ contains
         call suite%addTest(gauge_suite())
         call suite%addTest(gauss_suite())
         call suite%addTest(gauss_adaptive_suite())
+        call suite%addTest(gauss_control_suite())
         call suite%addTest(gauss_dense_suite())
         call suite%addTest(gauss_tables_suite())
         call suite%addTest(gnuplot_suite())
