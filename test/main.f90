@@ -25,6 +25,7 @@ module suites
     use test_constraints, only: constraints_suite
     use test_coupled_orders, only: coupled_orders_suite
     use test_dense_orders, only: dense_orders_suite
+    use test_dense_powers, only: dense_powers_suite
     use test_dense_run, only: dense_run_suite
     use test_dop853, only: dop853_suite
     use test_dop853_coefficients, only: dop853_coefficients_suite
@@ -137,6 +138,7 @@ contains
         call suite%addTest(constraints_suite())
         call suite%addTest(coupled_orders_suite())
         call suite%addTest(dense_orders_suite())
+        call suite%addTest(dense_powers_suite())
         call suite%addTest(dense_run_suite())
         call suite%addTest(dop853_suite())
         call suite%addTest(dop853_coefficients_suite())

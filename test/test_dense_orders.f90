@@ -1,18 +1,15 @@
 module test_dense_orders
     !! Orders of dense output where two coordinates drive each other: inside one step of the
     !! double pendulum, beside `gauss16` in steps whose error is rounding.
-    use funit, only: assertEqual, assertGreaterThan, assertLessThan, assertTrue, TestMethod, &
-                     TestSuite
+    use funit, only: assertEqual, assertLessThan, assertTrue, TestMethod, TestSuite
     use lagrangia_dop853, only: dop853_t, new_dop853
     use lagrangia_double_pendulum, only: double_pendulum_t
     use lagrangia_errors, only: error_t
     use lagrangia_gauss, only: gauss_t, new_gauss16
+    use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
     use lagrangia_gauss_dense, only: gauss_dense_t
     use lagrangia_gauss_tables, only: legendre, nodes, stages, weights
-    use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_stepwise, only: new_stepwise, stepwise_t
-    use polynomial_motion, only: new_polynomial_motion, polynomial_motion_t
     implicit none (type, external)
     private
     public :: dense_orders_suite
@@ -28,12 +25,8 @@ contains
         suite = TestSuite("dense_orders")
         call suite%addTest(TestMethod("dop853_has_order_7_inside", dop853_has_order_7_inside))
         call suite%addTest(TestMethod("gauss16_has_order_16_inside", gauss16_has_order_16_inside))
-        call suite%addTest(TestMethod("a_quintic_is_exact_between_fixed_steps", &
-                                      a_quintic_is_exact_between_fixed_steps))
-        call suite%addTest(TestMethod("powers_up_to_7_are_exact_in_dop853", &
-                                      powers_up_to_7_are_exact_in_dop853))
-        call suite%addTest(TestMethod("powers_up_to_17_are_exact_in_gauss16", &
-                                      powers_up_to_17_are_exact_in_gauss16))
+        call suite%addTest(TestMethod("dense_output_takes_few_sweeps", &
+                                      dense_output_takes_few_sweeps))
     end function dense_orders_suite
 
     subroutine new_motion(i, system, q, v)
@@ -158,92 +151,30 @@ contains
         call assertTrue(good, "dense output")
     end subroutine one_gauss_step
 
-    subroutine a_quintic_is_exact_between_fixed_steps()
-        !! To rounding, as the steps are; a sextic is not.
-        type(polynomial_motion_t) :: system
-        type(gauss_t) :: exact_steps
-        type(stepwise_t) :: method
-        real(dp) :: miss
-        integer :: n
-
-        call new_gauss16(exact_steps)
-        call new_stepwise(method, exact_steps, 0.5_dp)
-        do n = 2, 6
-            call new_polynomial_motion(system, n)
-            call follow(method, system, 0.75_dp, miss)
-            if (n <= 5) call assertLessThan(miss, 1e-14_dp, message="up to 5")
-        end do
-        call assertGreaterThan(miss, 1e-3_dp, message="not 6")
-    end subroutine a_quintic_is_exact_between_fixed_steps
-
-    subroutine powers_up_to_7_are_exact_in_dop853()
-        !! To the rounding of weights that reach 500; the eighth is not.
-        type(polynomial_motion_t) :: system
-        type(dop853_t) :: method
-        real(dp) :: miss
-        integer :: n
-
-        call new_dop853(method)
-        method%tolerance = 1e6_dp
-        do n = 2, 8
-            call new_polynomial_motion(system, n)
-            call follow(method, system, 0.75_dp, miss)
-            if (n <= 7) call assertLessThan(miss, 1e-13_dp, message="up to 7")
-        end do
-        call assertGreaterThan(miss, 1e-7_dp, message="not 8")
-    end subroutine powers_up_to_7_are_exact_in_dop853
-
-    subroutine follow(method, system, t_end, miss)
-        !! From 0.25 s in steps of the method's own: the largest error between their ends.
-        class(dense_integrator_t), intent(inout) :: method
-        type(polynomial_motion_t), intent(in) :: system
-        real(dp), intent(in) :: t_end
-        real(dp), intent(out) :: miss
-        real(dp), parameter :: t0 = 0.25_dp
+    subroutine dense_output_takes_few_sweeps()
+        !! Of 16 evaluations: one to three, as the collocation polynomial is close to begin with.
+        type(double_pendulum_t) :: system
+        type(gauss_adaptive_t) :: method
         type(error_t), allocatable :: error
-        real(dp) :: y(2), q(1), v(1), t
-        integer :: i
+        real(dp) :: q(2), v(2)
+        integer(i8) :: evaluations(2)
+        integer :: i, k
 
-        miss = 0.0_dp
-        y = system%state(t0)
-        call method%prepare(system, error)
-        call method%start(system, t0, y(:1), y(2:), t_end)
-        do while (method%t_new < t_end)
-            call method%step(system, error)
-            do i = 1, places
-                t = method%t_old + 0.1_dp*i*(method%t_new - method%t_old)
-                call method%state_at(t, q, v)
-                miss = max(miss, maxval(abs([q, v] - system%state(t))))
+        call new_gauss16_adaptive(method)
+        do k = 4, 12, 4
+            method%tolerance = 10.0_dp**(-k)
+            do i = 1, 2
+                method%dense = i == 2
+                call new_motion(1, system, q, v)
+                call method%prepare(system, error)
+                call method%start(system, 0.0_dp, q, v, 5.0_dp)
+                do while (method%t_new < 5.0_dp)
+                    call method%step(system, error)
+                end do
+                evaluations(i) = method%evaluations
             end do
+            call assertLessThan(evaluations(2) - evaluations(1), 40*method%accepted, &
+                                message="2.5 sweeps a step")
         end do
-    end subroutine follow
-
-    subroutine powers_up_to_17_are_exact_in_gauss16()
-        !! Sixteen accelerations along a step, integrated twice; to rounding if the ends are.
-        type(polynomial_motion_t) :: system
-        type(gauss_dense_t) :: inside
-        real(dp), parameter :: weight(1) = 1.0_dp, t0 = -0.3_dp, t1 = 1.0_dp
-        real(dp) :: y(2), y_new(2), q(1), v(1), modes(stages, 1), t, miss
-        integer :: i, n
-        logical :: good
-
-        modes = 0.0_dp
-        call inside%prepare(1)
-        do n = 2, 18
-            call new_polynomial_motion(system, n)
-            y = system%state(t0)
-            y_new = system%state(t1)
-            call inside%keep(t0, y(:1), y(2:))
-            call inside%fit(system, t1, y_new(:1), y_new(2:), modes, weight, good)
-            miss = 0.0_dp
-            do i = 1, places
-                t = t0 + 0.1_dp*i*(t1 - t0)
-                call inside%at(t, q, v)
-                y = system%state(t)
-                miss = max(miss, abs(q(1) - y(1)), abs(v(1) - y(2)))
-            end do
-            if (n <= 17) call assertLessThan(miss, 1e-13_dp, message="up to 17")
-        end do
-        call assertGreaterThan(miss, 1e-10_dp, message="not 18")
-    end subroutine powers_up_to_17_are_exact_in_gauss16
+    end subroutine dense_output_takes_few_sweeps
 end module test_dense_orders
