@@ -62,11 +62,6 @@ contains
                 call move_alloc(fixed, integrator)
             end if
         end if
-        if (system%contacts > 0 .and. scene%method == workhorse) then
-            call fail(error, workhorse//" is for smooth motion, and here there are impacts; "// &
-                      "methods for those: rk4 and verlet by dt, dop853 by tolerance", key="method")
-            return
-        end if
         call prepare_integrator(integrator, system, error)
     end subroutine stage_method
 
