@@ -75,6 +75,7 @@ module suites
     use test_principles, only: principles_suite
     use test_processes, only: processes_suite
     use test_quadrature, only: quadrature_suite
+    use test_reduced_motion, only: reduced_motion_suite
     use test_register, only: register_suite
     use test_rheonomic, only: rheonomic_suite
     use test_rolling_disk, only: rolling_disk_suite
@@ -181,6 +182,7 @@ contains
         call suite%addTest(principles_suite())
         call suite%addTest(processes_suite())
         call suite%addTest(quadrature_suite())
+        call suite%addTest(reduced_motion_suite())
         call suite%addTest(rheonomic_suite())
         call suite%addTest(rolling_disk_suite())
         call suite%addTest(rolling_disk_reference_suite())
