@@ -170,7 +170,7 @@ begin() { # begin FOLDER: a long run in the background; returns when its tempora
     "$program" run pendulum --set scene%duration=1e6 --set scene%every=1000 --output "$1" >"$work/out" 2>"$work/err" &
     child=$!
     for _ in $(seq 200); do
-        [ -n "$(find "$1" -name ".lagrangia-$child-*" 2>/dev/null)" ] && return
+        leftovers "$1" 2>/dev/null || return
         sleep 0.02
     done
 }
@@ -185,10 +185,16 @@ for pair in INT:130 TERM:143 KILL:137; do
     check "SIG${pair%:*}: status ${pair#*:}, the old files live" eval '[ $status -eq '"${pair#*:}"' ] && unharmed "$work/${pair%:*}" pendulum.dat pendulum.gp'
     [ "${pair%:*}" = KILL ] || check "SIG${pair%:*}: one line, no temporary" eval 'one_line && leftovers "$work/${pair%:*}"'
 done
-# SIGKILL leaves a hidden temporary: nobody takes it away, and it must be in nobody's way
 run run pendulum --output "$work/alone"
+check "SIGKILL leaves a hidden temporary" eval '! leftovers "$work/KILL"'
 run run pendulum --output "$work/KILL"
-check "after SIGKILL the next run writes the same bytes as in a folder of its own" eval '[ $status -eq 0 ] && cmp "$work/alone/pendulum.dat" "$work/KILL/pendulum.dat"'
+check "the next run removes it, and writes the same bytes as in a folder of its own" eval '[ $status -eq 0 ] && diff -r "$work/alone" "$work/KILL"'
+begin "$work/KILL"
+run run pendulum --output "$work/KILL"
+check "a run beside a longer one of the same file: the same bytes, and the other's temporary stays" eval '[ $status -eq 0 ] && cmp "$work/alone/pendulum.dat" "$work/KILL/pendulum.dat" && ! leftovers "$work/KILL"'
+kill -TERM $child
+wait $child 2>/dev/null
+check "until that one ends" leftovers "$work/KILL"
 
 for _ in 1 2 3 4; do
     "$program" run pendulum --quiet --output "$work/both" 2>"$work/err" &

@@ -3,12 +3,13 @@ module test_console
     use, intrinsic :: iso_c_binding, only: c_int
     use, intrinsic :: iso_fortran_env, only: output_unit
     use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
+    use lagrangia_c_library, only: c_close
     use lagrangia_console, only: console_failed, finish_console, is_terminal, note, put, put_line
     use lagrangia_errors, only: error_t, status_file
     use lagrangia_files, only: facts_t, look_at
     use lagrangia_interrupt, only: catch_interrupts
     use lagrangia_output_file, only: output_file_t
-    use test_scratch, only: c_close, c_dup2, c_pipe, contents, exit_status, new_folder, &
+    use test_scratch, only: c_dup2, c_pipe, contents, exit_status, new_folder, &
         remove_file, send_stdout_to
     implicit none (type, external)
     private
