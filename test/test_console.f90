@@ -5,7 +5,7 @@ module test_console
     use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
     use lagrangia_c_library, only: c_close
     use lagrangia_console, only: console_failed, finish_console, is_terminal, note, put, put_line
-    use lagrangia_errors, only: error_t, status_file
+    use lagrangia_errors, only: error_t, status_file, status_pipe
     use lagrangia_files, only: facts_t, look_at
     use lagrangia_interrupt, only: catch_interrupts
     use lagrangia_output_file, only: output_file_t
@@ -82,8 +82,8 @@ contains
     end function put_to_full
 
     subroutine a_broken_pipe_is_reported()
-        !! And does not kill, lest temporary files stay.
-        call assertEqual(status_file, exit_status(put_to_nobody))
+        !! By the status alone; it does not kill, lest files stay unfinished.
+        call assertEqual(status_pipe, exit_status(put_to_nobody))
     end subroutine a_broken_pipe_is_reported
 
     function put_to_nobody() result(status)
@@ -100,7 +100,7 @@ contains
         call finish_console(error)
         status = 1
         if (.not. allocated(error)) return
-        if (error%message /= "cannot write standard output: Broken pipe") return
+        if (error%message /= "") return
         status = error%status
     end function put_to_nobody
 
