@@ -112,16 +112,68 @@ for i in "${!writers[@]}"; do
            status=$?
            check "$writer: stdout is full" eval '[ $status -eq 5 ] && one_line' ;;
     esac
-    if [ "$(id -u)" -ne 0 ]; then
-        mkdir "$work/locked$i"
-        plant "$work/locked$i" ${makes[i]}
-        chmod 555 "$work/locked$i"
-        run $writer --output "$work/locked$i"
-        check "$writer: a read-only folder" eval '[ $status -eq 5 ] && one_line && unharmed "$work/locked$i" ${makes[i]}'
-        chmod 755 "$work/locked$i"
-    fi
 done
-[ "$(id -u)" -ne 0 ] || echo "skipped read-only folders: root may write everywhere"
+
+# What may not be read or written: as root nothing is refused, so as nobody
+user() { # user WORDS...: the program, run by somebody without privileges
+    local who=(setpriv --reuid=65534 --regid=65534 --clear-groups)
+    [ "$(id -u)" -eq 0 ] || who=()
+    (cd "$work" && timeout 20 ${who[@]+"${who[@]}"} ./lagrangia "$@") >"$work/out" 2>"$work/err" </dev/null
+    status=$?
+}
+forbidden() { # forbidden CLAIM FOLDER FILES...: refused, nothing harmed, nothing left
+    local files=("${@:2}")
+    check "$1" eval '[ $status -eq 5 ] && one_line && grep -q "$words" "$work/err" && unharmed "${files[@]}" && leftovers "${files[0]}"'
+}
+cp "$program" "$work/lagrangia"
+rm -r "$work/data" # links into a home that may be closed to others
+mkdir "$work/data"
+cp -R data/scenes data/reference "$work/data"
+chmod -R a+rX "$work"
+user --version
+if [ $status -eq 0 ]; then
+    for i in "${!writers[@]}"; do
+        writer=${writers[i]} folder=$work/user$i words="Permission denied"
+        mkdir "$folder"
+        plant "$folder" ${makes[i]}
+        chmod 666 "$folder"/*
+        chmod 555 "$folder"
+        user $writer --output "$folder"
+        forbidden "$writer: a read-only folder" "$folder" ${makes[i]}
+        user $writer --output "$folder/new/folder"
+        forbidden "$writer: a new folder in a read-only one" "$folder" ${makes[i]}
+        chmod 666 "$folder"
+        user $writer --output "$folder"
+        chmod 777 "$folder"
+        forbidden "$writer: a folder that may not be entered" "$folder" ${makes[i]}
+        chmod 444 "$folder"/*
+        user $writer --output "$folder"
+        forbidden "$writer: read-only files" "$folder" ${makes[i]}
+        if [ "$(id -u)" -eq 0 ]; then # where only its owner may rename a file
+            chmod 666 "$folder"/*
+            chmod 1777 "$folder"
+            words="Operation not permitted"
+            user $writer --output "$folder"
+            forbidden "$writer: another's files in a sticky folder" "$folder" ${makes[i]}
+            rm "$folder"/*
+            echo theirs | tee $(printf "$folder/.lagrangia-%s-1.tmp " ${makes[i]}) >/dev/null
+            user $writer --output "$folder"
+            check "$writer: another's temporaries in a sticky folder are left alone" eval '[ $status -eq 0 ] && [ "$(cat "$folder"/.lagrangia-*-1.tmp | uniq)" = theirs ] && [ "$(ls "$folder" | tr "\n" " ")" = "${makes[i]}" ]'
+        fi
+    done
+    mkdir "$work/closed"
+    cp data/scenes/pendulum.nml "$work/closed"
+    for mode in 000:644 644:000 666:644; do # of the file : of the folder
+        chmod "${mode%:*}" "$work/closed/pendulum.nml"
+        chmod "${mode#*:}" "$work/closed"
+        [ "$mode" != 000:644 ] || chmod 755 "$work/closed"
+        user run closed/pendulum.nml --output "$work/none"
+        check "a scene that may not be read ($mode)" eval '[ $status -eq 5 ] && one_line && grep -q "closed/pendulum.nml: " "$work/err" && [ ! -e "$work/none" ]'
+    done
+    chmod 700 "$work/closed"
+else
+    echo "skipped what may not be read or written: root may everything, and nobody cannot be played here"
+fi
 
 # A disk that is full
 mkdir "$work/disk"
