@@ -101,6 +101,7 @@ module suites
     use test_swings, only: swings_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
+    use test_unfinished, only: unfinished_suite
     use test_virtual_work, only: virtual_work_suite
     implicit none (type, external)
     private
@@ -212,6 +213,7 @@ contains
         call suite%addTest(swings_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(text_suite())
+        call suite%addTest(unfinished_suite())
         call suite%addTest(virtual_work_suite())
         call suite%addTest(register_suite())  ! the last: its system stays in the catalogue
     end function load_tests

@@ -4,7 +4,7 @@ module lagrangia_errors
     private
     public :: error_t, fail
     public :: status_ok, status_not_held, status_usage, status_numbers, status_library, &
-              status_file, status_interrupted, status_terminated
+              status_file, status_interrupted, status_pipe, status_terminated
 
     integer, parameter :: status_ok = 0            !! all is well
     integer, parameter :: status_not_held = 1      !! a check or a scene's tolerance did not hold
@@ -13,6 +13,7 @@ module lagrangia_errors
     integer, parameter :: status_library = 4       !! LAPACK or GSL refused
     integer, parameter :: status_file = 5          !! a file could not be read or written
     integer, parameter :: status_interrupted = 130 !! SIGINT
+    integer, parameter :: status_pipe = 141        !! SIGPIPE: nobody reads what is printed
     integer, parameter :: status_terminated = 143  !! SIGTERM
 
     type :: error_t
