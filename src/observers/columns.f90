@@ -4,8 +4,9 @@ module lagrangia_columns
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_names, only: nearest_name
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: join, nearest_name, quoted
+    use lagrangia_text, only: join, quoted
     implicit none (type, external)
     private
     public :: columns_t, new_columns, column_names

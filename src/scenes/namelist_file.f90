@@ -98,7 +98,7 @@ contains
         integer(c_long) :: got, length
         integer :: filled
 
-        problem = "not a regular file"
+        problem = "not a file that can be read whole: a folder, a pipe or a device"
         length = posix_lseek(descriptor, 0_c_long, from_end)
         if (length < 0_c_long) return
         if (posix_lseek(descriptor, 0_c_long, from_start) < 0_c_long) return
