@@ -111,7 +111,7 @@ contains
         integer, intent(inout) :: i
         type(command_line_t), intent(inout) :: line
         type(error_t), allocatable, intent(out) :: error
-        character(:), allocatable :: name
+        character(:), allocatable :: name, value
         integer :: equals, k
 
         name = words(i)%text
@@ -125,13 +125,13 @@ contains
             if (line%strange == "") line%strange = name
             return
         end if
-        call append(line%names, trim(options(k)%name))
+        value = ""
         if (equals > 0) then
             if (options(k)%takes == no_value) then
                 call fail(error, "option '"//name//"' takes no value")
                 return
             end if
-            call append(line%values, words(i)%text(equals + 1:))
+            value = words(i)%text(equals + 1:)
         else if (options(k)%takes == needs_value) then
             i = i + 1
             if (.not. has_word(i)) then
@@ -139,15 +139,16 @@ contains
                           trim(options(k)%value))
                 return
             end if
-            call append(line%values, words(i)%text)
-        else
-            call append(line%values, "")
-            if (options(k)%takes == no_value .or. i == size(words)) return
+            value = words(i)%text
+        else if (options(k)%takes == may_have_value .and. i < size(words)) then
             if (index("|"//trim(options(k)%value)//"|", "|"//words(i + 1)%text//"|") > 0) then
                 call fail(error, "the value of option '"//name//"' stands behind '=': "//name// &
                           "="//words(i + 1)%text)
+                return
             end if
         end if
+        call append(line%names, trim(options(k)%name))
+        call append(line%values, value)
     contains
         pure function has_word(position) result(yes)
             !! Is there a word that can be a value, and is no option by itself?

@@ -3,17 +3,16 @@ module lagrangia_names
     use lagrangia_text, only: join, lower
     implicit none (type, external)
     private
-    public :: advice, nearest_name
+    public :: abbreviation, advice, nearest_name
 
 contains
 
     pure function nearest_name(name, candidates) result(best)
         !! The candidate most like `name`, whatever the case; empty when none is near.
         !!
-        !! Near means: at most one slip for names up to three letters (and not in the first), two
-        !! up to six, else three, and something of the name must be left; or two thirds of one
-        !! name begin a word of the other (`cart`, `pendel`, `simple_pendulum`); or the candidate abbreviates the name
-        !! (`g` for `gravity`, `m1` for `mass1`).
+        !! Near means: at most one slip for names up to three letters (and their first is there),
+        !! two up to six, else three, and something of the name must be left; or two thirds of
+        !! one name begin a word of the other (`cart`, `pendel`, `simple_pendulum`).
         character(*), intent(in) :: name, candidates(:)
         character(:), allocatable :: best
         integer, parameter :: longest = 63, short = 3
@@ -26,7 +25,7 @@ contains
         do i = 1, size(candidates)
             if (abs(len_trim(candidates(i)) - length) >= least) cycle
             distance = edits(lower(trim(name)), lower(trim(candidates(i))))
-            if (length <= short .and. lower(name(1:1)) /= lower(candidates(i)(1:1))) cycle
+            if (length <= short .and. index(lower(candidates(i)), lower(name(1:1))) == 0) cycle
             if (distance < least .and. distance < max(length, len_trim(candidates(i)))) then
                 least = distance
                 best = trim(candidates(i))
@@ -41,12 +40,21 @@ contains
             least = len_trim(candidates(i)) - 2*shared
             best = trim(candidates(i))
         end do
-        if (best /= "") return
+    end function nearest_name
+
+    pure function abbreviation(name, candidates) result(best)
+        !! The candidate that abbreviates `name`, as `g` for `gravity`, `m1` for `mass1`: its first
+        !! letter, alone or with one of the others; empty when there is none.
+        character(*), intent(in) :: name, candidates(:)
+        character(:), allocatable :: best
+        integer :: i
+
+        best = ""
         do i = 1, size(candidates)
             if (.not. abbreviates(lower(trim(candidates(i))), lower(trim(name)))) cycle
             if (len_trim(candidates(i)) > len(best)) best = trim(candidates(i))
         end do
-    end function nearest_name
+    end function abbreviation
 
     pure function advice(name, candidates) result(text)
         !! What to write instead of `name`: the nearest of the candidates, or which there are.

@@ -162,6 +162,8 @@ contains
         else if (name == "energy_drift") then
             call fail(error, "column 'energy_drift': the energy of this "//trim(d%name)// &
                       " is not conserved, for L contains the time")
+        else if (index(name, ",") > 0) then
+            call fail(error, "is one text; each column has its own quotes, as in 't', 'x'")
         else if (near /= "") then
             call fail(error, "unknown column "//quoted(name)//"; did you mean '"//near//"'?")
         else

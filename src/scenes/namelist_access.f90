@@ -147,10 +147,6 @@ contains
         do i = 1, size(picked)
             call convert_string(tree, picked(i), text, error)
             if (allocated(error)) return
-            if (index(text, ",") == 0) cycle
-            call refuse_picked(tree, picked(i), "is one text; each has its own quotes, as in "// &
-                               "'t', 'x'", error)
-            return
         end do
         if (allocated(values)) deallocate (values)
         allocate (values(size(picked)))

@@ -34,7 +34,7 @@ contains
             call fail_at(error, place_t(tree%source), "its lines end in carriage returns "// &
                          "alone; save it with line feeds")
             return
-        else if (index(text(:min(4, len(text))), achar(0)) > 0) then
+        else if (index(text(:min(4, len(text))), achar(0)) > 0 .and. index(text, "!") /= 1) then
             call fail_at(error, place_t(tree%source), "is no plain text (UTF-16, perhaps, or "// &
                          "binary); save it as UTF-8")
             return

@@ -1,8 +1,8 @@
 module lagrangia_namelist_unknown
     !! Which keys and groups a namelist has; refusing those that are missing or unknown.
     use lagrangia_errors, only: error_t
-    use lagrangia_names, only: nearest_name
-    use lagrangia_namelist_tree, only: fail_at, find_group, namelist_t, place_t
+    use lagrangia_names, only: abbreviation, nearest_name
+    use lagrangia_namelist_tree, only: fail_at, find_group, name_length, namelist_t, place_t
     use lagrangia_text, only: escaped, join, quoted
     implicit none (type, external)
     private
@@ -57,11 +57,13 @@ contains
         character(*), intent(in) :: group, key
         type(error_t), allocatable, intent(out) :: error
 
+        character(name_length), allocatable :: keys(:)
         character(:), allocatable :: near
         integer :: i
 
         if (owner == 0) then
-            near = nearest_name(group, tree%groups(:tree%group_count)%name)
+            keys = tree%groups(:tree%group_count)%name
+            near = nearest_name(group, keys)
             i = find_group(tree, near)
             if (i > 0) then
                 call fail_at(error, tree%groups(i)%place, advice("group ", near, [group]))
@@ -71,8 +73,10 @@ contains
                          " is missing; it must give "//escaped(key, 30))
         else
             associate (items => tree%entries(:tree%entry_count))
-                near = nearest_name(key, pack(items%key, items%group == owner .and. .not. items%used))
+                keys = pack([(items(i)%key, i=1, size(items))], &
+                            [(items(i)%group == owner .and. .not. items(i)%used, i=1, size(items))])
             end associate
+            near = nearest_name(key, keys)
             if (near /= "") then
                 i = last_entry(tree, group, near)
                 call fail_at(error, tree%entries(i)%place, "&"//escaped(group, 30)//": "// &
@@ -102,7 +106,7 @@ contains
             associate (item => tree%entries(i))
                 if (item%group /= owner .or. item%used .or. item%replaced) cycle
                 if (spared .and. any(allowed == item%key)) cycle
-                absent = pack(allowed, [(item%key == allowed(k) .or. .not. &
+                absent = pack(allowed, [(item%overrides .or. item%key == allowed(k) .or. .not. &
                                          has_key(tree, group, allowed(k)), k=1, size(allowed))])
                 call fail_at(error, item%place, "&"//escaped(trim(group), 30)//": "// &
                              advice("key ", trim(item%key), absent))
@@ -133,12 +137,14 @@ contains
         !! What to do about a `name` that is of no use.
         character(*), intent(in) :: what, name, allowed(:)
         character(:), allocatable :: text
+        character(:), allocatable :: near
 
+        near = nearest_name(name, allowed)
+        if (near == "") near = abbreviation(name, allowed)
         if (any(allowed == name)) then
             text = what//quoted(name)//" has no meaning here"
-        else if (nearest_name(name, allowed) /= "") then
-            text = "unknown "//what//quoted(name)//"; did you mean "// &
-                   quoted(nearest_name(name, allowed))//"?"
+        else if (near /= "") then
+            text = "unknown "//what//quoted(name)//"; did you mean "//quoted(near)//"?"
         else if (size(allowed) == 0) then
             text = "unknown "//what//quoted(name)//"; none is allowed here"
         else

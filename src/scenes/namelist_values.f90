@@ -75,7 +75,7 @@ contains
                    value => tree%values(tree%value_count))
             if (word == "" .or. truth_of(word) >= 0) return
             if (value%kind == kind_number .and. value%line == scanner%line .and. &
-                scan(word(1:1), "#%:<>*") == 0) then
+                scan(word(1:1), "#%:<>*\") == 0) then
                 call refuse(scanner, scanner%at, "unexpected "//quoted(word)//" behind a number;"// &
                             " units are not written: all are SI, angles in radians", error)
             else

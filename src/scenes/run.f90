@@ -13,8 +13,6 @@ module lagrangia_run
     public :: plan_t, new_plan, new_sampled_plan, run
 
     integer(i8), parameter :: longest_block = 1024  !! steps between two looks at signals
-    real(dp), parameter :: most_samples = 1e9_dp    !! of a run: their file is 50 GB and more
-    character(*), parameter :: too_many = " samples are too many for a file"
 
     type :: plan_t
         !! A grid of times: whole steps, and perhaps a shorter one that lands on the end; or, where
@@ -47,11 +45,6 @@ contains
                       key="dt")
             return
         end if
-        if (count/real(every, dp) > most_samples) then
-            call fail(error, to_text(nint(count, i8)/every)//too_many//"; raise it, or shorten "// &
-                      "the run", key="every")
-            return
-        end if
         if (abs(t0) + duration + dt <= abs(t0) + duration) then
             call fail(error, "is too small to move the time near t = "//to_text(t0 + duration), &
                       key="dt")
@@ -71,10 +64,6 @@ contains
         integer(i8), intent(in) :: samples
         type(error_t), allocatable, intent(out) :: error
 
-        if (samples > most_samples) then
-            call fail(error, to_text(samples)//too_many, key="samples")
-            return
-        end if
         if (duration/samples < 4.0_dp*spacing(abs(t0) + duration)) then
             call fail(error, "so many samples cannot be told apart near t = "// &
                       to_text(t0 + duration)//" s", key="samples")

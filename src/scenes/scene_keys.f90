@@ -7,7 +7,7 @@ module lagrangia_scene_keys
     use lagrangia_namelist, only: get_integer, get_logical, get_real, get_reals, get_string, &
                                   get_strings, has_key, namelist_t, point_advice, refuse_value
     use lagrangia_scene, only: expectation_t, scene_t
-    use lagrangia_scene_tolerance, only: read_tolerance
+    use lagrangia_scene_tolerance, only: most_samples, read_tolerance, too_many
     use lagrangia_system, only: system_t
     use lagrangia_text, only: join, lower, to_text
     implicit none (type, external)
@@ -53,7 +53,13 @@ contains
         steps = nint(min(scene%duration/scene%dt, 1e15_dp), i8)
         scene%every = max(1_i8, steps/1000)
         call get_count("every", scene%every)
-        if (allocated(error) .or. .not. has_key(tree, "scene", "samples")) return
+        if (allocated(error)) return
+        if (steps/scene%every > most_samples) then
+            call refuse_value(tree, "scene", "every", to_text(steps/scene%every)//too_many//", or"// &
+                              " every longer", error)
+            return
+        end if
+        if ( .not. has_key(tree, "scene", "samples")) return
         if (has_key(tree, "scene", "every")) then
             call refuse_value(tree, "scene", "samples", "give either every or samples", error)
             return

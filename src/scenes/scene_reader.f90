@@ -93,7 +93,8 @@ contains
             allowed = [character(key_length) :: keys, expectation_keys(system)]
             call refuse_coordinates(tree, system, error)
             if (allocated(error)) exit read_groups
-            call refuse_unknown_keys(tree, "scene", allowed, error, early=.true.)
+            call refuse_unknown_keys(tree, "scene", [character(key_length) :: allowed, &
+                                                     "expect_energy_drift"], error, early=.true.)
             if (allocated(error)) exit read_groups
             call read_times(tree, scene, error)
             if (allocated(error)) exit read_groups
