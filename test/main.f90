@@ -63,6 +63,7 @@ module suites
     use test_namelist, only: namelist_suite
     use test_namelist_file, only: namelist_file_suite
     use test_namelist_limits, only: namelist_limits_suite
+    use test_namelist_mistakes, only: namelist_mistakes_suite
     use test_namelist_refusals, only: namelist_refusals_suite
     use test_namelist_values, only: namelist_values_suite
     use test_normal_modes, only: normal_modes_suite
@@ -176,6 +177,7 @@ contains
         call suite%addTest(namelist_suite())
         call suite%addTest(namelist_file_suite())
         call suite%addTest(namelist_limits_suite())
+        call suite%addTest(namelist_mistakes_suite())
         call suite%addTest(namelist_refusals_suite())
         call suite%addTest(namelist_values_suite())
         call suite%addTest(normal_modes_suite())

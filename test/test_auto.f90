@@ -197,8 +197,8 @@ contains
                      "restitution = 0.8 /", outcome, error)
         call assertEqual(workhorse, outcome%method)
         call assertEqual("holds", outcome%verdict())
-        call assertEqual(1, index(outcome%choice, "auto took "//workhorse//": impacts are looked "// &
-                                  "for between steps"), outcome%choice)
+        call assertEqual(1, index(outcome%choice, "auto took "//workhorse//": impacts are "// &
+                                  "looked for between steps"), outcome%choice)
     end subroutine check_impacts
 
     subroutine check_steps(text, why)

@@ -240,7 +240,8 @@ contains
 
         v = 0.0_dp
         if (size(given) /= self%ndof) then
-            call fail(error, "v takes "//to_text(self%ndof)//" values, not "//to_text(size(given)))
+            call fail(error, "v takes "//to_text(self%ndof)//" value"// &
+                      trim(merge(" ", "s", self%ndof == 1))//", not "//to_text(size(given)))
             return
         end if
         v = given
