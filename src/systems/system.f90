@@ -14,8 +14,7 @@ module lagrangia_system
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: system_t, system_box_t, lanes
-    public :: check_parameter, check_parameters, default_values
+    public :: system_t, system_box_t, lanes, check_parameter, check_parameters, default_values
 
     integer, parameter :: lanes = 8  !! states that `accelerations_lanes` takes at once
 
