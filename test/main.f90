@@ -63,6 +63,7 @@ module suites
     use test_namelist, only: namelist_suite
     use test_namelist_file, only: namelist_file_suite
     use test_namelist_limits, only: namelist_limits_suite
+    use test_namelist_mistakes, only: namelist_mistakes_suite
     use test_namelist_refusals, only: namelist_refusals_suite
     use test_namelist_values, only: namelist_values_suite
     use test_normal_modes, only: normal_modes_suite
@@ -80,6 +81,7 @@ module suites
     use test_principles, only: principles_suite
     use test_processes, only: processes_suite
     use test_quadrature, only: quadrature_suite
+    use test_reduced_motion, only: reduced_motion_suite
     use test_register, only: register_suite
     use test_rheonomic, only: rheonomic_suite
     use test_rolling_disk, only: rolling_disk_suite
@@ -100,6 +102,7 @@ module suites
     use test_swings, only: swings_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
+    use test_unfinished, only: unfinished_suite
     use test_virtual_work, only: virtual_work_suite
     implicit none (type, external)
     private
@@ -174,6 +177,7 @@ contains
         call suite%addTest(namelist_suite())
         call suite%addTest(namelist_file_suite())
         call suite%addTest(namelist_limits_suite())
+        call suite%addTest(namelist_mistakes_suite())
         call suite%addTest(namelist_refusals_suite())
         call suite%addTest(namelist_values_suite())
         call suite%addTest(normal_modes_suite())
@@ -191,6 +195,7 @@ contains
         call suite%addTest(principles_suite())
         call suite%addTest(processes_suite())
         call suite%addTest(quadrature_suite())
+        call suite%addTest(reduced_motion_suite())
         call suite%addTest(rheonomic_suite())
         call suite%addTest(rolling_disk_suite())
         call suite%addTest(rolling_disk_reference_suite())
@@ -210,6 +215,7 @@ contains
         call suite%addTest(swings_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(text_suite())
+        call suite%addTest(unfinished_suite())
         call suite%addTest(virtual_work_suite())
         call suite%addTest(register_suite())  ! the last: its system stays in the catalogue
     end function load_tests

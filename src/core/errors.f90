@@ -1,10 +1,11 @@
 module lagrangia_errors
     !! Errors are values: the last argument of whatever can fail; allocated means failed.
+    use lagrangia_text, only: shortened
     implicit none (type, external)
     private
-    public :: error_t, fail
+    public :: error_t, fail, message_length
     public :: status_ok, status_not_held, status_usage, status_numbers, status_library, &
-              status_file, status_interrupted, status_terminated
+              status_file, status_interrupted, status_pipe, status_terminated
 
     integer, parameter :: status_ok = 0            !! all is well
     integer, parameter :: status_not_held = 1      !! a check or a scene's tolerance did not hold
@@ -13,10 +14,13 @@ module lagrangia_errors
     integer, parameter :: status_library = 4       !! LAPACK or GSL refused
     integer, parameter :: status_file = 5          !! a file could not be read or written
     integer, parameter :: status_interrupted = 130 !! SIGINT
+    integer, parameter :: status_pipe = 141        !! SIGPIPE: nobody reads what is printed
     integer, parameter :: status_terminated = 143  !! SIGTERM
 
+    integer, parameter :: message_length = 289     !! 300 with `lagrangia: ` before it
+
     type :: error_t
-        !! What went wrong: one line for the user, and the exit status that belongs to it.
+        !! What went wrong: one short line for the user, and the exit status that belongs to it.
         character(:), allocatable :: message
         character(:), allocatable :: key  !! the key of a scene that is to blame, if it is known
         integer :: element = 1            !! and which of its values
@@ -28,7 +32,7 @@ module lagrangia_errors
 contains
 
     pure subroutine fail(error, message, status, key, element)
-        !! Make `error` say `message`; the status is that of a usage error unless given.
+        !! Make `error` say `message`, shortened if need be; the status is that of a usage error unless given.
         type(error_t), allocatable, intent(out) :: error
         character(*), intent(in) :: message
         integer, intent(in), optional :: status
@@ -36,7 +40,7 @@ contains
         integer, intent(in), optional :: element
 
         allocate (error)
-        error%message = message
+        error%message = shortened(message, message_length)
         if (present(status)) error%status = status
         if (present(key)) error%key = key
         if (present(element)) error%element = element
@@ -47,6 +51,6 @@ contains
         class(error_t), intent(inout) :: self
         character(*), intent(in) :: context
 
-        self%message = context//": "//self%message
+        self%message = shortened(context//": "//self%message, message_length)
     end subroutine add_context
 end module lagrangia_errors
