@@ -186,7 +186,7 @@ contains
     end subroutine forces_that_set_in_are_seen
 
     subroutine a_step_over_a_hole_is_taken_back()
-        !! It is between the nodes of the first step, at the fourth of the 16 places of dense output.
+        !! It is between the nodes of the first step, at the fourth of the places of dense output.
         !! Shorter steps miss it, and the motion goes on as if nothing had been; without dense
         !! output nothing is seen.
         type(driven_wall_t) :: system
