@@ -28,6 +28,8 @@ contains
         call suite%addTest(TestMethod("every_method_has_its_order", every_method_has_its_order))
         call suite%addTest(TestMethod("dop853_has_order_8", dop853_has_order_8))
         call suite%addTest(TestMethod("gauss16_has_order_16", gauss16_has_order_16))
+        call suite%addTest(TestMethod("gauss16_has_order_16_in_energy", &
+                                      gauss16_has_order_16_in_energy))
     end function coupled_orders_suite
 
     subroutine go(method, system, duration, steps, y)
@@ -175,6 +177,52 @@ contains
         call new_gauss16(method)
         call check_mean_order(method, 8.0_dp, [12, 8, 5], [0.1_dp, 0.1_dp, 0.3_dp])
     end subroutine gauss16_has_order_16
+
+    subroutine gauss16_has_order_16_in_energy()
+        !! Its largest change on the way, where only what is not linear changes it: from 1e-8 to
+        !! 1e-13, which is five times rounding. There the next terms take 0.4 of an order.
+        integer, parameter :: steps(problems) = [11, 8, 6], motions = 8
+        real(dp), parameter :: large(problems) = [0.1_dp, 0.1_dp, 0.3_dp]
+        type(gauss_t) :: method
+        class(system_t), allocatable :: system
+        real(dp) :: swings(2), orders(problems)
+        integer :: i, j, k
+
+        call new_gauss16(method)
+        do k = 1, problems
+            call new_problem(k, system)
+            swings = 0.0_dp
+            do i = 1, motions
+                do j = 1, 2
+                    swings(j) = swings(j) + swing(method, system, start(i, large(k)), j*steps(k))
+                end do
+            end do
+            orders(k) = order_of(swings)
+        end do
+        call assertEqual(real(method%energy_order, dp), sum(orders)/problems, 0.5_dp, "order")
+    end subroutine gauss16_has_order_16_in_energy
+
+    function swing(method, system, y, steps)
+        !! The largest change of the energy from the start, at the ends of all steps through 8 s.
+        class(integrator_t), intent(inout) :: method
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: y(4)
+        integer, intent(in) :: steps
+        real(dp) :: swing
+        type(error_t), allocatable :: error
+        real(dp) :: q(2), v(2), energy
+        integer(i8) :: i
+
+        q = y(:2)
+        v = y(3:)
+        energy = system%energy(0.0_dp, q, v)
+        swing = 0.0_dp
+        call method%prepare(system, error)
+        do i = 0, steps - 1
+            call method%advance(system, 0.0_dp, 8.0_dp/steps, i, 1_i8, q, v)
+            swing = max(swing, abs(system%energy(0.0_dp, q, v) - energy))
+        end do
+    end function swing
 
     subroutine check_mean_order(method, duration, steps, large)
         !! Over all problems, each with its own `steps` and size of the motion.

@@ -179,5 +179,7 @@ contains
         call assertEqual(16, method%order, "order")
         call new_adaptive("gauss16", chooser)
         call assertTrue(allocated(chooser), "by tolerance")
+        if (.not. allocated(chooser)) return
+        call assertEqual(method%order, chooser%order, message="the same method")
     end subroutine catalogue_has_both
 end module test_gauss_dense

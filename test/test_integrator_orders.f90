@@ -35,6 +35,8 @@ contains
                                       orders_hold_on_a_rolling_disk))
         call suite%addTest(TestMethod("cuts_change_no_byte_where_the_time_enters", &
                                       cuts_change_no_byte_where_the_time_enters))
+        call suite%addTest(TestMethod("what_is_carried_belongs_to_one_state", &
+                                      what_is_carried_belongs_to_one_state))
         call suite%addTest(TestMethod("rk4_shrinks_by_its_polynomial", &
                                       rk4_shrinks_by_its_polynomial))
         call suite%addTest(TestMethod("verlet_conserves_its_own_energy", &
@@ -163,6 +165,52 @@ contains
             if (anyExceptions()) return
         end do
     end subroutine cuts_change_no_byte_where_the_time_enters
+
+    subroutine what_is_carried_belongs_to_one_state()
+        !! Coordinates, velocities or times that differ in the 12th digit are others: a method
+        !! goes on from there as one that has never been elsewhere, to the last bit. Only what
+        !! rounding took from a state is still its own at another time.
+        real(dp), parameter :: nudges(3, 3) = reshape( &
+            [1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp], [3, 3])
+        type(driven_pendulum_t) :: system
+        class(integrator_t), allocatable :: method, fresh, plain
+        type(error_t), allocatable :: error
+        real(dp) :: q(1), v(1), q_fresh(1), v_fresh(1), t0
+        integer :: i, k, variant
+
+        call system%configure([0.7_dp, 1.3_dp, 9.81_dp, 0.3_dp, 4.0_dp], error)
+        i = 0
+        do
+            i = i + 1
+            call nth_integrator(i, plain)
+            if (.not. allocated(plain)) exit
+            do variant = 1, 2
+                if (variant == 1) allocate (method, source=plain)
+                if (variant == 2) call plain%compensated(method)
+                if (.not. allocated(method)) cycle
+                do k = 1, 4 - variant
+                    call method%prepare(system, error)
+                    if (allocated(error)) cycle
+                    q = 2.9_dp
+                    v = 0.1_dp
+                    call method%advance(system, start, 3e-3_dp, 0_i8, 50_i8, q, v)
+                    q = q + 1e-12_dp*nudges(1, k)
+                    v = v + 1e-12_dp*nudges(2, k)
+                    t0 = start + 1e-12_dp*nudges(3, k)
+                    q_fresh = q
+                    v_fresh = v
+                    call method%advance(system, t0, 3e-3_dp, 50_i8, 50_i8, q, v)
+                    allocate (fresh, source=method)
+                    call fresh%prepare(system, error)
+                    call fresh%advance(system, t0, 3e-3_dp, 50_i8, 50_i8, q_fresh, v_fresh)
+                    deallocate (fresh)
+                    call assertEqual([q_fresh, v_fresh], [q, v], message=trim(plain%name))
+                end do
+                deallocate (method)
+            end do
+            if (anyExceptions()) return
+        end do
+    end subroutine what_is_carried_belongs_to_one_state
 
     subroutine rk4_shrinks_by_its_polynomial()
         !! \(|R(iz)|^2 = 1 - z^6/72 + z^8/576\) a step, \(z = \omega h\), here \(\omega = 1.5\).
