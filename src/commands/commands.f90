@@ -6,8 +6,8 @@ module lagrangia_commands
     use lagrangia_console, only: finish_console, put, put_line
     use lagrangia_describe, only: describe_command
     use lagrangia_errata_command, only: errata_command
-    use lagrangia_errors, only: error_t
-    use lagrangia_interrupt, only: catch_interrupts
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_interrupt, only: catch_interrupts, interrupt_status
     use lagrangia_list, only: list_command
     use lagrangia_modes_command, only: modes_command
     use lagrangia_principle, only: principle_command
@@ -55,6 +55,7 @@ contains
             case default; call run_command(line, error)
             end select
         end if
+        if (interrupt_status() /= 0) call fail(error, "interrupted", interrupt_status())
         call remove_unfinished()
         call finish_console(output_error)
         if (allocated(error)) return

@@ -1,27 +1,33 @@
 module lagrangia_interrupt
-    !! Ctrl-C, `kill` and closed pipes: noticed at the next sample, so that files can be removed
-    !! and the exit status be right.
-    use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int, c_intptr_t, c_null_funptr
-    use lagrangia_c_library, only: c_signal
+    !! Ctrl-C, `kill` and closed pipes: noticed at the next sample, or by force a second later, so
+    !! that files can be removed and the exit status be right.
+    use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int, c_intptr_t, c_new_line, &
+        c_null_funptr, c_size_t
+    use lagrangia_c_library, only: c_alarm, c_exit, c_kill, c_signal, c_write
     use lagrangia_errors, only: status_interrupted, status_ok, status_terminated
+    use lagrangia_unfinished, only: remove_unfinished
     implicit none (type, external)
     private
-    public :: catch_interrupts, interrupt_status
+    public :: catch_interrupts, interrupt_status, run_beside
 
     integer(c_int), parameter :: sigint = 2    !! these numbers are the same on every Unix
     integer(c_int), parameter :: sigpipe = 13
+    integer(c_int), parameter :: sigalrm = 14
     integer(c_int), parameter :: sigterm = 15
     integer(c_int), parameter :: sigxfsz = 25  !! except this one on MIPS
 
     integer(c_intptr_t), parameter :: ignored = 1  !! C's SIG_IGN
 
+    integer(c_int), parameter :: patience = 1  !! s
+
     integer(c_int), volatile :: caught = 0  !! the first signal that came
+    integer(c_int), volatile :: beside = 0  !! the process that we wait for
 
 contains
 
     subroutine catch_interrupts()
-        !! From now on SIGINT and SIGTERM only change what `interrupt_status` returns; the second
-        !! of a kind ends the program at once. A signal that our parent had us ignore (`nohup`,
+        !! From now on SIGINT and SIGTERM change what `interrupt_status` returns; where nobody looks
+        !! at that for a second, the program ends. The second of a kind ends it at once. A signal that our parent had us ignore (`nohup`,
         !! a job in the background of a script) stays ignored. A broken pipe or a file beyond
         !! `ulimit -f` no longer ends the program: the write fails, and is reported.
         call install(sigint, c_funloc(remember_signal))
@@ -44,6 +50,13 @@ contains
         end select
     end function interrupt_status
 
+    subroutine run_beside(pid)
+        !! A signal to us is to end the process `pid` too; 0 for none.
+        integer(c_int), intent(in) :: pid
+
+        beside = pid
+    end subroutine run_beside
+
     subroutine install(number, handler)
         !! Let `handler` answer a signal, unless it was ignored so far.
         integer(c_int), intent(in) :: number
@@ -61,7 +74,21 @@ contains
 
         if (caught == 0) caught = number
         old = c_signal(number, c_null_funptr)  ! C's SIG_DFL: the next one ends the program
+        if (beside > 0) number = c_kill(beside, sigterm)
+        old = c_signal(sigalrm, c_funloc(give_up))
+        number = c_alarm(patience)
     end subroutine remember_signal
+
+    subroutine give_up(number) bind(c)
+        !! Nobody looked. Runs at any moment, too.
+        integer(c_int), value :: number
+        character(*), parameter :: line = "lagrangia: interrupted"//c_new_line
+        integer(c_size_t) :: written
+
+        call remove_unfinished()
+        written = c_write(2_c_int, line, len(line, c_size_t))
+        call c_exit(128 + caught)
+    end subroutine give_up
 
     subroutine do_nothing(number) bind(c)
         !! A handler, and not SIG_IGN, because programs we start would inherit the latter.

@@ -34,6 +34,7 @@ module lagrangia_output_file
         procedure :: rewrite
         procedure :: failed
         procedure :: position
+        procedure :: temporary_name
         procedure :: commit
         procedure :: abandon
     end type output_file_t
@@ -193,6 +194,16 @@ contains
 
         position = self%bytes
     end function position
+
+    function temporary_name(self) result(name)
+        !! The absolute name, or one that begins with `./`, under which another program may fill
+        !! the file that is open.
+        class(output_file_t), intent(in) :: self
+        character(:), allocatable :: name
+
+        name = self%temporary
+        if (name(1:1) /= "/") name = "./"//name
+    end function temporary_name
 
     subroutine commit(self, error)
         !! Close the file and give it its name. On failure nothing is left behind, and a file

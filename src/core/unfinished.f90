@@ -10,7 +10,7 @@ module lagrangia_unfinished
     public :: claim, forget, remember, remove_abandoned, remove_unfinished
 
     type :: name_t
-        !! The name of a temporary file.
+        !! The name of a temporary file, as C wants it.
         character(:), allocatable :: text
     end type name_t
 
@@ -58,14 +58,13 @@ contains
 
     subroutine remove_unfinished()
         !! Remove every temporary that was neither committed nor abandoned: the last act of a
-        !! program that failed or was interrupted.
+        !! program that failed or was interrupted, also from a signal handler. Allocates nothing.
         integer :: i, status
 
         if (.not. allocated(unfinished)) return
         do i = 1, size(unfinished)
             if (.not. allocated(unfinished(i)%text)) cycle
-            status = int(c_remove(unfinished(i)%text//c_null_char))
-            deallocate (unfinished(i)%text)
+            status = int(c_remove(unfinished(i)%text))
         end do
     end subroutine remove_unfinished
 
@@ -89,7 +88,7 @@ contains
             call move_alloc(longer, unfinished)
             i = count + 1
         end if
-        unfinished(i)%text = name
+        unfinished(i)%text = name//c_null_char
         !$omp end critical (lagrangia_unfinished)
     end subroutine remember
 
@@ -101,7 +100,7 @@ contains
         !$omp critical (lagrangia_unfinished)
         do i = 1, size(unfinished)
             if (.not. allocated(unfinished(i)%text)) cycle
-            if (unfinished(i)%text == name) deallocate (unfinished(i)%text)
+            if (unfinished(i)%text == name//c_null_char) deallocate (unfinished(i)%text)
         end do
         !$omp end critical (lagrangia_unfinished)
     end subroutine forget
