@@ -1,10 +1,11 @@
 module test_processes
     !! Signals and other programs: seen in processes of their own.
-    use, intrinsic :: iso_c_binding, only: c_funptr, c_int, c_intptr_t, c_null_funptr
+    use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int, c_intptr_t, c_null_funptr
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_c_library, only: c_exit, c_signal
     use lagrangia_console, only: finish_console, put_line
     use lagrangia_errors, only: error_t, status_file, status_interrupted, status_terminated
+    use lagrangia_giving_up, only: give_up
     use lagrangia_interrupt, only: catch_interrupts, interrupt_status
     use lagrangia_output_file, only: output_file_t
     use lagrangia_processes, only: run_program
@@ -105,6 +106,7 @@ contains
         call send_stdout_to(new_folder("never")//"/err")
         status = int(c_dup2(1_c_int, 2_c_int))
         call prepare(sigterm)
+        call catch_interrupts(c_funloc(give_up))
         call file%open(new_folder("never")//"/a.dat", error)
         status = int(c_raise(sigterm))
         status = int(c_raise(sigalrm))

@@ -5,10 +5,11 @@ module lagrangia_c_library
         c_size_t
     implicit none (type, external)
     private
-    public :: c_access, c_alarm, c_chmod, c_close, c_dlsym, c_dup, c_errno, c_execvp, c_exit, c_fclose, &
-              c_fdopen, c_fflush, c_fileno, c_flock, c_fopen, c_fork, c_free, c_fseek, c_fwrite, &
-              c_fwrite_reals, c_getpid, c_isatty, c_kill, c_lstat, c_mkdir, c_realpath, c_remove, &
-              c_rename, c_signal, c_stat, c_strerror, c_strlen, c_waitpid, c_write
+    public :: c_access, c_alarm, c_chmod, c_close, c_dlsym, c_dup, c_errno, c_execvp, c_exit, &
+              c_fclose, c_fdopen, c_fflush, c_fileno, c_flock, c_fopen, c_fork, c_free, c_fseek, &
+              c_fwrite, c_fwrite_reals, c_getpid, c_isatty, c_kill, c_lstat, c_mkdir, &
+              c_realpath, c_remove, c_rename, c_signal, c_stat, c_strerror, c_strlen, c_waitpid, &
+              c_write
 
     ! allow(assumed-size): C takes the address of the first element
     interface

@@ -1,11 +1,10 @@
 module lagrangia_interrupt
     !! Ctrl-C, `kill` and closed pipes: noticed at the next sample, or by force a second later, so
     !! that files can be removed and the exit status be right.
-    use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int, c_intptr_t, c_new_line, &
-        c_null_funptr, c_size_t
-    use lagrangia_c_library, only: c_alarm, c_exit, c_kill, c_signal, c_write
+    use, intrinsic :: iso_c_binding, only: c_associated, c_funloc, c_funptr, c_int, c_intptr_t, &
+        c_null_funptr
+    use lagrangia_c_library, only: c_alarm, c_kill, c_signal
     use lagrangia_errors, only: status_interrupted, status_ok, status_terminated
-    use lagrangia_unfinished, only: remove_unfinished
     implicit none (type, external)
     private
     public :: catch_interrupts, interrupt_status, run_beside
@@ -22,14 +21,19 @@ module lagrangia_interrupt
 
     integer(c_int), volatile :: caught = 0  !! the first signal that came
     integer(c_int), volatile :: beside = 0  !! the process that we wait for
+    type(c_funptr) :: unheeded = c_null_funptr  !! what to do where nobody looked
 
 contains
 
-    subroutine catch_interrupts()
+    subroutine catch_interrupts(give_up)
         !! From now on SIGINT and SIGTERM change what `interrupt_status` returns; where nobody looks
-        !! at that for a second, the program ends. The second of a kind ends it at once. A signal that our parent had us ignore (`nohup`,
-        !! a job in the background of a script) stays ignored. A broken pipe or a file beyond
-        !! `ulimit -f` no longer ends the program: the write fails, and is reported.
+        !! at that for a second, `give_up` is to end the program. The second of a kind ends it at
+        !! once. A signal that our parent had us ignore (`nohup`, a job in the background of a
+        !! script) stays ignored. A broken pipe or a file beyond `ulimit -f` no longer ends the
+        !! program: the write fails, and is reported.
+        type(c_funptr), intent(in), optional :: give_up  !! a handler of signals
+
+        if (present(give_up)) unheeded = give_up
         call install(sigint, c_funloc(remember_signal))
         call install(sigterm, c_funloc(remember_signal))
         call install(sigpipe, c_funloc(do_nothing))
@@ -75,20 +79,10 @@ contains
         if (caught == 0) caught = number
         old = c_signal(number, c_null_funptr)  ! C's SIG_DFL: the next one ends the program
         if (beside > 0) number = c_kill(beside, sigterm)
-        old = c_signal(sigalrm, c_funloc(give_up))
+        if (.not. c_associated(unheeded)) return
+        old = c_signal(sigalrm, unheeded)
         number = c_alarm(patience)
     end subroutine remember_signal
-
-    subroutine give_up(number) bind(c)
-        !! Nobody looked. Runs at any moment, too.
-        integer(c_int), value :: number
-        character(*), parameter :: line = "lagrangia: interrupted"//c_new_line
-        integer(c_size_t) :: written
-
-        call remove_unfinished()
-        written = c_write(2_c_int, line, len(line, c_size_t))
-        call c_exit(128 + caught)
-    end subroutine give_up
 
     subroutine do_nothing(number) bind(c)
         !! A handler, and not SIG_IGN, because programs we start would inherit the latter.

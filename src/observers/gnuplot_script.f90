@@ -37,7 +37,8 @@ contains
         call script%add("picture = folder.'"//doubled(file(:dot - 1))//"'")
         call script%add("if (!exists('wanted')) { wanted = 'png' }")
         call script%add("png = picture.'.png'; svg = picture.'.svg'")
-        call script%add("if (exists('ARGC') && ARGC == 2) { wanted = ARG1; png = ARG2; svg = ARG2 }")
+        call script%add("if (exists('ARGC') && ARGC == 2) { "// &
+                        "wanted = ARG1; png = ARG2; svg = ARG2 }")
         call script%add("can(name) = strstrt(GPVAL_TERMINALS, ' '.name.' ')")
         call script%add("kind = wanted eq 'svg' && can('svg') ? 'svg' : can('pngcairo') ? "// &
                         "'pngcairo' : can('png') ? 'png' : can('svg') ? 'svg' : 'dumb'")
