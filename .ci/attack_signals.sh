@@ -4,9 +4,24 @@
 set -u
 source "$(dirname "$0")/attack_tools.sh"
 
+# A script that was started in the background ignores SIGINT, and so would its children
+heard=(env --default-signal=INT,TERM)
+"${heard[@]}" true 2>/dev/null || heard=()
+
+ended() { # ended SIGNAL: send it to the child; its status. One that hangs is killed
+    kill -"$1" $child
+    for _ in $(seq 100); do
+        kill -0 $child 2>/dev/null || break
+        sleep 0.05
+    done
+    kill -KILL $child 2>/dev/null
+    wait $child 2>/dev/null
+    status=$?
+}
+
 # Signals in the middle, kill -9, two runs of one file
 begin() { # begin FOLDER: a long run in the background; returns when its temporary is there
-    "$program" run pendulum --set scene%duration=1e6 --set scene%every=1000 --output "$1" >"$work/out" 2>"$work/err" &
+    ${heard[@]+"${heard[@]}"} "$program" run pendulum --set scene%duration=1e6 --set scene%every=1000 --output "$1" >"$work/out" 2>"$work/err" &
     child=$!
     for _ in $(seq 200); do
         leftovers "$1" 2>/dev/null || return
@@ -18,9 +33,7 @@ for pair in INT:130 TERM:143 KILL:137; do
     mkdir "$work/${pair%:*}"
     plant "$work/${pair%:*}" pendulum.dat pendulum.gp
     begin "$work/${pair%:*}"
-    kill -"${pair%:*}" $child
-    wait $child 2>/dev/null
-    status=$?
+    ended "${pair%:*}"
     check "SIG${pair%:*}: status ${pair#*:}, the old files live" eval '[ $status -eq '"${pair#*:}"' ] && unharmed "$work/${pair%:*}" pendulum.dat pendulum.gp'
     [ "${pair%:*}" = KILL ] || check "SIG${pair%:*}: one line, no temporary" eval 'one_line && leftovers "$work/${pair%:*}"'
 done
@@ -31,8 +44,7 @@ check "the next run removes it, and writes the same bytes as in a folder of its 
 begin "$work/KILL"
 run run pendulum --output "$work/KILL"
 check "a run beside a longer one of the same file: the same bytes, and the other's temporary stays" eval '[ $status -eq 0 ] && cmp "$work/alone/pendulum.dat" "$work/KILL/pendulum.dat" && ! leftovers "$work/KILL"'
-kill -TERM $child
-wait $child 2>/dev/null
+ended TERM
 check "until that one ends" leftovers "$work/KILL"
 
 for _ in 1 2 3 4; do
@@ -43,22 +55,12 @@ check "four runs into one file: it is whole" eval 'diff -r "$work/alone" "$work/
 
 # A signal in the middle of any command: it ends within seconds, whatever it is at
 begin_command() { # begin_command WORDS...: in the background; returns when it catches signals
-    "$program" "$@" >"$work/out" 2>"$work/err" </dev/null &
+    ${heard[@]+"${heard[@]}"} "$program" "$@" >"$work/out" 2>"$work/err" </dev/null &
     child=$!
     for _ in $(seq 200); do # the last digit of the mask: 2 stands for SIGINT
-        grep -qs '^SigCgt:.*[2367abef]$' "/proc/$child/status" && return
+        [ "$(readlink "/proc/$child/exe")" = "$program" ] && grep -qs '^SigCgt:.*[2367abef]$' "/proc/$child/status" && return
         sleep 0.01
     done
-}
-ended() { # ended SIGNAL: its status; one that hangs is killed
-    kill -"$1" $child
-    for _ in $(seq 100); do
-        kill -0 $child 2>/dev/null || break
-        sleep 0.05
-    done
-    kill -KILL $child 2>/dev/null
-    wait $child 2>/dev/null
-    status=$?
 }
 for signal in INT:130 TERM:143; do
     for writer in "modes hanging_chain --set hanging_chain%n=1000 --output" "principle action --output" \
