@@ -39,7 +39,7 @@ run() { # run WORDS...: status, $work/out, $work/err
 
 one_line() { # ours, short, and no backtrace
     [ "$(wc -l <"$work/err")" -eq 1 ] && grep -q '^lagrangia: ' "$work/err" &&
-        [ "$(wc -c <"$work/err")" -le 1000 ] && ! grep -qi 'backtrace\|#0 ' "$work/err"
+        [ "$(wc -c <"$work/err")" -le 301 ] && ! grep -qi 'backtrace\|#0 ' "$work/err"
 }
 
 leftovers() { # no temporary in the folder

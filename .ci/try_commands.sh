@@ -36,8 +36,8 @@ run() { # run WORDS...: the program; its status, its stdout in $work/out, its st
     status=$?
 }
 
-one_line() { # one line on stderr, by us, and no backtrace
-    [ "$(wc -l <"$work/err")" -eq 1 ] && grep -q '^lagrangia: ' "$work/err" && ! grep -qi 'backtrace\|#0 ' "$work/err"
+one_line() { # one line of at most 300 bytes on stderr, by us, and no backtrace
+    [ "$(wc -l <"$work/err")" -eq 1 ] && [ "$(wc -c <"$work/err")" -le 301 ] && grep -q '^lagrangia: ' "$work/err" && ! grep -qi 'backtrace\|#0 ' "$work/err"
 }
 
 refuses() { # refuses STATUS TEXT WORDS...: one line on stderr with TEXT, nothing on stdout, this status
@@ -147,6 +147,12 @@ refuses 2 "needs a value" run pendulum --set
 refuses 2 "these methods work" run cart_pendulum --set scene%method=verlet --output "$work/none"
 refuses 2 "alpha = 2: from 0.0 to pi/2 is needed" run wedge --set wedge%alpha=2 --output "$work/none"
 refuses 2 "another scene of this run writes the output" run pendulum pendulum_rotation --set scene%output=a --output "$work/none"
+long=$(printf '%03000d' 0)
+for words in "$long" "run $long" "run pendulum --$long" "run pendulum --format $long" "run pendulum --plot=$long" "run pendulum --set scene%dt=$long.x" \
+    "run pendulum --set $long" "run pendulum $long" "modes $long" "modes pendulum --at $long,x" "describe $long" "describe wedge $long" "list $long" \
+    "errata $long" "principle $long" "stress $long" "check $long" "bench $long" "bench --tolerances $long" "bench --methods $long"; do
+    refuses 2 "" $words
+done
 check "status 2 leaves no folder" [ ! -e "$work/none" ]
 
 # status 3: the numbers fail; the good rows stay
@@ -158,6 +164,10 @@ check "status 3: --json is still JSON" json 'd[0]["verdict"] == "failed" and all
 
 # status 5: files
 refuses 5 "no such file" run "$work/none.nml"
+refuses 5 "no such file; did you mean 'pendulum'?" run data/scene/pendulum.nml
+refuses 5 "/a.nml: no such file" run "$long/a.nml"
+run run pendulum --quiet --output "$work/$long"
+check "a folder's name that is too long" eval '[ $status -eq 5 ] && one_line && grep -q "/pendulum.dat.: .*: File name too long$" "$work/err"'
 echo data >"$work/file"
 run run pendulum --output "$work/file"
 check "status 5: the output folder is a file" eval '[ $status -eq 5 ] && one_line && [ "$(cat "$work/file")" = data ]'

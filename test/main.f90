@@ -10,6 +10,7 @@ module suites
     use test_blas_threads, only: blas_threads_suite
     use test_bouncing_ball, only: bouncing_ball_suite
     use test_canonical, only: canonical_suite
+    use test_canonical_maps, only: canonical_maps_suite
     use test_cart_pendulum, only: cart_pendulum_suite
     use test_catalogue, only: catalogue_suite
     use test_charged_particle, only: charged_particle_suite
@@ -22,6 +23,9 @@ module suites
     use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
     use test_constraints, only: constraints_suite
+    use test_coupled_orders, only: coupled_orders_suite
+    use test_dense_orders, only: dense_orders_suite
+    use test_dense_powers, only: dense_powers_suite
     use test_dense_run, only: dense_run_suite
     use test_dop853, only: dop853_suite
     use test_dop853_coefficients, only: dop853_coefficients_suite
@@ -38,6 +42,7 @@ module suites
     use test_gauge, only: gauge_suite
     use test_gauss, only: gauss_suite
     use test_gauss_adaptive, only: gauss_adaptive_suite
+    use test_gauss_control, only: gauss_control_suite
     use test_gauss_dense, only: gauss_dense_suite
     use test_gauss_tables, only: gauss_tables_suite
     use test_gnuplot, only: gnuplot_suite
@@ -58,6 +63,7 @@ module suites
     use test_namelist, only: namelist_suite
     use test_namelist_file, only: namelist_file_suite
     use test_namelist_limits, only: namelist_limits_suite
+    use test_namelist_mistakes, only: namelist_mistakes_suite
     use test_namelist_refusals, only: namelist_refusals_suite
     use test_namelist_values, only: namelist_values_suite
     use test_normal_modes, only: normal_modes_suite
@@ -75,6 +81,7 @@ module suites
     use test_principles, only: principles_suite
     use test_processes, only: processes_suite
     use test_quadrature, only: quadrature_suite
+    use test_reduced_motion, only: reduced_motion_suite
     use test_register, only: register_suite
     use test_rheonomic, only: rheonomic_suite
     use test_rolling_disk, only: rolling_disk_suite
@@ -119,6 +126,7 @@ contains
         call suite%addTest(blas_threads_suite())
         call suite%addTest(bouncing_ball_suite())
         call suite%addTest(canonical_suite())
+        call suite%addTest(canonical_maps_suite())
         call suite%addTest(cart_pendulum_suite())
         call suite%addTest(catalogue_suite())
         call suite%addTest(charged_particle_suite())
@@ -131,6 +139,9 @@ contains
         call suite%addTest(console_suite())
         call suite%addTest(constant_accelerations_suite())
         call suite%addTest(constraints_suite())
+        call suite%addTest(coupled_orders_suite())
+        call suite%addTest(dense_orders_suite())
+        call suite%addTest(dense_powers_suite())
         call suite%addTest(dense_run_suite())
         call suite%addTest(dop853_suite())
         call suite%addTest(dop853_coefficients_suite())
@@ -147,6 +158,7 @@ contains
         call suite%addTest(gauge_suite())
         call suite%addTest(gauss_suite())
         call suite%addTest(gauss_adaptive_suite())
+        call suite%addTest(gauss_control_suite())
         call suite%addTest(gauss_dense_suite())
         call suite%addTest(gauss_tables_suite())
         call suite%addTest(gnuplot_suite())
@@ -165,6 +177,7 @@ contains
         call suite%addTest(namelist_suite())
         call suite%addTest(namelist_file_suite())
         call suite%addTest(namelist_limits_suite())
+        call suite%addTest(namelist_mistakes_suite())
         call suite%addTest(namelist_refusals_suite())
         call suite%addTest(namelist_values_suite())
         call suite%addTest(normal_modes_suite())
@@ -182,6 +195,7 @@ contains
         call suite%addTest(principles_suite())
         call suite%addTest(processes_suite())
         call suite%addTest(quadrature_suite())
+        call suite%addTest(reduced_motion_suite())
         call suite%addTest(rheonomic_suite())
         call suite%addTest(rolling_disk_suite())
         call suite%addTest(rolling_disk_reference_suite())

@@ -12,7 +12,7 @@ module test_command_line
 
     type(option_t), parameter :: some(*) = [ &
         option_t("set", needs_value, "KEY=VALUE", ""), &
-        option_t("plot", may_have_value, "KIND", ""), option_t("help", no_value, "", "")]
+        option_t("plot", may_have_value, "svg|png", ""), option_t("help", no_value, "", "")]
 
 contains
 
@@ -81,12 +81,12 @@ contains
     end subroutine nothing_is_the_main_job
 
     subroutine values_follow_or_are_joined()
-        !! `--set A`, `--set=A`; the last one counts; a value may look like an option, contain
-        !! more equal signs, or be empty; an optional one must be joined.
+        !! `--set A`, `--set=A`; the last one counts; a value may contain more equal signs, or be
+        !! empty; an optional one must be joined, and so must one that is an option by itself.
         type(command_line_t) :: line
         type(error_t), allocatable :: error
 
-        call parse_words(split("--set|a=1|--set=b=2=3|--plot|run|--set|--help"), some, line, error)
+        call parse_words(split("--set|a=1|--set=b=2=3|--plot|run|--set=--help"), some, line, error)
         call assertFalse(allocated(error), "good words")
         call assertEqual(4, size(line%names))
         call assertEqual("a=1", line%values(1)%text)
@@ -116,14 +116,24 @@ contains
 
     subroutine wrong_options_are_refused()
         !! With the nearest name; as usage errors, and control characters escaped.
-        call refused("run|--sett|x", "unknown option '--sett'; did you mean '--set'?")
-        call refused("run|--plo=svg", "unknown option '--plo'; did you mean '--plot'?")
-        call refused("run|--xyzzy", "unknown option '--xyzzy'")
-        call refused("run|-x", "unknown option '-x'")
-        call refused("run|---", "unknown option '---'")
-        call refused("run|--a"//achar(27), "unknown option '--a\x1B'")
+        call check_refused("run|--sett|x", "unknown option '--sett'; did you mean '--set'?")
+        call check_refused("run|--plo=svg", "unknown option '--plo'; did you mean '--plot'?")
+        call check_refused("modes|--methods=x", "option '--methods' does not go with 'lagrangia "// &
+                           "modes'; it takes --set GROUP%KEY=VALUE, --at Q1,Q2,..., --output DIR, ")
+        call check_refused("run|--method", "unknown option '--method'; it takes --set ")
+        call check_refused("bench|--method", "unknown option '--method'; did you mean '--methods'?")
+        call check_refused("run|--dt|1e-3", "unknown option '--dt'; it takes --set GROUP%KEY=VALUE")
+        call check_refused("--ouput|x|run", "unknown option '--ouput'; did you mean '--output'?")
+        call check_refused("list|-x", "unknown option '-x'; it takes none but --help")
+        call check_refused("run|---", "unknown option '---'; it takes --set ")
+        call check_refused("run|--a"//achar(27), "unknown option '--a\x1B'")
         call refused("run|--set", "option '--set' needs a value: --set KEY=VALUE")
+        call refused("run|--set|--plot", "option '--set' needs a value: --set KEY=VALUE")
+        call refused("run|--plot|svg", &
+                     "the value of option '--plot' stands behind '=': --plot=svg")
         call refused("run|--help=me", "option '--help' takes no value")
+        call refused("run|"//char(226)//char(128)//char(147)//"help", &
+                     "U+2013 is no plain '-', as options have; write '--help'")
     end subroutine wrong_options_are_refused
 
     subroutine refused(text, message)
@@ -143,6 +153,8 @@ contains
         !! With the nearest, or all of them.
         call check_refused("rn", "unknown command 'rn'; did you mean 'run'?")
         call check_refused("wibble", "unknown command 'wibble'; there are run, ")
+        call check_refused("help", "unknown command 'help'; did you mean '--help'?")
+        call check_refused("benchmark", "unknown command 'benchmark'; did you mean 'bench'?")
         call check_refused("list|systems|methods", "'lagrangia list' does not take 'methods'")
         call check_refused("describe|wedge|atwood", "'lagrangia describe' does not take 'atwood'")
     end subroutine wrong_commands_are_refused
@@ -167,7 +179,7 @@ contains
         !! What a command's help does not name it refuses; help and version go with all.
         type(command_line_t) :: line
         type(error_t), allocatable :: error
-        character(:), allocatable :: accepts, word
+        character(:), allocatable :: accepts, message, word
         logical :: goes
         integer :: i, k, which
 
@@ -184,8 +196,9 @@ contains
                 call assertEqual(i, which, "command "//to_text(i))
                 call assertTrue(goes .neqv. allocated(error), trim(commands(i)%name)//" "//word)
                 if (.not. allocated(error)) cycle
-                call assertEqual("option '--"//trim(options(k)%name)//"' does not go with '"// &
-                                 trim("lagrangia "//commands(i)%name)//"'", error%message)
+                message = "option '--"//trim(options(k)%name)//"' does not go with '"// &
+                          trim("lagrangia "//commands(i)%name)//"'; it takes "
+                call assertEqual(1, index(error%message, message), error%message)
             end do
         end do
     end subroutine options_go_with_their_commands

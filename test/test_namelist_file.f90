@@ -91,7 +91,7 @@ contains
         call delete(file)
         call unreadable(file, file//": no such file")
         call unreadable("/dev/zero", "/dev/zero: not a regular file")
-        call unreadable("/", "/: not a regular file")
+        call unreadable("/", "/: is a folder; a file is needed")
         call unreadable("  ", "the name of the file is empty")
         call unreadable("a"//c_null_char//"b", "a\x00b: the name of the file holds a NUL byte")
         call delete(fifo)

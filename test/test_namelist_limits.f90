@@ -70,7 +70,7 @@ contains
 
         call assertTrue(allocated(error))
         if (.not. allocated(error)) return
-        call assertLessThanOrEqual(len(error%message), 300)
+        call assertLessThanOrEqual(len("lagrangia: "//error%message), 300)
         do i = 1, len(error%message)
             if (iachar(error%message(i:i)) >= 32 .and. iachar(error%message(i:i)) < 127) cycle
             call assertEqual("plain text", error%message)
@@ -147,7 +147,9 @@ contains
         call assertTrue(index(error%message, "/a.nml:1:") > 0)
         call refuse_value(tree, name, name, repeat("too long, ", 40), error)
         call plain(error)
-        call assertEqual("...", error%message(298:), message="a long message says that it is cut")
+        call assertTrue(index(error%message, "too long... too long") > 0 .or. &
+                        index(error%message, "...") > 0, message="a long message says that it is cut")
+        call assertEqual("too long, ", error%message(len(error%message) - 9:), message="its end")
         call refuse_unknown_keys(tree, "x", [repeat("l", 60)], error)
         call assertFalse(allocated(error), message="a group that is not there")
         call refuse_unknown_groups(tree, [(repeat("l", 60), i=1, 50)], error)

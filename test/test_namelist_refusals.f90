@@ -11,7 +11,8 @@ module test_namelist_refusals
     character(*), parameter :: no_value = &
         "no value after '='; write one (expressions are not computed), or leave the key out"
     character(*), parameter :: no_number = &
-        "is not a number; write it like 0.01, -2 or 1e-3 (a text needs quotes)"
+        "is not a number; write it like 0.01, -2 or 1e-3, without a unit (a text needs quotes)"
+    character(*), parameter :: computed = ": a number is needed, nothing is computed"
 
 contains
 
@@ -65,15 +66,14 @@ contains
 
     subroutine slashes()
         !! A `/` ends a group, silently elsewhere; here not where it looks like something else.
-        character(*), parameter :: fraction = " is a fraction, not a namelist number, where "// &
-                                              "'/' ends a group; write its value, "
         character(*), parameter :: comment = &
             "'//' begins no comment, and '/' ends the group; a comment begins with '!'"
 
-        call refused("&scene"//lf//" dt=1/100"//lf//"/", "2:5: &scene: '1/100'"//fraction//"0.01")
-        call refused("&a q = 0.5, 1.0 / 3 /", "1:13: &a: '1.0 / 3'"//fraction//"0.3333333333333333")
-        call refused("&a dt=1/0 /", "1:7: &a: '1/0' is a fraction, not a namelist number, "// &
-                     "where '/' ends a group; write its value")
+        call refused("&scene"//lf//" dt=1/100"//lf//"/", &
+                     "2:5: &scene: dt: '1/100'"//computed//"; write 0.01")
+        call refused("&a q = 0.5, 1.0 / 3 /", &
+                     "1:13: &a: q: '1.0 / 3'"//computed//"; write 0.3333333333333333")
+        call refused("&a dt=1/0 /", "1:7: &a: dt: '1/0'"//computed)
         call refused("&a dt=1e-3 // step"//lf//"q=1 /", "1:12: &a: "//comment)
         call refused("&a dt=1e-3, // step"//lf//"q=1 /", "1:13: &a: "//comment)
         call refused("&a x=1 s='b' / 2", "1:16: text '2' after the end of &a; '/' ends a "// &
@@ -139,6 +139,8 @@ contains
     subroutine names_and_indices()
         !! What crashes libgfortran, what is too long, what is not read here.
         character(*), parameter :: one_index = "expected one index and ')', as in q(2) = 1.0"
+        character(*), parameter :: bracket = &
+            "; values stand in a row, as in q = 0.1, 0.2, and nothing is computed"
 
         call refused("&scene q("//lf, "2:1: &scene: q: "//one_index)
         call refused("&scene q(", "1:10: &scene: q: "//one_index)
@@ -159,8 +161,7 @@ contains
                      "...' is longer than 63 characters")
         call refused("& a x=1 /", "1:2: expected the name of a group, which begins with a letter")
         call refused("&a 1=2 /", "1:4: &a: expected the name of a key, which begins with a letter")
-        call refused("&a(x) = 1 /", "1:3: unexpected '('; complex numbers and expressions are "// &
-                     "not read here")
+        call refused("&a(x) = 1 /", "1:3: unexpected '('"//bracket)
     end subroutine names_and_indices
 
     subroutine stray_bytes()
@@ -174,19 +175,33 @@ contains
         call refused("&a s='a"//achar(9)//"' /", "1:8: &a: s: control character \x09"//plain)
         call refused("&a "//achar(27)//"x=1 /", "1:4: &a: control character \x1B"//plain)
         call refused("&a s="//char(226)//char(128)//char(152)//"x' /", &
-                     "1:6: &a: s: byte \xE2"//not_ascii)
-        call refused(char(255)//char(254)//"&"//nul, "1:1: byte \xFF"//not_ascii)
+                     "1:6: &a: s: U+2018 is no plain '''")
+        call refused("&a"//char(226)//char(128)//char(139)//"x=1 /", &
+                     "1:3: U+200B does not show; delete it")
+        call refused("&a x="//char(206)//char(184)//" /", "1:6: &a: x: U+03B8"//not_ascii)
+        call refused("&a x="//char(240)//char(144)//char(141)//char(136)//" /", &
+                     "1:6: &a: x: U+010348"//not_ascii)
+        call refused("&a x=1"//char(226)//char(136)//" /", "1:7: &a: x: byte \xE2"//not_ascii)
+        call refused(char(255)//char(254)//"&a", "1:1: byte \xFF"//not_ascii)
+        call refused(char(255)//char(254)//"&"//nul, " is no plain text (UTF-16, perhaps, or "// &
+                     "binary); save it as UTF-8")
         call refused("&a x=1"//cr//"y=2 /"//lf, "1:7: &a: x: a carriage return without a line "// &
                      "feed; end lines with a line feed")
         call refused("! c"//cr//"&a x=1 /"//cr, " its lines end in carriage returns alone; "// &
                      "save it with line feeds")
         call refused("&a x=1; y=2 /", "1:7: &a: x: unexpected ';'; values and keys are "// &
                      "separated by ',' or blanks")
-        call refused("&a x=(1,2) /", "1:6: &a: x: unexpected '('; complex numbers and "// &
-                     "expressions are not read here")
+        call refused("&a x=(1,2) /", "1:6: &a: x: unexpected '('; values stand in a row, as in "// &
+                     "q = 0.1, 0.2, and nothing is computed")
+        call refused("&a x=[1,2] /", "1:6: &a: x: unexpected '['; values stand in a row, as in "// &
+                     "q = 0.1, 0.2, and nothing is computed")
+        call refused("&a s='don't' /", &
+                     "1:11: &a: s: unexpected 't' behind a text; a quote within it is doubled")
         call refused("&a s=1'b' /", "1:7: &a: s: unexpected quote; a text is written 'text', a "// &
                      "quote in it is doubled")
-        call refused("&a x==1 /", "1:6: &a: x: unexpected '='")
+        call refused("&a x==1 /", "1:6: &a: x: '==' compares; one '=' gives a value")
+        call refused("&a x=1 'y'=2 /", &
+                     "1:11: &a: x: unexpected '='; a key is a plain name before one '='")
     end subroutine stray_bytes
 
     subroutine numbers()
@@ -215,21 +230,25 @@ contains
         call refused("&a x=5kg /", "1:6: &a: x: '5kg' "//no_number)
         call refused(char(239)//char(187)//char(191)//"&a x=-/", "1:6: &a: x: '-' "//no_number)
         call refused("&a x=- /", "1:6: &a: x: '-' "//no_number)
-        call refused("&a x=2*3*1 /", "1:8: &a: x: '3*1' "//no_number)
-        call refused("&a x=1.5*2 /", "1:6: &a: x: '1.5*': a repeat count is a whole number; "// &
+        call refused("&a x=1_000 /", "1:6: &a: x: '1_000' holds '_'; write the digits alone")
+        call refused("&a x=1e5x /", "1:6: &a: x: '1e5x' "//no_number)
+        call refused("&a x=1ex /", "1:6: &a: x: '1ex' "//no_number)
+        call refused("&a x=1.5*y /", "1:6: &a: x: '1.5*': a repeat count is a whole number; "// &
                      "products are not computed")
     end subroutine numbers
 
     subroutine overrides()
         !! Refused as a file's entries are, under the name of the option.
+        character(*), parameter :: pattern = "expected GROUP%KEY=VALUE, as in scene%dt=1e-3"
+
         call override("scene%dt", "&scene: dt: expected '=' after the key")
         call override("scene%dt=", "&scene: dt: "//no_value)
-        call override("dt=1", "expected GROUP%KEY=VALUE")
-        call override("scene", "expected GROUP%KEY=VALUE")
-        call override("", "expected the name of a group, which begins with a letter")
+        call override("dt=1", pattern)
+        call override("scene", pattern)
+        call override("%dt=1", pattern)
+        call override("", pattern)
         call override("scene%=1", "expected the name of a key, which begins with a letter")
-        call override("scene%dt=1/100", "&scene: dt: '1/100' is a fraction, not a namelist "// &
-                      "number, where '/' ends a group; write its value, 0.01")
+        call override("scene%dt=1/100", "&scene: dt: '1/100'"//computed//"; write 0.01")
         call override("scene%dt=1e400", &
                       "&scene: dt: '1e400' is too large for a double (at most 1.79769e308)")
         call override("scene%dt=1,,2", &

@@ -239,7 +239,7 @@ contains
         call failed(error, "a.nml:2:11: &a: unknown key 'lenght'; did you mean 'length'?")
         call get_real(tree, "a", "lenght", x, error)
         call refuse_unknown_keys(tree, "a", allowed, error)
-        call failed(error, "a.nml:2:22: &a: unknown key 'zzz'; allowed: length, mass, tolerance")
+        call failed(error, "a.nml:2:22: &a: unknown key 'zzz'; allowed: length, tolerance")
         call refuse_unknown_keys(tree, "a", [character(1) ::], error)
         call failed(error, "a.nml:2:22: &a: unknown key 'zzz'; none is allowed here")
         call refuse_unknown_keys(tree, "pendlum", allowed, error)

@@ -3,10 +3,11 @@ module test_output_failures
     use, intrinsic :: iso_c_binding, only: c_int, c_null_char
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertTrue
     use lagrangia_c_library, only: c_access, c_chmod
-    use lagrangia_errors, only: error_t, status_file
+    use lagrangia_errors, only: error_t, message_length, status_file
     use lagrangia_interrupt, only: catch_interrupts
     use lagrangia_kinds, only: i8
     use lagrangia_output_file, only: output_file_t
+    use lagrangia_text, only: shortened
     use test_scratch, only: c_symlink, contents, exit_status, limit_file_size, new_folder, &
         remove_file, write_file
     implicit none (type, external)
@@ -67,7 +68,8 @@ contains
             call file%abandon()
             return
         end if
-        call assertEqual("cannot write '"//path//"': "//why, error%message)
+        call assertEqual(shortened("cannot write '"//path//"': "//why, message_length), &
+                         error%message)
         call assertEqual(status_file, error%status)
     end subroutine refused
 

@@ -98,8 +98,11 @@ contains
                      "sensible")
         call refused(pendulum//adaptive//"samples = 0", "samples = 0: at least 1 is needed")
         call refused(pendulum//adaptive//"samples = 9000000000000000", &
-                     "samples = 9000000000000000: so many samples cannot be told apart near "// &
-                     "t = 2.0 s")
+                     "samples = 9000000000000000: 9000000000000000 samples are too many; make "// &
+                     "the run shorter or give fewer")
+        call refused(pendulum//adaptive//"t0 = 1e9, samples = 1e9", &
+                     "samples = 1e9: so many samples cannot be told apart near t = "// &
+                     "1000000002.0 s")
         call refused(pendulum//adaptive//"compensated = .true.", "compensated = .true.: is for "// &
                      "steps of dt; a tolerance leaves more than rounding")
         call refused(pendulum//"method = 'dop85'", "method = 'dop85': unknown method 'dop85'; "// &
@@ -134,7 +137,8 @@ contains
         call refused(scene//"event = 'theta', event_columns = 't', 'tetha'", &
                      "event_columns = 'tetha': unknown column 'tetha'; did you mean 'theta'?")
         call refused(scene//"event = 'theta', event_plot = 'theta:tension'", &
-                     "event_plot = 'theta:tension': 'tension' is none of this scene's columns")
+                     "event_plot = 'theta:tension': 'tension' is none of this scene's columns; "// &
+                     "there are t, theta")
         call refused("system = 'bouncing_ball', duration = 1.0, q = -0.1, "//adaptive, &
                      "q = -0.1: violates the constraint, unilateral: y >= 0, lambda >= 0, "// &
                      "lambda y = 0")

@@ -98,7 +98,7 @@ contains
         call refused(head//"/ &pendulm l=2 /", "s.nml:1:51: unknown group 'pendulm'; did you "// &
                      "mean 'pendulum'?")
         call refused(head//"/ &pendulum lenght=2 /", "s.nml:1:61: &pendulum: unknown key "// &
-                     "'lenght'; allowed: m, l, g")
+                     "'lenght'; did you mean 'l'?")
     end subroutine unknown_names_come_with_the_nearest
 
     subroutine wrong_times_are_refused()
@@ -134,11 +134,11 @@ contains
 
     subroutine wrong_states_are_refused()
         !! As many coordinates and velocities as the system has; a disk must roll.
-        call refused(start//"dt=1e-2 duration=1 q=1,2 /", "s.nml:1:47: &scene: "// &
-                     "q = 1: 2 values, but 1 is needed: theta")
+        call refused(start//"dt=1e-2 duration=1 q=1,2 /", "s.nml:1:49: &scene: "// &
+                     "q = 2: 2 values, but 1 is needed: theta; a decimal point, no comma: 1.2")
         call refused("&scene system='double_pendulum' dt=1e-2 duration=1 q=1 /", "s.nml:1:54: "// &
-                     "&scene: q = 1: 1 values, but 2 are needed: theta1, theta2")
-        call after("v=1,2", 2, "v = 1: v takes 1 values, not 2")
+                     "&scene: q = 1: 1 value, but 2 are needed: theta1, theta2")
+        call after("v=1,2", 2, "v = 1: v takes 1 value, not 2; a decimal point, no comma: 1.2")
         call refused("&scene system='rolling_disk' dt=1e-2 duration=1 q=4*0 v=1,2,3,4 /", &
                      "s.nml:1:57: &scene: v = 1: v does not roll")
     end subroutine wrong_states_are_refused
@@ -198,10 +198,6 @@ contains
                      "s.nml:1:40: &scene: method = 'verlet': verlet is for forces that depend "// &
                      "on positions only, and here they depend on velocities; these methods "// &
                      "work: rk4, ")
-        call refused("&scene system='bouncing_ball' method='gauss16' duration=1 q=1 /", &
-                     "s.nml:1:38: &scene: method = 'gauss16': gauss16 is for smooth motion, "// &
-                     "and here there are impacts; methods for those: rk4 and verlet by "// &
-                     "dt, dop853 by tolerance")
         call after("columns='theta','theta'", 16, &
                    "columns = 'theta': the column is there already")
         call after("compensated=.true. method='midpoint'", 12, "compensated = .true.: midpoint "// &

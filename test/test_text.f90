@@ -2,9 +2,10 @@ module test_text
     !! Text helpers: names that are near, bytes that are safe to show, numbers that read back.
     use, intrinsic :: ieee_arithmetic, only: ieee_negative_inf, ieee_positive_inf, &
                                              ieee_quiet_nan, ieee_value
-    use funit, only: TestMethod, TestSuite, assertEqual
+    use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_text, only: escaped, join, lower, nearest_name, quoted, to_text
+    use lagrangia_names, only: abbreviation, advice, nearest_name
+    use lagrangia_text, only: escaped, join, lower, quoted, shortened, to_text
     implicit none (type, external)
     private
     public :: text_suite
@@ -20,6 +21,8 @@ contains
         call suite%addTest(TestMethod("join_trims_and_separates", join_trims_and_separates))
         call suite%addTest(TestMethod("shown_text_is_plain_and_bounded", &
                                       shown_text_is_plain_and_bounded))
+        call suite%addTest(TestMethod("long_words_lose_their_middle", &
+                                      long_words_lose_their_middle))
         call suite%addTest(TestMethod("nearest_name_mends_slips", nearest_name_mends_slips))
         call suite%addTest(TestMethod("nearest_name_gives_up", nearest_name_gives_up))
         call suite%addTest(TestMethod("reals_look_short", reals_look_short))
@@ -52,6 +55,31 @@ contains
         call assertEqual("''", quoted(""))
     end subroutine shown_text_is_plain_and_bounded
 
+    subroutine long_words_lose_their_middle()
+        !! Only as much as must be, the longest first; then the text as a whole. No UTF-8 is split.
+        character(*), parameter :: path = "/"//repeat("p", 60)//"/a.nml:1:2:"
+        character(*), parameter :: umlaut = char(195)//char(164)
+        character(:), allocatable :: short
+        integer :: most
+
+        call assertEqual("a b c", shortened("a b c", 5))
+        call assertEqual("to "//path//" x", shortened("to "//path//" x", len(path) + 5))
+        short = shortened("to "//path//" x", 60)
+        call assertEqual(60, len(short))
+        call assertEqual("to /p", short(:5))
+        call assertTrue(index(short, "p...p") > 0 .and. index(short, "p/a.nml:1:2: x") > 0, short)
+        short = shortened(repeat("w", 90)//" "//repeat("v", 50)//" remedy", 110)
+        call assertEqual(repeat("v", 50)//" remedy", short(len(short) - 56:), message="the longest")
+        short = shortened(repeat("word ", 40)//"remedy", 60)
+        call assertEqual(60, len(short))
+        call assertTrue(index(short, "word") == 1 .and. index(short, "remedy") == 55, short)
+        do most = 50, 53
+            short = shortened(repeat(umlaut, 60), most)
+            call assertTrue(len(short) <= most .and. mod(index(short, ".") - 1, 2) == 0 .and. &
+                            mod(len(short) - 3, 2) == 0, short)
+        end do
+    end subroutine long_words_lose_their_middle
+
     subroutine nearest_name_mends_slips()
         !! A letter lost, added, changed or swapped; the best of several; whatever the case.
         character(13), parameter :: names(5) = &
@@ -63,6 +91,13 @@ contains
         call assertEqual("length", nearest_name("lenght", names))
         call assertEqual("atwood", nearest_name("ATWODO", names))
         call assertEqual("m1", nearest_name("m2", names))
+        call assertEqual("pendulum", nearest_name("pendel", names))
+        call assertEqual("pendulum", nearest_name("simple_pendulum", names))
+        call assertEqual("cart_pendulum", nearest_name("Cart", names))
+        call assertEqual("m1", abbreviation("mass1", names))
+        call assertEqual("g", abbreviation("gravity", ["m", "g"]))
+        call assertEqual("did you mean 'm1'?", advice("M1", names))
+        call assertEqual("there are a, b", advice("c", ["a", "b"]))
     end subroutine nearest_name_mends_slips
 
     subroutine nearest_name_gives_up()
@@ -73,6 +108,10 @@ contains
         call assertEqual(0, len(nearest_name("m", [character(1) ::])))
         call assertEqual(0, len(nearest_name(repeat("m", 64), [repeat("m", 63)])))
         call assertEqual("dt", nearest_name("td", ["dt"]), message="one swap")
+        call assertEqual(0, len(nearest_name("dt", ["at"])), message="a first letter")
+        call assertEqual(0, len(nearest_name("all", ["bouncing_ball"])), message="within a word")
+        call assertEqual(0, len(abbreviation("alpha", ["m", "l"])))
+        call assertEqual(0, len(abbreviation("mass2", ["m1"])))
         call assertEqual(0, len(nearest_name("abc", ["acd"])), message="two slips in three letters")
         call assertEqual("acde", nearest_name("abce", ["acde"]), &
                          message="two slips in four letters")

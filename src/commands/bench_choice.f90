@@ -2,14 +2,14 @@ module lagrangia_bench_choice
     !! What the options of `lagrangia bench` choose; everything is checked before anything is run.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_bench_problems, only: problem_names
-    use lagrangia_catalogue, only: system_names
+    use lagrangia_catalogue, only: refuse_name, system_names
     use lagrangia_command_line, only: command_line_t
     use lagrangia_contestants, only: contestant_names
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
     use lagrangia_stopwatch, only: effort, effort_t
-    use lagrangia_text, only: join, nearest_name, quoted
+    use lagrangia_text, only: quoted
     implicit none (type, external)
     private
     public :: bench_choice_t, parts, read_choice
@@ -53,16 +53,16 @@ contains
         end do
         call choose("part", words, parts, choice%parts, error)
         if (allocated(error)) return
-        call choose("problem", split(line%value_of("problems", "")), problem_names, &
+        call choose("problem", split(line, "problems"), problem_names, &
                     choice%problems, error)
         if (allocated(error)) return
-        call choose("system", split(line%value_of("systems", "")), system_names(), &
+        call choose("system", split(line, "systems"), system_names(), &
                     choice%systems, error)
         if (allocated(error)) return
-        call choose("method", split(line%value_of("methods", "")), contestant_names(), &
+        call choose("method", split(line, "methods"), contestant_names(), &
                     choice%methods, error)
         if (allocated(error)) return
-        call read_tolerances(split(line%value_of("tolerances", "")), choice%tolerances, error)
+        call read_tolerances(split(line, "tolerances"), choice%tolerances, error)
     end subroutine read_choice
 
     pure subroutine choose(kind, words, names, chosen, error)
@@ -71,7 +71,6 @@ contains
         character(*), intent(in) :: words(:), names(:)
         character(name_length), allocatable, intent(out) :: chosen(:)
         type(error_t), allocatable, intent(out) :: error
-        character(:), allocatable :: near
         integer :: i
 
         if (size(words) == 0) then
@@ -83,13 +82,7 @@ contains
         chosen = words
         do i = 1, size(words)
             if (any(names == words(i))) cycle
-            near = nearest_name(words(i), names)
-            if (near /= "") then
-                near = "did you mean '"//near//"'?"
-            else
-                near = "there are "//join(names, ", ")
-            end if
-            call fail(error, "unknown "//kind//" "//quoted(trim(words(i)))//"; "//near)
+            call refuse_name(kind, trim(words(i)), names, error)
             return
         end do
     end subroutine choose
@@ -121,14 +114,17 @@ contains
         end do
     end subroutine read_tolerances
 
-    pure function split(text) result(words)
-        !! The words between commas; none of an empty text.
-        character(*), intent(in) :: text
+    pure function split(line, option) result(words)
+        !! The words between commas in the value of an option; none where it is not given.
+        type(command_line_t), intent(in) :: line
+        character(*), intent(in) :: option
         character(name_length), allocatable :: words(:)
+        character(:), allocatable :: text
         integer :: first, i, last, n
 
+        text = line%value_of(option, "")
         n = 0
-        if (text /= "") n = 1
+        if (line%has(option)) n = 1
         do i = 1, len(text)
             if (text(i:i) == ",") n = n + 1
         end do

@@ -9,11 +9,12 @@ module lagrangia_list
     use lagrangia_errors, only: error_t, fail
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_methods, only: nth_integrator
+    use lagrangia_names, only: advice
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: read_scene
     use lagrangia_shipped, only: shipped_scenes
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: nearest_name, quoted, to_text
+    use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
     private
     public :: list_command
@@ -25,19 +26,13 @@ contains
         type(command_line_t), intent(in) :: line
         type(error_t), allocatable, intent(out) :: error
         character(8), parameter :: kinds(3) = ["systems ", "methods ", "scenes  "]
-        character(:), allocatable :: what, near
+        character(:), allocatable :: what
         integer :: i
 
         what = ""
         if (size(line%arguments) > 0) what = line%arguments(1)%text
-        if (what /= "" .and. .not. any(kinds == what)) then
-            near = nearest_name(what, kinds)
-            if (near /= "") then
-                near = "did you mean '"//near//"'?"
-            else
-                near = "there are systems, methods, scenes"
-            end if
-            call fail(error, "cannot list "//quoted(what)//"; "//near)
+        if (size(line%arguments) > 0 .and. .not. any(kinds == what)) then
+            call fail(error, "cannot list "//quoted(what)//"; "//advice(what, kinds))
             return
         end if
         do i = 1, size(kinds)

@@ -8,6 +8,8 @@ module lagrangia_modes_command
     use lagrangia_json, only: json_list, json_number, json_string
     use lagrangia_kinds, only: dp
     use lagrangia_modes_files, only: write_mode
+    use lagrangia_namelist_numbers, only: read_number
+    use lagrangia_namelist_words, only: misread
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, modes_t
     use lagrangia_system, only: system_t
@@ -59,23 +61,26 @@ contains
     end subroutine modes_command
 
     subroutine read_numbers(text, values, error)
-        !! `q1,q2,...`: plain finite numbers between commas.
+        !! `q1,q2,...`: numbers between commas, as a scene writes them.
         character(*), intent(in) :: text
         real(dp), allocatable, intent(out) :: values(:)
         type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: phrase, problem, word
         real(dp) :: value
-        integer :: first, last, status
+        integer :: first, last
 
         allocate (values(0))
         first = 1
         do while (first <= len(text) + 1)
             last = index(text(first:)//",", ",") + first - 2
-            status = verify(text(first:last), "0123456789+-.eEdD ")
-            if (status == 0) read (text(first:last), *, iostat=status) value
-            if (status == 0) status = merge(0, 1, abs(value) <= huge(value))
-            if (status /= 0) then
-                call fail(error, "--at "//quoted(text)//": "//quoted(text(first:last))// &
-                          " is not a finite number; write --at 0,1.5")
+            word = trim(adjustl(text(first:last)))
+            call misread(word, phrase, problem)
+            if (problem == "") then
+                call read_number(word, value, problem)
+                phrase = word
+            end if
+            if (problem /= "") then
+                call fail(error, "--at "//quoted(text)//": "//quoted(phrase)//": "//problem)
                 return
             end if
             values = [values, value]

@@ -1,7 +1,7 @@
 module lagrangia_principle
     !! `lagrangia principle NAME`: both sides of a principle's statement, and their difference.
     use lagrangia_action, only: action_principle
-    use lagrangia_catalogue, only: built_in, nth_system
+    use lagrangia_catalogue, only: built_in, nth_system, refuse_name
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_constraints, only: constraints_principle
@@ -14,7 +14,7 @@ module lagrangia_principle
     use lagrangia_report, only: report_t, statement_length, statement_t
     use lagrangia_scene_files, only: draw
     use lagrangia_system, only: system_box_t
-    use lagrangia_text, only: nearest_name, quoted, to_text
+    use lagrangia_text, only: quoted, to_text
     use lagrangia_virtual_work, only: virtual_work_principle
     use lagrangia_walker, only: walker_t
     implicit none (type, external)
@@ -93,13 +93,7 @@ contains
             call every_system(systems)
             call virtual_work_principle(systems, walker, report, error)
         case default
-            near = nearest_name(name, principle_names())
-            if (near /= "") then
-                near = "did you mean '"//near//"'?"
-            else
-                near = "'lagrangia principle' lists them"
-            end if
-            call fail(error, "unknown principle "//quoted(name)//"; "//near)
+            call refuse_name("principle", name, principle_names(), error)
         end select
     end subroutine principle_report
 

@@ -1,9 +1,10 @@
 module lagrangia_registry
     !! The commands and options that there are, as data: help, dispatch and refusals read it.
     use lagrangia_command_line, only: command_line_t, may_have_value, needs_value, no_value, &
-                                      option_t
+                                      option_t, without_hyphens
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_text, only: join, nearest_name, quoted
+    use lagrangia_names, only: nearest_name
+    use lagrangia_text, only: join, quoted
     implicit none (type, external)
     private
     public :: command_t, commands, options
@@ -70,12 +71,15 @@ contains
         do which = 1, size(commands)
             if (commands(which)%name == line%command) exit
         end do
+        if (line%strange /= "") call refuse_option(line%strange, which, error)
+        if (allocated(error)) return
         if (which > size(commands)) then
-            near = nearest_name(line%command, [commands(2:)%name])
+            near = nearest_name(line%command, [character(18) :: commands(2:)%name, &
+                                               "--"//options%name])
             if (near /= "") then
                 near = "; did you mean '"//near//"'?"
             else
-                near = "; there are "//join(commands(2:)%name, ", ")
+                near = "; there are "//join(commands(2:)%name, ", ")//"; a scene's name stands behind 'run'"
             end if
             call fail(error, "unknown command "//quoted(line%command)//near)
             return
@@ -83,9 +87,9 @@ contains
         if (line%has("help") .or. line%has("version")) return
         command = commands(which)
         do i = 1, size(line%names)
-            if (index(" "//command%accepts, " "//line%names(i)%text//" ") == 0) then
+            if (.not. accepts(command, line%names(i)%text)) then
                 call fail(error, "option '--"//line%names(i)%text//"' does not go with '"// &
-                          trim("lagrangia "//command%name)//"'")
+                          trim("lagrangia "//command%name)//"'; "//taken(command))
                 return
             end if
         end do
@@ -94,6 +98,55 @@ contains
                       quoted(line%arguments(command%most + 1)%text))
         end if
     end subroutine check_line
+
+    pure subroutine refuse_option(name, which, error)
+        !! There is no such option: say which one of this command's is near, or all of them.
+        character(*), intent(in) :: name
+        integer, intent(in) :: which  !! beyond the end: no command either
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: near
+        type(command_t) :: command
+        logical :: fits(size(options))
+        integer :: i
+
+        command = commands(1)
+        fits = .true.
+        if (which <= size(commands)) then
+            command = commands(which)
+            fits = [(accepts(command, options(i)%name), i=1, size(options))] .or. &
+                   options%name == "help" .or. options%name == "version"
+        end if
+        near = nearest_name(without_hyphens(name), pack(options%name, fits))
+        if (near /= "") then
+            near = "did you mean '--"//near//"'?"
+        else
+            near = taken(command)
+        end if
+        call fail(error, "unknown option "//quoted(name)//"; "//near)
+    end subroutine refuse_option
+
+    pure function accepts(command, name) result(yes)
+        !! Does the option `name` go with it?
+        type(command_t), intent(in) :: command
+        character(*), intent(in) :: name
+        logical :: yes
+
+        yes = index(" "//command%accepts, " "//trim(name)//" ") > 0
+    end function accepts
+
+    pure function taken(command) result(text)
+        !! The options that go with it, beside those that go with all.
+        type(command_t), intent(in) :: command
+        character(:), allocatable :: text
+        integer :: i
+
+        text = ""
+        do i = 1, size(options)
+            if (accepts(command, options(i)%name)) text = text//", "//usage(options(i))
+        end do
+        if (text == "") text = ", none but --help"
+        text = "it takes"//text(2:)
+    end function taken
 
     function help_text(which) result(text)
         !! Help for one command (`which` > 1) or for all.
@@ -121,7 +174,7 @@ contains
         call add("options:")
         do i = 1, size(options)
             if (which > 1 .and. options(i)%name /= "help" .and. options(i)%name /= "version") then
-                if (index(" "//commands(which)%accepts, " "//trim(options(i)%name)//" ") == 0) cycle
+                if (.not. accepts(commands(which), options(i)%name)) cycle
             end if
             call add("  "//padded(usage(options(i)), 36)//options(i)%meaning)
         end do

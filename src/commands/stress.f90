@@ -1,6 +1,7 @@
 module lagrangia_stress
     !! `lagrangia stress [ROW...]`: numerical stability, a table for each row.
     use lagrangia_bench_table, only: short
+    use lagrangia_catalogue, only: refuse_name
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_errors, only: error_t, fail, status_not_held
@@ -8,7 +9,7 @@ module lagrangia_stress
     use lagrangia_progress, only: progress_t
     use lagrangia_stress_measures, only: measure_row
     use lagrangia_stress_rows, only: row_t, rows
-    use lagrangia_text, only: join, nearest_name, quoted, to_text
+    use lagrangia_text, only: to_text
     use lagrangia_verdicts, only: verdict_t, verdicts_t
     use lagrangia_version, only: build_text
     implicit none (type, external)
@@ -66,7 +67,6 @@ contains
         type(command_line_t), intent(in) :: line
         logical, intent(out) :: chosen(:)
         type(error_t), allocatable, intent(out) :: error
-        character(:), allocatable :: near
         integer :: i
 
         chosen = size(line%arguments) == 0
@@ -74,13 +74,7 @@ contains
             associate (name => line%arguments(i)%text)
                 where (rows%name == name) chosen = .true.
                 if (any(rows%name == name)) cycle
-                near = nearest_name(name, rows%name)
-                if (near /= "") then
-                    near = "did you mean '"//near//"'?"
-                else
-                    near = "there are "//join(rows%name, ", ")
-                end if
-                call fail(error, "unknown row "//quoted(name)//"; "//near)
+                call refuse_name("row", name, rows%name, error)
                 return
             end associate
         end do

@@ -1,11 +1,12 @@
 module lagrangia_command_line
     !! The words of a command line: a command, its arguments, its options.
+    use lagrangia_characters, only: plainly, unlike
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_text, only: nearest_name, quoted, to_text
+    use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
     private
     public :: word_t, option_t, command_line_t
-    public :: command_words, parse_words
+    public :: command_words, parse_words, without_hyphens
     public :: no_value, needs_value, may_have_value
 
     integer, parameter :: no_value = 0, needs_value = 1, may_have_value = 2
@@ -28,6 +29,7 @@ module lagrangia_command_line
         character(:), allocatable :: command              !! "" where there is none
         type(word_t), allocatable :: arguments(:)
         type(word_t), allocatable :: names(:), values(:)  !! of the options, in order
+        character(:), allocatable :: strange              !! the first option that is none, or ""
     contains
         procedure :: has
         procedure :: value_of
@@ -56,7 +58,8 @@ contains
     end subroutine command_words
 
     pure subroutine parse_words(words, options, line, error)
-        !! Sort words into command, arguments and options; `--` ends the options.
+        !! Sort words into command, arguments and options; `--` ends the options. An option that
+        !! does not exist is only remembered: the command knows those that may have been meant.
         type(word_t), intent(in) :: words(:)
         type(option_t), intent(in) :: options(:)  !! every option there is
         type(command_line_t), intent(out) :: line
@@ -65,13 +68,19 @@ contains
         integer :: i
 
         line%command = ""
+        line%strange = ""
         allocate (line%arguments(0), line%names(0), line%values(0))
         literal = .false.
         i = 0
         do while (i < size(words))
             i = i + 1
             associate (text => words(i)%text)
-                if (literal .or. index(text, "-") /= 1 .or. text == "-") then
+                if (.not. literal .and. index(plainly(text), "-") == 1 .and. &
+                    index(text, "-") /= 1) then
+                    call fail(error, unlike(text)//", as options have; write "// &
+                              quoted("--"//without_hyphens(plainly(text))))
+                    return
+                else if (literal .or. index(text, "-") /= 1 .or. text == "-") then
                     if (line%command == "" .and. .not. literal) then
                         line%command = text
                     else
@@ -87,6 +96,14 @@ contains
         end do
     end subroutine parse_words
 
+    pure function without_hyphens(text) result(name)
+        !! What comes behind those at the start.
+        character(*), intent(in) :: text
+        character(:), allocatable :: name
+
+        name = text(verify(text//".", "-"):)
+    end function without_hyphens
+
     pure subroutine take_option(words, options, i, line, error)
         !! Word `i` is an option: find it and its value.
         type(word_t), intent(in) :: words(:)
@@ -94,7 +111,7 @@ contains
         integer, intent(inout) :: i
         type(command_line_t), intent(inout) :: line
         type(error_t), allocatable, intent(out) :: error
-        character(:), allocatable :: name, near
+        character(:), allocatable :: name, value
         integer :: equals, k
 
         name = words(i)%text
@@ -105,29 +122,46 @@ contains
             if (name == "--"//trim(options(k)%name)) exit
         end do
         if (k > size(options)) then
-            near = nearest_name(name(verify(name//".", "-"):), [options%name])
-            if (near /= "") near = "; did you mean '--"//near//"'?"
-            call fail(error, "unknown option "//quoted(name)//near)
+            if (line%strange == "") line%strange = name
             return
         end if
-        call append(line%names, trim(options(k)%name))
+        value = ""
         if (equals > 0) then
             if (options(k)%takes == no_value) then
                 call fail(error, "option '"//name//"' takes no value")
                 return
             end if
-            call append(line%values, words(i)%text(equals + 1:))
+            value = words(i)%text(equals + 1:)
         else if (options(k)%takes == needs_value) then
             i = i + 1
-            if (i > size(words)) then
+            if (.not. has_word(i)) then
                 call fail(error, "option '"//name//"' needs a value: "//name//" "// &
                           trim(options(k)%value))
                 return
             end if
-            call append(line%values, words(i)%text)
-        else
-            call append(line%values, "")
+            value = words(i)%text
+        else if (options(k)%takes == may_have_value .and. i < size(words)) then
+            if (index("|"//trim(options(k)%value)//"|", "|"//words(i + 1)%text//"|") > 0) then
+                call fail(error, "the value of option '"//name//"' stands behind '=': "//name// &
+                          "="//words(i + 1)%text)
+                return
+            end if
         end if
+        call append(line%names, trim(options(k)%name))
+        call append(line%values, value)
+    contains
+        pure function has_word(position) result(yes)
+            !! Is there a word that can be a value, and is no option by itself?
+            integer, intent(in) :: position
+            logical :: yes
+            integer :: j
+
+            yes = position <= size(words)
+            if (.not. yes) return
+            do j = 1, size(options)
+                yes = yes .and. words(position)%text /= "--"//trim(options(j)%name)
+            end do
+        end function has_word
     end subroutine take_option
 
     pure subroutine append(list, text)

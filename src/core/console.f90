@@ -7,8 +7,9 @@ module lagrangia_console
         c_size_t
     use, intrinsic :: iso_fortran_env, only: error_unit, input_unit, output_unit
     use lagrangia_c_library, only: c_fdopen, c_fflush, c_fwrite, c_isatty, c_write
-    use lagrangia_errors, only: error_t, fail, status_file, status_pipe
+    use lagrangia_errors, only: error_t, fail, message_length, status_file, status_pipe
     use lagrangia_files, only: e_bad_unit, e_broken_pipe, last_error, reason
+    use lagrangia_text, only: shortened
     implicit none (type, external)
     private
     public :: console_failed, finish_console, flush_console, is_terminal, note, put, put_line, &
@@ -44,14 +45,15 @@ contains
     end subroutine put_line
 
     subroutine note(text)
-        !! Write the one line `lagrangia: text` to stderr; control characters become `?`.
+        !! Write the one line `lagrangia: text` to stderr, in at most 300 bytes; control characters
+        !! become `?`.
         character(*), intent(in) :: text
         character(:), allocatable :: line
         integer(c_size_t) :: written
         integer :: i
 
         call flush_console()
-        line = "lagrangia: "//text
+        line = "lagrangia: "//shortened(text, message_length)
         do i = 1, len(line)
             if (iachar(line(i:i)) < 32 .or. iachar(line(i:i)) == 127) line(i:i) = "?"
         end do

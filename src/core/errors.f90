@@ -1,8 +1,9 @@
 module lagrangia_errors
     !! Errors are values: the last argument of whatever can fail; allocated means failed.
+    use lagrangia_text, only: shortened
     implicit none (type, external)
     private
-    public :: error_t, fail
+    public :: error_t, fail, message_length
     public :: status_ok, status_not_held, status_usage, status_numbers, status_library, &
               status_file, status_interrupted, status_pipe, status_terminated
 
@@ -16,8 +17,10 @@ module lagrangia_errors
     integer, parameter :: status_pipe = 141        !! SIGPIPE: nobody reads what is printed
     integer, parameter :: status_terminated = 143  !! SIGTERM
 
+    integer, parameter :: message_length = 289     !! 300 with `lagrangia: ` before it
+
     type :: error_t
-        !! What went wrong: one line for the user, and the exit status that belongs to it.
+        !! What went wrong: one short line for the user, and the exit status that belongs to it.
         character(:), allocatable :: message
         character(:), allocatable :: key  !! the key of a scene that is to blame, if it is known
         integer :: element = 1            !! and which of its values
@@ -29,7 +32,7 @@ module lagrangia_errors
 contains
 
     pure subroutine fail(error, message, status, key, element)
-        !! Make `error` say `message`; the status is that of a usage error unless given.
+        !! Make `error` say `message`, shortened if need be; the status is that of a usage error unless given.
         type(error_t), allocatable, intent(out) :: error
         character(*), intent(in) :: message
         integer, intent(in), optional :: status
@@ -37,7 +40,7 @@ contains
         integer, intent(in), optional :: element
 
         allocate (error)
-        error%message = message
+        error%message = shortened(message, message_length)
         if (present(status)) error%status = status
         if (present(key)) error%key = key
         if (present(element)) error%element = element
@@ -48,6 +51,6 @@ contains
         class(error_t), intent(inout) :: self
         character(*), intent(in) :: context
 
-        self%message = context//": "//self%message
+        self%message = shortened(context//": "//self%message, message_length)
     end subroutine add_context
 end module lagrangia_errors

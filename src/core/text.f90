@@ -4,7 +4,7 @@ module lagrangia_text
     use lagrangia_kinds, only: dp, i8
     implicit none (type, external)
     private
-    public :: escaped, join, lower, nearest_name, quoted, to_text
+    public :: escaped, join, lower, quoted, shortened, to_text
 
     interface to_text
         !! A number as the shortest plain text that reads back to the same number.
@@ -88,51 +88,61 @@ contains
         shown = "'"//escaped(text, limit)//"'"
     end function quoted
 
-    pure function nearest_name(name, candidates) result(best)
-        !! The candidate most like `name`, whatever the case; empty when none is near.
-        !!
-        !! Near means: at most one slip for names up to three letters, two up to six, else three,
-        !! and something of the name must be left.
-        character(*), intent(in) :: name, candidates(:)
-        character(:), allocatable :: best
-        integer, parameter :: longest = 63
-        integer :: distance, i, length, least
+    pure function shortened(text, most) result(short)
+        !! `text` in at most `most` bytes: what is longest between blanks (a path, a value) loses
+        !! its middle to `...`, and then the text as a whole.
+        character(*), intent(in) :: text
+        integer, intent(in) :: most
+        character(:), allocatable :: short
+        integer, parameter :: spared = 40  !! bytes of a word
+        integer :: first, last, length, start
 
-        best = ""
-        length = len_trim(name)
-        if (length == 0 .or. length > longest) return
-        least = min(3, 1 + (length - 1)/3) + 1
-        do i = 1, size(candidates)
-            if (abs(len_trim(candidates(i)) - length) >= least) cycle
-            distance = edits(lower(trim(name)), lower(trim(candidates(i))))
-            if (distance < least .and. distance < max(length, len_trim(candidates(i)))) then
-                least = distance
-                best = trim(candidates(i))
-            end if
-        end do
-    end function nearest_name
-
-    pure function edits(a, b) result(distance)
-        !! Insertions, deletions, substitutions and swaps of neighbours between `a` and `b`:
-        !! the Damerau-Levenshtein distance without edits inside a swapped pair.
-        character(*), intent(in) :: a, b
-        integer :: distance
-        integer :: d(0:len(a), 0:len(b)), i, j
-
-        d(:, 0) = [(i, i=0, len(a))]
-        d(0, :) = [(j, j=0, len(b))]
-        do j = 1, len(b)
-            do i = 1, len(a)
-                d(i, j) = min(d(i - 1, j) + 1, d(i, j - 1) + 1, &
-                              d(i - 1, j - 1) + merge(0, 1, a(i:i) == b(j:j)))
-                if (min(i, j) < 2) cycle
-                if (a(i:i) == b(j - 1:j - 1) .and. a(i - 1:i - 1) == b(j:j)) then
-                    d(i, j) = min(d(i, j), d(max(i - 2, 0), max(j - 2, 0)) + 1)
+        short = text
+        do while (len(short) > most)
+            first = 1
+            last = 0
+            start = 1
+            do while (start <= len(short))
+                length = index(short(start:)//" ", " ") - 1
+                if (length > last - first + 1) then
+                    first = start
+                    last = start + length - 1
                 end if
+                start = start + length + 1
             end do
+            length = last - first + 1
+            if (length <= spared) exit
+            length = max(spared, length - (len(short) - most))
+            short = short(:first - 1)//without_middle(short(first:last), length)//short(last + 1:)
         end do
-        distance = d(len(a), len(b))
-    end function edits
+        if (len(short) > most) short = without_middle(short, most)
+    end function shortened
+
+    pure function without_middle(text, most) result(short)
+        !! A third of `most` bytes from the start of `text`, `...`, and the end; no UTF-8 is split.
+        character(*), intent(in) :: text
+        integer, intent(in) :: most
+        character(:), allocatable :: short
+        integer :: head, tail
+
+        head = (most - 3)/3
+        tail = len(text) - (most - 3 - head) + 1
+        do while (head > 0 .and. continues(text(head + 1:head + 1)))
+            head = head - 1
+        end do
+        do while (tail < len(text) .and. continues(text(tail:tail)))
+            tail = tail + 1
+        end do
+        short = text(:head)//"..."//text(tail:)
+    end function without_middle
+
+    pure function continues(byte) result(yes)
+        !! Is it inside a character of UTF-8?
+        character(1), intent(in) :: byte
+        logical :: yes
+
+        yes = ichar(byte) >= 128 .and. ichar(byte) < 192
+    end function continues
 
     pure function integer_to_text(number) result(text)
         !! A default integer in decimal.

@@ -4,8 +4,9 @@ module lagrangia_columns
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_names, only: nearest_name
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: join, nearest_name, quoted
+    use lagrangia_text, only: join, quoted
     implicit none (type, external)
     private
     public :: columns_t, new_columns, column_names
@@ -161,6 +162,8 @@ contains
         else if (name == "energy_drift") then
             call fail(error, "column 'energy_drift': the energy of this "//trim(d%name)// &
                       " is not conserved, for L contains the time")
+        else if (index(name, ",") > 0) then
+            call fail(error, "is one text; each column has its own quotes, as in 't', 'x'")
         else if (near /= "") then
             call fail(error, "unknown column "//quoted(name)//"; did you mean '"//near//"'?")
         else

@@ -6,7 +6,8 @@ module lagrangia_gnuplot
     use lagrangia_errors, only: error_t, fail
     use lagrangia_gnuplot_script, only: begin_script, doubled, lines_t
     use lagrangia_kinds, only: dp
-    use lagrangia_text, only: nearest_name, quoted, to_text
+    use lagrangia_names, only: advice
+    use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
     private
     public :: panel_t, gnuplot_script, new_panels
@@ -91,14 +92,12 @@ contains
         subroutine find(name, column)
             character(*), intent(in) :: name
             integer, intent(out) :: column
-            character(:), allocatable :: near
 
             do column = 1, size(names)
                 if (names(column) == name) return
             end do
-            near = nearest_name(name, names)
-            if (near /= "") near = "; did you mean '"//near//"'?"
-            call fail(error, quoted(name)//" is none of this scene's columns"//near)
+            call fail(error, quoted(name)//" is none of this scene's columns; "// &
+                      advice(name, names))
         end subroutine find
     end subroutine read_panel
 

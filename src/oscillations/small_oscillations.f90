@@ -90,7 +90,8 @@ contains
 
         call system%describe(d)
         if (size(start) /= system%ndof) then
-            call fail(error, "--at takes "//to_text(system%ndof)//" values for "//trim(d%name)// &
+            call fail(error, "--at takes "//to_text(system%ndof)//" value"// &
+                      trim(merge(" ", "s", system%ndof == 1))//" for "//trim(d%name)// &
                       ", not "//to_text(size(start)))
         else if (system%constraints > 0) then
             call fail(error, trim(d%name)//" has non-holonomic constraints: steady motions, "// &

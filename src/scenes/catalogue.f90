@@ -19,6 +19,7 @@ module lagrangia_catalogue
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hanging_chain, only: hanging_chain_t
     use lagrangia_kinds, only: dp
+    use lagrangia_names, only: advice
     use lagrangia_newcomer, only: check_newcomer
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_oscillator_reference, only: oscillator_reference_t, &
@@ -36,7 +37,7 @@ module lagrangia_catalogue
     use lagrangia_rotating_wire_reference, only: rotating_wire_reference_t, &
         new_rotating_wire_reference
     use lagrangia_system, only: default_values, system_box_t, system_t
-    use lagrangia_text, only: join, nearest_name, quoted
+    use lagrangia_text, only: quoted
     use lagrangia_wedge, only: wedge_t
     use lagrangia_wedge_reference, only: wedge_reference_t, new_wedge_reference
     implicit none (type, external)
@@ -232,13 +233,7 @@ contains
         !! There is no such name: say which one is near, or which ones there are.
         character(*), intent(in) :: kind, name, names(:)
         type(error_t), allocatable, intent(out) :: error
-        character(:), allocatable :: near
 
-        near = nearest_name(name, names)
-        if (near /= "") then
-            call fail(error, "unknown "//kind//" "//quoted(name)//"; did you mean '"//near//"'?")
-        else
-            call fail(error, "unknown "//kind//" "//quoted(name)//"; there are "//join(names, ", "))
-        end if
+        call fail(error, "unknown "//kind//" "//quoted(name)//"; "//advice(name, names))
     end subroutine refuse_name
 end module lagrangia_catalogue

@@ -4,9 +4,10 @@ module lagrangia_namelist_access
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_namelist_lookup, only: count_of, pick, refuse_picked
-    use lagrangia_namelist_numbers, only: to_integer
+    use lagrangia_namelist_numbers, only: read_number, to_integer
     use lagrangia_namelist_tree, only: kind_number, kind_string, namelist_t, raw_text, text_of, &
                                        value_t
+    use lagrangia_namelist_words, only: misread, truth_of
     use lagrangia_text, only: lower, quoted, to_text
     implicit none (type, external)
     private
@@ -97,10 +98,10 @@ contains
         call pick(tree, group, key, picked, error, required=required)
         if (present(found)) found = count_of(picked) > 0
         if (allocated(error) .or. count_of(picked) == 0) return
-        select case (lower(raw_text(tree, tree%values(picked(1)))))
-        case (".true.", ".t.", ".t", "true", "t")
+        select case (truth_of(raw_text(tree, tree%values(picked(1)))))
+        case (1)
             value = .true.
-        case (".false.", ".f.", ".f", "false", "f")
+        case (0)
             value = .false.
         case default
             call refuse_picked(tree, picked(1), ".true. or .false. is needed", error)
@@ -160,7 +161,8 @@ contains
         integer, intent(in) :: position
         real(dp), intent(inout) :: number
         type(error_t), allocatable, intent(out) :: error
-        character(:), allocatable :: word
+        character(:), allocatable :: problem, word
+        real(dp) :: meant
 
         associate (value => tree%values(position))
             if (value%kind == kind_number) then
@@ -173,7 +175,14 @@ contains
         case ("inf", "infinity", "nan")
             call refuse_picked(tree, position, "a finite number is needed", error)
         case default
-            call refuse_picked(tree, position, "a number is needed, such as 0.01", error)
+            call read_number(text_of(tree, tree%values(position)), meant, problem)
+            if (len(problem) == 0) then
+                problem = "a number is needed, without quotes"
+            else
+                call misread(text_of(tree, tree%values(position)), word, problem)
+                if (problem == "") problem = "a number is needed, such as 0.01"
+            end if
+            call refuse_picked(tree, position, problem, error)
         end select
     end subroutine convert_real
 

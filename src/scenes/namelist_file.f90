@@ -4,6 +4,7 @@ module lagrangia_namelist_file
     use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long, c_null_char, c_ptr, c_size_t, &
                                            c_loc
     use lagrangia_errors, only: error_t, fail, status_file
+    use lagrangia_files, only: facts_t, look_at
     use lagrangia_namelist_tree, only: short_source
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -66,6 +67,7 @@ contains
         integer(c_int) :: descriptor, status
         character(:), allocatable :: problem
         logical :: exists
+        type(facts_t) :: facts
 
         problem = ""
         if (len_trim(path) == 0) then
@@ -77,6 +79,8 @@ contains
             if (descriptor >= 0_c_int) then
                 call read_open_file(descriptor, text, problem)
                 status = posix_close(descriptor)
+                facts = look_at(trim(path))
+                if (facts%folder) problem = "is a folder; a file is needed"
             else
                 inquire (file=trim(path), exist=exists)
                 problem = "no such file"

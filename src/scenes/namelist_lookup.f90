@@ -1,45 +1,16 @@
 module lagrangia_namelist_lookup
-    !! Finding keys in a namelist, and refusing those nobody asked for.
+    !! Finding the values of a key in a namelist, and refusing them.
     use lagrangia_errors, only: error_t
-    use lagrangia_namelist_tree, only: fail_at, find_group, namelist_t, place_t, raw_text
-    use lagrangia_text, only: escaped, join, nearest_name, quoted, to_text
+    use lagrangia_namelist_tree, only: decimal_points, fail_at, find_group, kind_word, &
+                                       namelist_t, place_t, raw_text
+    use lagrangia_namelist_unknown, only: label, refuse_missing
+    use lagrangia_namelist_words, only: stray, truth_of
+    use lagrangia_text, only: escaped, to_text
     implicit none (type, external)
     private
-    public :: count_of, has_group, has_key, pick, refuse_picked, refuse_unknown_groups, &
-              refuse_unknown_keys, refuse_value
+    public :: count_of, pick, point_advice, refuse_picked, refuse_value
 
 contains
-
-    pure function has_group(tree, group) result(yes)
-        !! Is there such a group? Names are in lower case.
-        type(namelist_t), intent(in) :: tree
-        character(*), intent(in) :: group
-        logical :: yes
-
-        yes = find_group(tree, group) > 0
-    end function has_group
-
-    pure function has_key(tree, group, key) result(yes)
-        !! Is there such a key in such a group? Names are in lower case.
-        type(namelist_t), intent(in) :: tree
-        character(*), intent(in) :: group, key
-        logical :: yes
-
-        yes = last_entry(tree, group, key) > 0
-    end function has_key
-
-    pure function last_entry(tree, group, key) result(position)
-        !! The position of the last entry that gives `key`, 0 when there is none.
-        type(namelist_t), intent(in) :: tree
-        character(*), intent(in) :: group, key
-        integer :: position
-        integer :: owner
-
-        owner = find_group(tree, group)
-        do position = merge(tree%entry_count, 0, owner > 0), 1, -1
-            if (tree%entries(position)%group == owner .and. tree%entries(position)%key == key) exit
-        end do
-    end function last_entry
 
     pure function count_of(picked) result(number)
         !! How many values were picked.
@@ -92,7 +63,8 @@ contains
                 return
             end if
         end do
-        call check_count(length, tree%entries(place)%place, label(group, key), error, least, most)
+        call check_count(tree, picked, tree%entries(place)%place, label(group, key), error, least, &
+                         most)
     end subroutine pick
 
     pure subroutine fill(tree, owner, key, picked)
@@ -115,52 +87,55 @@ contains
         end do
     end subroutine fill
 
-    pure subroutine check_count(length, place, name, error, least, most)
-        !! Refuse a number of values outside `least` to `most`.
-        integer, intent(in) :: length
+    pure function point_advice(tree, group, key, count) result(remedy)
+        !! `decimal_points` for a caller who needs `count` values of `key`.
+        type(namelist_t), intent(in) :: tree
+        character(*), intent(in) :: group, key
+        integer, intent(in) :: count
+        character(:), allocatable :: remedy
+        type(namelist_t) :: copy
+        integer, allocatable :: picked(:)
+        type(error_t), allocatable :: ignored
+
+        copy = tree
+        remedy = ""
+        call pick(copy, group, key, picked, ignored, 1, huge(1))
+        if (count_of(picked) > 0) remedy = decimal_points(tree, picked, count, count)
+    end function point_advice
+
+    pure subroutine check_count(tree, picked, place, name, error, least, most)
+        !! Refuse a number of values outside `least` to `most`, or a word among them that is none.
+        type(namelist_t), intent(in) :: tree
+        integer, intent(in) :: picked(:)
         type(place_t), intent(in) :: place
         character(*), intent(in) :: name
         type(error_t), allocatable, intent(out) :: error
         integer, intent(in), optional :: least, most
         character(:), allocatable :: allowed
-        integer :: high, low
+        integer :: high, i, length, low
 
+        length = size(picked)
         low = 1
         high = 1
         if (present(least)) low = least
         if (present(most)) high = most
         if (length >= low .and. length <= high) return
+        do i = 1, length
+            associate (value => tree%values(picked(i)))
+                if (value%kind /= kind_word .or. value%line == 0) cycle
+                if (truth_of(raw_text(tree, value)) >= 0) cycle
+                call refuse_picked(tree, picked(i), stray, error)
+                return
+            end associate
+        end do
         allowed = to_text(low)
         if (low == high .and. high == 1) allowed = "one"
         if (high > low) allowed = "from "//to_text(low)//" to "//to_text(high)
         call fail_at(error, place, name//" has "//to_text(length)//" value"// &
                      trim(merge("s", " ", length /= 1))//"; "//allowed// &
-                     trim(merge(" is ", " are", high == 1))//" needed")
+                     trim(merge(" is ", " are", high == 1))//" needed"// &
+                     decimal_points(tree, picked, low, high))
     end subroutine check_count
-
-    pure function label(group, key) result(text)
-        !! `&group: key`
-        character(*), intent(in) :: group, key
-        character(:), allocatable :: text
-
-        text = "&"//escaped(trim(group), 30)//": "//escaped(trim(key), 30)
-    end function label
-
-    pure subroutine refuse_missing(tree, owner, group, key, error)
-        !! Demand `key`, or its whole group.
-        type(namelist_t), intent(in) :: tree
-        integer, intent(in) :: owner
-        character(*), intent(in) :: group, key
-        type(error_t), allocatable, intent(out) :: error
-
-        if (owner == 0) then
-            call fail_at(error, place_t(tree%source), "group &"//escaped(group, 30)// &
-                         " is missing; it must give "//escaped(key, 30))
-        else
-            call fail_at(error, tree%groups(owner)%place, label(group, key)// &
-                         " is missing; write "//escaped(key, 30)//" = value")
-        end if
-    end subroutine refuse_missing
 
     pure subroutine refuse_picked(tree, position, problem, error)
         !! Fail with the place, group, key and text of the value at `position`, and `problem`.
@@ -203,56 +178,4 @@ contains
         end if
     end subroutine refuse_value
 
-    pure subroutine refuse_unknown_keys(tree, group, allowed, error)
-        !! Refuse the first key of `group` that nobody has asked for, naming the nearest of the
-        !! `allowed` ones.
-        type(namelist_t), intent(in) :: tree
-        character(*), intent(in) :: group, allowed(:)
-        type(error_t), allocatable, intent(out) :: error
-        integer :: i, owner
-
-        owner = find_group(tree, group)
-        do i = 1, tree%entry_count
-            associate (item => tree%entries(i))
-                if (item%group /= owner .or. item%used .or. item%replaced) cycle
-                call fail_at(error, item%place, "&"//escaped(trim(group), 30)//": "// &
-                             advice("key ", trim(item%key), allowed))
-                return
-            end associate
-        end do
-    end subroutine refuse_unknown_keys
-
-    pure subroutine refuse_unknown_groups(tree, allowed, error)
-        !! Refuse the first group from which nobody has asked for a key, naming the nearest of the
-        !! `allowed` ones.
-        type(namelist_t), intent(in) :: tree
-        character(*), intent(in) :: allowed(:)
-        type(error_t), allocatable, intent(out) :: error
-        integer :: i
-
-        do i = 1, tree%group_count
-            if (tree%groups(i)%used) cycle
-            call fail_at(error, tree%groups(i)%place, &
-                         advice("group ", trim(tree%groups(i)%name), allowed))
-            return
-        end do
-    end subroutine refuse_unknown_groups
-
-    pure function advice(what, name, allowed) result(text)
-        !! What to do about a `name` that is of no use.
-        character(*), intent(in) :: what, name, allowed(:)
-        character(:), allocatable :: text
-
-        if (any(allowed == name)) then
-            text = what//quoted(name)//" has no meaning here"
-        else if (nearest_name(name, allowed) /= "") then
-            text = "unknown "//what//quoted(name)//"; did you mean "// &
-                   quoted(nearest_name(name, allowed))//"?"
-        else if (size(allowed) == 0) then
-            text = "unknown "//what//quoted(name)//"; none is allowed here"
-        else
-            text = "unknown "//what//quoted(name)//"; allowed: "// &
-                   escaped(join(allowed, ", "), 120)
-        end if
-    end function advice
 end module lagrangia_namelist_lookup

@@ -104,7 +104,7 @@ contains
         type(parts_t), intent(out) :: parts
         character(:), allocatable, intent(out) :: problem
         character(*), parameter :: generic = &
-            "is not a number; write it like 0.01, -2 or 1e-3 (a text needs quotes)"
+            "is not a number; write it like 0.01, -2 or 1e-3, without a unit (a text needs quotes)"
         integer :: at
 
         at = 1
@@ -130,15 +130,16 @@ contains
             parts%exponent(1) = at
             at = at + merge(1, 0, scan(character_at(token, at), "+-") == 1)
             parts%exponent(2) = after_digits(token, at) - 1
-            if (parts%exponent(2) < at) then
-                problem = "has an exponent without digits; write it like 1e-3"
-            else if (parts%exponent(2) < len(token)) then
+            if (after_digits(token, at) <= len(token)) then
                 problem = generic
+            else if (parts%exponent(2) < at) then
+                problem = "has an exponent without digits; write it like 1e-3"
             end if
         else if (scan(token(at:at), "+-") == 1) then
             problem = "lacks the letter of its exponent (1.5e-3, not 1.5-3); sums are not computed"
         else if (token(at:at) == "_") then
             problem = "has a kind suffix; write the number alone"
+            if (verify(token(at + 1:), digits) == 0) problem = "holds '_'; write the digits alone"
         else if (scan(token(at:at), "xX") == 1) then
             problem = "is not a decimal number; hexadecimal is not read here"
         else

@@ -2,9 +2,9 @@ module lagrangia_namelist_parser
     !! From the text of a namelist file, or of an override, to its groups and entries.
     use lagrangia_errors, only: error_t
     use lagrangia_namelist_entries, only: read_entry
-    use lagrangia_namelist_scanner, only: carriage_return, line_feed, next_byte, place_at, &
-                                          read_name, refuse, refuse_byte, refuse_fraction, &
-                                          scanner_t, skip_space, tab, token_end
+    use lagrangia_namelist_scanner, only: begins_name, carriage_return, line_feed, next_byte, place_at, &
+                                          read_name, refuse, refuse_byte, scanner_t, &
+                                          skip_space, tab, token_end
     use lagrangia_namelist_tree, only: add_group, fail_at, find_group, name_length, namelist_t, &
                                        new_namelist, place_t, short_source
     use lagrangia_text, only: escaped, lower, quoted, to_text
@@ -33,6 +33,10 @@ contains
         if (index(text, carriage_return) > 0 .and. index(text, line_feed) == 0) then
             call fail_at(error, place_t(tree%source), "its lines end in carriage returns "// &
                          "alone; save it with line feeds")
+            return
+        else if (index(text(:min(4, len(text))), achar(0)) > 0 .and. index(text, "!") /= 1) then
+            call fail_at(error, place_t(tree%source), "is no plain text (UTF-16, perhaps, or "// &
+                         "binary); save it as UTF-8")
             return
         end if
         ended_on = 0
@@ -70,12 +74,14 @@ contains
         tree%text = tree%text//text
         call skip_space(text, scanner, error)
         if (allocated(error)) return
-        call read_name(text, scanner, "group", name, error)
-        if (allocated(error)) return
-        call skip_space(text, scanner, error)
-        if (allocated(error)) return
-        if (next_byte(text, scanner%at) /= "%") then
-            call refuse(scanner, 1, "expected GROUP%KEY=VALUE", error)
+        if (begins_name(text, scanner%at)) then
+            call read_name(text, scanner, "group", name, error)
+            if (allocated(error)) return
+            call skip_space(text, scanner, error)
+            if (allocated(error)) return
+        end if
+        if (next_byte(text, scanner%at) /= "%" .or. scanner%at == 1) then
+            call refuse(scanner, 1, "expected GROUP%KEY=VALUE, as in scene%dt=1e-3", error)
             return
         end if
         scanner%at = scanner%at + 1
@@ -177,8 +183,6 @@ contains
         type(scanner_t), intent(inout) :: scanner
         type(error_t), allocatable, intent(out) :: error
 
-        call refuse_fraction(text, scanner, error)
-        if (allocated(error)) return
         if (next_byte(text, scanner%at + 1) == "/") then
             call refuse(scanner, scanner%at, "'//' begins no comment, and '/' ends the group; "// &
                         "a comment begins with '!'", error)

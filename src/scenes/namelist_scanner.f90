@@ -1,21 +1,20 @@
 module lagrangia_namelist_scanner
     !! Where the reader of a namelist stands in its text, and the steps it can take there.
+    use lagrangia_characters, only: described, unlike
     use lagrangia_errors, only: error_t
-    use lagrangia_kinds, only: dp
-    use lagrangia_namelist_numbers, only: read_number
     use lagrangia_namelist_tree, only: fail_at, name_length, place_t
     use lagrangia_text, only: escaped, lower, quoted, to_text
     implicit none (type, external)
     private
-    public :: begins_key, next_byte, place_at, read_name, refuse, refuse_byte, refuse_fraction, &
-              scanner_t, skip_space, token_end
+    public :: begins_key, begins_name, next_byte, place_at, read_name, refuse, refuse_byte, scanner_t, &
+              skip_space, token_end
     public :: carriage_return, line_feed, tab
 
     character(1), parameter :: tab = achar(9)
     character(1), parameter :: line_feed = achar(10)
     character(1), parameter :: carriage_return = achar(13)
     character(*), parameter :: small_letters = "abcdefghijklmnopqrstuvwxyz"
-    character(*), parameter :: token_ends = " ,/!'""=();&%$"
+    character(*), parameter :: token_ends = " ,/!'""=()[]{};&%$"
 
     type :: scanner_t
         !! A position in a text, with what a message about it needs.
@@ -26,7 +25,6 @@ module lagrangia_namelist_scanner
         logical :: overrides = .false. !! the text is `GROUP%KEY=VALUE`, not a file
         character(100) :: source = ""
         character(100) :: context = "" !! `&scene dt: `
-        integer :: number(2) = 0       !! the last number read, by position
     end type scanner_t
 
 contains
@@ -63,6 +61,7 @@ contains
         type(scanner_t), intent(in) :: scanner
         integer, intent(in) :: position
         type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: odd, what
         character(1) :: byte
 
         byte = text(position:position)
@@ -70,11 +69,17 @@ contains
             call refuse(scanner, position, "control character "//escaped(byte)// &
                         "; only plain text is read", error)
         else if (iachar(byte) > 126) then
-            call refuse(scanner, position, "byte "//escaped(byte)//" is not ASCII; other "// &
-                        "letters stand in comments and between plain quotes ' or """, error)
-        else if (byte == "(") then
-            call refuse(scanner, position, "unexpected '('; complex numbers and expressions "// &
-                        "are not read here", error)
+            what = described(text, position)
+            odd = unlike(text(position:))
+            if (index(odd, what) /= 1) odd = what//" is not ASCII; other letters stand in "// &
+                "comments and between plain quotes ' or """
+            call refuse(scanner, position, odd, error)
+        else if (scan(byte, "([{") == 1) then
+            call refuse(scanner, position, "unexpected '"//byte//"'; values stand in a row, as "// &
+                        "in q = 0.1, 0.2, and nothing is computed", error)
+        else if (byte == "=") then
+            call refuse(scanner, position, "unexpected '='; a key is a plain name before one '='", &
+                        error)
         else if (byte == ";") then
             call refuse(scanner, position, "unexpected ';'; values and keys are separated "// &
                         "by ',' or blanks", error)
@@ -85,30 +90,6 @@ contains
             call refuse(scanner, position, "unexpected "//quoted(byte), error)
         end if
     end subroutine refuse_byte
-
-    pure subroutine refuse_fraction(text, scanner, error)
-        !! Refuse a `/` that follows if it stands between two numbers on one line.
-        character(*), intent(in) :: text
-        type(scanner_t), intent(in) :: scanner
-        type(error_t), allocatable, intent(out) :: error
-        character(*), parameter :: blanks = " "//tab
-        character(:), allocatable :: problem
-        real(dp) :: above, below
-        integer :: first, last, slash
-
-        slash = scanner%at - 1 + verify(text(scanner%at:), blanks)
-        if (next_byte(text, slash) /= "/") return
-        if (verify(text(scanner%number(2) + 1:slash - 1), blanks) > 0) return
-        first = slash + verify(text(slash + 1:), blanks)
-        last = token_end(text, first)
-        call read_number(text(first:last), below, problem)
-        if (len(problem) > 0) return
-        call read_number(text(scanner%number(1):scanner%number(2)), above, problem)
-        problem = " is a fraction, not a namelist number, where '/' ends a group; write its value"
-        if (abs(below) > 0.0_dp) problem = problem//", "//to_text(above/below)
-        call refuse(scanner, scanner%number(1), &
-                    quoted(text(scanner%number(1):last), 20)//problem, error)
-    end subroutine refuse_fraction
 
     pure function next_byte(text, position) result(byte)
         !! The byte at `position`, a blank behind the end.
@@ -187,7 +168,7 @@ contains
 
         name = ""
         last = name_end(text, scanner%at)
-        if (last < scanner%at) then
+        if (.not. begins_name(text, scanner%at)) then
             call refuse(scanner, scanner%at, "expected the name of a "//what// &
                         ", which begins with a letter", error)
         else if (last - scanner%at + 1 > name_length) then
@@ -198,6 +179,15 @@ contains
             scanner%at = last + 1
         end if
     end subroutine read_name
+
+    pure function begins_name(text, position) result(yes)
+        !! Does a name begin at `position`?
+        character(*), intent(in) :: text
+        integer, intent(in) :: position
+        logical :: yes
+
+        yes = name_end(text, position) >= position
+    end function begins_name
 
     pure function name_end(text, first) result(last)
         !! The last byte of the name beginning at `first`; before it where none begins.

@@ -6,15 +6,15 @@ module lagrangia_namelist_tree
     implicit none (type, external)
     private
     public :: entry_t, group_t, namelist_t, place_t, value_t
-    public :: add_entry, add_group, add_value, fail_at, find_group, new_namelist, raw_text, &
-              settle_twins, short_source, text_of
+    public :: add_entry, add_group, add_value, decimal_points, fail_at, find_group, &
+              new_namelist, raw_text, settle_twins, short_source, text_of
     public :: kind_number, kind_string, kind_word, max_values, name_length
 
     integer, parameter :: name_length = 63    !! of a group or key, as in Fortran
     integer, parameter :: max_groups = 100    !! in one file with its overrides
     integer, parameter :: max_entries = 1000  !! in one file with its overrides
     integer, parameter :: max_values = 10000  !! repeats counted, in one file with its overrides
-    integer, parameter :: source_length = 100, message_length = 300
+    integer, parameter :: source_length = 100
 
     integer, parameter :: kind_number = 1  !! a finite number
     integer, parameter :: kind_string = 2  !! text between quotes
@@ -93,7 +93,7 @@ contains
     end function short_source
 
     pure subroutine fail_at(error, place, message)
-        !! Fail with `source:line:column: message`, in at most 300 characters.
+        !! Fail with `source:line:column: message`.
         type(error_t), allocatable, intent(out) :: error
         type(place_t), intent(in) :: place
         character(*), intent(in) :: message
@@ -102,7 +102,6 @@ contains
         full = trim(place%source)
         if (place%line > 0) full = full//":"//to_text(place%line)//":"//to_text(place%column)
         full = full//": "//message
-        if (len(full) > message_length) full = full(:message_length - 3)//"..."
         call fail(error, full, status_usage)
     end subroutine fail_at
 
@@ -206,6 +205,44 @@ contains
             text = tree%text(value%first:value%last)
         end if
     end function raw_text
+
+    pure function decimal_points(tree, picked, low, high) result(remedy)
+        !! What to write if the values at the positions `picked` came apart at decimal commas, and
+        !! together would be from `low` to `high`: `; a decimal point, no comma: 0.01`, or nothing.
+        type(namelist_t), intent(in) :: tree
+        integer, intent(in) :: picked(:), low, high
+        character(:), allocatable :: remedy
+        character(:), allocatable :: behind, number
+        integer :: i, n
+
+        remedy = ""
+        n = 0
+        i = 1
+        do while (i <= size(picked))
+            number = raw_text(tree, tree%values(picked(i)))
+            i = i + 1
+            if (i <= size(picked)) then
+                associate (left => tree%values(picked(i - 1)), right => tree%values(picked(i)))
+                    behind = tree%text(left%last + 1:right%first - 1)
+                    if (behind//"|" == ",|" .and. verify(number, "+-0123456789") == 0) then
+                        behind = raw_text(tree, right)
+                        if (verify(behind, "0123456789") == 0 .and. len(behind) == 3 .and. &
+                            scan(number, "123456789") > 0) behind = behind//" (or "// &
+                            number//behind//")"
+                        number = number//"."//behind
+                        i = i + 1
+                    end if
+                end associate
+            end if
+            n = n + 1
+            remedy = remedy//", "//number
+        end do
+        if (n == size(picked) .or. n < low .or. n > high) then
+            remedy = ""
+        else
+            remedy = "; a decimal point, no comma: "//escaped(remedy(3:))
+        end if
+    end function decimal_points
 
     pure function text_of(tree, value) result(text)
         !! The text a value stands for: doubled quotes of a string are one quote.

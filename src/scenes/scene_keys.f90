@@ -5,14 +5,15 @@ module lagrangia_scene_keys
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_namelist, only: get_integer, get_logical, get_real, get_reals, get_string, &
-                                  get_strings, has_key, namelist_t, refuse_value
+                                  get_strings, has_key, namelist_t, point_advice, refuse_value
     use lagrangia_scene, only: expectation_t, scene_t
-    use lagrangia_scene_tolerance, only: read_tolerance
+    use lagrangia_scene_tolerance, only: most_samples, read_tolerance, too_many
     use lagrangia_system, only: system_t
     use lagrangia_text, only: join, lower, to_text
     implicit none (type, external)
     private
-    public :: keys, key_length, expectation_keys, read_columns, read_state, read_times
+    public :: keys, key_length, coordinates, expectation_keys, read_columns, read_state, &
+              read_times
 
     character(name_length), parameter :: keys(*) = [character(name_length) :: &
         "title", "system", "method", "compensated", "t0", "dt", "tolerance", "duration", "every", &
@@ -52,7 +53,13 @@ contains
         steps = nint(min(scene%duration/scene%dt, 1e15_dp), i8)
         scene%every = max(1_i8, steps/1000)
         call get_count("every", scene%every)
-        if (allocated(error) .or. .not. has_key(tree, "scene", "samples")) return
+        if (allocated(error)) return
+        if (steps/scene%every > most_samples) then
+            call refuse_value(tree, "scene", "every", to_text(steps/scene%every)//too_many//", or"// &
+                              " every longer", error)
+            return
+        end if
+        if ( .not. has_key(tree, "scene", "samples")) return
         if (has_key(tree, "scene", "every")) then
             call refuse_value(tree, "scene", "samples", "give either every or samples", error)
             return
@@ -101,10 +108,13 @@ contains
         call get_reals(tree, "scene", "q", 1, most, scene%q, error, required=.true.)
         if (allocated(error)) return
         if (size(scene%q) /= system%ndof) then
-            call refuse_value(tree, "scene", "q", to_text(size(scene%q))//" values, but "// &
+            call refuse_value(tree, "scene", "q", to_text(size(scene%q))//" value"// &
+                              trim(merge(" ", "s", size(scene%q) == 1))//", but "// &
                               to_text(system%ndof)// &
                               trim(merge(" is ", " are", system%ndof == 1))// &
-                              " needed: "//coordinates(d), error)
+                              " needed: "//coordinates(d)// &
+                              point_advice(tree, "scene", "q", system%ndof), error, &
+                              min(size(scene%q), system%ndof + 1))
             return
         end if
         allocate (given(system%ndof), source=0.0_dp)
@@ -112,7 +122,8 @@ contains
         if (allocated(error)) return
         allocate (scene%v(system%ndof))
         call system%complete_velocities(scene%t0, scene%q, given, scene%v, found)
-        if (allocated(found)) call refuse_value(tree, "scene", "v", found%message, error)
+        if (allocated(found)) call refuse_value(tree, "scene", "v", found%message// &
+            point_advice(tree, "scene", "v", system%ndof), error)
     end subroutine read_state
 
     subroutine read_columns(tree, system, scene, error)
@@ -263,7 +274,7 @@ contains
         if (bad) return
         bad = index(name//"|", ".gp|") > 0  ! the script's name
         if (bad) return
-        bad = name(1:1) == "/" .or. name(1:1) == "-" .or. name(len(name):) == "/" .or. &
-              verify(name, letters) > 0
+        bad = scan(name(1:1), " /-") == 1 .or. scan(name(len(name):), "/") == 1 .or. &
+              index("/"//name//"|", "/.|") > 0 .or. verify(name, letters) > 0
     end function bad_output
 end module lagrangia_scene_keys

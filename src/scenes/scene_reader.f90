@@ -7,16 +7,17 @@ module lagrangia_scene_reader
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
-    use lagrangia_namelist, only: apply_override, get_reals, get_string, namelist_t, &
+    use lagrangia_namelist, only: apply_override, get_reals, get_string, has_key, namelist_t, &
                                   parse_namelist, refuse_unknown_groups, &
                                   refuse_unknown_keys, refuse_value
     use lagrangia_namelist_file, only: read_whole_file
     use lagrangia_play, only: performance_t, rehearse
     use lagrangia_scene, only: scene_t
-    use lagrangia_scene_keys, only: expectation_keys, key_length, keys, read_columns, &
-                                    read_state, read_times
+    use lagrangia_scene_keys, only: coordinates, expectation_keys, key_length, keys, &
+                                    read_columns, read_state, read_times
     use lagrangia_shipped, only: scene_name
     use lagrangia_system, only: check_parameter, default_values, system_t
+    use lagrangia_text, only: lower, quoted
     implicit none (type, external)
     private
     public :: read_scene, read_named_system, parse_scene
@@ -57,6 +58,9 @@ contains
         end do
         call read_system(tree, scene, system, error)
         if (allocated(error)) return
+        if (scene%system /= name) call refuse_value(tree, "scene", "system", "is not the "// &
+            quoted(name)//" that was named", error)
+        if (allocated(error)) return
         call refuse_unknown_keys(tree, "scene", [character(name_length) ::], error)
         if (allocated(error)) return
         call refuse_unknown_groups(tree, [scene%system], error)
@@ -72,6 +76,7 @@ contains
         type(namelist_t) :: tree
         type(performance_t) :: p
         type(error_t), allocatable :: found
+        character(key_length), allocatable :: allowed(:)
         integer :: i
 
         call parse_namelist(text, source, tree, error)
@@ -85,14 +90,19 @@ contains
         read_groups: block
             call read_system(tree, scene, system, error)
             if (allocated(error)) exit read_groups
+            allowed = [character(key_length) :: keys, expectation_keys(system)]
+            call refuse_coordinates(tree, system, error)
+            if (allocated(error)) exit read_groups
+            call refuse_unknown_keys(tree, "scene", [character(key_length) :: allowed, &
+                                                     "expect_energy_drift"], error, early=.true.)
+            if (allocated(error)) exit read_groups
             call read_times(tree, scene, error)
             if (allocated(error)) exit read_groups
             call read_state(tree, system, scene, error)
             if (allocated(error)) exit read_groups
             call read_columns(tree, system, scene, error)
             if (allocated(error)) exit read_groups
-            call refuse_unknown_keys(tree, "scene", [character(key_length) :: keys, &
-                                                     expectation_keys(system)], error)
+            call refuse_unknown_keys(tree, "scene", allowed, error)
             if (allocated(error)) exit read_groups
             call refuse_unknown_groups(tree, [character(name_length) :: "scene", scene%system], &
                                        error)
@@ -101,6 +111,28 @@ contains
             if (allocated(found)) call locate(tree, found, error)
         end block read_groups
     end subroutine parse_scene
+
+    subroutine refuse_coordinates(tree, system, error)
+        !! Refuse `theta = 0.5` and the like where a key is expected.
+        type(namelist_t), intent(inout) :: tree
+        class(system_t), intent(in) :: system
+        type(error_t), allocatable, intent(out) :: error
+        character(4), parameter :: behind(3) = [character(4) :: "", "0", "_dot"]
+        character(:), allocatable :: key
+        type(description_t) :: d
+        integer :: i, k
+
+        call system%describe(d)
+        do i = 1, size(d%coordinates)
+            do k = 1, size(behind)
+                key = lower(trim(d%coordinates(i)%name)//trim(behind(k)))
+                if (.not. has_key(tree, "scene", key) .or. any(keys == key)) cycle
+                call refuse_value(tree, "scene", key, "the start is given by q = "// &
+                                  coordinates(d)//" and by v, the velocities", error)
+                return
+            end do
+        end do
+    end subroutine refuse_coordinates
 
     subroutine locate(tree, found, error)
         !! Say what was `found` wrong together with its place in the file.

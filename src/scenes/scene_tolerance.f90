@@ -14,8 +14,11 @@ module lagrangia_scene_tolerance
     implicit none (type, external)
     private
     public :: read_tolerance
+    public :: most_samples, too_many
 
     real(dp), parameter :: most_tolerance = 0.1_dp
+    integer(i8), parameter :: most_samples = 1000000000_i8  !! their file has 50 GB and more
+    character(*), parameter :: too_many = " samples are too many; make the run shorter"
 
 contains
 
@@ -80,8 +83,12 @@ contains
         scene%samples = 1000
         call get_integer(tree, "scene", "samples", scene%samples, error)
         if (allocated(error)) return
-        if (scene%samples < 1_i8) call refuse_value(tree, "scene", "samples", &
-                                                    "at least 1 is needed", error)
+        if (scene%samples < 1_i8) then
+            call refuse_value(tree, "scene", "samples", "at least 1 is needed", error)
+        else if (scene%samples > most_samples) then
+            call refuse_value(tree, "scene", "samples", to_text(scene%samples)//too_many//" or"// &
+                              " give fewer", error)
+        end if
     end subroutine read_tolerance
 
     subroutine refuse_fixed(tree, name, fixed, error)

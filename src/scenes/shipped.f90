@@ -5,7 +5,10 @@ module lagrangia_shipped
     use lagrangia_command_line, only: word_t
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, fail, status_file
-    use lagrangia_text, only: nearest_name, quoted
+    use lagrangia_files, only: facts_t, look_at
+    use lagrangia_names, only: nearest_name
+    use lagrangia_namelist_tree, only: short_source
+    use lagrangia_text, only: quoted
     implicit none (type, external)
     private
     public :: shipped_scenes, find_scene, scene_name
@@ -74,34 +77,49 @@ contains
     end subroutine shipped_scenes
 
     subroutine find_scene(name, path, error)
-        !! The path of a scene: `name` itself if it looks like a path, or a shipped scene's.
+        !! The path of a scene: `name` itself if it looks like a path, or a shipped scene's. Fails
+        !! where neither is there.
         character(*), intent(in) :: name
         character(:), allocatable, intent(out) :: path
         type(error_t), allocatable, intent(out) :: error
         type(word_t), allocatable :: paths(:)
         character(name_length), allocatable :: names(:)
         character(:), allocatable :: near
+        type(facts_t) :: facts
+        logical :: is_path
         integer :: i
 
         path = name
-        if (index(name, "/") > 0 .or. index(name, ending) > 0) return
+        is_path = index(name, "/") > 0 .or. index(name, ending) > 0
+        if (is_path) then
+            facts = look_at(name)
+            if (facts%found) return
+        end if
         call shipped_scenes(paths, error)
+        if (allocated(error) .and. is_path) call fail(error, &
+            trim(short_source(name))//": no such file", status_file)
         if (allocated(error)) return
         allocate (names(size(paths)))
         do i = 1, size(paths)
             names(i) = scene_name(paths(i)%text)
-            if (names(i) == name) then
+            if (names(i) == name .and. .not. is_path) then
                 path = paths(i)%text
                 return
             end if
         end do
-        near = nearest_name(name, names)
+        near = nearest_name(scene_name(name), names)
         if (near /= "") then
             near = "; did you mean '"//near//"'?"
+        else if (index(name, "=") > 0) then
+            near = "; a value is set by --set GROUP%KEY=VALUE"
         else
             near = "; 'lagrangia list scenes' shows the names, a path ends in .nml"
         end if
-        call fail(error, "unknown scene "//quoted(name)//near)
+        if (is_path) then
+            call fail(error, trim(short_source(name))//": no such file"//near, status_file)
+        else
+            call fail(error, "unknown scene "//quoted(name)//near)
+        end if
     end subroutine find_scene
 
     pure function scene_name(path) result(name)
