@@ -1,8 +1,8 @@
 module lagrangia_namelist_unknown
     !! Which keys and groups a namelist has; refusing those that are missing or unknown.
     use lagrangia_errors, only: error_t
-    use lagrangia_names, only: abbreviation, nearest_name
     use lagrangia_namelist_tree, only: fail_at, find_group, name_length, namelist_t, place_t
+    use lagrangia_names, only: abbreviation, nearest_name
     use lagrangia_text, only: escaped, join, quoted
     implicit none (type, external)
     private
