@@ -10,6 +10,7 @@ module suites
     use test_blas_threads, only: blas_threads_suite
     use test_bouncing_ball, only: bouncing_ball_suite
     use test_canonical, only: canonical_suite
+    use test_canonical_maps, only: canonical_maps_suite
     use test_cart_pendulum, only: cart_pendulum_suite
     use test_catalogue, only: catalogue_suite
     use test_charged_particle, only: charged_particle_suite
@@ -22,6 +23,9 @@ module suites
     use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
     use test_constraints, only: constraints_suite
+    use test_coupled_orders, only: coupled_orders_suite
+    use test_dense_orders, only: dense_orders_suite
+    use test_dense_powers, only: dense_powers_suite
     use test_dense_run, only: dense_run_suite
     use test_dop853, only: dop853_suite
     use test_dop853_coefficients, only: dop853_coefficients_suite
@@ -38,6 +42,7 @@ module suites
     use test_gauge, only: gauge_suite
     use test_gauss, only: gauss_suite
     use test_gauss_adaptive, only: gauss_adaptive_suite
+    use test_gauss_control, only: gauss_control_suite
     use test_gauss_dense, only: gauss_dense_suite
     use test_gauss_tables, only: gauss_tables_suite
     use test_gnuplot, only: gnuplot_suite
@@ -76,6 +81,7 @@ module suites
     use test_principles, only: principles_suite
     use test_processes, only: processes_suite
     use test_quadrature, only: quadrature_suite
+    use test_reduced_motion, only: reduced_motion_suite
     use test_register, only: register_suite
     use test_rheonomic, only: rheonomic_suite
     use test_rolling_disk, only: rolling_disk_suite
@@ -96,6 +102,7 @@ module suites
     use test_swings, only: swings_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
+    use test_unfinished, only: unfinished_suite
     use test_virtual_work, only: virtual_work_suite
     implicit none (type, external)
     private
@@ -119,6 +126,7 @@ contains
         call suite%addTest(blas_threads_suite())
         call suite%addTest(bouncing_ball_suite())
         call suite%addTest(canonical_suite())
+        call suite%addTest(canonical_maps_suite())
         call suite%addTest(cart_pendulum_suite())
         call suite%addTest(catalogue_suite())
         call suite%addTest(charged_particle_suite())
@@ -131,6 +139,9 @@ contains
         call suite%addTest(console_suite())
         call suite%addTest(constant_accelerations_suite())
         call suite%addTest(constraints_suite())
+        call suite%addTest(coupled_orders_suite())
+        call suite%addTest(dense_orders_suite())
+        call suite%addTest(dense_powers_suite())
         call suite%addTest(dense_run_suite())
         call suite%addTest(dop853_suite())
         call suite%addTest(dop853_coefficients_suite())
@@ -147,6 +158,7 @@ contains
         call suite%addTest(gauge_suite())
         call suite%addTest(gauss_suite())
         call suite%addTest(gauss_adaptive_suite())
+        call suite%addTest(gauss_control_suite())
         call suite%addTest(gauss_dense_suite())
         call suite%addTest(gauss_tables_suite())
         call suite%addTest(gnuplot_suite())
@@ -183,6 +195,7 @@ contains
         call suite%addTest(principles_suite())
         call suite%addTest(processes_suite())
         call suite%addTest(quadrature_suite())
+        call suite%addTest(reduced_motion_suite())
         call suite%addTest(rheonomic_suite())
         call suite%addTest(rolling_disk_suite())
         call suite%addTest(rolling_disk_reference_suite())
@@ -202,6 +215,7 @@ contains
         call suite%addTest(swings_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(text_suite())
+        call suite%addTest(unfinished_suite())
         call suite%addTest(virtual_work_suite())
         call suite%addTest(register_suite())  ! the last: its system stays in the catalogue
     end function load_tests

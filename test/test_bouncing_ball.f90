@@ -2,14 +2,14 @@ module test_bouncing_ball
     !! The ball against its closed form: bounces, the Zeno point, rest.
     use funit, only: anyExceptions, assertEqual, assertFalse, assertGreaterThan, &
                      assertGreaterThanOrEqual, assertLessThan, assertTrue, TestMethod, TestSuite
+    use lagrangia_adaptive_methods, only: new_adaptive
     use lagrangia_bouncing_ball, only: bouncing_ball_t
     use lagrangia_bouncing_ball_reference, only: bouncing_ball_reference_t, &
                                                  new_bouncing_ball_reference
     use lagrangia_dense_run, only: run_dense
-    use lagrangia_dop853, only: dop853_t, new_dop853
     use lagrangia_errors, only: error_t
     use lagrangia_events, only: contact_event_t, event_box_t, new_contact_event
-    use lagrangia_integrator, only: integrator_t
+    use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: new_integrator
     use lagrangia_observer, only: observer_box_t
@@ -21,6 +21,7 @@ module test_bouncing_ball
     public :: bouncing_ball_suite
 
     real(dp), parameter :: mass = 0.7_dp, gravity = 9.81_dp
+    character(*), parameter :: adaptive(2) = ["gauss16", "dop853 "]
 
 contains
 
@@ -39,17 +40,18 @@ contains
         call suite%addTest(TestMethod("a run without impacts is refused", plain_run))
     end function bouncing_ball_suite
 
-    subroutine bounce(restitution, q0, v0, duration, record, q, v, method_name)
-        !! Run the ball; `method_name` with steps of 0.01 s, or else `dop853`.
+    subroutine bounce(method, restitution, q0, v0, duration, record, q, v, dt)
+        !! Run the ball by steps of `dt`, or of the method's own choice.
+        character(*), intent(in) :: method
         real(dp), intent(in) :: restitution, q0, v0, duration
         type(recorder_t), target, intent(inout) :: record
         real(dp), intent(out) :: q(1), v(1)
-        character(*), intent(in), optional :: method_name
+        real(dp), intent(in), optional :: dt  !! s
         type(bouncing_ball_t) :: system
         type(event_box_t) :: events(1)
         type(observer_box_t) :: observers(1)
         type(contact_event_t) :: contact
-        type(dop853_t) :: adaptive
+        class(dense_integrator_t), allocatable :: adaptive
         type(stepwise_t) :: stepwise
         class(integrator_t), allocatable :: fixed
         type(plan_t) :: plan
@@ -62,13 +64,13 @@ contains
         observers(1)%item => record
         q = q0
         v = v0
-        if (present(method_name)) then
-            call new_integrator(method_name, fixed, error)
-            call new_stepwise(stepwise, fixed, 0.01_dp)
-            call new_plan(plan, 0.0_dp, 0.01_dp, duration, 1_i8, error)
+        if (present(dt)) then
+            call new_integrator(method, fixed, error)
+            call new_stepwise(stepwise, fixed, dt)
+            call new_plan(plan, 0.0_dp, dt, duration, 1_i8, error)
             call run_dense(system, stepwise, plan, events, observers, q, v, ended, error)
         else
-            call new_dop853(adaptive)
+            call new_adaptive(method, adaptive)
             call new_sampled_plan(plan, 0.0_dp, duration, 1000_i8, error)
             call run_dense(system, adaptive, plan, events, observers, q, v, ended, error)
         end if
@@ -108,8 +110,9 @@ contains
         call assertEqual([0.0_dp, 0.0_dp], [q, v], message="rest")
     end subroutine known_times
 
-    subroutine check_times(restitution, q0, v0, duration)
+    subroutine check_times(method, restitution, q0, v0, duration)
         !! Times to 1e-13, speeds to 1e-13 of themselves, states between to 1e-13.
+        character(*), intent(in) :: method
         real(dp), intent(in) :: restitution, q0, v0, duration
         type(bouncing_ball_reference_t) :: reference
         type(recorder_t) :: record
@@ -117,7 +120,7 @@ contains
         integer :: n, i
 
         call closed_form(restitution, q0, v0, reference)
-        call bounce(restitution, q0, v0, duration, record, q, v)
+        call bounce(method, restitution, q0, v0, duration, record, q, v)
         n = record%events
         call assertTrue(reference%impact_time(n) < duration, "no bounce too many")
         call assertTrue(reference%impact_time(n + 1) > duration, "no bounce too few")
@@ -137,10 +140,14 @@ contains
     end subroutine check_times
 
     subroutine bounce_times()
-        call check_times(0.8_dp, 0.0_dp, 3.0_dp, 2.6_dp)
-        call check_times(0.5_dp, 1.3_dp, 0.0_dp, 1.3_dp)
-        call check_times(0.93_dp, 0.4_dp, -2.0_dp, 4.5_dp)
-        call check_times(0.9_dp, 1.0_dp, 1.5_dp, 5.0_dp)
+        integer :: i
+
+        do i = 1, size(adaptive)
+            call check_times(adaptive(i), 0.8_dp, 0.0_dp, 3.0_dp, 2.6_dp)
+            call check_times(adaptive(i), 0.5_dp, 1.3_dp, 0.0_dp, 1.3_dp)
+            call check_times(adaptive(i), 0.93_dp, 0.4_dp, -2.0_dp, 4.5_dp)
+            call check_times(adaptive(i), 0.9_dp, 1.0_dp, 1.5_dp, 5.0_dp)
+        end do
     end subroutine bounce_times
 
     subroutine zeno()
@@ -153,13 +160,15 @@ contains
         type(bouncing_ball_t) :: system
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1), rest
-        integer :: i, k
+        integer :: i, k, m
 
-        do i = 1, 3
+        do m = 0, 5
+            i = 1 + m/2
             call closed_form(restitutions(i), 0.0_dp, 3.0_dp, reference)
             rest = reference%rest_time()
             allocate (record)
-            call bounce(restitutions(i), 0.0_dp, 3.0_dp, rest + 1.0_dp, record, q, v)
+            call bounce(adaptive(1 + mod(m, 2)), restitutions(i), 0.0_dp, 3.0_dp, 4.0_dp*rest, &
+                        record, q, v)
             call assertEqual([0.0_dp, 0.0_dp], [q, v], message="it rests")
             k = record%events
             call assertGreaterThan(k, 20, message="many bounces")
@@ -184,7 +193,7 @@ contains
         real(dp) :: q(1), v(1)
         integer :: i
 
-        call bounce(1.0_dp, 0.0_dp, 2.0_dp, 41.0_dp, record, q, v)
+        call bounce("gauss16", 1.0_dp, 0.0_dp, 2.0_dp, 41.0_dp, record, q, v)
         call assertEqual(100, record%events, message="bounces")
         if (anyExceptions()) return
         call assertEqual([(4.0_dp/gravity*i, i=1, 100)], record%event_t(:100), 1e-12_dp, "times")
@@ -195,7 +204,7 @@ contains
         type(recorder_t) :: record
         real(dp) :: q(1), v(1)
 
-        call bounce(0.0_dp, 1.0_dp, 0.0_dp, 2.0_dp, record, q, v)
+        call bounce("gauss16", 0.0_dp, 1.0_dp, 0.0_dp, 2.0_dp, record, q, v)
         call assertEqual(1, record%events, message="one impact")
         call assertEqual(sqrt(2.0_dp/gravity), record%event_t(1), 1e-15_dp, "its time")
         call assertEqual([0.0_dp, 0.0_dp], [q, v], message="it stays")
@@ -205,7 +214,7 @@ contains
         type(recorder_t) :: record
         real(dp) :: q(1), v(1)
 
-        call bounce(0.5_dp, 0.0_dp, -2.0_dp, 0.1_dp, record, q, v)
+        call bounce("gauss16", 0.5_dp, 0.0_dp, -2.0_dp, 0.1_dp, record, q, v)
         call assertEqual(1, record%events, message="one impact")
         call assertEqual(0.0_dp, record%event_t(1), message="at the start")
         call assertEqual(1.0_dp, record%event_v(1), 1e-15_dp, "its speed")
@@ -216,23 +225,23 @@ contains
         type(recorder_t) :: record
         real(dp) :: q(1), v(1)
 
-        call bounce(0.5_dp, 0.0_dp, 0.0_dp, 10.0_dp, record, q, v)
+        call bounce("gauss16", 0.5_dp, 0.0_dp, 0.0_dp, 10.0_dp, record, q, v)
         call assertEqual(0, record%events, message="no impact")
         call assertEqual([0.0_dp, 0.0_dp], [q, v], message="still there")
     end subroutine at_rest
 
     subroutine fixed_step()
-        !! A parabola is exact for both methods: bounces and Zeno point as well as by `dop853`.
+        !! A parabola is exact for all methods: bounces and Zeno point as well as by tolerance.
+        character(*), parameter :: methods(3) = ["rk4    ", "verlet ", "gauss16"]
         type(bouncing_ball_reference_t) :: reference
         type(recorder_t), allocatable :: record
         real(dp) :: q(1), v(1)
         integer :: i, k
 
         call closed_form(0.7_dp, 0.9_dp, 0.3_dp, reference)
-        do k = 1, 2
+        do k = 1, size(methods)
             allocate (record)
-            call bounce(0.7_dp, 0.9_dp, 0.3_dp, 3.0_dp, record, q, v, &
-                        trim(merge("rk4   ", "verlet", k == 1)))
+            call bounce(trim(methods(k)), 0.7_dp, 0.9_dp, 0.3_dp, 3.0_dp, record, q, v, 0.01_dp)
             call assertEqual(reference%impact_time([(i, i=1, 20)]), record%event_t(:20), 1e-13_dp, &
                              "times")
             call assertEqual([0.0_dp, 0.0_dp], [q, v], message="it rests")

@@ -83,7 +83,7 @@ contains
         type(observer_box_t) :: nobody(0)
         type(plan_t) :: plan
         real(dp) :: q(2), v(2), light
-        integer :: i
+        integer :: again, i
 
         call new_system("double_pendulum", system, error)
         do i = 1, 2*size(names)
@@ -95,8 +95,11 @@ contains
             v = [7.0_dp, -9.0_dp]
             call method%advance(system, 0.0_dp, 1.0_dp, 0_i8, 3_i8, q, v)
             call assertTrue(all(ieee_is_nan([q, v])), trim(method%name)//": NaN")
-            call assertEqual("the equations of the step at t = 0.0 s did not converge; a "// &
-                             "shorter dt is needed", trim(method%trouble))
+            do again = 1, 2
+                call assertEqual("the equations of the step at t = 0.0 s did not converge; a "// &
+                                 "shorter dt is needed", trim(method%trouble))
+                call method%advance(system, 0.0_dp, 1.0_dp, 3_i8, 1_i8, q, v)  ! the first stays
+            end do
 
             q = [2.0_dp, 1.0_dp]
             v = [7.0_dp, -9.0_dp]

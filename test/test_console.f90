@@ -3,12 +3,13 @@ module test_console
     use, intrinsic :: iso_c_binding, only: c_int
     use, intrinsic :: iso_fortran_env, only: output_unit
     use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
+    use lagrangia_c_library, only: c_close
     use lagrangia_console, only: console_failed, finish_console, is_terminal, note, put, put_line
-    use lagrangia_errors, only: error_t, status_file
+    use lagrangia_errors, only: error_t, status_file, status_pipe
     use lagrangia_files, only: facts_t, look_at
     use lagrangia_interrupt, only: catch_interrupts
     use lagrangia_output_file, only: output_file_t
-    use test_scratch, only: c_close, c_dup2, c_pipe, contents, exit_status, new_folder, &
+    use test_scratch, only: c_dup2, c_pipe, contents, exit_status, new_folder, &
         remove_file, send_stdout_to
     implicit none (type, external)
     private
@@ -81,8 +82,8 @@ contains
     end function put_to_full
 
     subroutine a_broken_pipe_is_reported()
-        !! And does not kill, lest temporary files stay.
-        call assertEqual(status_file, exit_status(put_to_nobody))
+        !! By the status alone; it does not kill, lest files stay unfinished.
+        call assertEqual(status_pipe, exit_status(put_to_nobody))
     end subroutine a_broken_pipe_is_reported
 
     function put_to_nobody() result(status)
@@ -99,7 +100,7 @@ contains
         call finish_console(error)
         status = 1
         if (.not. allocated(error)) return
-        if (error%message /= "cannot write standard output: Broken pipe") return
+        if (error%message /= "") return
         status = error%status
     end function put_to_nobody
 

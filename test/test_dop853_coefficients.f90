@@ -3,8 +3,10 @@ module test_dop853_coefficients
     use funit, only: assertEqual, assertGreaterThan, assertLessThanOrEqual, TestMethod, TestSuite
     use lagrangia_dop853_coefficients, only: a, a_qp, all_stages, b, b_qp, c, c_qp, d, d_qp, e3, &
                                              e3_qp, e5, e5_qp
+    use lagrangia_dop853_stages, only: extra_stages, scaled_error, slope, stages
     use lagrangia_kinds, only: dp, qp
     use lagrangia_text, only: to_text
+    use plain_system, only: plain_system_t
     use rooted_trees, only: grow_trees, trees_t
     implicit none (type, external)
     private
@@ -29,6 +31,7 @@ contains
         call suite%addTest(TestMethod("the dense output has order 7", dense_output_has_order_7))
         call suite%addTest(TestMethod("what is used is rounded from what is tested", &
                                       rounded_tables))
+        call suite%addTest(TestMethod("the stages use all of the tables", stages_use_the_tables))
     end function dop853_coefficients_suite
 
     subroutine rows_add_up()
@@ -121,6 +124,46 @@ contains
                                             (e5 - e5_qp)/max(abs(e5_qp), least)]), half_ulp, &
                                    message="b, c, e3, e5")
     end subroutine rounded_tables
+
+    subroutine stages_use_the_tables()
+        !! The sums without zeros that a step is made of, beside sums over all; time, coordinates
+        !! and velocities count, and two numbers are larger than 1. Weights reach 43, those of the
+        !! dense output 528.
+        real(dp), parameter :: t = 0.2_dp, h = 0.4_dp, tolerance = 1e-3_dp
+        real(dp), parameter :: y0(4) = [0.8_dp, 1.9_dp, -1.4_dp, 0.6_dp]
+        type(plain_system_t) :: system
+        real(dp) :: f(4, 16), y1(4), y(4), k(4, 17), dense(7, 4), work(4), weight(4)
+        real(dp) :: fifth, third
+        integer :: i
+
+        system%ndof = 2
+        call slope(system, 2, t, y0, f(:, 1))
+        do i = 2, 16
+            y = y0 + h*matmul(f(:, :i - 1), a(:i - 1, i))
+            if (i == 13) y1 = y
+            call slope(system, 2, t + c(i)*h, y, f(:, i))
+        end do
+        k = 0.0_dp
+        call slope(system, 2, t, y0, k(:, 1))
+        call stages(system, 2, t, h, y0, k, y)
+        call assertEqual(y1, y, 1e-14_dp, "end of the step")
+        call extra_stages(system, 2, t, h, y0, y, k, dense, work)
+        do i = 2, 16
+            call assertEqual(f(:, i), k(:, i) + k(:, 1), 1e-13_dp, "stage "//to_text(i))
+        end do
+        call assertEqual(f(:, 13), k(:, 17), 1e-14_dp, "slope at the end")
+        call assertEqual(y1 - y0, dense(1, :), 1e-14_dp, "difference")
+        call assertEqual(h*f(:, 1) - (y1 - y0), dense(2, :), 1e-14_dp, "first correction")
+        call assertEqual(2.0_dp*(y1 - y0) - h*(f(:, 1) + f(:, 13)), dense(3, :), 1e-14_dp, "second")
+        do i = 4, 7
+            call assertEqual(h*matmul(f, d(:, i)), dense(i, :), 1e-12_dp, "row "//to_text(i))
+        end do
+        weight = max(1.0_dp, abs(y0), abs(y1))
+        fifth = sum((matmul(f(:, :12), e5)/weight)**2)
+        third = sum((matmul(f(:, :12), e3)/weight)**2)
+        third = h/tolerance*fifth/sqrt(4.0_dp*(fifth + 0.01_dp*third))
+        call assertEqual(third, scaled_error(h, tolerance, k, y0, y), 1e-8_dp*third, "estimate")
+    end subroutine stages_use_the_tables
 
     pure function largest(values) result(value)
         real(qp), intent(in) :: values(:)

@@ -174,14 +174,19 @@ contains
         type(cart_pendulum_t) :: system
         type(dop853_t) :: method
         type(error_t), allocatable :: error
-        real(dp) :: q(2), v(2)
+        real(dp) :: q(2), v(2), before
 
         call system%configure([1.0_dp, 1.0_dp, 1.0_dp, 9.81_dp], error)
         call new_dop853(method)
         call method%prepare(system, error)
         call method%start(system, 0.0_dp, [0.0_dp, 0.0_dp], [0.0_dp, 0.0_dp], 100.0_dp)
+        before = 0.0_dp
         do while (method%t_new < 100.0_dp)
             call method%step(system, error)
+            if (method%t_new < 100.0_dp .and. before > 0.0_dp) then
+                call assertEqual(6.0_dp*before, method%t_new - method%t_old, 1e-12_dp, "six times")
+            end if
+            before = method%t_new - method%t_old
         end do
         call method%state_at(100.0_dp, q, v)
         call assertEqual([0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], [q, v], message="state")

@@ -1,8 +1,8 @@
 module test_gauss_tables
     !! The coefficients of Gauss-Legendre collocation, as identities to rounding.
-    use funit, only: TestMethod, TestSuite, assertEqual, assertGreaterThan
+    use funit, only: TestMethod, TestSuite, assertEqual, assertGreaterThan, assertLessThanOrEqual
     use lagrangia_gauss_tables, only: legendre, mu, nodes, stages, weights
-    use lagrangia_kinds, only: dp
+    use lagrangia_kinds, only: dp, qp
     implicit none (type, external)
     private
     public :: gauss_tables_suite
@@ -17,6 +17,8 @@ contains
 
         suite = TestSuite("gauss_tables")
         call suite%addTest(TestMethod("quadrature_has_order_16", quadrature_has_order_16))
+        call suite%addTest(TestMethod("entries_are_rounded_exact_ones", &
+                                      entries_are_rounded_exact_ones))
         call suite%addTest(TestMethod("stages_collocate", stages_collocate))
         call suite%addTest(TestMethod("table_is_symplectic_and_symmetric", &
                                       table_is_symplectic_and_symmetric))
@@ -34,6 +36,53 @@ contains
         call assertGreaterThan(abs(sum(weights*nodes**16) - 1.0_dp/17.0_dp), 1e-11_dp, &
                                message="B(17)")
     end subroutine quadrature_has_order_16
+
+    subroutine entries_are_rounded_exact_ones()
+        !! To the nearest double, against the zeros of \(P_8\) and the formulae that the table is
+        !! from, in quadruple precision. Of symmetric pairs one is rounded: the other follows.
+        real(qp) :: c(stages), p(stages, 0:stages), b(stages), exact
+        integer :: i, j, k
+
+        c = nodes
+        do k = 1, 3  ! Newton's method doubles the digits
+            p = shifted_legendre(c)
+            c = c + 0.25_qp*c*(1.0_qp - c)*p(:, 8)/((2.0_qp*c - 1.0_qp)*p(:, 8) - p(:, 7))
+        end do
+        p = shifted_legendre(c)
+        b = c*(1.0_qp - c)/(4.0_qp*p(:, 7))**2
+        do i = 1, stages
+            if (i <= stages/2) call check_rounding(nodes(i), c(i))
+            call check_rounding(weights(i), b(i))
+            do j = 1, i - 1
+                exact = 0.5_qp
+                do k = 1, stages - 1  ! orthonormal: times the root of (2k + 1)(2k - 1)
+                    exact = exact + 0.5_qp*(p(i, k)*p(j, k - 1) - p(i, k - 1)*p(j, k))
+                end do
+                call check_rounding(mu(i, j), exact)
+            end do
+        end do
+    end subroutine entries_are_rounded_exact_ones
+
+    function shifted_legendre(c) result(p)
+        !! \(P_0, \dots, P_8\) at `c` in \([0, 1]\).
+        real(qp), intent(in) :: c(stages)
+        real(qp) :: p(stages, 0:stages)
+        integer :: k
+
+        p(:, 0) = 1.0_qp
+        p(:, 1) = 2.0_qp*c - 1.0_qp
+        do k = 1, stages - 1
+            p(:, k + 1) = ((2*k + 1)*(2.0_qp*c - 1.0_qp)*p(:, k) - k*p(:, k - 1))/(k + 1)
+        end do
+    end function shifted_legendre
+
+    subroutine check_rounding(entry, exact)
+        !! Half a unit in the last place, and what quadruple precision rounds.
+        real(dp), intent(in) :: entry
+        real(qp), intent(in) :: exact
+
+        call assertLessThanOrEqual(real(abs(entry - exact), dp), 0.5_dp*spacing(entry) + 1e-30_dp)
+    end subroutine check_rounding
 
     subroutine stages_collocate()
         !! \(\sum_j a_{ij} c_j^{k-1} = c_i^k/k\) and \(\sum_i b_i c_i^{k-1}a_{ij} = b_j(1-c_j^k)/k\)

@@ -2,12 +2,11 @@ module test_output_file
     !! A file is complete or absent, and an existing one survives.
     use, intrinsic :: iso_c_binding, only: c_int, c_null_char
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
-    use lagrangia_c_library, only: c_chmod, c_getpid
+    use lagrangia_c_library, only: c_chmod
     use lagrangia_errors, only: error_t
     use lagrangia_files, only: facts_t, look_at, same_file
     use lagrangia_kinds, only: dp, i8
     use lagrangia_output_file, only: output_file_t
-    use lagrangia_unfinished, only: remove_unfinished
     use test_scratch, only: c_link, c_symlink, contents, new_folder, remove_file, write_file
     implicit none (type, external)
     private
@@ -31,10 +30,6 @@ contains
                                       reals_are_written_as_in_memory))
         call suite%addTest(TestMethod("links_and_permissions_stay", links_and_permissions_stay))
         call suite%addTest(TestMethod("two_writers_do_not_mix", two_writers_do_not_mix))
-        call suite%addTest(TestMethod("nobody_elses_temporary_is_used", &
-                                      nobody_elses_temporary_is_used))
-        call suite%addTest(TestMethod("unfinished_files_can_be_removed", &
-                                      unfinished_files_can_be_removed))
         call suite%addTest(TestMethod("same_file_sees_through_names", &
                                       same_file_sees_through_names))
     end function output_file_suite
@@ -184,59 +179,6 @@ contains
         call assertTrue(remove_file(folder//"/a.dat"))
         call assertTrue(remove_file(folder))
     end subroutine two_writers_do_not_mix
-
-    subroutine nobody_elses_temporary_is_used()
-        !! Left behind by a process that had our number, or made by one on another machine.
-        type(output_file_t) :: file
-        type(error_t), allocatable :: error
-        character(:), allocatable :: folder
-        character(60) :: names(200)
-        integer :: i
-
-        folder = new_folder("taken")
-        do i = 1, size(names)
-            write (names(i), "(a, i0, a, i0, a)") "/.lagrangia-", c_getpid(), "-", i, ".tmp"
-            if (i <= 100) call write_file(folder//trim(names(i)), "old")
-        end do
-        call file%open(folder//"/a.dat", error)
-        call file%write("new")
-        call file%commit(error)
-        call assertEqual("new", contents(folder//"/a.dat"))
-        call assertTrue(remove_file(folder//"/a.dat"))
-        do i = 101, size(names)
-            call write_file(folder//trim(names(i)), "old")
-        end do
-        call remove_unfinished()  ! ours is finished: its name may be somebody else's by now
-        do i = 1, size(names)
-            call assertEqual("old", contents(folder//trim(names(i))))
-            call assertTrue(remove_file(folder//trim(names(i))))
-        end do
-    end subroutine nobody_elses_temporary_is_used
-
-    subroutine unfinished_files_can_be_removed()
-        !! All of them at once, whoever has them open; committed ones stay.
-        type(output_file_t) :: files(5)
-        type(error_t), allocatable :: error
-        character(:), allocatable :: folder
-        integer :: i
-
-        folder = new_folder("unfinished")
-        do i = 1, size(files)
-            call files(i)%open(folder//"/"//achar(iachar("a") + i), error)
-        end do
-        call files(2)%commit(error)
-        call files(4)%abandon()
-        call files(4)%open(folder//"/again", error)
-        call remove_unfinished()
-        call assertEqual("", contents(folder//"/c"))
-        call assertTrue(remove_file(folder//"/c"))
-        call assertTrue(remove_file(folder), "a temporary was left")
-        call files(1)%commit(error)
-        call assertTrue(allocated(error))
-        do i = 1, size(files)
-            call files(i)%abandon()
-        end do
-    end subroutine unfinished_files_can_be_removed
 
     subroutine same_file_sees_through_names()
         !! Hard links, symbolic links, another spelling; not what does not exist.

@@ -198,10 +198,6 @@ contains
                      "s.nml:1:40: &scene: method = 'verlet': verlet is for forces that depend "// &
                      "on positions only, and here they depend on velocities; these methods "// &
                      "work: rk4, ")
-        call refused("&scene system='bouncing_ball' method='gauss16' duration=1 q=1 /", &
-                     "s.nml:1:38: &scene: method = 'gauss16': gauss16 is for smooth motion, "// &
-                     "and here there are impacts; methods for those: rk4 and verlet by "// &
-                     "dt, dop853 by tolerance")
         call after("columns='theta','theta'", 16, &
                    "columns = 'theta': the column is there already")
         call after("compensated=.true. method='midpoint'", 12, "compensated = .true.: midpoint "// &

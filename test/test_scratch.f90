@@ -8,17 +8,10 @@ module test_scratch
     private
     public :: contents, exit_status, limit_file_size, new_folder, remove_file, &
               send_stdout_to, write_file
-    public :: c_close, c_dup2, c_link, c_pipe, c_raise, c_symlink
+    public :: c_dup2, c_link, c_pipe, c_raise, c_symlink
 
     ! allow(assumed-size): C takes the address of the first element
     interface
-        function c_close(descriptor) bind(c, name="close") result(status)
-            import :: c_int
-            implicit none (type, external)
-            integer(c_int), value :: descriptor
-            integer(c_int) :: status
-        end function c_close
-
         function c_dup2(old, new) bind(c, name="dup2") result(status)
             import :: c_int
             implicit none (type, external)

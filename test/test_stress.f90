@@ -9,7 +9,7 @@ module test_stress
     use lagrangia_kinds, only: dp, i8
     use lagrangia_method_promises, only: judge_bytes, judge_reversal, judge_scaling, &
                                          judge_symplectic, judge_text
-    use lagrangia_methods, only: new_integrator
+    use lagrangia_methods, only: method_names, new_integrator, nth_integrator
     use lagrangia_rounding, only: judge_rounding
     use lagrangia_step_limits, only: judge_step_limit
     use lagrangia_verdicts, only: verdicts_t
@@ -28,6 +28,8 @@ contains
         call suite%addTest(TestMethod("verdicts_hold_within_bounds", verdicts_hold_within_bounds))
         call suite%addTest(TestMethod("laws_are_named", laws_are_named))
         call suite%addTest(TestMethod("step_limits_are_measured", step_limits_are_measured))
+        call suite%addTest(TestMethod("declared_step_limits_are_right", &
+                                      declared_step_limits_are_right))
         call suite%addTest(TestMethod("energy_growth_is_named", energy_growth_is_named))
         call suite%addTest(TestMethod("promises_are_held", promises_are_held))
         call suite%addTest(TestMethod("rounding_is_told_apart", rounding_is_told_apart))
@@ -177,6 +179,26 @@ contains
         call judge_step_limit(spoiled, 1000_i8, verdicts)
         call assertFalse(verdicts%list(7)%holds, "energy is fed in at every step")
     end subroutine step_limits_are_measured
+
+    subroutine declared_step_limits_are_right()
+        !! To all six digits of every table: there two eigenvalues meet, and part with the root
+        !! of what the step is longer. That of `rk4` leaves the circle more slowly.
+        class(integrator_t), allocatable :: method
+        type(verdicts_t) :: verdicts
+        integer :: i, declared
+
+        call verdicts%begin("step_limits")
+        declared = 0
+        do i = 1, size(method_names())
+            call nth_integrator(i, method)
+            if (.not. method%step_limit > 0.0_dp) cycle
+            declared = declared + 1
+            call judge_step_limit(method, 1_i8, verdicts)
+            call assertEqual(verdicts%list(2*declared - 1)%value, method%step_limit, &
+                             merge(1e-5_dp, 7e-7_dp, method%name == "rk4"), trim(method%name))
+        end do
+        call assertEqual(12, declared, message="methods with a limit")
+    end subroutine declared_step_limits_are_right
 
     subroutine energy_growth_is_named()
         !! Verlet's stays, RK4's grows with the steps, and that of a symplectic method with a

@@ -7,6 +7,7 @@ module lagrangia_our_contestants
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_reduced_motion, only: leave_cyclic
     implicit none (type, external)
     private
     public :: adaptive_contestant_t, fixed_contestant_t, formula_contestant_t
@@ -14,7 +15,8 @@ module lagrangia_our_contestants
 
     type, extends(contestant_t) :: fixed_contestant_t
         !! Equal steps, all in one block: `advance` and nothing else.
-        class(integrator_t), allocatable :: method
+        class(integrator_t), allocatable :: plain   !! the method
+        class(integrator_t), allocatable :: method  !! and what a scene would make of it
         integer(i8) :: steps = 0
     contains
         procedure :: prepare => prepare_fixed
@@ -23,7 +25,8 @@ module lagrangia_our_contestants
 
     type, extends(contestant_t) :: adaptive_contestant_t
         !! Steps of the method's own choice; nobody asks what is between them.
-        class(dense_integrator_t), allocatable :: method
+        class(dense_integrator_t), allocatable :: plain  !! the method
+        class(integrator_t), allocatable :: method       !! and what a scene would make of it
     contains
         procedure :: prepare => prepare_adaptive
         procedure :: solve => solve_adaptive
@@ -43,7 +46,7 @@ contains
         type(fixed_contestant_t), intent(out) :: self
         class(integrator_t), intent(in) :: method
 
-        allocate (self%method, source=method)
+        allocate (self%plain, source=method)
         self%name = method%name
         self%knob = knob_step
         self%order = method%order
@@ -57,6 +60,9 @@ contains
         type(error_t), allocatable, intent(out) :: error
 
         self%steps = ceiling(problem%duration/setting*(1.0_dp - epsilon(setting)), i8)
+        if (allocated(self%method)) deallocate (self%method)
+        allocate (self%method, source=self%plain)
+        call leave_cyclic(self%method, problem%system)
         call self%method%prepare(problem%system, error)
     end subroutine prepare_fixed
 
@@ -81,7 +87,7 @@ contains
         type(adaptive_contestant_t), intent(out) :: self
         class(dense_integrator_t), intent(in) :: method
 
-        allocate (self%method, source=method)
+        allocate (self%plain, source=method)
         self%name = method%name
         self%knob = knob_tolerance
         self%order = method%order
@@ -94,8 +100,11 @@ contains
         real(dp), intent(in) :: setting
         type(error_t), allocatable, intent(out) :: error
 
-        self%method%tolerance = setting
-        self%method%dense = .false.
+        self%plain%tolerance = setting
+        self%plain%dense = .false.
+        if (allocated(self%method)) deallocate (self%method)
+        allocate (self%method, source=self%plain)
+        call leave_cyclic(self%method, problem%system)
         call self%method%prepare(problem%system, error)
     end subroutine prepare_adaptive
 
@@ -108,12 +117,15 @@ contains
 
         q = problem%q
         v = problem%v
-        call self%method%start(problem%system, 0.0_dp, q, v, problem%duration)
-        do while (self%method%t_new < problem%duration)
-            call self%method%step(problem%system, error)
-            if (allocated(error)) return
-        end do
-        call self%method%state_at(self%method%t_new, q, v)
+        select type (method => self%method)
+        class is (dense_integrator_t)
+            call method%start(problem%system, 0.0_dp, q, v, problem%duration)
+            do while (method%t_new < problem%duration)
+                call method%step(problem%system, error)
+                if (allocated(error)) return
+            end do
+            call method%state_at(method%t_new, q, v)
+        end select
         self%evaluations = self%method%evaluations
     end subroutine solve_adaptive
 

@@ -1,7 +1,7 @@
 module lagrangia_describe
     !! `lagrangia describe SYSTEM`: what a lecturer would write on the blackboard.
     use lagrangia_catalogue, only: new_system
-    use lagrangia_choice, only: auto, stepping
+    use lagrangia_choice, only: auto, workhorse
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_description, only: description_t, line_length, quantity_t
@@ -61,9 +61,7 @@ contains
         call put_line("structure")
         call put_line("  "//structure(system))
         call put_line("method = '"//auto//"'")
-        call put_line("  a closed form where one is known from the start, otherwise "// &
-                      trim(stepping(system, .true.))//", with dt "// &
-                      trim(stepping(system, .false.)))
+        call put_line("  a closed form where one is known from the start, otherwise "//workhorse)
         if (size(d%notes) > 0) call put_block("notes", d%notes)
     contains
         function default_text(i) result(text)

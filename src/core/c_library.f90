@@ -5,10 +5,10 @@ module lagrangia_c_library
         c_size_t
     implicit none (type, external)
     private
-    public :: c_access, c_chmod, c_dlsym, c_errno, c_execvp, c_exit, c_fclose, c_fdopen, c_fflush, &
-              c_fileno, c_fopen, c_fork, c_free, c_fseek, c_fwrite, c_fwrite_reals, c_getpid, &
-              c_isatty, c_lstat, c_mkdir, c_realpath, c_remove, c_rename, c_signal, c_stat, &
-              c_strerror, c_strlen, c_waitpid, c_write
+    public :: c_access, c_chmod, c_close, c_dlsym, c_dup, c_errno, c_execvp, c_exit, c_fclose, &
+              c_fdopen, c_fflush, c_fileno, c_flock, c_fopen, c_fork, c_free, c_fseek, c_fwrite, &
+              c_fwrite_reals, c_getpid, c_isatty, c_lstat, c_mkdir, c_realpath, c_remove, &
+              c_rename, c_signal, c_stat, c_strerror, c_strlen, c_waitpid, c_write
 
     ! allow(assumed-size): C takes the address of the first element
     interface
@@ -82,6 +82,28 @@ module lagrangia_c_library
             type(c_ptr), value :: stream
             integer(c_int) :: descriptor
         end function c_fileno
+
+        function c_dup(descriptor) bind(c, name="dup") result(copy)
+            import :: c_int
+            implicit none (type, external)
+            integer(c_int), value :: descriptor
+            integer(c_int) :: copy
+        end function c_dup
+
+        function c_close(descriptor) bind(c, name="close") result(status)
+            import :: c_int
+            implicit none (type, external)
+            integer(c_int), value :: descriptor
+            integer(c_int) :: status
+        end function c_close
+
+        function c_flock(descriptor, operation) bind(c, name="flock") result(status)
+            import :: c_int
+            implicit none (type, external)
+            integer(c_int), value :: descriptor
+            integer(c_int), value :: operation  !! 2 wait for the lock, 6 take it or fail
+            integer(c_int) :: status
+        end function c_flock
 
         function c_write(descriptor, bytes, count) bind(c, name="write") result(written)
             import :: c_char, c_int, c_size_t

@@ -7,12 +7,12 @@ module lagrangia_console
         c_size_t
     use, intrinsic :: iso_fortran_env, only: error_unit, input_unit, output_unit
     use lagrangia_c_library, only: c_fdopen, c_fflush, c_fwrite, c_isatty, c_write
-    use lagrangia_errors, only: error_t, fail, message_length, status_file
-    use lagrangia_files, only: e_bad_unit, last_error, reason
+    use lagrangia_errors, only: error_t, fail, message_length, status_file, status_pipe
+    use lagrangia_files, only: e_bad_unit, e_broken_pipe, last_error, reason
     use lagrangia_text, only: shortened
     implicit none (type, external)
     private
-    public :: console_failed, finish_console, is_terminal, note, put, put_line, &
+    public :: console_failed, finish_console, flush_console, is_terminal, note, put, put_line, &
               show_progress, terminal_width
 
     type(c_ptr) :: stream = c_null_ptr  !! C's `FILE *` for stdout
@@ -73,17 +73,21 @@ contains
 
     subroutine finish_console(error)
         !! Send on what is still held back; fails if anything put was lost. The exit status of
-        !! a program whose results go to stdout depends on it. Also before another program
-        !! writes to the same stdout.
+        !! a program whose results go to stdout depends on it. A reader who has seen enough
+        !! (`| head`) is no reason for a message, and the status is what SIGPIPE would make it.
         type(error_t), allocatable, intent(out) :: error
 
         call flush_console()
         if (failure == 0) return
+        if (failure == e_broken_pipe) then
+            call fail(error, "", status_pipe)
+            return
+        end if
         call fail(error, "cannot write standard output: "//reason(failure), status_file)
     end subroutine finish_console
 
     subroutine flush_console()
-        !! Send on what is still held back.
+        !! Send on what is still held back: before something else writes to the same place.
         if (failure /= 0 .or. .not. c_associated(stream)) return
         if (c_fflush(stream) /= 0) failure = last_error()
     end subroutine flush_console

@@ -5,7 +5,7 @@ module lagrangia_errors
     private
     public :: error_t, fail, message_length
     public :: status_ok, status_not_held, status_usage, status_numbers, status_library, &
-              status_file, status_interrupted, status_terminated
+              status_file, status_interrupted, status_pipe, status_terminated
 
     integer, parameter :: status_ok = 0            !! all is well
     integer, parameter :: status_not_held = 1      !! a check or a scene's tolerance did not hold
@@ -14,6 +14,7 @@ module lagrangia_errors
     integer, parameter :: status_library = 4       !! LAPACK or GSL refused
     integer, parameter :: status_file = 5          !! a file could not be read or written
     integer, parameter :: status_interrupted = 130 !! SIGINT
+    integer, parameter :: status_pipe = 141        !! SIGPIPE: nobody reads what is printed
     integer, parameter :: status_terminated = 143  !! SIGTERM
 
     integer, parameter :: message_length = 289     !! 300 with `lagrangia: ` before it

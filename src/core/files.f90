@@ -9,13 +9,14 @@ module lagrangia_files
     private
     public :: facts_t, folder_of, hold_standard_units, last_error, look_at, make_folders, &
               reason, resolved, same_file
-    public :: e_bad_unit, e_exists, e_input_output, e_invalid, e_missing
+    public :: e_bad_unit, e_broken_pipe, e_exists, e_input_output, e_invalid, e_missing
 
-    integer, parameter :: e_missing = 2       !! ENOENT; these five are the same on every Unix
+    integer, parameter :: e_missing = 2       !! ENOENT; these six are the same on every Unix
     integer, parameter :: e_input_output = 5  !! EIO
     integer, parameter :: e_bad_unit = 9      !! EBADF
     integer, parameter :: e_exists = 17       !! EEXIST
     integer, parameter :: e_invalid = 22      !! EINVAL
+    integer, parameter :: e_broken_pipe = 32  !! EPIPE
 
     integer(i8), parameter :: type_bits = int(o"170000", i8)     !! S_IFMT
     integer(i8), parameter :: folder_bits = int(o"040000", i8)   !! S_IFDIR

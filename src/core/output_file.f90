@@ -4,13 +4,14 @@ module lagrangia_output_file
     !! All goes through C's `fwrite`: libgfortran reports no full disk and no broken pipe.
     use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_long, c_null_char, c_null_ptr, &
         c_ptr, c_size_t
-    use lagrangia_c_library, only: c_access, c_chmod, c_fclose, c_fopen, c_fseek, c_fwrite, &
-        c_fwrite_reals, c_getpid, c_remove, c_rename
+    use lagrangia_c_library, only: c_access, c_chmod, c_close, c_dup, c_fclose, c_fflush, &
+        c_fileno, c_fopen, c_fseek, c_fwrite, c_fwrite_reals, c_remove, c_rename
     use lagrangia_errors, only: error_t, fail, status_file
     use lagrangia_files, only: e_bad_unit, e_exists, e_invalid, e_missing, facts_t, folder_of, &
         hold_standard_units, last_error, look_at, make_folders, reason, resolved
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_unfinished, only: forget, remember
+    use lagrangia_text, only: to_text
+    use lagrangia_unfinished, only: claim, forget, remember, remove_abandoned
     implicit none (type, external)
     private
     public :: output_file_t
@@ -36,8 +37,6 @@ module lagrangia_output_file
         procedure :: commit
         procedure :: abandon
     end type output_file_t
-
-    integer :: serial = 0  !! tells this process's temporaries apart
 
 contains
 
@@ -95,26 +94,37 @@ contains
     end subroutine open_file
 
     subroutine open_temporary(self, number)
-        !! Create a file of our own in the folder of `self%place`.
+        !! Create a file of our own in the folder of `self%place`, after removing those that runs
+        !! which were killed have left there for the same place.
         class(output_file_t), intent(inout) :: self
-        integer, intent(out) :: number  !! 0, or why not
-        integer, parameter :: attempts = 1000
-        character(60) :: name
-        integer :: attempt
+        integer, intent(out) :: number         !! 0, or why not
+        integer, parameter :: attempts = 1000  !! so many can write to one place at a time
+        integer, parameter :: likely = 8       !! and few do
+        integer, parameter :: longest = 100    !! of its name, shown in that of the temporary
+        character(:), allocatable :: start
+        integer :: i, first, last
 
+        first = index(self%place, "/", back=.true.) + 1
+        last = min(len(self%place), first + longest - 1)
+        start = folder_of(self%place)//"/.lagrangia-"//self%place(first:last)//"-"
+        do i = 1, likely
+            call remove_abandoned(start//to_text(i)//".tmp")
+        end do
         number = e_exists
-        do attempt = 1, attempts
-            !$omp critical (lagrangia_serial)
-            serial = serial + 1
-            write (name, "(a, i0, a, i0, a)") "/.lagrangia-", c_getpid(), "-", serial, ".tmp"
-            !$omp end critical (lagrangia_serial)
-            self%temporary = folder_of(self%place)//trim(name)
+        do i = 1, attempts
+            self%temporary = start//to_text(i)//".tmp"
             ! x: never somebody else's file; e: not inherited by the programs we run
             self%stream = c_fopen(self%temporary//c_null_char, "wxe"//c_null_char)
-            number = 0
-            if (c_associated(self%stream)) exit
-            number = last_error()
-            if (number /= e_exists) return
+            if (c_associated(self%stream)) then
+                number = 0
+                if (claim(self%stream, self%temporary)) exit
+                number = int(c_fclose(self%stream))
+                self%stream = c_null_ptr
+                number = e_exists
+            else
+                number = last_error()
+                if (number /= e_exists) return
+            end if
         end do
         if (number == 0) call remember(self%temporary)
     end subroutine open_temporary
@@ -196,9 +206,10 @@ contains
             call refuse(error, self%path, "it is not open")
             return
         end if
-        status = int(c_fclose(self%stream))  ! writes what is held back; closes, whatever happens
+        if (c_fflush(self%stream) /= 0 .and. self%failure == 0) self%failure = last_error()
+        ! what only a close reports (NFS, quotas); a copy's, as our own would end the lock
+        status = int(c_close(c_dup(c_fileno(self%stream))))
         if (status /= 0 .and. self%failure == 0) self%failure = last_error()
-        self%stream = c_null_ptr
         if (self%failure == 0 .and. self%permissions >= 0) then
             status = int(c_chmod(self%temporary//c_null_char, int(self%permissions, c_int)))
         end if
@@ -206,24 +217,28 @@ contains
             status = int(c_rename(self%temporary//c_null_char, self%place//c_null_char))
             if (status /= 0) self%failure = last_error()
         end if
-        if (self%failure /= 0) then
-            call refuse(error, self%path, reason(self%failure))
-            status = int(c_remove(self%temporary//c_null_char))
-        end if
-        call forget(self%temporary)
+        if (self%failure /= 0) call refuse(error, self%path, reason(self%failure))
+        call close_temporary(self, remove=self%failure /= 0)
     end subroutine commit
 
     subroutine abandon(self)
         !! Close and remove what has been written; does nothing if no file is open.
         class(output_file_t), intent(inout) :: self
+
+        if (c_associated(self%stream)) call close_temporary(self, remove=.true.)
+    end subroutine abandon
+
+    subroutine close_temporary(self, remove)
+        !! Let go of the temporary, and of its lock last: its name may be another's from then on.
+        class(output_file_t), intent(inout) :: self
+        logical, intent(in) :: remove
         integer :: status
 
-        if (.not. c_associated(self%stream)) return
+        if (remove) status = int(c_remove(self%temporary//c_null_char))
+        call forget(self%temporary)
         status = int(c_fclose(self%stream))
         self%stream = c_null_ptr
-        status = int(c_remove(self%temporary//c_null_char))
-        call forget(self%temporary)
-    end subroutine abandon
+    end subroutine close_temporary
 
     function writable(self)
         !! Whether the file is open and nothing has failed yet.

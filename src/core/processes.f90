@@ -2,7 +2,7 @@ module lagrangia_processes
     !! Running another program: no shell, so nothing in an argument has a special meaning.
     use, intrinsic :: iso_c_binding, only: c_char, c_int, c_loc, c_null_char, c_null_ptr, c_ptr
     use lagrangia_c_library, only: c_execvp, c_exit, c_fork, c_waitpid
-    use lagrangia_console, only: finish_console
+    use lagrangia_console, only: flush_console
     use lagrangia_errors, only: error_t, fail, status_file
     use lagrangia_files, only: last_error, reason
     implicit none (type, external)
@@ -33,8 +33,7 @@ contains
         end do
         pointers(size(pointers)) = c_null_ptr
         status = not_found
-        call finish_console(error)
-        if (allocated(error)) return
+        call flush_console()
         pid = c_fork()
         if (pid == 0) then  ! the child: nothing but execvp and _exit is safe here
             code = c_execvp(text(:, 1), pointers)

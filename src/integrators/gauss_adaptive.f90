@@ -193,7 +193,7 @@ contains
             if (good) exit
             self%rejected = self%rejected + 1
             if (ratio < 1.0_dp) then
-                self%h = h*max(0.2_dp, try_again*ratio)
+                self%h = min(h*max(0.2_dp, try_again*ratio), h - spacing(to))  ! of few ulp, too
                 call self%s%shorten()
             else
                 self%h = 0.5_dp*h

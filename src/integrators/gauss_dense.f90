@@ -8,7 +8,7 @@ module lagrangia_gauss_dense
     !! coefficients that are left then give the state anywhere, without evaluations.
     !!
     !! Chebyshev series: Mason & Handscomb, *Chebyshev Polynomials*, 2003, secs. 2.4 and 6.3.
-    use lagrangia_gauss_tables, only: legendre
+    use lagrangia_gauss_tables, only: legendre, nodes, weights
     use lagrangia_kinds, only: dp
     use lagrangia_system, only: lanes, system_t
     implicit none (type, external)
@@ -17,9 +17,12 @@ module lagrangia_gauss_dense
 
     integer, parameter :: points = 2*lanes
     integer, parameter :: most_sweeps = 10
+    real(dp), parameter :: top = 2.0_dp**29*40320.0_dp**4/(17.0_dp*20922789888000.0_dp**2)
+    !! what the nodes miss of \(\int s\,T_{15}(2s)\): \(2^{29}\,8!^4/(17\cdot16!^2)\)
 
     type :: gauss_dense_t
-        real(dp) :: t = 0.0_dp, h = 1.0_dp            !! start and length of the step, s
+        real(dp) :: t = 0.0_dp, t_new = 0.0_dp        !! start and end of the step, s
+        real(dp) :: h = 1.0_dp                        !! its length, s
         real(dp), allocatable :: q_old(:), v_old(:)   !! state at its start
         real(dp), allocatable :: q_new(:), v_new(:)   !! and at its end
         integer :: sweeps = 0                         !! of the last `fit`, 16 evaluations each
@@ -74,6 +77,7 @@ contains
         real(dp), intent(in) :: t, q(:), v(:)
 
         self%t = t
+        self%t_new = t
         self%h = 0.0_dp
         self%q_old(:) = q
         self%v_old(:) = v
@@ -94,6 +98,7 @@ contains
         real(dp) :: change, last, rate, difference(2)
         integer :: d, sweep
 
+        self%t_new = t_new
         self%h = t_new - self%t
         self%q_new(:) = q_new
         self%v_new(:) = v_new
@@ -214,37 +219,47 @@ contains
     end subroutine evaluate
 
     pure subroutine at(self, t, q, v)
-        !! The state at `t`; at the ends of the step, and beyond, the ends themselves.
+        !! The state at `t`; at the ends of the step, and beyond, the ends themselves. From the
+        !! nearer end \(\tau\) away the eight nodes integrate the series of the accelerations:
+        !! $$ v = v_e + \tau\sum_j b_j a_j,\quad
+        !!    q = q_e + \tau\Big(v_e + \tau\sum_j b_j(1-c_j) a_j\Big) $$
+        !! but for what that misses of the last term, which is of one degree too many for `q`. So
+        !! a flight much shorter than the step has its digits, too.
         class(gauss_dense_t), intent(in) :: self
         real(dp), intent(in) :: t
         real(dp), intent(out) :: q(:), v(:)
-        real(dp) :: x
+        real(dp) :: tau, missed, a(lanes)
         integer :: d
+        logical :: early
 
-        if (t <= self%t) then
+        early = t - self%t < 0.5_dp*self%h
+        if (early) then
+            tau = t - self%t
             q = self%q_old
             v = self%v_old
-        else if (t >= self%t + self%h) then
+        else
+            tau = t - self%t_new
             q = self%q_new
             v = self%v_new
-        else
-            x = 2.0_dp*(t - self%t)/self%h - 1.0_dp
-            do d = 1, size(q)
-                q(d) = series(self%q(:, d), x)
-                v(d) = series(self%v(:, d), x)
-            end do
         end if
+        if (t <= self%t .or. t >= self%t_new) return
+        do d = 1, size(q)
+            a = series(self%a(:, d), 2.0_dp*tau/self%h*nodes + merge(-1.0_dp, 1.0_dp, early))
+            missed = top*self%a(points - 1, d)*(tau/self%h)**(points - 1)
+            q(d) = q(d) + tau*(v(d) + tau*(sum(weights*(1.0_dp - nodes)*a) - missed))
+            v(d) = v(d) + tau*sum(weights*a)
+        end do
     end subroutine at
 
     pure function series(c, x) result(y)
-        !! Clenshaw's sum of \(c_k T_k(x)\).
-        real(dp), intent(in) :: c(0:points + 1), x
-        real(dp) :: y, b1, b2, b
+        !! Clenshaw's sum of \(c_k T_k(x)\), in all lanes.
+        real(dp), intent(in) :: c(0:points + 1), x(lanes)
+        real(dp) :: y(lanes), b1(lanes), b2(lanes), b(lanes)
         integer :: k
 
         b1 = 0.0_dp
         b2 = 0.0_dp
-        do k = points + 1, 1, -1
+        do k = points - 1, 1, -1
             b = 2.0_dp*x*b1 - b2 + c(k)
             b2 = b1
             b1 = b

@@ -108,29 +108,31 @@ contains
         real(dp) :: change, x(lanes)
         integer :: d, i
 
-        change = 0.0_dp
+        x = 0.0_dp
         do d = 1, n
             !GCC$ vector
             do i = 1, lanes
-                x(i) = (f(i, d) - f_old(i, d))**2
+                x(i) = x(i) + weight(d)*(f(i, d) - f_old(i, d))**2
             end do
-            change = change + weight(d)*total(x)
         end do
-        change = change/stages
+        change = total(x)/stages
     end function distance
 
     pure function magnitude(n, weight, f) result(all)
         !! Weighted mean square of the accelerations.
         integer, intent(in) :: n
         real(dp), intent(in) :: weight(n), f(lanes, n)
-        real(dp) :: all
-        integer :: d
+        real(dp) :: all, x(lanes)
+        integer :: d, i
 
-        all = 0.0_dp
+        x = 0.0_dp
         do d = 1, n
-            all = all + weight(d)*total(f(:, d)**2)
+            !GCC$ vector
+            do i = 1, lanes
+                x(i) = x(i) + weight(d)*f(i, d)**2
+            end do
         end do
-        all = all/stages
+        all = total(x)/stages
     end function magnitude
 
     pure subroutine end_state(n, hb, f, q, q_low, v, v_low)

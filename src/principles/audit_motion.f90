@@ -68,7 +68,7 @@ contains
         integer :: i, k
 
         call system%describe(d)
-        if (.not. allocated(d%reactions)) return
+        if (.not. has_masses(d)) return
         call least_constraint(system, t, q, v, here, error)
         if (.not. allocated(error)) then
             call neighbour(t, q, v, tt, qq, vv)
@@ -119,7 +119,7 @@ contains
         integer :: i
 
         call system%describe(d)
-        if (.not. allocated(d%reactions)) return
+        if (.not. has_masses(d)) return
         call least_constraint(system, t, q, v, here, error)
         if (allocated(error) .or. size(d%reactions) == 0) return
         text = "at q = 0.5, v = 1:"
@@ -130,6 +130,17 @@ contains
         end do
         call audit%say(claim_gauss, text)
     end subroutine say_reactions
+
+    pure function has_masses(d)
+        !! It is told what moves, and what holds it.
+        type(description_t), intent(in) :: d
+        logical :: has_masses
+
+        has_masses = .false.
+        if (.not. allocated(d%reactions)) return
+        if (allocated(d%points)) has_masses = size(d%points) > 0
+        if (allocated(d%rotors)) has_masses = has_masses .or. size(d%rotors) > 0
+    end function has_masses
 
     pure function name_of(d, i) result(name)
         !! Of Cartesian coordinate `i`.
@@ -161,7 +172,7 @@ contains
         integer :: i, j, k
 
         call system%describe(d)
-        if (.not. allocated(d%reactions)) return
+        if (.not. has_masses(d)) return
         call expand_lagrangian(system, t, q, v, terms)
         allocate (rotors(0))
         if (allocated(d%rotors)) rotors = d%rotors

@@ -8,15 +8,13 @@ module lagrangia_choice
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: auto, exact, workhorse, settle_method, stepping
+    public :: auto, exact, workhorse, settle_method
 
     character(*), parameter :: auto = "auto", exact = "exact"
     character(*), parameter :: workhorse = "gauss16"
     !! With `dt` and with `tolerance`, whatever the structure: `lagrangia bench` has it before
     !! the others on the double pendulum, cart-pendulum and pendulum at every error, on the
     !! oscillator from 1e-6 on; and a step costs no more than one of `blanes_moan6`.
-    character(*), parameter :: for_impacts(2) = ["dop853", "rk4   "]
-    !! With `tolerance`, with `dt`: where impacts accumulate `gauss16` loses the ball.
 
 contains
 
@@ -46,9 +44,7 @@ contains
         character(:), allocatable, intent(out) :: why
 
         if (system%contacts > 0) then
-            method = stepping(system, scene%tolerance > 0.0_dp)
-            why = "impacts are looked for between steps, and explicit ones start again best"
-            return
+            why = "impacts are looked for between steps"
         else if (allocated(scene%events)) then
             why = "events are looked for between steps"
         else if (scene%error_estimate) then
@@ -62,7 +58,7 @@ contains
             why = "closed form: "//trim(reference%title)
             return
         end if
-        method = stepping(system, scene%tolerance > 0.0_dp)
+        method = workhorse
         why = why//"; of the methods this one is mostly the fastest to a given error"
     contains
         function gives_states() result(yes)
@@ -75,14 +71,4 @@ contains
             yes = all(ieee_is_finite(q)) .and. all(ieee_is_finite(v))
         end function gives_states
     end subroutine choose_method
-
-    pure function stepping(system, adaptive) result(name)
-        !! The method where there are to be steps.
-        class(system_t), intent(in) :: system
-        logical, intent(in) :: adaptive  !! by a tolerance; otherwise of `dt`
-        character(name_length) :: name
-
-        name = workhorse
-        if (system%contacts > 0) name = merge(for_impacts(1), for_impacts(2), adaptive)
-    end function stepping
 end module lagrangia_choice

@@ -19,6 +19,7 @@ module lagrangia_play
                                  measure_t, outcome_t
     use lagrangia_period, only: period_t
     use lagrangia_record, only: record_t
+    use lagrangia_reduced_motion, only: reduced_motion_t
     use lagrangia_reference, only: reference_t
     use lagrangia_run, only: plan_t
     use lagrangia_scene, only: scene_t
@@ -188,6 +189,10 @@ contains
         if (.not. allocated(error) .and. outcome%t < p%plan%t0 + p%plan%duration) then
             outcome%remark = " (stopped by an event at t = "//to_text(outcome%t)//" s)"
         end if
+        select type (method => p%integrator)
+        type is (reduced_motion_t)
+            outcome%remark = outcome%remark//" (the cyclic coordinate from its momentum)"
+        end select
         outcome%seconds = real(finish - start, dp)/real(rate, dp)
         outcome%evaluations = p%integrator%evaluations
     end subroutine timed_run

@@ -13,6 +13,7 @@ module lagrangia_staging
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp
     use lagrangia_methods, only: new_integrator, prepare_integrator
+    use lagrangia_reduced_motion, only: leave_cyclic
     use lagrangia_reference, only: reference_t
     use lagrangia_run, only: new_plan, new_sampled_plan, plan_t
     use lagrangia_scene, only: scene_t
@@ -62,11 +63,7 @@ contains
                 call move_alloc(fixed, integrator)
             end if
         end if
-        if (system%contacts > 0 .and. scene%method == workhorse) then
-            call fail(error, workhorse//" is for smooth motion, and here there are impacts; "// &
-                      "methods for those: rk4 and verlet by dt, dop853 by tolerance", key="method")
-            return
-        end if
+        call leave_cyclic(integrator, system)
         call prepare_integrator(integrator, system, error)
     end subroutine stage_method
 

@@ -4,6 +4,7 @@ module lagrangia_cart_pendulum
     !! Source: the lecture of 1 September 2011, cart-pendulum. The notes write
     !! \(-m_2 g\ell\sin\theta\) in the \(\theta\)-equation, against their own Lagrangian and
     !! their own frequency; the sign below is the one that follows from \(L\).
+    use lagrangia_cart_swing, only: cart_swing_t
     use lagrangia_description, only: conserved, coordinate, description_t, point, positive, &
                                      nonnegative, quantity
     use lagrangia_errors, only: error_t
@@ -36,6 +37,7 @@ module lagrangia_cart_pendulum
         procedure :: quantity => momentum_or_force
         procedure :: positions
         procedure :: newton
+        procedure :: reduce
     end type cart_pendulum_t
 
 contains
@@ -226,9 +228,9 @@ contains
                    theta_dot => v(:, 2))
             s = sin(q(:, 2))
             c = cos(q(:, 2))
-            d = m1 + m2*s**2
-            a(:, 1) = m2*s*(l*theta_dot**2 + g*c)/d
-            a(:, 2) = -s*((m1 + m2)*g + m2*l*theta_dot**2*c)/(l*d)
+            d = s/(m1 + m2*s**2)
+            a(:, 1) = m2*d*(l*theta_dot**2 + g*c)
+            a(:, 2) = -d*((m1 + m2)/l*g + m2*theta_dot**2*c)
         end associate
     end subroutine accelerations_lanes
 
@@ -268,4 +270,15 @@ contains
         held(1) = x(2)
         held(2) = 0.5_dp/self%l*(self%l**2 - dot_product(rod, rod))
     end subroutine newton
+
+    subroutine reduce(self, reduced)
+        !! Without \(x\).
+        class(cart_pendulum_t), intent(in) :: self
+        class(system_t), allocatable, intent(out) :: reduced
+        type(cart_swing_t) :: swing
+        type(error_t), allocatable :: error
+
+        call swing%configure([self%m1, self%m2, self%l, self%g], error)
+        allocate (reduced, source=swing)
+    end subroutine reduce
 end module lagrangia_cart_pendulum

@@ -218,9 +218,9 @@ contains
             s = sin(s)
             s1 = sin(q(:, 1))
             s2 = sin(q(:, 2))
-            d = m1 + m2*s**2
-            a(:, 1) = (-m2*s*(l1*v(:, 1)**2*c + l2*v(:, 2)**2) - m*g*s1 + m2*g*s2*c)/(l1*d)
-            a(:, 2) = (m*l1*v(:, 1)**2*s + m2*l2*v(:, 2)**2*s*c + m*g*(s1*c - s2))/(l2*d)
+            d = 1.0_dp/(m1 + m2*s**2)
+            a(:, 1) = (-m2*s*(l1*v(:, 1)**2*c + l2*v(:, 2)**2) - m*g*s1 + m2*g*s2*c)*((1.0_dp/l1)*d)
+            a(:, 2) = (m*l1*v(:, 1)**2*s + m2*l2*v(:, 2)**2*s*c + m*g*(s1*c - s2))*((1.0_dp/l2)*d)
         end associate
     end subroutine accelerations_lanes
 

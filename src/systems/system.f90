@@ -14,8 +14,7 @@ module lagrangia_system
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: system_t, system_box_t, lanes
-    public :: check_parameter, check_parameters, default_values
+    public :: system_t, system_box_t, lanes, check_parameter, check_parameters, default_values
 
     integer, parameter :: lanes = 8  !! states that `accelerations_lanes` takes at once
 
@@ -43,6 +42,7 @@ module lagrangia_system
         procedure :: linearise => nothing_by_hand
         procedure :: gap => no_gap
         procedure :: impact => no_impact
+        procedure :: reduce => not_reduced
     end type system_t
 
     type :: system_box_t
@@ -267,6 +267,12 @@ contains
         real(dp), intent(inout) :: q(self%ndof), v(self%ndof)
     end subroutine no_impact
 
+    subroutine not_reduced(self, reduced)
+        !! The same without its cyclic coordinate, a `reduced_t`; not allocated if none is known.
+        class(system_t), intent(in) :: self
+        class(system_t), allocatable, intent(out) :: reduced
+    end subroutine not_reduced
+
     pure subroutine check_parameters(self, values, error)
         !! Refuse `values` that are too many, too few or outside their domains.
         class(system_t), intent(in) :: self
@@ -281,17 +287,14 @@ contains
                       " parameter values, not "//to_text(size(values)))
             return
         end if
-        first = 1
         do i = 1, size(d%parameters)
+            first = 1 + sum(d%parameters(:i - 1)%count)
             associate (p => d%parameters(i))
                 p%value(:p%count) = values(first:first + p%count - 1)
-                first = first + p%count
             end associate
             call check_parameter(d%parameters(i), error)
-            if (allocated(error)) then
-                call error%add_context(trim(d%name))
-                return
-            end if
+            if (allocated(error)) call error%add_context(trim(d%name))
+            if (allocated(error)) return
         end do
     end subroutine check_parameters
 end module lagrangia_system

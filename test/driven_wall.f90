@@ -1,0 +1,68 @@
+module driven_wall
+    !! A mass that is pushed by nothing but the time, until it meets a wall that is soft at first.
+    use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t
+    use lagrangia_hyperdual, only: hyperdual_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_system, only: system_t
+    implicit none (type, external)
+    private
+    public :: driven_wall_t
+
+    type, extends(system_t) :: driven_wall_t
+    contains
+        procedure :: describe
+        procedure :: configure
+        procedure :: accelerations
+        procedure :: lagrangian
+        procedure :: energy
+    end type driven_wall_t
+
+contains
+
+    pure subroutine describe(self, d)
+        !! A name is enough.
+        class(driven_wall_t), intent(in) :: self
+        type(description_t), intent(out) :: d
+
+        d%name = "driven_wall"
+    end subroutine describe
+
+    pure subroutine configure(self, values, error)
+        !! No parameters.
+        class(driven_wall_t), intent(inout) :: self
+        real(dp), intent(in) :: values(:)
+        type(error_t), allocatable, intent(out) :: error
+
+        self%ndof = 1
+        self%velocity_forces = .false.
+        self%time_dependent = .true.
+    end subroutine configure
+
+    pure subroutine accelerations(self, t, q, v, a)
+        !! $$ \ddot x = \cos 2t - 10\max(0, x - 1)^7 $$
+        class(driven_wall_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: a(self%ndof)
+
+        a(1) = cos(2.0_dp*t) - 10.0_dp*max(0.0_dp, q(1) - 1.0_dp)**7
+    end subroutine accelerations
+
+    pure function lagrangian(self, t, q, v) result(l)
+        !! Not wanted here.
+        class(driven_wall_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t) :: l
+
+        l = hyperdual_t()
+    end function lagrangian
+
+    pure function energy(self, t, q, v) result(e)
+        !! Not wanted either.
+        class(driven_wall_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: e
+
+        e = 0.0_dp
+    end function energy
+end module driven_wall
