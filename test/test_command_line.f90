@@ -118,8 +118,8 @@ contains
         !! With the nearest name; as usage errors, and control characters escaped.
         call check_refused("run|--sett|x", "unknown option '--sett'; did you mean '--set'?")
         call check_refused("run|--plo=svg", "unknown option '--plo'; did you mean '--plot'?")
-        call check_refused("modes|--methods=x", "option '--methods' does not go with 'lagrangia "// &
-                           "modes'; it takes --set GROUP%KEY=VALUE, --at Q1,Q2,..., --output DIR, ")
+        call check_refused("modes|--methods=x", "option '--methods' does not go with "// &
+                           "'lagrangia modes'; it takes --set GROUP%KEY=VALUE, --at Q1,Q2,..., ")
         call check_refused("run|--method", "unknown option '--method'; it takes --set ")
         call check_refused("bench|--method", "unknown option '--method'; did you mean '--methods'?")
         call check_refused("run|--dt|1e-3", "unknown option '--dt'; it takes --set GROUP%KEY=VALUE")

@@ -147,8 +147,8 @@ contains
         call assertTrue(index(error%message, "/a.nml:1:") > 0)
         call refuse_value(tree, name, name, repeat("too long, ", 40), error)
         call plain(error)
-        call assertTrue(index(error%message, "too long... too long") > 0 .or. &
-                        index(error%message, "...") > 0, message="a long message says that it is cut")
+        call assertTrue(index(error%message(4:), "...") > 0, &
+                        message="a long message says that it is cut")
         call assertEqual("too long, ", error%message(len(error%message) - 9:), message="its end")
         call refuse_unknown_keys(tree, "x", [repeat("l", 60)], error)
         call assertFalse(allocated(error), message="a group that is not there")

@@ -133,7 +133,8 @@ contains
         call get_reals(tree, "a", "q", 3, 3, q, error)
         call failed(error, "a.nml:1:13: &a: q has 4 values; 3 are needed")
         call get_real(tree, "a", "n", x, error)
-        call failed(error, "a.nml:1:30: &a: n has 2 values; one is needed"//point//"1.000 (or 1000)")
+        call failed(error, "a.nml:1:30: &a: n has 2 values; one is needed"//point// &
+                    "1.000 (or 1000)")
         call get_real(tree, "a", "x", x, error)
         call failed(error, "a.nml:1:40: &a: x has 2 values; one is needed")
         call get_real(tree, "a", "y", x, error)

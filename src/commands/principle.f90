@@ -77,7 +77,6 @@ contains
         type(error_t), allocatable, intent(out) :: error
         type(walker_t) :: walker
         type(system_box_t), allocatable :: systems(:)
-        character(:), allocatable :: near
 
         select case (name)
         case ("action")

@@ -79,7 +79,8 @@ contains
             if (near /= "") then
                 near = "; did you mean '"//near//"'?"
             else
-                near = "; there are "//join(commands(2:)%name, ", ")//"; a scene's name stands behind 'run'"
+                near = "; there are "//join(commands(2:)%name, ", ")// &
+                       "; a scene's name stands behind 'run'"
             end if
             call fail(error, "unknown command "//quoted(line%command)//near)
             return

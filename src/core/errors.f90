@@ -32,7 +32,8 @@ module lagrangia_errors
 contains
 
     pure subroutine fail(error, message, status, key, element)
-        !! Make `error` say `message`, shortened if need be; the status is that of a usage error unless given.
+        !! Make `error` say `message`, shortened if need be; the status is that of a usage error
+        !! unless given.
         type(error_t), allocatable, intent(out) :: error
         character(*), intent(in) :: message
         integer, intent(in), optional :: status

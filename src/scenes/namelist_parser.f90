@@ -2,8 +2,8 @@ module lagrangia_namelist_parser
     !! From the text of a namelist file, or of an override, to its groups and entries.
     use lagrangia_errors, only: error_t
     use lagrangia_namelist_entries, only: read_entry
-    use lagrangia_namelist_scanner, only: begins_name, carriage_return, line_feed, next_byte, place_at, &
-                                          read_name, refuse, refuse_byte, scanner_t, &
+    use lagrangia_namelist_scanner, only: begins_name, carriage_return, line_feed, next_byte, &
+                                          place_at, read_name, refuse, refuse_byte, scanner_t, &
                                           skip_space, tab, token_end
     use lagrangia_namelist_tree, only: add_group, fail_at, find_group, name_length, namelist_t, &
                                        new_namelist, place_t, short_source

@@ -6,8 +6,8 @@ module lagrangia_namelist_scanner
     use lagrangia_text, only: escaped, lower, quoted, to_text
     implicit none (type, external)
     private
-    public :: begins_key, begins_name, next_byte, place_at, read_name, refuse, refuse_byte, scanner_t, &
-              skip_space, token_end
+    public :: begins_key, begins_name, next_byte, place_at, read_name, refuse, refuse_byte, &
+              scanner_t, skip_space, token_end
     public :: carriage_return, line_feed, tab
 
     character(1), parameter :: tab = achar(9)

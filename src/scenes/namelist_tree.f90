@@ -14,6 +14,7 @@ module lagrangia_namelist_tree
     integer, parameter :: max_groups = 100    !! in one file with its overrides
     integer, parameter :: max_entries = 1000  !! in one file with its overrides
     integer, parameter :: max_values = 10000  !! repeats counted, in one file with its overrides
+    integer, parameter :: few = 64            !! entries and values: there is room at once
     integer, parameter :: source_length = 100
 
     integer, parameter :: kind_number = 1  !! a finite number
@@ -76,7 +77,7 @@ contains
 
         tree%text = ""
         tree%source = short_source(source)
-        allocate (tree%groups(max_groups), tree%entries(max_entries), tree%values(max_values))
+        allocate (tree%groups(max_groups), tree%entries(few), tree%values(few))
     end subroutine new_namelist
 
     pure function short_source(source) result(shown)
@@ -136,10 +137,15 @@ contains
         type(namelist_t), intent(inout) :: tree
         type(entry_t), intent(in) :: item
         type(error_t), allocatable, intent(out) :: error
+        type(entry_t), allocatable :: more(:)
 
         if (tree%entry_count == max_entries) then
             call fail_at(error, item%place, "more than "//to_text(max_entries)//" keys")
             return
+        else if (tree%entry_count == size(tree%entries)) then
+            allocate (more(2*tree%entry_count))
+            more(:tree%entry_count) = tree%entries
+            call move_alloc(more, tree%entries)
         end if
         tree%entry_count = tree%entry_count + 1
         tree%entries(tree%entry_count) = item
@@ -152,7 +158,13 @@ contains
         type(namelist_t), intent(inout) :: tree
         type(value_t), intent(in) :: value
         type(error_t), allocatable, intent(out) :: error
+        type(value_t), allocatable :: more(:)
 
+        if (tree%value_count == size(tree%values)) then
+            allocate (more(2*tree%value_count))
+            more(:tree%value_count) = tree%values
+            call move_alloc(more, tree%values)
+        end if
         associate (owner => tree%entries(tree%entry_count))
             if (value%repeats > max_values - tree%repeats_count) then
                 call fail_at(error, place_t(owner%place%source, value%line, value%column), &

@@ -1,8 +1,8 @@
 module lagrangia_namelist_unknown
     !! Which keys and groups a namelist has; refusing those that are missing or unknown.
     use lagrangia_errors, only: error_t
-    use lagrangia_names, only: abbreviation, nearest_name
     use lagrangia_namelist_tree, only: fail_at, find_group, name_length, namelist_t, place_t
+    use lagrangia_names, only: abbreviation, nearest_name
     use lagrangia_text, only: escaped, join, quoted
     implicit none (type, external)
     private
@@ -62,7 +62,7 @@ contains
         integer :: i
 
         if (owner == 0) then
-            keys = tree%groups(:tree%group_count)%name
+            allocate (keys, source=[(tree%groups(i)%name, i=1, tree%group_count)])
             near = nearest_name(group, keys)
             i = find_group(tree, near)
             if (i > 0) then
@@ -73,8 +73,9 @@ contains
                          " is missing; it must give "//escaped(key, 30))
         else
             associate (items => tree%entries(:tree%entry_count))
-                keys = pack([(items(i)%key, i=1, size(items))], &
-                            [(items(i)%group == owner .and. .not. items(i)%used, i=1, size(items))])
+                allocate (keys, source=pack( &
+                    [(items(i)%key, i=1, size(items))], &
+                    [(items(i)%group == owner .and. .not. items(i)%used, i=1, size(items))]))
             end associate
             near = nearest_name(key, keys)
             if (near /= "") then
@@ -106,8 +107,9 @@ contains
             associate (item => tree%entries(i))
                 if (item%group /= owner .or. item%used .or. item%replaced) cycle
                 if (spared .and. any(allowed == item%key)) cycle
-                absent = pack(allowed, [(item%overrides .or. item%key == allowed(k) .or. .not. &
-                                         has_key(tree, group, allowed(k)), k=1, size(allowed))])
+                allocate (absent, source=pack(allowed, &
+                    [(item%overrides .or. item%key == allowed(k) .or. &
+                      .not. has_key(tree, group, allowed(k)), k=1, size(allowed))]))
                 call fail_at(error, item%place, "&"//escaped(trim(group), 30)//": "// &
                              advice("key ", trim(item%key), absent))
                 return

@@ -3,7 +3,8 @@ module lagrangia_namelist_values
     use lagrangia_errors, only: error_t
     use lagrangia_namelist_numbers, only: read_number, starts_number
     use lagrangia_namelist_scanner, only: begins_key, begins_name, carriage_return, line_feed, &
-                                          next_byte, refuse, refuse_byte, scanner_t, skip_space, tab, token_end
+                                          next_byte, refuse, refuse_byte, scanner_t, skip_space, &
+                                          tab, token_end
     use lagrangia_namelist_tree, only: add_value, kind_number, kind_string, kind_word, &
                                        max_values, namelist_t, value_t
     use lagrangia_namelist_words, only: misread, stray, truth_of
@@ -76,8 +77,8 @@ contains
             if (word == "" .or. truth_of(word) >= 0) return
             if (value%kind == kind_number .and. value%line == scanner%line .and. &
                 scan(word(1:1), "#%:<>*\") == 0) then
-                call refuse(scanner, scanner%at, "unexpected "//quoted(word)//" behind a number;"// &
-                            " units are not written: all are SI, angles in radians", error)
+                call refuse(scanner, scanner%at, "unexpected "//quoted(word)//" behind a "// &
+                            "number; units are not written: all are SI, angles in radians", error)
             else
                 call refuse(scanner, scanner%at, "unexpected "//quoted(word)//"; "//stray, error)
             end if

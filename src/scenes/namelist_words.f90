@@ -34,8 +34,8 @@ contains
     end function truth_of
 
     pure subroutine misread(text, phrase, problem)
-        !! Says what a `phrase` at the start of `text` means and what to write, if it is a number in a
-        !! spelling that is not read: factors (numbers, `pi`) with `*`, `/`, `^` or `**` between
+        !! Says what a `phrase` at the start of `text` means and what to write, if it is a number in
+        !! a spelling that is not read: factors (numbers, `pi`) with `*`, `/`, `^` or `**` between
         !! them, in degrees or radians, or with characters that only look plain. Otherwise empty:
         !! for a plain number and for `3*0.5`, which repeats.
         character(*), intent(in) :: text
@@ -122,6 +122,7 @@ contains
             at = next + len(unit)
         case ("rad", "rads", "radian", "radians")
             at = next + len(unit)
+        case default  ! no unit, or one that is not known
         end select
         if (scan(character_at(text, at), blanks//",/!") == 1) last = at - 1
     end subroutine evaluate

@@ -55,8 +55,8 @@ contains
         call get_count("every", scene%every)
         if (allocated(error)) return
         if (steps/scene%every > most_samples) then
-            call refuse_value(tree, "scene", "every", to_text(steps/scene%every)//too_many//", or"// &
-                              " every longer", error)
+            call refuse_value(tree, "scene", "every", to_text(steps/scene%every)//too_many// &
+                              ", or every longer", error)
             return
         end if
         if ( .not. has_key(tree, "scene", "samples")) return

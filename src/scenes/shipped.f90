@@ -6,8 +6,8 @@ module lagrangia_shipped
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, fail, status_file
     use lagrangia_files, only: facts_t, look_at
-    use lagrangia_names, only: nearest_name
     use lagrangia_namelist_tree, only: short_source
+    use lagrangia_names, only: nearest_name
     use lagrangia_text, only: quoted
     implicit none (type, external)
     private

@@ -1,6 +1,8 @@
 module fuzzing
     !! `fuzz [COUNT [SEED]]`: mutated scenes, overrides and command lines. What is accepted must be
     !! whole and come back from its own echo; what is refused must be refused in one short line.
+    use lagrangia_blas_threads, only: use_one_blas_thread
+    use lagrangia_catalogue, only: new_system
     use lagrangia_command_line, only: command_line_t, parse_words, word_t
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
@@ -8,10 +10,11 @@ module fuzzing
     use lagrangia_namelist_file, only: read_whole_file
     use lagrangia_registry, only: check_line, options
     use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
-    use lagrangia_scene_reader, only: parse_scene
-    use lagrangia_shipped, only: shipped_scenes
+    use lagrangia_scene_files, only: check_format
+    use lagrangia_scene_reader, only: parse_scene, read_named_system
+    use lagrangia_shipped, only: find_scene, shipped_scenes
     use lagrangia_system, only: system_t
-    use mutations, only: mutate, pick, seed_with
+    use mutations, only: mutate, pick, seed_with, spoil
     implicit none (type, external)
     private
     public :: fuzz
@@ -27,12 +30,15 @@ contains
 
         count = argument(1, 200000)
         seed = argument(2, 1)
+        call use_one_blas_thread()
         call read_corpus()
         call seed_with(seed)
         print "(a, i0, a, i0)", "fuzz: ", count, " inputs, seed ", seed
         do i = 1, count
             if (mod(i, 10) == 0) then
                 call try_words()
+            else if (mod(i, 10) == 5) then
+                call try_nonsense()
             else
                 call try_scene()
             end if
@@ -91,6 +97,25 @@ contains
         call judge(text, overrides)
     end subroutine try_scene
 
+    subroutine try_nonsense()
+        !! One scene that is right but for one number, which must be what it is refused for.
+        type(scene_t) :: scene
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        character(:), allocatable :: text, written
+        integer :: number
+
+        number = pick(size(corpus))
+        text = corpus(number)%text
+        call spoil(text, written)
+        if (written == "") return
+        call parse_scene(text, "fuzz.nml", [word_t ::], scene, system, error)
+        if (.not. allocated(error)) call give_up(written//" was taken for a number", text)
+        call check_message(error, text)
+        if (index(error%message, "fuzz.nml:") /= 1) call give_up(error%message, text)
+        refused = refused + 1
+    end subroutine try_nonsense
+
     subroutine judge(text, overrides)
         !! Read it; read the echo of what was accepted.
         character(*), intent(in) :: text
@@ -102,9 +127,12 @@ contains
         character(scene_line_length), allocatable :: lines(:)
         character(:), allocatable :: echo
         logical :: whole
+        character(:), allocatable :: source
         integer :: k
 
-        call parse_scene(text, "fuzz.nml", overrides, scene, system, error)
+        source = "fuzz.nml"
+        if (mod(i, 7) == 0) source = repeat("long path/", 30)//source
+        call parse_scene(text, source, overrides, scene, system, error)
         if (allocated(error)) then
             call check_message(error, text)
             refused = refused + 1
@@ -157,6 +185,7 @@ contains
             which = pick(size(words))
             text = trim(words(which))
             if (pick(3) == 1) call mutate(text, 1, "")
+            if (pick(20) == 1) text = text//repeat("x", 2000)
             line(k)%text = text
             all = all//text//" "
         end do
@@ -167,17 +196,38 @@ contains
             refused = refused + 1
         else
             accepted = accepted + 1
+            if (mod(i, 50) == 0) call try_names(text)
         end if
     end subroutine try_words
 
+    subroutine try_names(name)
+        !! A name where commands look for systems, scenes, formats.
+        character(*), intent(in) :: name
+        class(system_t), allocatable :: system
+        character(:), allocatable :: path
+        type(error_t), allocatable :: error
+        integer :: k
+
+        do k = 1, 4
+            select case (k)
+            case (1); call new_system(name, system, error)
+            case (2); call find_scene(name, path, error)
+            case (3); call check_format(name, error)
+            case default; call read_named_system("wedge", [word_t(name)], system, error)
+            end select
+            if (allocated(error)) call check_message(error, name)
+        end do
+    end subroutine try_names
+
     subroutine check_message(error, text)
-        !! One line of printable characters, 300 at most.
+        !! One line of printable characters, 300 at most with the program's name.
         type(error_t), intent(in) :: error
         character(*), intent(in) :: text
         integer :: k
 
         if (len(error%message) == 0) call give_up("refused without a word", text)
-        if (len(error%message) > 300) call give_up("a long message: "//error%message, text)
+        if (len("lagrangia: "//error%message) > 300) call give_up("a long message: "// &
+                                                                  error%message, text)
         do k = 1, len(error%message)
             if (iachar(error%message(k:k)) >= 32 .and. iachar(error%message(k:k)) <= 126) cycle
             call give_up("an unprintable message: "//error%message, text)

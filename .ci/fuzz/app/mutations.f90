@@ -4,7 +4,7 @@ module mutations
     use, intrinsic :: iso_fortran_env, only: int64
     implicit none (type, external)
     private
-    public :: mutate, pick, seed_with
+    public :: mutate, pick, seed_with, spoil
 
     integer(int64) :: state = 1
 
@@ -12,7 +12,15 @@ module mutations
         "(", ")", "%", "*", "3*0", "9999999*1", "1e400", "1e-400", "nan", "inf", "-", "1/100", &
         ".true.", "q(2) = 1", "&scene", "&end", "//", "1.5-3", "0x10", "dt = 1", "'rk4'", &
         "verlet", &
-        "columns", "''", "-1", "1e-3", "0", "2.5d0", "expect_error", "every = 0", "output='../a'"]
+        "columns", "''", "-1", "1e-3", "0", "2.5d0", "expect_error", "every = 0", "output='../a'", &
+        "0,5", "pi/4", "45deg", "10^-3", "==", ":=", "[1, 2]", "modes", "# note", "m_block = 2", &
+        "&wedge /", achar(13)//achar(10), char(226)//char(136)//char(146), &
+        char(194)//char(160), char(194)//char(176), char(226)//char(128)//char(156)]
+    character(*), parameter :: nonsense(*) = [character(16) :: "0,5", "1,5,2", "pi", "pi/4", &
+        "2*pi", "45 deg", "1 m", "10ms", "1/2", "10^-3", "1.0_dp", "1e400", "1e-400", "--1", "1e", &
+        "0x1", "'1'", "one", "nan", "1;", "(1)", "[1]", "1 # one", "1%", "1_000", "=1", "$x", &
+        char(226)//char(136)//char(146)//"1", char(194)//char(160)//"1", "1"//char(194)//char(176)]
+    !! None of these is a single number, however the rest of the scene looks.
 
 contains
 
@@ -43,7 +51,7 @@ contains
 
         do k = 1, times
             at = pick(len(text) + 1)
-            select case (pick(7))
+            select case (pick(9))
             case (1)
                 first = pick(256) - 1
                 text = text(:at - 1)//achar(first)//text(at:)
@@ -58,6 +66,11 @@ contains
             case (6)
                 last = min(len(text), at + pick(40))
                 text = text(:last)//text(at:)
+            case (7)
+                call swap_lines(text, at)
+            case (8)
+                first = pick(size(pieces))
+                call replace_word(text, at, trim(pieces(first)))
             case default
                 if (len(other) == 0) cycle
                 first = pick(len(other))
@@ -66,4 +79,57 @@ contains
             end select
         end do
     end subroutine mutate
+
+    subroutine spoil(text, key)
+        !! Replace the number of the single-valued `key` by nonsense; `key` is empty where the text
+        !! has none such.
+        character(:), allocatable, intent(inout) :: text
+        character(:), allocatable, intent(out) :: key
+        character(*), parameter :: keys(*) = [character(10) :: " dt", " duration", " every", &
+                                              " tolerance", " samples", " m", " l"]
+        integer :: first, k, last, which
+
+        which = pick(size(keys))
+        key = trim(keys(which))
+        first = index(text, key//" = ")
+        which = pick(size(nonsense))
+        if (first == 0) then
+            key = ""
+            return
+        end if
+        first = first + len(key) + 3
+        k = scan(text(first:), ", "//new_line("a"))
+        last = first + k - 2
+        key = trim(nonsense(which))
+        text = text(:first - 1)//key//text(last + 1:)
+    end subroutine spoil
+
+    subroutine swap_lines(text, at)
+        !! Let the line at byte `at` follow the next one.
+        character(:), allocatable, intent(inout) :: text
+        integer, intent(in) :: at
+        character(1), parameter :: lf = new_line("a")
+        integer :: first, middle, last
+
+        first = index(text(:at - 1), lf, back=.true.) + 1
+        middle = index(text(first:), lf) + first - 1
+        if (middle < first) return
+        last = index(text(middle + 1:), lf) + middle
+        if (last == middle) return
+        text = text(:first - 1)//text(middle + 1:last)//text(first:middle)//text(last + 1:)
+    end subroutine swap_lines
+
+    subroutine replace_word(text, at, word)
+        !! Put `word` in the place of that which begins behind byte `at`.
+        character(:), allocatable, intent(inout) :: text
+        integer, intent(in) :: at
+        character(*), intent(in) :: word
+        character(*), parameter :: between = " ,=/&"//new_line("a")
+        integer :: first, last
+
+        first = at - 1 + scan(text(at:), between)
+        first = first + max(0, verify(text(first + 1:), between))
+        last = first - 2 + scan(text(first:)//" ", between)
+        text = text(:first - 1)//word//text(max(first, last + 1):)
+    end subroutine replace_word
 end module mutations
