@@ -189,8 +189,11 @@ contains
         class(output_file_t), intent(in) :: self
         character(:), allocatable :: name
 
-        name = self%temporary
-        if (name(1:1) /= "/") name = "./"//name
+        if (self%temporary(1:1) == "/") then
+            name = self%temporary
+        else
+            name = "./"//self%temporary
+        end if
     end function temporary_name
 
     subroutine commit(self, error)
