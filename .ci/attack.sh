@@ -1,57 +1,13 @@
 #!/usr/bin/env bash
-# Output under attack: full disks, closed and broken pipes, folders that refuse, signals, odd names.
+# Output under attack: full disks, closed and broken pipes, folders that refuse, odd names.
 # Nothing is lost in silence, nothing is half-written, what was there survives, no shell is started,
 # the status is right and the message one line. Usage: attack.sh [PROGRAM]; takes some seconds.
 set -u
-cd "$(dirname "$0")/.." || exit 2
-program=${1:-}
-for found in $(ls -t build/gfortran_*/app/lagrangia 2>/dev/null); do # bench wants an optimised one
-    [ -z "$program" ] && "$found" --version | grep -q ', optimised' && program=$found
-done
-[ -x "$program" ] || { echo "no program: fpm build --profile release"; exit 2; }
-program=$(realpath "$program")
-work=$(mktemp -d) || exit 2
-mkdir "$work/data" # so that shipped scenes have their names there too
-ln -s "$PWD/data/scenes" "$PWD/data/reference" "$work/data"
-disk=""
-finish() {
-    [ -z "$disk" ] || umount "$disk"
-    rm -rf "$work"
-}
-trap finish EXIT
-count=0
-failures=0
-status=0
-
-check() { # check CLAIM COMMAND...: the claim holds if the command succeeds
-    count=$((count + 1))
-    if ("${@:2}") >/dev/null 2>&1; then
-        printf 'ok      %s\n' "$1"
-    else
-        printf 'FAILED  %s\n' "$1"
-        printf '        | %s\n' "status $status" "stderr: $(head -c 400 "$work/err")"
-        failures=$((failures + 1))
-    fi
-}
-
-run() { # run WORDS...: status, $work/out, $work/err
-    timeout 20 "$program" "$@" >"$work/out" 2>"$work/err" </dev/null
-    status=$?
-}
-
-one_line() { # ours, short, and no backtrace
-    [ "$(wc -l <"$work/err")" -eq 1 ] && grep -q '^lagrangia: ' "$work/err" &&
-        [ "$(wc -c <"$work/err")" -le 301 ] && ! grep -qi 'backtrace\|#0 ' "$work/err"
-}
-
-leftovers() { # no temporary in the folder
-    [ -z "$(find "$1" -name '.lagrangia-*')" ]
-}
+source "$(dirname "$0")/attack_tools.sh"
 
 # Every command that writes: its words, and the files that it makes in the folder of --output
 writers=("run pendulum" "modes double_pendulum" "principle least-time"
     "bench precision --quick --quiet --problems P1 --methods rk4")
-: >"$work/err"
 makes=()
 for writer in "${writers[@]}"; do
     rm -rf "$work/made"
@@ -60,16 +16,6 @@ for writer in "${writers[@]}"; do
     makes+=("$(cd "$work/made" 2>/dev/null && ls | tr '\n' ' ')")
     check "$writer: works, one file at least" eval '[ $status -eq 0 ] && [ -n "${makes[-1]}" ]'
 done
-
-plant() { # plant FOLDER FILES...: old content under each name
-    local file
-    for file in "${@:2}"; do printf 'old %s\n' "$file" >"$1/$file"; done
-}
-
-unharmed() { # unharmed FOLDER FILES...: bit for bit
-    local file
-    for file in "${@:2}"; do [ "$(cat "$1/$file")" = "old $file" ] || return 1; done
-}
 
 for i in "${!writers[@]}"; do
     writer=${writers[i]}
@@ -163,10 +109,10 @@ if [ $status -eq 0 ]; then
     done
     mkdir "$work/closed"
     cp data/scenes/pendulum.nml "$work/closed"
-    for mode in 000:644 644:000 666:644; do # of the file : of the folder
+    for mode in 000:755 644:000 666:644; do # of the file : of the folder
+        chmod 755 "$work/closed"
         chmod "${mode%:*}" "$work/closed/pendulum.nml"
         chmod "${mode#*:}" "$work/closed"
-        [ "$mode" != 000:644 ] || chmod 755 "$work/closed"
         user run closed/pendulum.nml --output "$work/none"
         check "a scene that may not be read ($mode)" eval '[ $status -eq 5 ] && one_line && grep -q "closed/pendulum.nml: " "$work/err" && [ ! -e "$work/none" ]'
     done
@@ -231,42 +177,4 @@ if command -v gnuplot >/dev/null; then
     check "run --plot | true: status 141, in silence, the picture is drawn" eval 'silent && [ -s "$work/unread/pendulum.png" ]'
 fi
 
-# Signals in the middle, kill -9, two runs of one file
-begin() { # begin FOLDER: a long run in the background; returns when its temporary is there
-    "$program" run pendulum --set scene%duration=1e6 --set scene%every=1000 --output "$1" >"$work/out" 2>"$work/err" &
-    child=$!
-    for _ in $(seq 200); do
-        leftovers "$1" 2>/dev/null || return
-        sleep 0.02
-    done
-}
-set -m # else a shell lets its background jobs ignore SIGINT
-for pair in INT:130 TERM:143 KILL:137; do
-    mkdir "$work/${pair%:*}"
-    plant "$work/${pair%:*}" pendulum.dat pendulum.gp
-    begin "$work/${pair%:*}"
-    kill -"${pair%:*}" $child
-    wait $child 2>/dev/null
-    status=$?
-    check "SIG${pair%:*}: status ${pair#*:}, the old files live" eval '[ $status -eq '"${pair#*:}"' ] && unharmed "$work/${pair%:*}" pendulum.dat pendulum.gp'
-    [ "${pair%:*}" = KILL ] || check "SIG${pair%:*}: one line, no temporary" eval 'one_line && leftovers "$work/${pair%:*}"'
-done
-run run pendulum --output "$work/alone"
-check "SIGKILL leaves a hidden temporary" eval '! leftovers "$work/KILL"'
-run run pendulum --output "$work/KILL"
-check "the next run removes it, and writes the same bytes as in a folder of its own" eval '[ $status -eq 0 ] && diff -r "$work/alone" "$work/KILL"'
-begin "$work/KILL"
-run run pendulum --output "$work/KILL"
-check "a run beside a longer one of the same file: the same bytes, and the other's temporary stays" eval '[ $status -eq 0 ] && cmp "$work/alone/pendulum.dat" "$work/KILL/pendulum.dat" && ! leftovers "$work/KILL"'
-kill -TERM $child
-wait $child 2>/dev/null
-check "until that one ends" leftovers "$work/KILL"
-
-for _ in 1 2 3 4; do
-    "$program" run pendulum --quiet --output "$work/both" 2>"$work/err" &
-done
-wait
-check "four runs into one file: it is whole" eval 'diff -r "$work/alone" "$work/both"'
-
-echo "$count claims, $failures failed"
-exit $((failures > 0))
+summary

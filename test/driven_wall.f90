@@ -1,5 +1,7 @@
 module driven_wall
     !! A mass that is pushed by nothing but the time, until it meets a wall that is soft at first.
+    !! At one time, and a nanosecond before and after, it has no accelerations.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t
@@ -10,6 +12,7 @@ module driven_wall
     public :: driven_wall_t
 
     type, extends(system_t) :: driven_wall_t
+        real(dp) :: hole = huge(1.0_dp)  !! s
     contains
         procedure :: describe
         procedure :: configure
@@ -46,6 +49,7 @@ contains
         real(dp), intent(out) :: a(self%ndof)
 
         a(1) = cos(2.0_dp*t) - 10.0_dp*max(0.0_dp, q(1) - 1.0_dp)**7
+        if (abs(t - self%hole) < 1e-9_dp) a(1) = ieee_value(t, ieee_quiet_nan)
     end subroutine accelerations
 
     pure function lagrangian(self, t, q, v) result(l)

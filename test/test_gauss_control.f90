@@ -34,6 +34,8 @@ contains
                                       estimate_goes_with_the_16th_power))
         call suite%addTest(TestMethod("estimate_meets_the_error", estimate_meets_the_error))
         call suite%addTest(TestMethod("forces_that_set_in_are_seen", forces_that_set_in_are_seen))
+        call suite%addTest(TestMethod("a_step_over_a_hole_is_taken_back", &
+                                      a_step_over_a_hole_is_taken_back))
         call suite%addTest(TestMethod("steps_of_a_few_ulp_still_shrink", &
                                       steps_of_a_few_ulp_still_shrink))
     end function gauss_control_suite
@@ -182,6 +184,34 @@ contains
             call assertEqual(state_true, state, 10.0_dp**(1 - k), "10 tolerances")
         end do
     end subroutine forces_that_set_in_are_seen
+
+    subroutine a_step_over_a_hole_is_taken_back()
+        !! It is between the nodes of the first step, at the fourth of the places of dense output.
+        !! Shorter steps miss it, and the motion goes on as if nothing had been; without dense
+        !! output nothing is seen.
+        type(driven_wall_t) :: system
+        type(gauss_adaptive_t) :: method
+        type(error_t), allocatable :: error
+        real(dp), parameter :: first = 0.2_dp, tolerance = 1e-9_dp
+        real(dp) :: whole(2), state(2)
+        integer(i8) :: accepted
+
+        call system%configure([real(dp) ::], error)
+        call new_gauss16_adaptive(method)
+        method%longest = first
+        call to_the_wall(method, system, tolerance, whole)
+        call assertEqual(0_i8, method%rejected, message="no hole")
+        accepted = method%accepted
+        system%hole = 0.5_dp*first*(1.0_dp + cos(7.0_dp*acos(-1.0_dp)/32.0_dp))
+        call to_the_wall(method, system, tolerance, state)
+        call assertEqual(1_i8, method%rejected, message="taken back")
+        call assertEqual(accepted + 1, method%accepted, message="two steps for one")
+        call assertEqual(whole, state, 10.0_dp*tolerance, "state")
+        method%dense = .false.
+        call to_the_wall(method, system, tolerance, state)
+        call assertEqual(0_i8, method%rejected, message="not seen")
+        call assertEqual(whole, state, 0.0_dp, "state")
+    end subroutine a_step_over_a_hole_is_taken_back
 
     subroutine to_the_wall(method, system, tolerance, state)
         !! From 3 m before it, for 4 s.

@@ -1,19 +1,21 @@
 module test_processes
     !! Signals and other programs: seen in processes of their own.
-    use, intrinsic :: iso_c_binding, only: c_funptr, c_int, c_intptr_t, c_null_funptr
+    use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int, c_intptr_t, c_null_funptr
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_c_library, only: c_exit, c_signal
     use lagrangia_console, only: finish_console, put_line
     use lagrangia_errors, only: error_t, status_file, status_interrupted, status_terminated
+    use lagrangia_giving_up, only: give_up
     use lagrangia_interrupt, only: catch_interrupts, interrupt_status
+    use lagrangia_output_file, only: output_file_t
     use lagrangia_processes, only: run_program
-    use test_scratch, only: c_raise, contents, exit_status, new_folder, remove_file, &
+    use test_scratch, only: c_dup2, c_raise, contents, exit_status, new_folder, remove_file, &
         send_stdout_to
     implicit none (type, external)
     private
     public :: processes_suite
 
-    integer(c_int), parameter :: sigint = 2, sigterm = 15
+    integer(c_int), parameter :: sigint = 2, sigalrm = 14, sigterm = 15
 
 contains
 
@@ -24,6 +26,7 @@ contains
         suite = TestSuite("processes")
         call suite%addTest(TestMethod("signals_are_remembered", signals_are_remembered))
         call suite%addTest(TestMethod("a_second_sigint_kills", a_second_sigint_kills))
+        call suite%addTest(TestMethod("who_does_not_look_is_ended", who_does_not_look_is_ended))
         call suite%addTest(TestMethod("ignored_signals_stay_ignored", ignored_signals_stay_ignored))
         call suite%addTest(TestMethod("programs_return_their_status", programs_return_their_status))
         call suite%addTest(TestMethod("arguments_reach_no_shell", arguments_reach_no_shell))
@@ -82,6 +85,33 @@ contains
         status = int(c_raise(sigint))
         status = 0
     end function interrupt_twice
+
+    subroutine who_does_not_look_is_ended()
+        !! A second later, which is not waited for here; nothing is left behind.
+        character(:), allocatable :: folder
+
+        folder = new_folder("never")
+        call assertEqual(status_terminated, exit_status(never_look))
+        call assertEqual("lagrangia: interrupted"//new_line("a"), contents(folder//"/err"))
+        call assertTrue(remove_file(folder//"/err"))
+        call assertTrue(remove_file(folder), "a temporary was left")
+    end subroutine who_does_not_look_is_ended
+
+    function never_look() result(status)
+        !! 0 if the alarm that SIGTERM sets does nothing.
+        integer :: status
+        type(output_file_t) :: file
+        type(error_t), allocatable :: error
+
+        call send_stdout_to(new_folder("never")//"/err")
+        status = int(c_dup2(1_c_int, 2_c_int))
+        call prepare(sigterm)
+        call catch_interrupts(c_funloc(give_up))
+        call file%open(new_folder("never")//"/a.dat", error)
+        status = int(c_raise(sigterm))
+        status = int(c_raise(sigalrm))
+        status = 0
+    end function never_look
 
     subroutine ignored_signals_stay_ignored()
         !! As those of a program started by `nohup`, or in the background by a script.

@@ -6,13 +6,19 @@ module test_reduced_motion
     use lagrangia_audit_equations, only: claim_accelerations, claim_energy
     use lagrangia_cart_pendulum, only: cart_pendulum_t
     use lagrangia_cart_swing, only: cart_swing_t
+    use lagrangia_command_line, only: word_t
     use lagrangia_errors, only: error_t
     use lagrangia_findings, only: audit_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: new_integrator
+    use lagrangia_observer, only: observer_t
+    use lagrangia_outcome, only: outcome_t
     use lagrangia_pendulum, only: pendulum_t
+    use lagrangia_play, only: play
     use lagrangia_reduced_motion, only: leave_cyclic, reduced_motion_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_scene_reader, only: parse_scene
     use lagrangia_system, only: system_t
     use random_states, only: draw_parameters, draw_state, restart_random
     implicit none (type, external)
@@ -35,6 +41,7 @@ contains
                                       between_steps_and_after_a_push))
         call suite%addTest(TestMethod("cuts_leave_no_trace", cuts_leave_no_trace))
         call suite%addTest(TestMethod("only_where_it_pays", only_where_it_pays))
+        call suite%addTest(TestMethod("scenes_use_it_and_say_so", scenes_use_it_and_say_so))
     end function reduced_motion_suite
 
     subroutine rouths_function_gives_its_equations()
@@ -163,11 +170,12 @@ contains
     end subroutine between_steps_and_after_a_push
 
     subroutine cuts_leave_no_trace()
-        !! The same bytes in one block and in three; from elsewhere the momentum is another.
+        !! The same bytes in one block and step by step; from elsewhere the momentum is another.
         type(cart_pendulum_t) :: system
         class(integrator_t), allocatable :: method
         type(error_t), allocatable :: error
         real(dp) :: q(2, 2), v(2, 2), p(2), p_new(2)
+        integer(i8) :: k
 
         call system%configure([2.0_dp, 1.3_dp, 0.8_dp, 9.81_dp], error)
         call new_integrator("gauss16", method, error)
@@ -177,9 +185,9 @@ contains
         call method%prepare(system, error)
         call method%advance(system, 0.3_dp, 0.05_dp, 0_i8, 30_i8, q(:, 1), v(:, 1))
         call method%prepare(system, error)
-        call method%advance(system, 0.3_dp, 0.05_dp, 0_i8, 7_i8, q(:, 2), v(:, 2))
-        call method%advance(system, 0.3_dp, 0.05_dp, 7_i8, 1_i8, q(:, 2), v(:, 2))
-        call method%advance(system, 0.3_dp, 0.05_dp, 8_i8, 22_i8, q(:, 2), v(:, 2))
+        do k = 0, 29
+            call method%advance(system, 0.3_dp, 0.05_dp, k, 1_i8, q(:, 2), v(:, 2))
+        end do
         call assertEqual(q(:, 1), q(:, 2), message="q")
         call assertEqual(v(:, 1), v(:, 2), message="v")
         v(1, 2) = 5.0_dp
@@ -209,6 +217,35 @@ contains
         call assertEqual("gauss16", method%name)
         call assertEqual(16, method%order)
     end subroutine only_where_it_pays
+
+    subroutine scenes_use_it_and_say_so()
+        !! By `dt`, by tolerance and with events; `rk4` integrates all coordinates.
+        call check_scene("method = 'gauss16', dt = 0.05", .true.)
+        call check_scene("method = 'dop853', tolerance = 1e-10", .true.)
+        call check_scene("method = 'gauss16', tolerance = 1e-10, event = 'x = 0'", .true.)
+        call check_scene("method = 'rk4', dt = 1e-3", .false.)
+    end subroutine scenes_use_it_and_say_so
+
+    subroutine check_scene(method, left_out)
+        !! Right in both coordinates, and the remark is there or not.
+        character(*), intent(in) :: method
+        logical, intent(in) :: left_out
+        character(*), parameter :: remark = " (the cyclic coordinate from its momentum)"
+        class(observer_t), pointer :: nobody
+        class(system_t), allocatable :: system
+        type(scene_t) :: scene
+        type(outcome_t) :: outcome
+        type(error_t), allocatable :: error
+
+        nobody => null()
+        call parse_scene("&scene system = 'cart_pendulum', duration = 3, q = 0.4, 1.2, "// &
+                         "v = -0.6, 1.5, columns = 't', 'x', 'error', expect_error = 1e-8, "// &
+                         method//" /", "a.nml", [word_t ::], scene, system, error)
+        call assertFalse(allocated(error), method)
+        call play(scene, system, "", "text", nobody, outcome, error)
+        call assertEqual("holds", outcome%verdict(), method)
+        call assertEqual(merge(1, 0, left_out), index(outcome%remark, remark), method)
+    end subroutine check_scene
 
     function is_reduced(method)
         class(integrator_t), intent(in) :: method

@@ -1,13 +1,15 @@
 module lagrangia_commands
     !! From the program's words to one command.
+    use, intrinsic :: iso_c_binding, only: c_funloc
     use lagrangia_bench, only: bench_command
     use lagrangia_check, only: check_command
     use lagrangia_command_line, only: command_line_t, command_words, parse_words, word_t
     use lagrangia_console, only: finish_console, put, put_line
     use lagrangia_describe, only: describe_command
     use lagrangia_errata_command, only: errata_command
-    use lagrangia_errors, only: error_t
-    use lagrangia_interrupt, only: catch_interrupts
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_giving_up, only: give_up
+    use lagrangia_interrupt, only: catch_interrupts, interrupt_status
     use lagrangia_list, only: list_command
     use lagrangia_modes_command, only: modes_command
     use lagrangia_principle, only: principle_command
@@ -36,7 +38,7 @@ contains
         if (allocated(error)) return
         call check_line(line, which, error)
         if (allocated(error)) return
-        call catch_interrupts()
+        call catch_interrupts(c_funloc(give_up))
         if (line%has("version")) then
             call put_line("lagrangia "//version)
             call put_line(build_text())
@@ -55,6 +57,7 @@ contains
             case default; call run_command(line, error)
             end select
         end if
+        if (interrupt_status() /= 0) call fail(error, "interrupted", interrupt_status())
         call remove_unfinished()
         call finish_console(output_error)
         if (allocated(error)) return

@@ -4,6 +4,7 @@ module lagrangia_modes_command
     use lagrangia_console, only: put_line
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_interrupt, only: interrupt_status
     use lagrangia_json, only: json_list, json_number, json_string
     use lagrangia_kinds, only: dp
     use lagrangia_modes_files, only: write_mode
@@ -55,7 +56,7 @@ contains
         if (.not. line%has("output")) return
         do j = 1, size(modes%omega2)
             call write_mode(system, modes, j, line%value_of("output", ""), error)
-            if (allocated(error)) return
+            if (allocated(error) .or. interrupt_status() /= 0) return
         end do
     end subroutine modes_command
 

@@ -5,10 +5,11 @@ module lagrangia_c_library
         c_size_t
     implicit none (type, external)
     private
-    public :: c_access, c_chmod, c_close, c_dlsym, c_dup, c_errno, c_execvp, c_exit, c_fclose, &
-              c_fdopen, c_fflush, c_fileno, c_flock, c_fopen, c_fork, c_free, c_fseek, c_fwrite, &
-              c_fwrite_reals, c_getpid, c_isatty, c_lstat, c_mkdir, c_realpath, c_remove, &
-              c_rename, c_signal, c_stat, c_strerror, c_strlen, c_waitpid, c_write
+    public :: c_access, c_alarm, c_chmod, c_close, c_dlsym, c_dup, c_errno, c_execvp, c_exit, &
+              c_fclose, c_fdopen, c_fflush, c_fileno, c_flock, c_fopen, c_fork, c_free, c_fseek, &
+              c_fwrite, c_fwrite_reals, c_getpid, c_isatty, c_kill, c_lstat, c_mkdir, &
+              c_realpath, c_remove, c_rename, c_signal, c_stat, c_strerror, c_strlen, c_waitpid, &
+              c_write
 
     ! allow(assumed-size): C takes the address of the first element
     interface
@@ -180,6 +181,20 @@ module lagrangia_c_library
             type(c_funptr), value :: handler
             type(c_funptr) :: old
         end function c_signal
+
+        function c_alarm(seconds) bind(c, name="alarm") result(left)
+            import :: c_int
+            implicit none (type, external)
+            integer(c_int), value :: seconds
+            integer(c_int) :: left
+        end function c_alarm
+
+        function c_kill(pid, number) bind(c, name="kill") result(status)
+            import :: c_int
+            implicit none (type, external)
+            integer(c_int), value :: pid, number
+            integer(c_int) :: status
+        end function c_kill
 
         function c_fork() bind(c, name="fork") result(pid)
             import :: c_int

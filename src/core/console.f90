@@ -13,7 +13,7 @@ module lagrangia_console
     implicit none (type, external)
     private
     public :: console_failed, finish_console, flush_console, is_terminal, note, put, put_line, &
-              show_progress, terminal_width
+              say_at_once, show_progress, terminal_width
 
     type(c_ptr) :: stream = c_null_ptr  !! C's `FILE *` for stdout
     integer :: failure = 0              !! the system's number of the first failure
@@ -60,6 +60,15 @@ contains
         line = line//new_line("a")
         written = c_write(2_c_int, line, len(line, c_size_t))  ! if stderr is gone, who would know?
     end subroutine note
+
+    subroutine say_at_once(line)
+        !! Write `line`, whose end is in it, to stderr as it is. Allocates nothing, and flushes
+        !! nothing: fit for signal handlers.
+        character(*), intent(in) :: line
+        integer(c_size_t) :: written
+
+        written = c_write(2_c_int, line, len(line, c_size_t))
+    end subroutine say_at_once
 
     subroutine show_progress(text)
         !! Let `text` replace the line of the terminal behind stderr; `""` clears it.

@@ -1,29 +1,39 @@
 module lagrangia_interrupt
-    !! Ctrl-C, `kill` and closed pipes: noticed at the next sample, so that files can be removed
-    !! and the exit status be right.
-    use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int, c_intptr_t, c_null_funptr
-    use lagrangia_c_library, only: c_signal
+    !! Ctrl-C, `kill` and closed pipes: noticed at the next sample, or by force a second later, so
+    !! that files can be removed and the exit status be right.
+    use, intrinsic :: iso_c_binding, only: c_associated, c_funloc, c_funptr, c_int, c_intptr_t, &
+        c_null_funptr
+    use lagrangia_c_library, only: c_alarm, c_kill, c_signal
     use lagrangia_errors, only: status_interrupted, status_ok, status_terminated
     implicit none (type, external)
     private
-    public :: catch_interrupts, interrupt_status
+    public :: catch_interrupts, interrupt_status, run_beside
 
     integer(c_int), parameter :: sigint = 2    !! these numbers are the same on every Unix
     integer(c_int), parameter :: sigpipe = 13
+    integer(c_int), parameter :: sigalrm = 14
     integer(c_int), parameter :: sigterm = 15
     integer(c_int), parameter :: sigxfsz = 25  !! except this one on MIPS
 
     integer(c_intptr_t), parameter :: ignored = 1  !! C's SIG_IGN
 
+    integer(c_int), parameter :: patience = 1  !! s
+
     integer(c_int), volatile :: caught = 0  !! the first signal that came
+    integer(c_int), volatile :: beside = 0  !! the process that we wait for
+    type(c_funptr) :: unheeded = c_null_funptr  !! what to do where nobody looked
 
 contains
 
-    subroutine catch_interrupts()
-        !! From now on SIGINT and SIGTERM only change what `interrupt_status` returns; the second
-        !! of a kind ends the program at once. A signal that our parent had us ignore (`nohup`,
-        !! a job in the background of a script) stays ignored. A broken pipe or a file beyond
-        !! `ulimit -f` no longer ends the program: the write fails, and is reported.
+    subroutine catch_interrupts(give_up)
+        !! From now on SIGINT and SIGTERM change what `interrupt_status` returns; where nobody looks
+        !! at that for a second, `give_up` is to end the program. The second of a kind ends it at
+        !! once. A signal that our parent had us ignore (`nohup`, a job in the background of a
+        !! script) stays ignored. A broken pipe or a file beyond `ulimit -f` no longer ends the
+        !! program: the write fails, and is reported.
+        type(c_funptr), intent(in), optional :: give_up  !! a handler of signals
+
+        if (present(give_up)) unheeded = give_up
         call install(sigint, c_funloc(remember_signal))
         call install(sigterm, c_funloc(remember_signal))
         call install(sigpipe, c_funloc(do_nothing))
@@ -44,6 +54,13 @@ contains
         end select
     end function interrupt_status
 
+    subroutine run_beside(pid)
+        !! A signal to us is to end the process `pid` too; 0 for none.
+        integer(c_int), intent(in) :: pid
+
+        beside = pid
+    end subroutine run_beside
+
     subroutine install(number, handler)
         !! Let `handler` answer a signal, unless it was ignored so far.
         integer(c_int), intent(in) :: number
@@ -61,6 +78,10 @@ contains
 
         if (caught == 0) caught = number
         old = c_signal(number, c_null_funptr)  ! C's SIG_DFL: the next one ends the program
+        if (beside > 0) number = c_kill(beside, sigterm)
+        if (.not. c_associated(unheeded)) return
+        old = c_signal(sigalrm, unheeded)
+        number = c_alarm(patience)
     end subroutine remember_signal
 
     subroutine do_nothing(number) bind(c)

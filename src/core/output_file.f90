@@ -5,13 +5,13 @@ module lagrangia_output_file
     use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_long, c_null_char, c_null_ptr, &
         c_ptr, c_size_t
     use lagrangia_c_library, only: c_access, c_chmod, c_close, c_dup, c_fclose, c_fflush, &
-        c_fileno, c_fopen, c_fseek, c_fwrite, c_fwrite_reals, c_remove, c_rename
+        c_fileno, c_fseek, c_fwrite, c_fwrite_reals, c_remove, c_rename
     use lagrangia_errors, only: error_t, fail, status_file
     use lagrangia_files, only: e_bad_unit, e_exists, e_invalid, e_missing, facts_t, folder_of, &
         hold_standard_units, last_error, look_at, make_folders, reason, resolved
     use lagrangia_kinds, only: dp, i8
     use lagrangia_text, only: to_text
-    use lagrangia_unfinished, only: claim, forget, remember, remove_abandoned
+    use lagrangia_unfinished, only: create, forget, remove_abandoned
     implicit none (type, external)
     private
     public :: output_file_t
@@ -34,6 +34,7 @@ module lagrangia_output_file
         procedure :: rewrite
         procedure :: failed
         procedure :: position
+        procedure :: temporary_name
         procedure :: commit
         procedure :: abandon
     end type output_file_t
@@ -110,23 +111,11 @@ contains
         do i = 1, likely
             call remove_abandoned(start//to_text(i)//".tmp")
         end do
-        number = e_exists
         do i = 1, attempts
             self%temporary = start//to_text(i)//".tmp"
-            ! x: never somebody else's file; e: not inherited by the programs we run
-            self%stream = c_fopen(self%temporary//c_null_char, "wxe"//c_null_char)
-            if (c_associated(self%stream)) then
-                number = 0
-                if (claim(self%stream, self%temporary)) exit
-                number = int(c_fclose(self%stream))
-                self%stream = c_null_ptr
-                number = e_exists
-            else
-                number = last_error()
-                if (number /= e_exists) return
-            end if
+            call create(self%temporary, self%stream, number)
+            if (number /= e_exists) return
         end do
-        if (number == 0) call remember(self%temporary)
     end subroutine open_temporary
 
     subroutine write_text(self, text)
@@ -193,6 +182,19 @@ contains
 
         position = self%bytes
     end function position
+
+    function temporary_name(self) result(name)
+        !! The absolute name, or one that begins with `./`, under which another program may fill
+        !! the file that is open.
+        class(output_file_t), intent(in) :: self
+        character(:), allocatable :: name
+
+        if (self%temporary(1:1) == "/") then
+            name = self%temporary
+        else
+            name = "./"//self%temporary
+        end if
+    end function temporary_name
 
     subroutine commit(self, error)
         !! Close the file and give it its name. On failure nothing is left behind, and a file

@@ -5,6 +5,7 @@ module lagrangia_processes
     use lagrangia_console, only: flush_console
     use lagrangia_errors, only: error_t, fail, status_file
     use lagrangia_files, only: last_error, reason
+    use lagrangia_interrupt, only: run_beside
     implicit none (type, external)
     private
     public :: run_program
@@ -39,7 +40,9 @@ contains
             code = c_execvp(text(:, 1), pointers)
             call c_exit(not_found)
         end if
+        call run_beside(pid)
         if (pid > 0) pid = c_waitpid(pid, code, 0_c_int)
+        call run_beside(0_c_int)
         if (pid < 0) then
             call fail(error, "cannot run '"//trim(arguments(1))//"': "//reason(last_error()), &
                       status_file)

@@ -1,36 +1,68 @@
 module lagrangia_unfinished
     !! Which files are still being written: whoever ends the program early can remove them; and
     !! after `kill -9`, when nobody could, the next run that writes the same file does.
-    use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_null_char, c_ptr
+    use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_null_char, c_null_ptr, c_ptr
     use lagrangia_c_library, only: c_fclose, c_fileno, c_flock, c_fopen, c_remove
-    use lagrangia_files, only: facts_t, look_at, same_file
+    use lagrangia_files, only: e_exists, facts_t, last_error, look_at, same_file
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: claim, forget, remember, remove_abandoned, remove_unfinished
+    public :: create, forget, is_creating, remove_abandoned, remove_unfinished
 
     type :: name_t
-        !! The name of a temporary file.
+        !! The name of a temporary file, as C wants it.
         character(:), allocatable :: text
     end type name_t
 
     type(name_t), allocatable :: unfinished(:)  !! temporaries that still exist
+    logical, volatile :: creating = .false.     !! one exists, perhaps, that is not in the list
 
 contains
 
-    function claim(stream, name) result(ours)
-        !! Lock the file `name`, which was made just now and is open as `stream`, until it is
-        !! closed. False if in the meantime another run thought it abandoned, and removed it.
+    function is_creating() result(yes)
+        !! Whether a signal came at a moment at which `remove_unfinished` might miss one.
+        logical :: yes
+
+        yes = creating
+    end function is_creating
+
+    subroutine create(name, stream, number)
+        !! Make the file `name`, which there is not yet, and lock it until it is closed. It counts
+        !! as unfinished until it is forgotten.
+        character(*), intent(in) :: name
+        type(c_ptr), intent(out) :: stream
+        integer, intent(out) :: number  !! 0, or why not; e_exists: another name may do
+        integer :: status
+
+        creating = .true.
+        ! x: never somebody else's file; e: not inherited by the programs we run
+        stream = c_fopen(name//c_null_char, "wxe"//c_null_char)
+        number = 0
+        if (.not. c_associated(stream)) then
+            number = last_error()
+        else if (claimed(stream, name)) then
+            call remember(name)
+        else
+            number = e_exists
+            status = int(c_fclose(stream))
+            stream = c_null_ptr
+        end if
+        creating = .false.
+    end subroutine create
+
+    function claimed(stream, name)
+        !! Lock the file that was made just now. False if in the meantime another run thought it
+        !! abandoned, and removed it.
         type(c_ptr), intent(in) :: stream
         character(*), intent(in) :: name
-        logical :: ours
+        logical :: claimed
         type(facts_t) :: facts
         integer :: status
 
         status = int(c_flock(c_fileno(stream), 2_c_int))  ! fails where there are no locks
         facts = look_at(descriptor_name(stream))
-        ours = same_file(descriptor_name(stream), name) .or. .not. facts%found
-    end function claim
+        claimed = same_file(descriptor_name(stream), name) .or. .not. facts%found
+    end function claimed
 
     subroutine remove_abandoned(name)
         !! Remove the temporary `name` if there is one and nobody holds its lock: the run that
@@ -58,14 +90,13 @@ contains
 
     subroutine remove_unfinished()
         !! Remove every temporary that was neither committed nor abandoned: the last act of a
-        !! program that failed or was interrupted.
+        !! program that failed or was interrupted, also from a signal handler. Allocates nothing.
         integer :: i, status
 
         if (.not. allocated(unfinished)) return
         do i = 1, size(unfinished)
             if (.not. allocated(unfinished(i)%text)) cycle
-            status = int(c_remove(unfinished(i)%text//c_null_char))
-            deallocate (unfinished(i)%text)
+            status = int(c_remove(unfinished(i)%text))
         end do
     end subroutine remove_unfinished
 
@@ -89,7 +120,7 @@ contains
             call move_alloc(longer, unfinished)
             i = count + 1
         end if
-        unfinished(i)%text = name
+        unfinished(i)%text = name//c_null_char
         !$omp end critical (lagrangia_unfinished)
     end subroutine remember
 
@@ -101,7 +132,7 @@ contains
         !$omp critical (lagrangia_unfinished)
         do i = 1, size(unfinished)
             if (.not. allocated(unfinished(i)%text)) cycle
-            if (unfinished(i)%text == name) deallocate (unfinished(i)%text)
+            if (unfinished(i)%text == name//c_null_char) deallocate (unfinished(i)%text)
         end do
         !$omp end critical (lagrangia_unfinished)
     end subroutine forget

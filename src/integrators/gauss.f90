@@ -8,7 +8,7 @@ module lagrangia_gauss
     use lagrangia_errors, only: error_t
     use lagrangia_gauss_stages, only: gauss_stages_t
     use lagrangia_gauss_tables, only: stages
-    use lagrangia_integrator, only: integrator_t
+    use lagrangia_integrator, only: integrator_t, same
     use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: system_t
     implicit none (type, external)
@@ -101,14 +101,6 @@ contains
         goes_on = first == self%next .and. same(t0, self%t0) .and. same(dt, self%dt) &
                   .and. all(same(q, self%s%q)) .and. all(same(v, self%s%v))
     end function goes_on
-
-    pure elemental function same(x, y)
-        !! Equal to the last bit, for numbers.
-        real(dp), intent(in) :: x, y
-        logical :: same
-
-        same = x <= y .and. x >= y
-    end function same
 
     pure subroutine solve(s, system, blind, weight, sweeps, good)
         !! Sweep until what the next sweep leaves cannot add up to anything, even over a million

@@ -12,7 +12,7 @@ module lagrangia_gauss_adaptive
     use lagrangia_gauss_dense, only: gauss_dense_t
     use lagrangia_gauss_stages, only: gauss_stages_t
     use lagrangia_gauss_tables, only: stages
-    use lagrangia_integrator, only: dense_integrator_t
+    use lagrangia_integrator, only: dense_integrator_t, same
     use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
@@ -105,14 +105,6 @@ contains
         if (.not. good) v = ieee_value(1.0_dp, ieee_quiet_nan)
     end subroutine advance
 
-    pure elemental function same(x, y)
-        !! Equal to the last bit, for numbers.
-        real(dp), intent(in) :: x, y
-        logical :: same
-
-        same = x <= y .and. x >= y
-    end function same
-
     pure subroutine start(self, system, t0, q, v, t_end)
         !! See `dense_integrator_t`. The first step moves the state by about a third of 1, or of
         !! itself.
@@ -193,7 +185,8 @@ contains
             if (good) exit
             self%rejected = self%rejected + 1
             if (ratio < 1.0_dp) then
-                self%h = min(h*max(0.2_dp, try_again*ratio), h - spacing(to))  ! of few ulp, too
+                ! rounding of times must not give the same step again
+                self%h = min(h*max(0.2_dp, try_again*ratio), h - spacing(to))
                 call self%s%shorten()
             else
                 self%h = 0.5_dp*h

@@ -8,7 +8,7 @@ module lagrangia_integrator
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: integrator_t, integrator_box_t, dense_integrator_t, dense_integrator_box_t
+    public :: integrator_t, integrator_box_t, dense_integrator_t, dense_integrator_box_t, same
 
     type, abstract :: integrator_t
         character(name_length) :: name = ""
@@ -155,6 +155,14 @@ contains
         if (why == "") why = "the step dt = "//to_text(dt)//" s is too long, or the motion diverges"
         call fail(error, "the state is not finite at t = "//to_text(t)//" s: "//why, status_numbers)
     end subroutine refuse_state
+
+    pure elemental function same(x, y)
+        !! Equal to the last bit, for numbers.
+        real(dp), intent(in) :: x, y
+        logical :: same
+
+        same = x <= y .and. x >= y
+    end function same
 
     pure function properties(self) result(text)
         !! What the method preserves, in words.

@@ -1,7 +1,7 @@
 module lagrangia_reduced_motion
     !! A method that leaves a cyclic coordinate out of its steps.
     use lagrangia_errors, only: error_t
-    use lagrangia_integrator, only: dense_integrator_t, integrator_t
+    use lagrangia_integrator, only: dense_integrator_t, integrator_t, same
     use lagrangia_kinds, only: dp, i8
     use lagrangia_reduced, only: reduced_t
     use lagrangia_system, only: system_t
@@ -105,14 +105,6 @@ contains
         self%trouble = self%method%trouble
         call report(self)
     end subroutine advance
-
-    pure elemental function same(x, y)
-        !! Equal to the last bit, for numbers.
-        real(dp), intent(in) :: x, y
-        logical :: same
-
-        same = x <= y .and. x >= y
-    end function same
 
     pure subroutine start(self, system, t0, q, v, t_end)
         !! See `dense_integrator_t`.

@@ -16,7 +16,8 @@ contains
 
     pure subroutine begin_script(script, file, width, height, rows)
         !! The first lines of the script for `file`, a bare name beside it: `data` is its path,
-        !! `kind` the terminal, and the picture is `NAME.png` or `NAME.svg`.
+        !! `kind` the terminal, and the picture is `NAME.png` or `NAME.svg`; with two arguments
+        !! (`gnuplot -c NAME.gp KIND PICTURE`) it is of the kind, and has the name, that they say.
         type(lines_t), intent(out) :: script
         character(*), intent(in) :: file
         integer, intent(in) :: width, height  !! pixels
@@ -35,15 +36,18 @@ contains
         call script%add("data = folder.'"//doubled(file)//"'")
         call script%add("picture = folder.'"//doubled(file(:dot - 1))//"'")
         call script%add("if (!exists('wanted')) { wanted = 'png' }")
+        call script%add("png = picture.'.png'; svg = picture.'.svg'")
+        call script%add("if (exists('ARGC') && ARGC == 2) { "// &
+                        "wanted = ARG1; png = ARG2; svg = ARG2 }")
         call script%add("can(name) = strstrt(GPVAL_TERMINALS, ' '.name.' ')")
         call script%add("kind = wanted eq 'svg' && can('svg') ? 'svg' : can('pngcairo') ? "// &
                         "'pngcairo' : can('png') ? 'png' : can('svg') ? 'svg' : 'dumb'")
         call script%add("if (kind eq 'pngcairo') { set terminal pngcairo noenhanced size "// &
-                        pixels//" font ',11'; set output picture.'.png' }")
+                        pixels//" font ',11'; set output png }")
         call script%add("if (kind eq 'png') { set terminal png noenhanced size "//pixels// &
-                        "; set output picture.'.png' }")
+                        "; set output png }")
         call script%add("if (kind eq 'svg') { set terminal svg noenhanced size "//pixels// &
-                        " background 'white'; set output picture.'.svg' }")
+                        " background 'white'; set output svg }")
         call script%add("if (kind eq 'dumb') { set terminal dumb noenhanced size 100,"// &
                         to_text(rows)//" }")
     end subroutine begin_script

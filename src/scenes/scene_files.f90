@@ -5,6 +5,7 @@ module lagrangia_scene_files
     use lagrangia_errors, only: error_t, fail, status_file
     use lagrangia_files, only: same_file
     use lagrangia_gnuplot, only: gnuplot_script, panel_t
+    use lagrangia_interrupt, only: interrupt_status
     use lagrangia_npy, only: npy_table_t
     use lagrangia_outcome, only: outcome_t
     use lagrangia_output_file, only: output_file_t
@@ -71,24 +72,57 @@ contains
 
     subroutine draw(path, kind, error)
         !! Let gnuplot draw the data file at `path`, as `kind` (png or svg); no shell is involved.
+        !! It says nothing of a full disk, so its picture gets its name only if its end is there.
         character(*), intent(in) :: path, kind
         type(error_t), allocatable, intent(out) :: error
+        type(output_file_t) :: picture
         character(:), allocatable :: script
-        character(4096) :: words(5)
+        character(4096) :: words(6)
         integer :: status
 
         script = script_path(path)
         if (script(1:1) == "-") script = "./"//script
+        call picture%open(script(:len(script) - 2)//kind, error)
+        if (allocated(error)) return
         words(1) = "gnuplot"
         words(2) = "-d"  ! not the user's start-up file
-        words(3) = "-e"
-        words(4) = "wanted = '"//kind//"'"
-        words(5) = script
+        words(3) = "-c"
+        words(4) = script
+        words(5) = kind
+        words(6) = picture%temporary_name()
         call run_program(words, status, error)
-        if (allocated(error) .or. status == 0) return
-        call fail(error, "gnuplot ended with status "//to_text(status)//" on '"//script//"'", &
-                  status_file)
+        if (interrupt_status() /= 0) call fail(error, "interrupted", interrupt_status())
+        if (.not. allocated(error) .and. status /= 0) call fail(error, "gnuplot ended with "// &
+            "status "//to_text(status)//" on '"//script//"'", status_file)
+        if (.not. allocated(error)) then
+            if (.not. ends_well(picture%temporary_name(), kind)) call fail(error, "gnuplot did "// &
+                "not finish '"//script(:len(script) - 2)//kind//"': no space left, or it knows "// &
+                "no "//kind, status_file)
+        end if
+        if (allocated(error)) then
+            call picture%abandon()
+        else
+            call picture%commit(error)
+        end if
     end subroutine draw
+
+    function ends_well(path, kind)
+        !! Whether a picture is there to its last byte, as far as its last bytes tell.
+        character(*), intent(in) :: path, kind
+        logical :: ends_well
+        character(20) :: last
+        integer :: unit, length, status
+
+        ends_well = .false.
+        open (newunit=unit, file=path, access="stream", form="unformatted", status="old", &
+              action="read", iostat=status)
+        if (status /= 0) return
+        inquire (unit=unit, size=length)
+        if (length > len(last)) read (unit, pos=length - len(last) + 1, iostat=status) last
+        close (unit)
+        if (length > len(last) .and. status == 0) ends_well = &
+            index(last, trim(merge("IEND  ", "</svg>", kind == "png"))) > 0
+    end function ends_well
 
     subroutine open_files(scene, system, choice, folder, format, record, path, error)
         !! Open the data file, under a temporary name until `finish_files`, and write its header.

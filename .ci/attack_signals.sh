@@ -1,0 +1,139 @@
+#!/usr/bin/env bash
+# Signals at any moment, kill -9, two runs of one file, gnuplot that is missing, fails or hangs: nothing is left
+# half-written, what was there survives, the status is right. Usage: attack_signals.sh [PROGRAM]; takes some seconds.
+set -u
+source "$(dirname "$0")/attack_tools.sh"
+
+# A script that was started in the background ignores SIGINT, and so would its children
+heard=(env --default-signal=INT,TERM)
+"${heard[@]}" true 2>/dev/null || heard=()
+
+ended() { # ended SIGNAL: send it to the child; its status. One that hangs is killed
+    kill -"$1" $child
+    for _ in $(seq 100); do
+        kill -0 $child 2>/dev/null || break
+        sleep 0.05
+    done
+    kill -KILL $child 2>/dev/null
+    wait $child 2>/dev/null
+    status=$?
+}
+
+# Signals in the middle, kill -9, two runs of one file
+begin() { # begin FOLDER: a long run in the background; returns when its temporary is there
+    ${heard[@]+"${heard[@]}"} "$program" run pendulum --set scene%duration=1e6 --set scene%every=1000 --output "$1" >"$work/out" 2>"$work/err" &
+    child=$!
+    for _ in $(seq 200); do
+        leftovers "$1" 2>/dev/null || return
+        sleep 0.02
+    done
+}
+set -m # else a shell lets its background jobs ignore SIGINT
+for pair in INT:130 TERM:143 KILL:137; do
+    mkdir "$work/${pair%:*}"
+    plant "$work/${pair%:*}" pendulum.dat pendulum.gp
+    begin "$work/${pair%:*}"
+    ended "${pair%:*}"
+    check "SIG${pair%:*}: status ${pair#*:}, the old files live" eval '[ $status -eq '"${pair#*:}"' ] && unharmed "$work/${pair%:*}" pendulum.dat pendulum.gp'
+    [ "${pair%:*}" = KILL ] || check "SIG${pair%:*}: one line, no temporary" eval 'one_line && leftovers "$work/${pair%:*}"'
+done
+run run pendulum --output "$work/alone"
+check "SIGKILL leaves a hidden temporary" eval '! leftovers "$work/KILL"'
+run run pendulum --output "$work/KILL"
+check "the next run removes it, and writes the same bytes as in a folder of its own" eval '[ $status -eq 0 ] && diff -r "$work/alone" "$work/KILL"'
+begin "$work/KILL"
+run run pendulum --output "$work/KILL"
+check "a run beside a longer one of the same file: the same bytes, and the other's temporary stays" eval '[ $status -eq 0 ] && cmp "$work/alone/pendulum.dat" "$work/KILL/pendulum.dat" && ! leftovers "$work/KILL"'
+ended TERM
+check "until that one ends" leftovers "$work/KILL"
+
+for _ in 1 2 3 4; do
+    "$program" run pendulum --quiet --output "$work/both" 2>"$work/err" &
+done
+wait
+check "four runs into one file: it is whole" eval 'diff -r "$work/alone" "$work/both"'
+
+# A signal in the middle of any command: it ends within seconds, whatever it is at
+begin_command() { # begin_command WORDS...: in the background; returns when it catches signals
+    ${heard[@]+"${heard[@]}"} "$program" "$@" >"$work/out" 2>"$work/err" </dev/null &
+    child=$!
+    for _ in $(seq 200); do # the last digit of the mask: 2 stands for SIGINT
+        [ "$(readlink "/proc/$child/exe")" = "$program" ] && grep -qs '^SigCgt:.*[2367abef]$' "/proc/$child/status" && return
+        sleep 0.01
+    done
+}
+for signal in INT:130 TERM:143; do
+    for writer in "modes hanging_chain --set hanging_chain%n=1000 --output" "principle action --output" \
+        "bench --quick --output" "run double_pendulum --set scene%duration=1e5 --error-estimate --output" stress check; do
+        folder=$work/${signal%:*}${writer%% *}
+        case $writer in
+            *--output) begin_command $writer "$folder" ;;
+            *) begin_command $writer ;;
+        esac
+        ended "${signal%:*}"
+        check "$writer: SIG${signal%:*} ends it, status ${signal#*:}" eval '[ $status -eq ${signal#*:} ] && one_line && { [ ! -e "$folder" ] || leftovers "$folder"; }'
+    done
+    folder=$work/many${signal%:*}
+    begin_command modes hanging_chain --set hanging_chain%n=200 --output "$folder"
+    for _ in $(seq 400); do
+        [ -e "$folder/hanging_chain_mode_2.dat" ] && break
+        sleep 0.02
+    done
+    ended "${signal%:*}"
+    check "modes: SIG${signal%:*} between two of many files: each is whole" eval '[ $status -eq ${signal#*:} ] && leftovers "$folder" && [ "$(wc -l "$folder"/*.dat | sed "/total/d" | awk "{ print \$1 }" | sort -u | wc -l)" -eq 1 ]'
+done
+
+# Pictures: gnuplot that is missing, fails, stops half-way or hangs; and the disk that is full when it draws
+fake() { # fake LINES: a gnuplot of our own; its fifth word is the file to draw into
+    mkdir -p "$work/bin"
+    printf '%s\n' '#!/bin/sh' "$@" >"$work/bin/gnuplot"
+    chmod +x "$work/bin/gnuplot"
+}
+drawn_badly() { # drawn_badly CLAIM: status 5, the last line is ours; data and script are new, the old picture lives
+    check "$1" eval '[ $status -eq 5 ] && tail -n 1 "$work/err" | grep -q "^lagrangia: .*gnuplot" && diff -r -x "*.svg" "$work/alone" "$work/drawn" && unharmed "$work/drawn" pendulum.svg && leftovers "$work/drawn"'
+}
+mkdir "$work/drawn" "$work/nothing"
+plant "$work/drawn" pendulum.svg
+plot=(run pendulum --plot=svg --output "$work/drawn")
+real_path=$PATH
+timeout=$(command -v timeout)
+PATH=$work/nothing "$timeout" 20 "$program" "${plot[@]}" >"$work/out" 2>"$work/err" </dev/null
+status=$?
+drawn_badly "--plot: there is no gnuplot"
+PATH=$work/bin:$PATH
+fake 'exit 3'
+run "${plot[@]}"
+drawn_badly "--plot: gnuplot fails"
+fake 'echo "<svg>" >"$5"; kill -SEGV $$'
+run "${plot[@]}"
+drawn_badly "--plot: gnuplot dies"
+fake 'echo "<svg>" >"$5"'
+run "${plot[@]}"
+drawn_badly "--plot: gnuplot stops half-way, and says that all is well"
+fake 'echo "$4 <svg></svg> 20 bytes" >"$5"'
+run "${plot[@]}"
+check "--plot: a whole picture has its name" eval '[ $status -eq 0 ] && grep -q "^svg" "$work/drawn/pendulum.svg" && leftovers "$work/drawn"'
+plant "$work/drawn" pendulum.svg
+fake "echo \$\$ >'$work/gnuplot'" 'echo "<svg>" >"$5"' 'exec sleep 30'
+for signal in INT:130 TERM:143; do
+    rm -f "$work/gnuplot"
+    begin_command "${plot[@]}"
+    for _ in $(seq 200); do
+        [ -s "$work/gnuplot" ] && break
+        sleep 0.02
+    done
+    ended "${signal%:*}"
+    check "--plot: SIG${signal%:*} while gnuplot draws ends both, status ${signal#*:}" eval '[ $status -eq ${signal#*:} ] && one_line && unharmed "$work/drawn" pendulum.svg && leftovers "$work/drawn" && ! kill -0 "$(cat "$work/gnuplot")"'
+done
+PATH=$real_path
+mkdir "$work/disk"
+if command -v gnuplot >/dev/null && [ "$(id -u)" -eq 0 ] && mount -t tmpfs -o size=256k none "$work/disk" 2>/dev/null; then
+    disk=$work/disk # has room for the data, and for half of the picture
+    plant "$disk" pendulum.svg
+    run run pendulum --plot=svg --output "$disk"
+    check "--plot: the disk is full when gnuplot draws" eval '[ $status -eq 5 ] && one_line && grep -q "no space left" "$work/err" && unharmed "$disk" pendulum.svg && diff -r -x "*.svg" "$work/alone" "$disk" && leftovers "$disk"'
+else
+    echo "skipped a disk that is full when gnuplot draws: no gnuplot, or no tmpfs may be mounted here"
+fi
+
+summary
