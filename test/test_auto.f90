@@ -266,7 +266,7 @@ contains
         call check_refusal(swing//", every = 3 /", "every = 3: counts steps of dt")
         call check_refusal("&scene system='pendulum' method='auot' q=1 /", "did you mean 'auto'?")
         call check_refusal("&scene system='pendulum' method='exact' q=1 /", &
-                           "unknown method 'exact'")
+                           "is what 'auto' takes")
         call check_refusal("&scene system='pendulum' method='?' q=1 /", ", auto")
     end subroutine what_contradicts_auto_is_refused
 

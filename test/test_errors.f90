@@ -1,7 +1,7 @@
 module test_errors
     !! Errors are values that say what went wrong.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertTrue
-    use lagrangia_errors, only: error_t, fail, status_numbers, status_usage
+    use lagrangia_errors, only: error_t, fail, message_length, status_numbers, status_usage
     implicit none (type, external)
     private
     public :: errors_suite
@@ -42,7 +42,7 @@ contains
     end subroutine fail_sets_the_status
 
     subroutine context_goes_before()
-        !! Contexts stack, the widest first, and leave the status alone.
+        !! Contexts stack, the widest first, and leave the status alone; a long one is shortened.
         type(error_t), allocatable :: error
 
         call fail(error, "overflow", status_numbers)
@@ -50,5 +50,8 @@ contains
         call error%add_context("scenes/a.nml")
         call assertEqual("scenes/a.nml: &pendulum: overflow", error%message)
         call assertEqual(status_numbers, error%status)
+        call error%add_context(repeat("long/", 100)//"a.nml")
+        call assertEqual(message_length, len(error%message))
+        call assertEqual("/a.nml: scenes/a.nml: &pendulum: overflow", error%message(249:))
     end subroutine context_goes_before
 end module test_errors

@@ -70,7 +70,7 @@ contains
 
         allocate (overrides(0))
         if (present(set)) overrides = [word_t(set)]
-        call parse_scene("&scene system = 'pendulum' method = 'rk4' "//keys//" /", "a.nml", &
+        call parse_scene("&scene system = 'pendulum' "//keys//" /", "a.nml", &
                          overrides, scene, system, error)
         call assertTrue(allocated(error), message="not refused: "//expected)
         if (.not. allocated(error)) return
@@ -96,6 +96,12 @@ contains
         call refused("&a q=3*0.5*2 /", "1:6: &a: q: '3*0.5*2'"//computed//"; write 3.0")
         call refused("&a q=1.5 * 2 /", "1:6: &a: q: '1.5 * 2'"//computed//"; write 3.0")
         call refused("&a q=10^-3 /", "1:6: &a: q: '10^-3'"//computed//"; write 0.001")
+        call refused("&a q=3.0*10^2 /", "1:6: &a: q: '3.0*10^2'"//computed//"; write 300.0")
+        call refused("&a q=-2^2/10 /", "1:6: &a: q: '-2^2/10'"//computed//"; write -0.4")
+        call refused("&a q=2pi/4 /", "1:6: &a: q: '2pi/4'"//computed//"; write 1.5707963267948966")
+        call refused("&a q=1 2 pi /", "1:8: &a: q: '2 pi'"//computed//"; write 6.283185307179586")
+        call refused("&a q=57,3deg /", "1:9: &a: q: '3deg': a decimal point, no comma, is "// &
+                     "needed before it; or a blank behind the comma")
         call refused("&a q=10**-3/", "1:6: &a: q: '10**-3'"//computed//"; write 0.001")
         call refused("&a q=45deg"//lf//"/", "1:6: &a: q: '45deg'"//radians)
         call refused("&a q=45"//degree//", 1/", "1:6: &a: q: '45deg'"//radians)
@@ -106,7 +112,8 @@ contains
         call refused("&a q=1e"//minus//"3 /", &
                      "1:6: &a: q: '1e-3': U+2212 is no plain '-'; write 0.001")
         call refused("&a q=pie /", "1:6: &a: q = pie: a number is needed, such as 0.01", "q")
-        call refused("&a q=2*3.0, 1/", "1:4: &a: q has 3 values; one is needed", "q")
+        call refused("&a q=2*3.0, 1/", "1:4: &a: q has 3 values; one is needed; 3*x means x, "// &
+                     "x, x", "q")
         call parse_namelist("&a s = '5' /", "a.nml", tree, error)
         call get_real(tree, "a", "s", x, error)
         call failed(error, "a.nml:1:8: &a: s = '5': a number is needed, without quotes")
@@ -124,8 +131,8 @@ contains
         real(dp), allocatable :: q(:)
         real(dp) :: x
 
-        call parse_namelist("&a g = 9,81 q = -0,5,1,25e-1 n = 1,000 x = 1, 2 y = 1.5,2 /", &
-                            "a.nml", tree, error)
+        call parse_namelist("&a g = 9,81 q = -0,5,1,25e-1 n = 1,000 x = 1, 2 y = 1.5,2 "// &
+                            " z = 1,2 T /", "a.nml", tree, error)
         call get_real(tree, "a", "g", x, error)
         call failed(error, "a.nml:1:4: &a: g has 2 values; one is needed"//point//"9.81")
         call get_reals(tree, "a", "q", 2, 2, q, error)
@@ -137,6 +144,8 @@ contains
                     "1.000 (or 1000)")
         call get_real(tree, "a", "x", x, error)
         call failed(error, "a.nml:1:40: &a: x has 2 values; one is needed")
+        call get_real(tree, "a", "z", x, error)
+        call failed(error, "a.nml:1:60: &a: z has 3 values; one is needed")
         call get_real(tree, "a", "y", x, error)
         call failed(error, "a.nml:1:49: &a: y has 2 values; one is needed")
     end subroutine decimal_commas
@@ -152,6 +161,8 @@ contains
         call refused("&a x = 1 # one"//lf//"/", "1:10: &a: x: unexpected '#'"//stray)
         call refused("&a s = 'b' modes /", "1:12: &a: s: unexpected 'modes'"//stray)
         call refused("&a s = 'b'"//lf//"dt := 1 /", "2:1: &a: s: unexpected 'dt'"//stray)
+        call refused("&a x = 1, &"//lf//" 2 /", "1:11: &a: a lone '&'; a list goes on in the "// &
+                     "next line without it, and '/' ends a group")
         call refused("&a dt => 1 /", "1:8: &a: dt = >: "//stray(3:), "dt")
         call parse_namelist("&a flags = .true. F true"//lf//"t /", "a.nml", tree, error)
         call assertFalse(allocated(error), message="truths in a row")
@@ -181,10 +192,10 @@ contains
         character(*), parameter :: rest = "duration = 1 q = 1 v = 0 "
 
         call no_scene("delta_t = 1e-2 "//rest, &
-                      "a.nml:1:43: &scene: unknown key 'delta_t'; did you mean 'dt'?")
-        call no_scene("dt = 1e-2 duration = 1 theta0 = 1 ", "a.nml:1:75: &scene: theta0 = 1: "// &
+                      "a.nml:1:28: &scene: unknown key 'delta_t'; did you mean 'dt'?")
+        call no_scene("dt = 1e-2 duration = 1 theta0 = 1 ", "a.nml:1:60: &scene: theta0 = 1: "// &
                       "the start is given by q = theta and by v, the velocities")
-        call no_scene("dt = 1e-2 theta_dot = 0 "//rest, "a.nml:1:65: &scene: theta_dot = 0: "// &
+        call no_scene("dt = 1e-2 theta_dot = 0 "//rest, "a.nml:1:50: &scene: theta_dot = 0: "// &
                       "the start is given by q = theta and by v, the velocities")
         call no_scene("dt = 1e-2 "//rest, "--set scene%dtt=1: &scene: unknown key 'dtt'; did "// &
                       "you mean 'dt'?", "scene%dtt=1")
@@ -195,14 +206,16 @@ contains
     end subroutine keys_of_a_scene
 
     subroutine values_of_a_scene()
-        !! A list in one text, a file that is a folder, more samples than a disk holds, `modes` of
-        !! another system than was named.
+        !! A list in one text, a method that is no choice, a file that is a folder, more samples
+        !! than a disk holds, `modes` of another system than was named.
         character(*), parameter :: rest = "q = 1 dt = 1e-2 "
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
 
         call no_scene(rest//"duration = 1 columns = 't, theta'", "columns = 't, theta': is one "// &
                       "text; each column has its own quotes, as in 't', 'x'")
+        call no_scene("method = 'exact'", "method = 'exact': is what 'auto' takes where there "// &
+                      "is a closed form; write 'auto'")
         call no_scene(rest//"duration = 1 output = './.'", "without '..', not ending in .gp")
         call no_scene(rest//"duration = 1 output = ' x'", "without '..', not ending in .gp")
         call no_scene(rest//"duration = 1e10 every = 10", "every = 10: 100000000000 samples "// &

@@ -89,7 +89,8 @@ contains
         character(*), parameter :: comment = " outside a group; a comment begins with '!'"
 
         call refused("this & that"//lf//"&run x=1 /", "1:1: text 'this'"//outside)
-        call refused("&a x=1 /"//lf//" prose &run y=1 /", "2:2: text 'prose'"//outside)
+        call refused("&a x=1 /"//lf//" prose &run y=1 /", "2:2: text 'prose' outside a group; "// &
+                     "&a ended on line 1, at its '/'")
         call refused("dt = 1", "1:1: text 'dt'"//outside)
         call refused("# c"//lf//"&a x=1 /", "1:1: unexpected '#'"//comment)
         call refused("// c"//lf//"&a x=1 /", "1:1: unexpected '/'"//comment)

@@ -68,6 +68,9 @@ contains
         call assertEqual(60, len(short))
         call assertEqual("to /p", short(:5))
         call assertTrue(index(short, "p...p") > 0 .and. index(short, "p/a.nml:1:2: x") > 0, short)
+        short = shortened(repeat("p", 200)//"/a.nml:1:2: "//repeat("word ", 20)//"remedy", 150)
+        call assertEqual("/a.nml:1:2: "//repeat("word ", 20)//"remedy", short(33:), &
+                         message="a path")
         short = shortened(repeat("w", 90)//" "//repeat("v", 50)//" remedy", 110)
         call assertEqual(repeat("v", 50)//" remedy", short(len(short) - 56:), message="the longest")
         short = shortened(repeat("word ", 40)//"remedy", 60)
@@ -94,6 +97,8 @@ contains
         call assertEqual("pendulum", nearest_name("pendel", names))
         call assertEqual("pendulum", nearest_name("simple_pendulum", names))
         call assertEqual("cart_pendulum", nearest_name("Cart", names))
+        call assertEqual("event_columns", nearest_name("event_column_list", &
+                                                       ["event        ", "event_columns"]))
         call assertEqual("m1", abbreviation("mass1", names))
         call assertEqual("g", abbreviation("gravity", ["m", "g"]))
         call assertEqual("did you mean 'm1'?", advice("M1", names))

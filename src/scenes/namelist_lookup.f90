@@ -134,7 +134,9 @@ contains
         call fail_at(error, place, name//" has "//to_text(length)//" value"// &
                      trim(merge("s", " ", length /= 1))//"; "//allowed// &
                      trim(merge(" is ", " are", high == 1))//" needed"// &
-                     decimal_points(tree, picked, low, high))
+                     decimal_points(tree, picked, low, high)// &
+                     trim(merge("; 3*x means x, x, x", "                   ", &
+                                any(tree%values(picked)%repeats > 1))))
     end subroutine check_count
 
     pure subroutine refuse_picked(tree, position, problem, error)

@@ -119,6 +119,10 @@ contains
                             " after the end of &"// &
                             escaped(trim(tree%groups(tree%group_count)%name), 30)// &
                             "; '/' ends a group, a comment begins with '!'", error)
+            else if (ended_on > 0) then
+                call refuse(scanner, scanner%at, "text "//quoted(word, 20)//" outside a group; "// &
+                            "&"//escaped(trim(tree%groups(tree%group_count)%name), 30)// &
+                            " ended on line "//to_text(ended_on)//", at its '/'", error)
             else
                 call refuse(scanner, scanner%at, "text "//quoted(word, 20)//" outside a group; "// &
                             "a group is written: &name key = value, ... /", error)
@@ -206,6 +210,9 @@ contains
         last = token_end(text, scanner%at + 1)
         if (lower(text(scanner%at + 1:last)) == "end") then
             scanner%at = last + 1
+        else if (last == scanner%at) then
+            call refuse(scanner, scanner%at, "a lone '&'; a list goes on in the next line "// &
+                        "without it, and '/' ends a group", error)
         else
             call refuse(scanner, scanner%at, quoted(text(scanner%at:last))//" begins inside "// &
                         "the group, whose '/' is missing (it began on line "// &

@@ -228,6 +228,7 @@ contains
         integer :: i, n
 
         remedy = ""
+        if (any(tree%values(picked)%kind /= kind_number)) return
         n = 0
         i = 1
         do while (i <= size(picked))

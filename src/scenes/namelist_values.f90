@@ -175,7 +175,12 @@ contains
             length = scan(rest//line_feed, ","//line_feed//carriage_return) - 1
             call misread(rest(:length), phrase, problem)
         end associate
-        if (problem /= "") call refuse(scanner, scanner%at, quoted(phrase)//": "//problem, error)
+        if (problem == "") return
+        if (next_byte(text, scanner%at - 1) == "," .and. &
+            scan(text(max(1, scanner%at - 2):max(1, scanner%at - 2)), digits) == 1) then
+            problem = "a decimal point, no comma, is needed before it; or a blank behind the comma"
+        end if
+        call refuse(scanner, scanner%at, quoted(phrase)//": "//problem, error)
     end subroutine refuse_misread
 
     pure subroutine read_repeats(text, scanner, last, repeats, error)

@@ -92,26 +92,18 @@ contains
 
         degrees = .false.
         last = 0
-        call take_factor(text, 1, value, at)
+        call take_power(text, 1, value, at)
         if (at == 0) return
         do
             next = at + skipped(text(at:))
             operator = character_at(text, next)
-            if (scan(operator, "*/^") == 0) exit
-            if (character_at(text, next)//character_at(text, next + 1) == "**") then
-                operator = "^"
-                next = next + 1
-            end if
+            if (scan(operator, "*/") == 0) exit
             next = next + 1
-            next = next + skipped(text(next:))
-            call take_factor(text, next, factor, behind)
+            call take_power(text, next + skipped(text(next:)), factor, behind)
             if (behind == 0) exit
             at = behind
-            select case (operator)
-            case ("*"); value = value*factor
-            case ("/"); value = value/factor
-            case default; value = value**factor
-            end select
+            if (operator == "*") value = value*factor
+            if (operator == "/") value = value/factor
         end do
         next = at + skipped(text(at:))
         unit = lower(text(next:letters_end(text, next)))
@@ -127,14 +119,40 @@ contains
         if (scan(character_at(text, at), blanks//",/!") == 1) last = at - 1
     end subroutine evaluate
 
+    pure subroutine take_power(text, start, value, behind)
+        !! A factor, perhaps with `^` or `**` and its exponent, as `take_factor`.
+        character(*), intent(in) :: text
+        integer, intent(in) :: start
+        real(dp), intent(out) :: value
+        integer, intent(out) :: behind
+        real(dp) :: exponent
+        integer :: next
+
+        call take_factor(text, start, value, behind)
+        if (behind == 0) return
+        next = behind + skipped(text(behind:))
+        if (character_at(text, next) == "^") then
+            next = next + 1
+        else if (character_at(text, next)//character_at(text, next + 1) == "**") then
+            next = next + 2
+        else
+            return
+        end if
+        call take_factor(text, next + skipped(text(next:)), exponent, next)
+        if (next == 0) return
+        value = sign(abs(value)**exponent, value)
+        behind = next
+    end subroutine take_power
+
     pure subroutine take_factor(text, start, value, behind)
-        !! The number, or `pi`, at `start`, and the position behind it; 0 where there is none.
+        !! The number, or `pi`, or both, at `start`, and the position behind it; 0 where there is
+        !! none.
         character(*), intent(in) :: text
         integer, intent(in) :: start
         real(dp), intent(out) :: value
         integer, intent(out) :: behind
         character(:), allocatable :: problem
-        integer :: at, exponent
+        integer :: at, exponent, next
 
         value = 0.0_dp
         behind = 0
@@ -154,7 +172,12 @@ contains
             if (after_digits(text, exponent) > exponent) at = after_digits(text, exponent)
         end if
         call read_number(text(start:at - 1), value, problem)
-        if (len(problem) == 0) behind = at
+        if (len(problem) > 0) return
+        behind = at
+        next = at + skipped(text(at:))
+        if (lower(text(next:letters_end(text, next))) /= "pi") return
+        value = value*pi
+        behind = next + 2
     end subroutine take_factor
 
     pure function skipped(text) result(length)

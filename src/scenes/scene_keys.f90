@@ -9,7 +9,7 @@ module lagrangia_scene_keys
     use lagrangia_scene, only: expectation_t, scene_t
     use lagrangia_scene_tolerance, only: most_samples, read_tolerance, too_many
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: join, lower, to_text
+    use lagrangia_text, only: join, lower, shortened, to_text
     implicit none (type, external)
     private
     public :: keys, key_length, coordinates, expectation_keys, read_columns, read_state, &
@@ -239,7 +239,7 @@ contains
         character(name_length) :: names(size(d%coordinates))
 
         names = d%coordinates%name
-        text = join(names, ", ")
+        text = shortened(join(names, ", "), 90)
     end function coordinates
 
     pure function judged(system) result(names)

@@ -2,7 +2,7 @@ module lagrangia_scene_tolerance
     !! The keys that say whether a scene's method takes steps of `dt` or chooses them.
     use lagrangia_adaptive_methods, only: adaptive_names, new_adaptive
     use lagrangia_catalogue, only: refuse_name
-    use lagrangia_choice, only: auto, workhorse
+    use lagrangia_choice, only: auto, exact, workhorse
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t
@@ -100,7 +100,10 @@ contains
         character(name_length), allocatable :: adaptive(:)
 
         allocate (adaptive, source=adaptive_names())
-        if (.not. any(fixed == name)) then
+        if (name == exact) then
+            call refuse_value(tree, "scene", "method", "is what '"//auto//"' takes where there "// &
+                              "is a closed form; write '"//auto//"'", error)
+        else if (.not. any(fixed == name)) then
             call refuse_name("method", name, [character(name_length) :: fixed, &
                                               pack(adaptive, .not. listed(adaptive, fixed))], found)
             call refuse_value(tree, "scene", "method", found%message, error)
