@@ -104,6 +104,7 @@ module suites
     use test_text, only: text_suite
     use test_unfinished, only: unfinished_suite
     use test_virtual_work, only: virtual_work_suite
+    use test_walls, only: walls_suite
     implicit none (type, external)
     private
     public :: load_tests
@@ -217,6 +218,7 @@ contains
         call suite%addTest(text_suite())
         call suite%addTest(unfinished_suite())
         call suite%addTest(virtual_work_suite())
+        call suite%addTest(walls_suite())
         call suite%addTest(register_suite())  ! the last: its system stays in the catalogue
     end function load_tests
 end module suites

@@ -8,7 +8,7 @@ module lagrangia_gauss_adaptive
     !!   second are fewest where that factor is \(e^{-2}\). Where sweeps diverge the step is halved.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t, fail, status_numbers
-    use lagrangia_gauss_control, only: longer, weigh
+    use lagrangia_gauss_control, only: longer, seen_whole, weigh
     use lagrangia_gauss_dense, only: gauss_dense_t
     use lagrangia_gauss_stages, only: gauss_stages_t
     use lagrangia_gauss_tables, only: stages
@@ -182,7 +182,14 @@ contains
             call self%s%coast()
             call solve(self, system, sweeps, ratio, good)
             self%evaluations = self%evaluations + stages*min(sweeps, most_sweeps)
-            if (good) exit
+            if (good) then
+                call self%s%expand()
+                call self%s%look_ahead(system)
+                self%evaluations = self%evaluations + 1
+                good = seen_whole(self%s%n, self%s%modes, self%weight, self%s%start, self%s%end)
+                if (good) exit
+                ratio = 0.5_dp
+            end if
             self%rejected = self%rejected + 1
             if (ratio < 1.0_dp) then
                 ! rounding of times must not give the same step again
@@ -190,10 +197,12 @@ contains
                 call self%s%shorten()
             else
                 self%h = 0.5_dp*h
+                call self%s%forget(system, self%t_new)
+                self%evaluations = self%evaluations + 1
             end if
         end do
-        call self%s%expand()
         call self%s%finish()
+        self%s%start(:) = self%s%end
         self%accepted = self%accepted + 1
         cut = h < 0.99_dp*self%h
         self%t_old = self%t_new
@@ -241,8 +250,8 @@ contains
         last = 1.0_dp
         do sweeps = 1, most_sweeps
             call self%s%sweep(system, exact=.false.)
-            if (sweeps == 1) all = self%s%all_of(self%weight)
             change = self%s%change(self%weight)
+            if (sweeps == 1 .or. change <= noise*all) all = self%s%all_of(self%weight)
             good = .false.
             if (.not. change < huge(1.0_dp)) exit
             if (sweeps == 1) then
@@ -252,7 +261,7 @@ contains
             end if
             last = max(change, tiny(1.0_dp))
             good = change*self%rate <= (share*(1.0_dp - self%rate))**2 .or. change <= noise*all
-            if (.not. known .and. (good .or. change**5 < all**3)) then
+            if (.not. known .and. (good .or. (change**5 < all**3 .and. self%rate < 1.0_dp))) then
                 known = .true.
                 call self%s%expand()
                 ratio = longer(self%s%n, self%s%modes, self%weight)

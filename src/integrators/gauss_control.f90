@@ -11,13 +11,17 @@ module lagrangia_gauss_control
     !! that of degrees 0 to 3, the error is about \(z^{5/2}/a^{3/2}/2\), which goes with the
     !! 16th power of the step. On single and double pendulums and the cart-pendulum this has
     !! a standard deviation of a factor 4, which is 9 % of the step.
+    !!
+    !! No node is in the first and the last 2 % of a step, where it may run into a wall unseen: the
+    !! accelerations at both ends must be those of the polynomial, to 30 \(z\).
     use lagrangia_gauss_tables, only: stages
     use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
-    public :: longer, weigh
+    public :: longer, seen_whole, weigh
 
     real(dp), parameter :: constant = 0.5_dp
+    real(dp), parameter :: little = 1e4_dp  !! in 1 % of the step it does not matter; squared
 
 contains
 
@@ -40,17 +44,37 @@ contains
         !! over the 16th root of the error in units of the tolerance.
         integer, intent(in) :: n
         real(dp), intent(in) :: modes(stages, n), weight(n)
-        real(dp) :: ratio, all, high
+        real(dp) :: ratio, all, mid, high
         integer :: d
 
         all = tiny(1.0_dp)
+        mid = tiny(1.0_dp)
         high = tiny(1.0_dp)
         do d = 1, n
             all = all + weight(d)*(modes(1, d)**2 + modes(2, d)**2/3.0_dp &
                                    + modes(3, d)**2/5.0_dp + modes(4, d)**2/7.0_dp)
-            high = high + weight(d)*(1e-3_dp*(modes(5, d)**2/9.0_dp + modes(6, d)**2/11.0_dp) &
-                                     + modes(7, d)**2/13.0_dp + modes(8, d)**2/15.0_dp)
+            mid = mid + weight(d)*(modes(5, d)**2/9.0_dp + modes(6, d)**2/11.0_dp)
+            high = high + weight(d)*(modes(7, d)**2/13.0_dp + modes(8, d)**2/15.0_dp)
         end do
-        ratio = exp((0.75_dp*log(all) - 1.25_dp*log(high) - log(constant))/16.0_dp)
+        ratio = exp((0.75_dp*log(all) - 1.25_dp*log(high + 1e-3_dp*mid) - log(constant))/16.0_dp)
     end function longer
+
+    pure function seen_whole(n, modes, weight, first, last) result(yes)
+        !! The nodes have seen what is between the outer ones and the ends of the step: there the
+        !! accelerations are `first` and `last`, as the polynomial has them.
+        integer, intent(in) :: n
+        real(dp), intent(in) :: modes(stages, n), weight(n), first(n), last(n)
+        logical :: yes
+        real(dp) :: high, off
+        integer :: d
+
+        high = 0.0_dp
+        off = 0.0_dp
+        do d = 1, n
+            high = high + weight(d)*(modes(7, d)**2/13.0_dp + modes(8, d)**2/15.0_dp)
+            off = off + weight(d)*((last(d) - sum(modes(:, d)))**2 &
+                                   + (first(d) - sum(modes(1::2, d)) + sum(modes(2::2, d)))**2)
+        end do
+        yes = off <= little .or. off <= 900.0_dp*high
+    end function seen_whole
 end module lagrangia_gauss_control

@@ -32,7 +32,8 @@ module lagrangia_gauss_stages
         real(dp), allocatable :: f_old(:, :)           !! those before the last sweep
         real(dp), allocatable :: q_stage(:, :), v_stage(:, :)
         real(dp) :: to_modes(stages, stages) = 0.0_dp
-        real(dp), allocatable :: start(:)              !! accelerations at `place`
+        real(dp), allocatable :: start(:), end(:)      !! accelerations at the ends of the step
+        real(dp), allocatable :: q_end(:), v_end(:)    !! its end, but for rounding
         real(dp), allocatable :: modes(:, :)           !! Legendre coefficients 0 to 7 of `f`
         real(dp), allocatable :: known(:, :)           !! those of a step known from before:
         real(dp) :: h_known = 1.0_dp                   !! its length, s
@@ -42,6 +43,7 @@ module lagrangia_gauss_stages
     contains
         procedure :: prepare
         procedure :: place
+        procedure :: forget
         procedure :: guess
         procedure :: coast
         procedure :: sweep
@@ -49,6 +51,7 @@ module lagrangia_gauss_stages
         procedure :: all_of
         procedure :: expand
         procedure :: shorten
+        procedure :: look_ahead
         procedure :: finish
     end type gauss_stages_t
 
@@ -69,6 +72,9 @@ contains
         self%v = state
         self%v_low = state
         self%start = state
+        self%end = state
+        self%q_end = state
+        self%v_end = state
         self%f = block
         self%f_old = block
         self%q_stage = block
@@ -91,12 +97,21 @@ contains
         self%v(:) = v
         self%q_low(:) = 0.0_dp
         self%v_low(:) = 0.0_dp
-        call system%accelerations(t, q, v, self%start)
+        call self%forget(system, t)
+    end subroutine place
+
+    pure subroutine forget(self, system, t)
+        !! Know no polynomial, only the acceleration at the state at hand.
+        class(gauss_stages_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t
+
+        call system%accelerations(t, self%q, self%v, self%start)
         self%known(:, :) = 0.0_dp
         self%known(1, :) = self%start
         self%h_known = 1.0_dp
         self%from = 1.0_dp
-    end subroutine place
+    end subroutine forget
 
     pure subroutine guess(self, t, h)
         !! Begin a step: carry the polynomial on that is known.
@@ -174,6 +189,20 @@ contains
         self%h_known = self%h
         self%from = 0.0_dp
     end subroutine shorten
+
+    pure subroutine look_ahead(self, system)
+        !! The accelerations at the end of the step.
+        class(gauss_stages_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        integer :: d
+
+        do d = 1, self%n
+            self%v_end(d) = self%v(d) + sum(self%hb*self%f(:, d))
+            self%q_end(d) = self%q(d) + self%h*(self%v(d) &
+                                                + sum(self%hb*(1.0_dp - nodes)*self%f(:, d)))
+        end do
+        call system%accelerations(self%t + self%h, self%q_end, self%v_end, self%end)
+    end subroutine look_ahead
 
     pure subroutine finish(self)
         !! Go to the end of the step; `expand` came before.
