@@ -68,8 +68,8 @@ contains
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
 
-        allocate (overrides(0))
-        if (present(set)) overrides = [word_t(set)]
+        allocate (overrides(merge(1, 0, present(set))))
+        if (present(set)) overrides(1)%text = set
         call parse_scene("&scene system = 'pendulum' "//keys//" /", "a.nml", &
                          overrides, scene, system, error)
         call assertTrue(allocated(error), message="not refused: "//expected)
@@ -210,6 +210,7 @@ contains
         !! than a disk holds, `modes` of another system than was named.
         character(*), parameter :: rest = "q = 1 dt = 1e-2 "
         class(system_t), allocatable :: system
+        type(word_t) :: override(1)
         type(error_t), allocatable :: error
 
         call no_scene(rest//"duration = 1 columns = 't, theta'", "columns = 't, theta': is one "// &
@@ -220,7 +221,8 @@ contains
         call no_scene(rest//"duration = 1 output = ' x'", "without '..', not ending in .gp")
         call no_scene(rest//"duration = 1e10 every = 10", "every = 10: 100000000000 samples "// &
                       "are too many; make the run shorter, or every longer")
-        call read_named_system("pendulum", [word_t("scene%system=wedge")], system, error)
+        override(1)%text = "scene%system=wedge"
+        call read_named_system("pendulum", override, system, error)
         call failed(error, "--set scene%system=wedge: &scene: system = wedge: is not the "// &
                     "'pendulum' that was named")
     end subroutine values_of_a_scene
