@@ -1,5 +1,6 @@
 module lagrangia_gauss_adaptive
-    !! Gauss-Legendre collocation, order 16, that chooses its steps: fast at any tolerance.
+    !! Gauss-Legendre collocation, order 16, that chooses its steps: fast at any tolerance. For
+    !! smooth forces: where a force has a kink the error is larger than the tolerance.
     !!
     !! - *Error.* See `lagrangia_gauss_control`.
     !! - *Iteration.* Sweeps end where what they would still change is a tenth of the tolerance.
@@ -52,7 +53,7 @@ contains
 
         self%name = "gauss16"
         self%least_tolerance = 1e-14_dp
-        self%title = "Gauss-Legendre collocation by tolerance (Butcher 1964)"
+        self%title = "Gauss-Legendre collocation by tolerance, for smooth forces (Butcher 1964)"
         self%order = 16
     end subroutine new_gauss16_adaptive
 
