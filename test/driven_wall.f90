@@ -2,34 +2,21 @@ module driven_wall
     !! A mass that is pushed by nothing but the time, until it meets a wall that is soft at first.
     !! At one time, and a nanosecond before and after, it has no accelerations.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-    use lagrangia_description, only: description_t
+    use bare_system, only: bare_system_t
     use lagrangia_errors, only: error_t
-    use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
-    use lagrangia_system, only: system_t
     implicit none (type, external)
     private
     public :: driven_wall_t
 
-    type, extends(system_t) :: driven_wall_t
+    type, extends(bare_system_t) :: driven_wall_t
         real(dp) :: hole = huge(1.0_dp)  !! s
     contains
-        procedure :: describe
         procedure :: configure
         procedure :: accelerations
-        procedure :: lagrangian
-        procedure :: energy
     end type driven_wall_t
 
 contains
-
-    pure subroutine describe(self, d)
-        !! A name is enough.
-        class(driven_wall_t), intent(in) :: self
-        type(description_t), intent(out) :: d
-
-        d%name = "driven_wall"
-    end subroutine describe
 
     pure subroutine configure(self, values, error)
         !! No parameters.
@@ -51,22 +38,4 @@ contains
         a(1) = cos(2.0_dp*t) - 10.0_dp*max(0.0_dp, q(1) - 1.0_dp)**7
         if (abs(t - self%hole) < 1e-9_dp) a(1) = ieee_value(t, ieee_quiet_nan)
     end subroutine accelerations
-
-    pure function lagrangian(self, t, q, v) result(l)
-        !! Not wanted here.
-        class(driven_wall_t), intent(in) :: self
-        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
-        type(hyperdual_t) :: l
-
-        l = hyperdual_t()
-    end function lagrangian
-
-    pure function energy(self, t, q, v) result(e)
-        !! Not wanted either.
-        class(driven_wall_t), intent(in) :: self
-        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
-        real(dp) :: e
-
-        e = 0.0_dp
-    end function energy
 end module driven_wall

@@ -2,22 +2,20 @@ module plain_system
     !! A system of no lecture that has no lane kernel of its own: two coordinates, all of t, q
     !! and v in its forces, and none after `last`.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use bare_system, only: bare_system_t
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
-    use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
-    use lagrangia_system, only: system_t
     implicit none (type, external)
     private
     public :: plain_system_t
 
-    type, extends(system_t) :: plain_system_t
+    type, extends(bare_system_t) :: plain_system_t
         real(dp) :: last = huge(1.0_dp)  !! accelerations are NaN later, s
     contains
         procedure :: describe
         procedure :: configure
         procedure :: accelerations
-        procedure :: lagrangian
         procedure :: energy
     end type plain_system_t
 
@@ -51,15 +49,6 @@ contains
         a(2) = -2.0_dp*sin(q(2)) - v(1)*cos(t)
         if (t > self%last) a = ieee_value(t, ieee_quiet_nan)
     end subroutine accelerations
-
-    pure function lagrangian(self, t, q, v) result(l)
-        !! Not wanted here.
-        class(plain_system_t), intent(in) :: self
-        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
-        type(hyperdual_t) :: l
-
-        l = hyperdual_t()
-    end function lagrangian
 
     pure function energy(self, t, q, v) result(e)
         !! Conserved, as the forces across the motion do no work.

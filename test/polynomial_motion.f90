@@ -1,22 +1,17 @@
 module polynomial_motion
     !! A motion that is a power of the time: what interpolates must follow it to rounding.
-    use lagrangia_description, only: description_t
+    use bare_system, only: bare_system_t
     use lagrangia_errors, only: error_t
-    use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
-    use lagrangia_system, only: system_t
     implicit none (type, external)
     private
     public :: polynomial_motion_t, new_polynomial_motion
 
-    type, extends(system_t) :: polynomial_motion_t
+    type, extends(bare_system_t) :: polynomial_motion_t
         integer :: degree = 2
     contains
-        procedure :: describe
         procedure :: configure
         procedure :: accelerations
-        procedure :: lagrangian
-        procedure :: energy
         procedure :: state
     end type polynomial_motion_t
 
@@ -31,14 +26,6 @@ contains
         call self%configure([real(dp) ::], error)
         self%degree = degree
     end subroutine new_polynomial_motion
-
-    pure subroutine describe(self, d)
-        !! A name is enough.
-        class(polynomial_motion_t), intent(in) :: self
-        type(description_t), intent(out) :: d
-
-        d%name = "polynomial_motion"
-    end subroutine describe
 
     pure subroutine configure(self, values, error)
         !! No parameters.
@@ -61,24 +48,6 @@ contains
             a(1) = n*(n - 1)*t**(n - 2)
         end associate
     end subroutine accelerations
-
-    pure function lagrangian(self, t, q, v) result(l)
-        !! Not wanted here.
-        class(polynomial_motion_t), intent(in) :: self
-        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
-        type(hyperdual_t) :: l
-
-        l = hyperdual_t()
-    end function lagrangian
-
-    pure function energy(self, t, q, v) result(e)
-        !! Not wanted either.
-        class(polynomial_motion_t), intent(in) :: self
-        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
-        real(dp) :: e
-
-        e = 0.0_dp
-    end function energy
 
     pure function state(self, t) result(y)
         !! Coordinate and velocity.

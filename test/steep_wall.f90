@@ -1,33 +1,21 @@
 module steep_wall
     !! An oscillator that runs into a wall: no force, or hardly any, tells of it before.
-    use lagrangia_description, only: description_t
+    use bare_system, only: bare_system_t
     use lagrangia_errors, only: error_t
-    use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
-    use lagrangia_system, only: system_t
     implicit none (type, external)
     private
     public :: steep_wall_t
 
-    type, extends(system_t) :: steep_wall_t
+    type, extends(bare_system_t) :: steep_wall_t
         integer :: power = 3  !! of the depth in the wall
     contains
-        procedure :: describe
         procedure :: configure
         procedure :: accelerations
-        procedure :: lagrangian
         procedure :: energy
     end type steep_wall_t
 
 contains
-
-    pure subroutine describe(self, d)
-        !! A name is enough.
-        class(steep_wall_t), intent(in) :: self
-        type(description_t), intent(out) :: d
-
-        d%name = "steep_wall"
-    end subroutine describe
 
     pure subroutine configure(self, values, error)
         !! One parameter: the power.
@@ -48,15 +36,6 @@ contains
 
         a(1) = -q(1) - 3.0_dp*max(0.0_dp, q(1) - 0.5_dp)**self%power
     end subroutine accelerations
-
-    pure function lagrangian(self, t, q, v) result(l)
-        !! Not wanted here.
-        class(steep_wall_t), intent(in) :: self
-        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
-        type(hyperdual_t) :: l
-
-        l = hyperdual_t()
-    end function lagrangian
 
     pure function energy(self, t, q, v) result(e)
         !! $$ E = \tfrac12\dot x^2 + \tfrac12 x^2 + \frac{3}{n+1}\max(0, x - 1/2)^{n+1} $$

@@ -60,10 +60,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
 
         self%steps = ceiling(problem%duration/setting*(1.0_dp - epsilon(setting)), i8)
-        if (allocated(self%method)) deallocate (self%method)
-        allocate (self%method, source=self%plain)
-        call leave_cyclic(self%method, problem%system)
-        call self%method%prepare(problem%system, error)
+        call prepare_method(self%plain, problem, self%method, error)
     end subroutine prepare_fixed
 
     subroutine solve_fixed(self, problem, q, v, error)
@@ -102,10 +99,7 @@ contains
 
         self%plain%tolerance = setting
         self%plain%dense = .false.
-        if (allocated(self%method)) deallocate (self%method)
-        allocate (self%method, source=self%plain)
-        call leave_cyclic(self%method, problem%system)
-        call self%method%prepare(problem%system, error)
+        call prepare_method(self%plain, problem, self%method, error)
     end subroutine prepare_adaptive
 
     subroutine solve_adaptive(self, problem, q, v, error)
@@ -128,6 +122,18 @@ contains
         end select
         self%evaluations = self%method%evaluations
     end subroutine solve_adaptive
+
+    subroutine prepare_method(plain, problem, method, error)
+        !! What a scene would make of a method, ready for the problem.
+        class(integrator_t), intent(in) :: plain
+        type(bench_problem_t), intent(in) :: problem
+        class(integrator_t), allocatable, intent(out) :: method
+        type(error_t), allocatable, intent(out) :: error
+
+        allocate (method, source=plain)
+        call leave_cyclic(method, problem%system)
+        call method%prepare(problem%system, error)
+    end subroutine prepare_method
 
     subroutine new_formula_contestant(self)
         !! The closed form of whatever problem has one.

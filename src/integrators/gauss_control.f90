@@ -44,19 +44,18 @@ contains
         !! over the 16th root of the error in units of the tolerance.
         integer, intent(in) :: n
         real(dp), intent(in) :: modes(stages, n), weight(n)
-        real(dp) :: ratio, all, mid, high
+        real(dp) :: ratio, all, mid
         integer :: d
 
         all = tiny(1.0_dp)
         mid = tiny(1.0_dp)
-        high = tiny(1.0_dp)
         do d = 1, n
             all = all + weight(d)*(modes(1, d)**2 + modes(2, d)**2/3.0_dp &
                                    + modes(3, d)**2/5.0_dp + modes(4, d)**2/7.0_dp)
             mid = mid + weight(d)*(modes(5, d)**2/9.0_dp + modes(6, d)**2/11.0_dp)
-            high = high + weight(d)*(modes(7, d)**2/13.0_dp + modes(8, d)**2/15.0_dp)
         end do
-        ratio = exp((0.75_dp*log(all) - 1.25_dp*log(high + 1e-3_dp*mid) - log(constant))/16.0_dp)
+        ratio = exp((0.75_dp*log(all) - 1.25_dp*log(highest(n, modes, weight) + 1e-3_dp*mid) &
+                     - log(constant))/16.0_dp)
     end function longer
 
     pure function seen_whole(n, modes, weight, first, last) result(yes)
@@ -65,16 +64,27 @@ contains
         integer, intent(in) :: n
         real(dp), intent(in) :: modes(stages, n), weight(n), first(n), last(n)
         logical :: yes
-        real(dp) :: high, off
+        real(dp) :: off
         integer :: d
 
-        high = 0.0_dp
         off = 0.0_dp
         do d = 1, n
-            high = high + weight(d)*(modes(7, d)**2/13.0_dp + modes(8, d)**2/15.0_dp)
             off = off + weight(d)*((last(d) - sum(modes(:, d)))**2 &
                                    + (first(d) - sum(modes(1::2, d)) + sum(modes(2::2, d)))**2)
         end do
-        yes = off <= little .or. off <= 900.0_dp*high
+        yes = off <= little .or. off <= 900.0_dp*highest(n, modes, weight)
     end function seen_whole
+
+    pure function highest(n, modes, weight) result(norm)
+        !! The norm of degrees 6 and 7, squared.
+        integer, intent(in) :: n
+        real(dp), intent(in) :: modes(stages, n), weight(n)
+        real(dp) :: norm
+        integer :: d
+
+        norm = tiny(1.0_dp)
+        do d = 1, n
+            norm = norm + weight(d)*(modes(7, d)**2/13.0_dp + modes(8, d)**2/15.0_dp)
+        end do
+    end function highest
 end module lagrangia_gauss_control
