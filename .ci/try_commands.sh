@@ -122,6 +122,8 @@ check "modes: a zero mode and (m1 + m2) g/(m1 l)" json 'd["omega2"][0] == 0 and 
 run modes hanging_chain --set hanging_chain%n=200 --output "$work/modes"
 check "modes: a long chain, a file and a script a mode" eval '[ $status -eq 0 ] && [ "$(ls "$work/modes" | wc -l)" -eq 400 ]'
 refuses 2 "the nearest is --at 0.0" modes pendulum --at 1
+run modes pendulum --at -0
+check "modes: zero has no sign" eval '[ $status -eq 0 ] && grep -q "theta = 0.0$" "$work/out"'
 refuses 2 "takes 2 values" modes double_pendulum --at 0
 refuses 2 "greater than 0.0 is needed" modes cart_pendulum --set cart_pendulum%m1=0
 refuses 4 "other units are needed" modes pendulum --set pendulum%g=1e308 --set pendulum%l=1e-300

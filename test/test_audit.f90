@@ -4,6 +4,8 @@ module test_audit
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_audit, only: audit_system, draws
     use lagrangia_catalogue, only: new_system
+    use lagrangia_description, only: description_t
+    use lagrangia_diagnosis, only: factor_text
     use lagrangia_errors, only: error_t
     use lagrangia_findings, only: audit_t
     use lagrangia_kinds, only: dp
@@ -22,6 +24,7 @@ contains
 
         suite = TestSuite("audit")
         call suite%addTest(TestMethod("wrong_equations_are_named", wrong_equations_are_named))
+        call suite%addTest(TestMethod("factors_of_zero_have_no_sign", factors_of_zero_have_no_sign))
         call suite%addTest(TestMethod("wrong_claims_are_named", wrong_claims_are_named))
         call suite%addTest(TestMethod("given_parameters_stay", given_parameters_stay))
         call suite%addTest(TestMethod("findings_keep_the_worst", findings_keep_the_worst))
@@ -48,6 +51,20 @@ contains
             call assertTrue(audit%findings(row)%holds, "energy: "//expected)
         end do
     end subroutine wrong_equations_are_named
+
+    subroutine factors_of_zero_have_no_sign()
+        !! Whichever way the rounding of 1 - 1 falls; a half and a whole number keep theirs.
+        class(system_t), allocatable :: system
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+
+        call new_system("pendulum", system, error)
+        call system%describe(d)
+        call assertEqual("0", factor_text(epsilon(1.0_dp), d), "a little above")
+        call assertEqual("0", factor_text(-epsilon(1.0_dp), d), "a little below")
+        call assertEqual("-1", factor_text(-1.0_dp, d), "a wrong sign")
+        call assertEqual("-0.5", factor_text(-0.5_dp, d), "half, with a wrong sign")
+    end subroutine factors_of_zero_have_no_sign
 
     subroutine wrong_claims_are_named()
         !! The very claim fails, and those that have nothing to do with it hold.

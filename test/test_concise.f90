@@ -32,6 +32,7 @@ contains
         call assertEqual("12(3)", concise(12.3_dp, 3.0_dp))
         call assertEqual("0.00(1)", concise(-0.001_dp, 0.01_dp))
         call assertEqual("9.81", concise(9.81_dp, 0.0_dp))
+        call assertEqual("0.0", concise(-0.0_dp, 0.0_dp), "zero has no sign")
     end subroutine the_error_counts_in_last_digits
 
     subroutine the_error_is_rounded_up()

@@ -192,9 +192,9 @@ contains
         character(:), allocatable :: text
         integer :: i
 
-        text = trim(d%coordinates(1)%name)//" = "//to_text(at(1))
+        text = trim(d%coordinates(1)%name)//" = "//to_text(at(1) + 0.0_dp)  ! no sign of a zero
         do i = 2, min(size(at), widest)
-            text = text//", "//trim(d%coordinates(i)%name)//" = "//to_text(at(i))
+            text = text//", "//trim(d%coordinates(i)%name)//" = "//to_text(at(i) + 0.0_dp)
         end do
         if (size(at) > widest) text = text//", ..."
     end function point

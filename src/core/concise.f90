@@ -20,7 +20,7 @@ contains
         character(1) :: digit
         integer :: place, top
 
-        text = to_text(value)
+        text = to_text(value + 0.0_dp)  ! zero has no sign
         if (error <= 0.0_dp) return
         call round_up(error, digit, place)
         top = place

@@ -157,7 +157,7 @@ contains
 
         allocate (values, source=default_values(d))
         if (abs(2.0_dp*factor - anint(2.0_dp*factor)) < 1e-8_dp) then
-            text = to_text(0.5_dp*anint(2.0_dp*factor))
+            text = to_text(0.5_dp*anint(2.0_dp*factor) + 0.0_dp)  ! zero has no sign
             if (text(max(1, len(text) - 1):) == ".0") text = text(:len(text) - 2)
             return
         end if

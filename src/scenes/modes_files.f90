@@ -45,7 +45,8 @@ contains
         units(1) = "s"
         units(2:) = d%coordinates%unit
         path = folder//"/"//trim(d%name)//"_mode_"//to_text(j)
-        header(1) = trim(d%name)//", mode "//to_text(j)//": omega^2 = "//to_text(modes%omega2(j))
+        header(1) = trim(d%name)//", mode "//to_text(j)//": omega^2 = "// &
+                    to_text(modes%omega2(j) + 0.0_dp)  ! no sign of a zero
         call table%file%open(path//".dat", error)
         if (allocated(error)) return
         call table%begin(header, names, units, error)
