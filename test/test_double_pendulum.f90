@@ -7,6 +7,7 @@ module test_double_pendulum
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_rk4, only: new_rk4, rk4_t
+    use lagrangia_system, only: lanes
     use motion, only: flow_derivative, newton_lagrangian, point_accelerations
     use random_states, only: draw_parameters, draw_state, restart_random
     implicit none (type, external)
@@ -27,6 +28,8 @@ contains
                                       small_oscillations_as_in_closed_form))
         call suite%addTest(TestMethod("released_at_right_angles_as_mpmath", &
                                       released_at_right_angles_as_mpmath))
+        call suite%addTest(TestMethod("a_light_bob_falls_by_its_weight", &
+                                      a_light_bob_falls_by_its_weight))
         call suite%addTest(TestMethod("angular_momentum_needs_no_gravity", &
                                       angular_momentum_needs_no_gravity))
     end function double_pendulum_suite
@@ -138,6 +141,30 @@ contains
         call assertEqual([-0.62718670506653073_dp, -1.30131555020981168_dp], q, 1e-8_dp, "q(5)")
         call assertEqual([2.12540867384291065_dp, 3.88188872726560744_dp], v, 1e-8_dp, "v(5)")
     end subroutine released_at_right_angles_as_mpmath
+
+    subroutine a_light_bob_falls_by_its_weight()
+        !! Both rods in line and at rest: the upper bob feels its own weight only, however light
+        !! it is, and the lower rod does not turn yet. Scalar and lanes to a few roundings.
+        type(double_pendulum_t) :: system
+        type(error_t), allocatable :: error
+        real(dp) :: a(2), q(lanes, 2), v(lanes, 2), many(lanes, 2)
+        real(dp) :: expected
+        integer :: k
+
+        do k = 0, 300, 20
+            call system%configure([10.0_dp**(-k), 1.0_dp, 0.7_dp, 1.6_dp, 9.81_dp], error)
+            call system%accelerations(0.0_dp, [1.0_dp, 1.0_dp], [0.0_dp, 0.0_dp], a)
+            expected = -9.81_dp*sin(1.0_dp)/0.7_dp
+            call assertEqual(expected, a(1), 8.0_dp*spacing(expected), "theta1_ddot")
+            call assertEqual(0.0_dp, a(2), message="theta2_ddot")
+            q = 1.0_dp
+            v = 0.0_dp
+            call system%accelerations_lanes(v(:, 1), q, v, many)
+            call assertEqual(spread(expected, 1, lanes), many(:, 1), 16.0_dp*spacing(expected), &
+                             "theta1_ddot in lanes")
+            call assertEqual(spread(0.0_dp, 1, lanes), many(:, 2), message="theta2_ddot in lanes")
+        end do
+    end subroutine a_light_bob_falls_by_its_weight
 
     subroutine angular_momentum_needs_no_gravity()
         !! L_z is declared conserved without gravity only, and changes with it.

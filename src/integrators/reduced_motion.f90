@@ -19,6 +19,8 @@ module lagrangia_reduced_motion
         real(dp), allocatable :: q(:), v(:)            !! the whole one where `advance` ended
         real(dp) :: t0 = 0.0_dp, dt = 0.0_dp
         integer(i8) :: next = -1                       !! step that would go on from there
+        integer(i8) :: first = 0                       !! step where it left the whole system,
+        real(dp) :: t_left = 0.0_dp                    !! or the time, s
     contains
         procedure :: prepare
         procedure :: advance
@@ -93,10 +95,11 @@ contains
 
         if (.not. (first == self%next .and. all(same([t0, dt, q, v], &
                                                      [self%t0, self%dt, self%q, self%v])))) then
-            call self%reduced%leave(t0 + first*dt, q, v, self%q_left, self%v_left)
+            call self%reduced%leave(q, v, self%q_left, self%v_left)
+            self%first = first
         end if
         call self%method%advance(self%reduced, t0, dt, first, steps, self%q_left, self%v_left)
-        call self%reduced%complete(t0 + (first + steps)*dt, self%q_left, self%v_left, q, v)
+        call self%reduced%complete((first + steps - self%first)*dt, self%q_left, self%v_left, q, v)
         self%q(:) = q
         self%v(:) = v
         self%t0 = t0
@@ -113,7 +116,8 @@ contains
         real(dp), intent(in) :: t0, q(system%ndof), v(system%ndof), t_end
 
         call command(self)
-        call self%reduced%leave(t0, q, v, self%q_left, self%v_left)
+        call self%reduced%leave(q, v, self%q_left, self%v_left)
+        self%t_left = t0
         select type (method => self%method)
         class is (dense_integrator_t)
             call method%start(self%reduced, t0, self%q_left, self%v_left, t_end)
@@ -145,7 +149,7 @@ contains
         class is (dense_integrator_t)
             call method%state_at(t, q_left, v_left)
         end select
-        call self%reduced%complete(t, q_left, v_left, q, v)
+        call self%reduced%complete(t - self%t_left, q_left, v_left, q, v)
     end subroutine state_at
 
     pure subroutine command(self)

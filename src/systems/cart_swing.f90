@@ -24,7 +24,7 @@ module lagrangia_cart_swing
         real(dp) :: l = 1.0_dp   !! rod, m
         real(dp) :: g = 9.81_dp  !! m s^-2
         real(dp) :: drift = 0.0_dp   !! velocity of the centre of mass along x, m/s
-        real(dp) :: centre = 0.0_dp  !! where that was at t = 0, m
+        real(dp) :: centre = 0.0_dp  !! where that was when x was left, m
     contains
         procedure :: describe
         procedure :: configure
@@ -124,29 +124,29 @@ contains
         end associate
     end function energy
 
-    pure subroutine leave(self, t, q, v, q_left, v_left)
+    pure subroutine leave(self, q, v, q_left, v_left)
         !! See `reduced_t`: the motion of the centre of mass.
         class(cart_swing_t), intent(inout) :: self
-        real(dp), intent(in) :: t, q(:), v(:)
+        real(dp), intent(in) :: q(:), v(:)
         real(dp), intent(out) :: q_left(self%ndof), v_left(self%ndof)
         real(dp) :: arm
 
         arm = self%m2/(self%m1 + self%m2)*self%l
         self%drift = v(1) + arm*v(2)*cos(q(2))
-        self%centre = q(1) + arm*sin(q(2)) - self%drift*t
+        self%centre = q(1) + arm*sin(q(2))
         q_left(1) = q(2)
         v_left(1) = v(2)
     end subroutine leave
 
-    pure subroutine complete(self, t, q_left, v_left, q, v)
+    pure subroutine complete(self, elapsed, q_left, v_left, q, v)
         !! See `reduced_t`.
         class(cart_swing_t), intent(in) :: self
-        real(dp), intent(in) :: t, q_left(self%ndof), v_left(self%ndof)
+        real(dp), intent(in) :: elapsed, q_left(self%ndof), v_left(self%ndof)
         real(dp), intent(out) :: q(:), v(:)
         real(dp) :: arm
 
         arm = self%m2/(self%m1 + self%m2)*self%l
-        q(1) = self%centre + self%drift*t - arm*sin(q_left(1))
+        q(1) = self%centre + self%drift*elapsed - arm*sin(q_left(1))
         v(1) = self%drift - arm*v_left(1)*cos(q_left(1))
         q(2) = q_left(1)
         v(2) = v_left(1)

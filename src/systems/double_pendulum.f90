@@ -66,25 +66,26 @@ contains
 
     pure subroutine accelerations(self, t, q, v, a)
         !! With \(\Delta = \theta_1 - \theta_2\) and \(D = m_1 + m_2\sin^2\Delta \ge m_1 > 0\):
-        !! $$ \ell_1 D\,\ddot\theta_1 = -m_2\sin\Delta\,(\ell_1\dot\theta_1^2\cos\Delta
-        !!    + \ell_2\dot\theta_2^2) - (m_1+m_2)g\sin\theta_1 + m_2 g\sin\theta_2\cos\Delta $$
-        !! $$ \ell_2 D\,\ddot\theta_2 = (m_1+m_2)\ell_1\dot\theta_1^2\sin\Delta
-        !!    + m_2\ell_2\dot\theta_2^2\sin\Delta\cos\Delta
-        !!    + (m_1+m_2)g(\sin\theta_1\cos\Delta - \sin\theta_2) $$
+        !! $$ \ell_1 D\,\ddot\theta_1 = -m_1 g\sin\theta_1 - m_2\sin\Delta\,(
+        !!    \ell_1\dot\theta_1^2\cos\Delta + \ell_2\dot\theta_2^2 + g\cos\theta_2) $$
+        !! $$ \ell_2 D\,\ddot\theta_2 = \sin\Delta\,\big[(m_1+m_2)(\ell_1\dot\theta_1^2
+        !!    + g\cos\theta_1) + m_2\ell_2\dot\theta_2^2\cos\Delta\big] $$
+        !! In this form nothing of the light bob's weight is lost beside the heavy one's.
         class(double_pendulum_t), intent(in) :: self
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
         real(dp), intent(out) :: a(self%ndof)
-        real(dp) :: s, c, s1, s2, d
+        real(dp) :: s, c, s1, c1, d
 
         associate (m1 => self%m1, m2 => self%m2, m => self%m1 + self%m2, &
                    l1 => self%l1, l2 => self%l2, g => self%g)
             s = sin(q(1) - q(2))
             c = cos(q(1) - q(2))
             s1 = sin(q(1))
-            s2 = sin(q(2))
+            c1 = cos(q(1))
             d = m1 + m2*s**2
-            a(1) = (-m2*s*(l1*v(1)**2*c + l2*v(2)**2) - m*g*s1 + m2*g*s2*c)/(l1*d)
-            a(2) = (m*l1*v(1)**2*s + m2*l2*v(2)**2*s*c + m*g*(s1*c - s2))/(l2*d)
+            ! cos(theta2) = c1*c + s1*s
+            a(1) = (-m1*g*s1 - m2*s*(l1*v(1)**2*c + l2*v(2)**2 + g*(c1*c + s1*s)))/(l1*d)
+            a(2) = s*(m*(l1*v(1)**2 + g*c1) + m2*l2*v(2)**2*c)/(l2*d)
         end associate
     end subroutine accelerations
 
@@ -209,7 +210,7 @@ contains
         class(double_pendulum_t), intent(in) :: self
         real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
         real(dp), intent(out) :: a(lanes, self%ndof)
-        real(dp) :: s(lanes), c(lanes), s1(lanes), s2(lanes), d(lanes)
+        real(dp) :: s(lanes), c(lanes), s1(lanes), c1(lanes), d(lanes)
 
         associate (m1 => self%m1, m2 => self%m2, m => self%m1 + self%m2, &
                    l1 => self%l1, l2 => self%l2, g => self%g)
@@ -217,10 +218,11 @@ contains
             c = cos(s)
             s = sin(s)
             s1 = sin(q(:, 1))
-            s2 = sin(q(:, 2))
+            c1 = cos(q(:, 1))
             d = 1.0_dp/(m1 + m2*s**2)
-            a(:, 1) = (-m2*s*(l1*v(:, 1)**2*c + l2*v(:, 2)**2) - m*g*s1 + m2*g*s2*c)*((1.0_dp/l1)*d)
-            a(:, 2) = (m*l1*v(:, 1)**2*s + m2*l2*v(:, 2)**2*s*c + m*g*(s1*c - s2))*((1.0_dp/l2)*d)
+            a(:, 1) = (-m1*g*s1 - m2*s*(l1*v(:, 1)**2*c + l2*v(:, 2)**2 + g*(c1*c + s1*s))) &
+                      *((1.0_dp/l1)*d)
+            a(:, 2) = s*(m*(l1*v(:, 1)**2 + g*c1) + m2*l2*v(:, 2)**2*c)*((1.0_dp/l2)*d)
         end associate
     end subroutine accelerations_lanes
 

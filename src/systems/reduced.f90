@@ -13,21 +13,22 @@ module lagrangia_reduced
     end type reduced_t
 
     abstract interface
-        pure subroutine leave_i(self, t, q, v, q_left, v_left)
+        pure subroutine leave_i(self, q, v, q_left, v_left)
             !! Note what the state `(q, v)` conserves; the state without the cyclic coordinate.
             import :: reduced_t, dp
             implicit none (type, external)
             class(reduced_t), intent(inout) :: self
-            real(dp), intent(in) :: t, q(:), v(:)
+            real(dp), intent(in) :: q(:), v(:)
             real(dp), intent(out) :: q_left(self%ndof), v_left(self%ndof)
         end subroutine leave_i
 
-        pure subroutine complete_i(self, t, q_left, v_left, q, v)
-            !! The whole state, by what `leave` has noted.
+        pure subroutine complete_i(self, elapsed, q_left, v_left, q, v)
+            !! The whole state at `elapsed` s after `leave`, by what that has noted. A time so short
+            !! is a better number than that on the clock.
             import :: reduced_t, dp
             implicit none (type, external)
             class(reduced_t), intent(in) :: self
-            real(dp), intent(in) :: t, q_left(self%ndof), v_left(self%ndof)
+            real(dp), intent(in) :: elapsed, q_left(self%ndof), v_left(self%ndof)
             real(dp), intent(out) :: q(:), v(:)
         end subroutine complete_i
     end interface
