@@ -50,6 +50,7 @@ module suites
     use test_gsl_odeiv, only: gsl_odeiv_suite
     use test_hanging_chain, only: hanging_chain_suite
     use test_harness, only: harness_suite
+    use test_harness_fixtures, only: harness_fixtures_suite
     use test_harness_order, only: harness_order_suite
     use test_hyperdual, only: hyperdual_suite
     use test_integrator_orders, only: integrator_orders_suite
@@ -117,6 +118,7 @@ contains
 
         suite = TestSuite("lagrangia")
         call suite%addTest(harness_suite())
+        call suite%addTest(harness_fixtures_suite())
         call suite%addTest(harness_order_suite())
         call suite%addTest(accuracy_suite())
         call suite%addTest(action_suite())
@@ -227,10 +229,11 @@ program main
     !! Run every suite; stop with status 2 if a test fails.
     use funit, only: finalize, initialize, run, stub
     use suites, only: load_tests
+    use surroundings, only: prepare
     implicit none (type, external)
     logical :: ok
 
-    call initialize(stub)
+    call initialize(prepare)
     ok = run(load_tests)
     call finalize(stub, ok)
 end program main

@@ -1,7 +1,7 @@
 module test_blas_threads
     !! One thread of BLAS, so that its results do not depend on the cores there are.
     use funit, only: TestMethod, TestSuite, assertEqual
-    use lagrangia_blas_threads, only: blas_threads, use_one_blas_thread
+    use lagrangia_blas_threads, only: blas_threads
     implicit none (type, external)
     private
     public :: blas_threads_suite
@@ -13,12 +13,11 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("blas_threads")
-        call suite%addTest(TestMethod("there is one", there_is_one))
+        call suite%addTest(TestMethod("there_is_one", there_is_one))
     end function blas_threads_suite
 
     subroutine there_is_one()
-        !! Fails without the call where OpenBLAS has found more than one core.
-        call use_one_blas_thread()
+        !! Since the start of the runner; fails without that where OpenBLAS has found more cores.
         call assertEqual(1, blas_threads())
     end subroutine there_is_one
 end module test_blas_threads

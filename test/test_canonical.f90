@@ -26,10 +26,12 @@ contains
 
         suite = TestSuite("canonical")
         call suite%addTest(TestMethod("momenta_and_forces_follow_from_the_lagrangian", &
-                                      momenta_and_forces_follow_from_the_lagrangian))
-        call suite%addTest(TestMethod("failed_iterations_are_told", failed_iterations_are_told))
+                                      momenta_and_forces_follow_from_the_lagrangian, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("failed_iterations_are_told", failed_iterations_are_told, &
+                                      setUp=restart_random))
         call suite%addTest(TestMethod("slow_iterations_are_no_solutions", &
-                                      slow_iterations_are_no_solutions))
+                                      slow_iterations_are_no_solutions, setUp=restart_random))
     end function canonical_suite
 
     subroutine momenta_and_forces_follow_from_the_lagrangian()
@@ -44,7 +46,6 @@ contains
         real(dp) :: t, large
         integer :: k, draw
 
-        call restart_random()
         k = 0
         do
             k = k + 1

@@ -36,17 +36,23 @@ contains
 
         suite = TestSuite("cart_pendulum")
         call suite%addTest(TestMethod("lagrangian_is_that_of_two_masses", &
-                                      lagrangian_is_that_of_two_masses))
-        call suite%addTest(TestMethod("tension_moves_both", tension_moves_both))
-        call suite%addTest(TestMethod("small_oscillations", small_oscillations))
-        call suite%addTest(TestMethod("periods_from_rest", periods_from_rest))
-        call suite%addTest(TestMethod("period_is_the_integral", period_is_the_integral))
-        call suite%addTest(TestMethod("state_from_rest", state_from_rest))
-        call suite%addTest(TestMethod("bob_moves_on_an_ellipse", bob_moves_on_an_ellipse))
-        call suite%addTest(TestMethod("heavy_cart_is_a_pendulum", heavy_cart_is_a_pendulum))
-        call suite%addTest(TestMethod("reference_solves_it", reference_solves_it))
+                                      lagrangian_is_that_of_two_masses, setUp=restart_random))
+        call suite%addTest(TestMethod("tension_moves_both", tension_moves_both, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("small_oscillations", small_oscillations, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("periods_from_rest", periods_from_rest, setUp=restart_random))
+        call suite%addTest(TestMethod("period_is_the_integral", period_is_the_integral, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("state_from_rest", state_from_rest, setUp=restart_random))
+        call suite%addTest(TestMethod("bob_moves_on_an_ellipse", bob_moves_on_an_ellipse, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("heavy_cart_is_a_pendulum", heavy_cart_is_a_pendulum, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("reference_solves_it", reference_solves_it, &
+                                      setUp=restart_random))
         call suite%addTest(TestMethod("what_the_reference_leaves_out", &
-                                      what_the_reference_leaves_out))
+                                      what_the_reference_leaves_out, setUp=restart_random))
     end function cart_pendulum_suite
 
     pure function period_integrand(self, x) result(y)
@@ -80,7 +86,6 @@ contains
         real(dp) :: t, expected
         integer :: i
 
-        call restart_random()
         do i = 1, 20
             call draw_parameters(system, edges=.false.)
             call draw_state(system, t, q, v)
@@ -97,7 +102,6 @@ contains
         real(dp) :: t, pull(3)
         integer :: i
 
-        call restart_random()
         do i = 1, 20
             call draw_parameters(system, edges=.false.)
             call draw_state(system, t, q, v)
@@ -212,7 +216,6 @@ contains
         logical :: found
         integer :: i, j
 
-        call restart_random()
         call system%configure([0.7_dp, 0.8_dp, 9.81_dp], error)
         do i = 1, size(theta)
             call new_pendulum_reference(pendulum, system, 0.0_dp, theta(i:i), speed(i:i), found)
@@ -238,7 +241,6 @@ contains
         logical :: found
         integer :: i
 
-        call restart_random()
         do i = 1, 20
             call draw_parameters(system, edges=mod(i, 2) == 0)
             call draw_state(system, t, q, v)

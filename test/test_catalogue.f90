@@ -24,13 +24,15 @@ contains
 
         suite = TestSuite("catalogue")
         call suite%addTest(TestMethod("every_system_is_found_by_its_name", &
-                                      every_system_is_found_by_its_name))
-        call suite%addTest(TestMethod("every_column_is_a_number", every_column_is_a_number))
+                                      every_system_is_found_by_its_name, setUp=restart_random))
+        call suite%addTest(TestMethod("every_column_is_a_number", every_column_is_a_number, &
+                                      setUp=restart_random))
         call suite%addTest(TestMethod("every_description_names_columns", &
-                                      every_description_names_columns))
+                                      every_description_names_columns, setUp=restart_random))
         call suite%addTest(TestMethod("every_method_is_found_by_its_name", &
-                                      every_method_is_found_by_its_name))
-        call suite%addTest(TestMethod("other_names_are_refused", other_names_are_refused))
+                                      every_method_is_found_by_its_name, setUp=restart_random))
+        call suite%addTest(TestMethod("other_names_are_refused", other_names_are_refused, &
+                                      setUp=restart_random))
     end function catalogue_suite
 
     subroutine every_system_is_found_by_its_name()
@@ -67,7 +69,6 @@ contains
         real(dp) :: t
         integer :: i, k, draw
 
-        call restart_random()
         i = 0
         do
             i = i + 1

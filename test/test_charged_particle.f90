@@ -23,12 +23,17 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("charged_particle")
-        call suite%addTest(TestMethod("force_is_lorentz", force_is_lorentz))
-        call suite%addTest(TestMethod("invariants_follow_the_fields", invariants_follow_the_fields))
-        call suite%addTest(TestMethod("declared_invariants_hold", declared_invariants_hold))
-        call suite%addTest(TestMethod("p_is_the_canonical_momentum", p_is_the_canonical_momentum))
-        call suite%addTest(TestMethod("undeclared_quantities_change", undeclared_quantities_change))
-        call suite%addTest(TestMethod("flags_follow_the_fields", flags_follow_the_fields))
+        call suite%addTest(TestMethod("force_is_lorentz", force_is_lorentz, setUp=restart_random))
+        call suite%addTest(TestMethod("invariants_follow_the_fields", &
+                                      invariants_follow_the_fields, setUp=restart_random))
+        call suite%addTest(TestMethod("declared_invariants_hold", declared_invariants_hold, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("p_is_the_canonical_momentum", p_is_the_canonical_momentum, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("undeclared_quantities_change", &
+                                      undeclared_quantities_change, setUp=restart_random))
+        call suite%addTest(TestMethod("flags_follow_the_fields", flags_follow_the_fields, &
+                                      setUp=restart_random))
     end function charged_particle_suite
 
     subroutine build(particle, m, charge, electric, magnetic, trap)
@@ -86,7 +91,6 @@ contains
         real(dp), parameter :: b(3) = [0.1_dp, -0.2_dp, 0.3_dp], e(3) = [0.5_dp, 0.4_dp, -0.3_dp]
         character(*), parameter :: pseudo = "pseudo_x pseudo_y pseudo_z energy_axis"
 
-        call restart_random()
         call expect(e, b, 0.0_dp, pseudo, "E and B")
         call expect(3.0_dp*b, b, 0.0_dp, pseudo//" L_axis", "E along B")
         call expect(nil, b, 0.0_dp, pseudo//" L_axis speed", "B")
@@ -128,7 +132,6 @@ contains
         real(dp) :: t
         integer :: i
 
-        call restart_random()
         call draw_parameters(particle, edges=.false.)
         call draw_state(particle, t, q, v)
         call expand_lagrangian(particle, t, q, v, terms)
@@ -143,7 +146,6 @@ contains
         real(dp) :: t, rate, scale
         integer :: i, k
 
-        call restart_random()
         do i = 0, 1
             call build(particle, 1.3_dp, -0.7_dp, [0.5_dp, 0.4_dp, -0.3_dp], &
                        [0.1_dp, -0.2_dp, 0.3_dp], 0.6_dp*i)

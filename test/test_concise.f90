@@ -17,11 +17,13 @@ contains
 
         suite = TestSuite("concise")
         call suite%addTest(TestMethod("the_error_counts_in_last_digits", &
-                                      the_error_counts_in_last_digits))
-        call suite%addTest(TestMethod("the_error_is_rounded_up", the_error_is_rounded_up))
+                                      the_error_counts_in_last_digits, setUp=restart_random))
+        call suite%addTest(TestMethod("the_error_is_rounded_up", the_error_is_rounded_up, &
+                                      setUp=restart_random))
         call suite%addTest(TestMethod("very_large_and_small_ones_have_a_power", &
-                                      very_large_and_small_ones_have_a_power))
-        call suite%addTest(TestMethod("text_lies_within_its_error", text_lies_within_its_error))
+                                      very_large_and_small_ones_have_a_power, setUp=restart_random))
+        call suite%addTest(TestMethod("text_lies_within_its_error", text_lies_within_its_error, &
+                                      setUp=restart_random))
     end function concise_suite
 
     subroutine the_error_counts_in_last_digits()
@@ -61,7 +63,6 @@ contains
         character(:), allocatable :: text
         integer :: k
 
-        call restart_random()
         do k = 1, 500
             value = uniform(-1.0_dp, 1.0_dp)*10.0_dp**uniform(-12.0_dp, 12.0_dp)
             error = abs(value)*10.0_dp**uniform(-14.0_dp, 1.0_dp)

@@ -23,21 +23,24 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("constant_accelerations")
-        call suite%addTest(TestMethod("atwood_numbers", atwood_numbers))
+        call suite%addTest(TestMethod("atwood_numbers", atwood_numbers, setUp=restart_random))
         call suite%addTest(TestMethod("atwood_lagrangian_is_inertial", &
-                                      atwood_lagrangian_is_inertial))
+                                      atwood_lagrangian_is_inertial, setUp=restart_random))
         call suite%addTest(TestMethod("atwood_tensions_move_masses_and_pulley", &
-                                      atwood_tensions_move_masses_and_pulley))
-        call suite%addTest(TestMethod("atwood_limits", atwood_limits))
-        call suite%addTest(TestMethod("atwood_reference_solves_it", atwood_reference_solves_it))
-        call suite%addTest(TestMethod("wedge_numbers", wedge_numbers))
+                                      atwood_tensions_move_masses_and_pulley, setUp=restart_random))
+        call suite%addTest(TestMethod("atwood_limits", atwood_limits, setUp=restart_random))
+        call suite%addTest(TestMethod("atwood_reference_solves_it", atwood_reference_solves_it, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("wedge_numbers", wedge_numbers, setUp=restart_random))
         call suite%addTest(TestMethod("wedge_lagrangian_is_that_of_two_masses", &
-                                      wedge_lagrangian_is_that_of_two_masses))
+                                      wedge_lagrangian_is_that_of_two_masses, setUp=restart_random))
         call suite%addTest(TestMethod("wedge_normal_force_moves_both", &
-                                      wedge_normal_force_moves_both))
-        call suite%addTest(TestMethod("wedge_limits", wedge_limits))
-        call suite%addTest(TestMethod("wedge_angle_is_bounded", wedge_angle_is_bounded))
-        call suite%addTest(TestMethod("wedge_reference_solves_it", wedge_reference_solves_it))
+                                      wedge_normal_force_moves_both, setUp=restart_random))
+        call suite%addTest(TestMethod("wedge_limits", wedge_limits, setUp=restart_random))
+        call suite%addTest(TestMethod("wedge_angle_is_bounded", wedge_angle_is_bounded, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("wedge_reference_solves_it", wedge_reference_solves_it, &
+                                      setUp=restart_random))
     end function constant_accelerations_suite
 
     subroutine atwood_numbers()
@@ -65,7 +68,6 @@ contains
         real(dp) :: t, rim, kinetic, potential
         integer :: i
 
-        call restart_random()
         do i = 1, 20
             call draw_parameters(system, edges=.false.)
             call draw_state(system, t, q, v)
@@ -86,7 +88,6 @@ contains
         real(dp) :: t, x_ddot(1), tension(2), tolerance
         integer :: i
 
-        call restart_random()
         do i = 1, 20
             call draw_parameters(system, edges=.false.)
             call draw_state(system, t, q, v)
@@ -136,7 +137,6 @@ contains
         logical :: found
         integer :: i
 
-        call restart_random()
         do i = 1, 5
             call draw_parameters(system, edges=.false.)
             call draw_state(system, t, q, v)
@@ -169,7 +169,6 @@ contains
         real(dp) :: t, expected
         integer :: i
 
-        call restart_random()
         do i = 1, 20
             call draw_parameters(system, edges=.false.)
             call draw_state(system, t, q, v)
@@ -186,7 +185,6 @@ contains
         real(dp) :: t, force(2)
         integer :: i
 
-        call restart_random()
         do i = 1, 20
             call draw_parameters(system, edges=.false.)
             call draw_state(system, t, q, v)
@@ -243,7 +241,6 @@ contains
         logical :: found
         integer :: i
 
-        call restart_random()
         do i = 1, 5
             call draw_parameters(system, edges=.false.)
             call draw_state(system, t, q, v)

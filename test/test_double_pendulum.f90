@@ -22,16 +22,17 @@ contains
 
         suite = TestSuite("double_pendulum")
         call suite%addTest(TestMethod("lagrangian_is_that_of_two_bobs", &
-                                      lagrangian_is_that_of_two_bobs))
-        call suite%addTest(TestMethod("tensions_move_the_bobs", tensions_move_the_bobs))
+                                      lagrangian_is_that_of_two_bobs, setUp=restart_random))
+        call suite%addTest(TestMethod("tensions_move_the_bobs", tensions_move_the_bobs, &
+                                      setUp=restart_random))
         call suite%addTest(TestMethod("small_oscillations_as_in_closed_form", &
-                                      small_oscillations_as_in_closed_form))
+                                      small_oscillations_as_in_closed_form, setUp=restart_random))
         call suite%addTest(TestMethod("released_at_right_angles_as_mpmath", &
-                                      released_at_right_angles_as_mpmath))
+                                      released_at_right_angles_as_mpmath, setUp=restart_random))
         call suite%addTest(TestMethod("a_light_bob_falls_by_its_weight", &
-                                      a_light_bob_falls_by_its_weight))
+                                      a_light_bob_falls_by_its_weight, setUp=restart_random))
         call suite%addTest(TestMethod("angular_momentum_needs_no_gravity", &
-                                      angular_momentum_needs_no_gravity))
+                                      angular_momentum_needs_no_gravity, setUp=restart_random))
     end function double_pendulum_suite
 
     subroutine lagrangian_is_that_of_two_bobs()
@@ -42,7 +43,6 @@ contains
         real(dp) :: t, expected
         integer :: i
 
-        call restart_random()
         do i = 1, 20
             call draw_parameters(system, edges=.false.)
             call draw_state(system, t, q, v)
@@ -59,7 +59,6 @@ contains
         real(dp) :: t, upper(3), lower(3), weight(3), size_of_force
         integer :: i
 
-        call restart_random()
         do i = 1, 20
             call draw_parameters(system, edges=.false.)
             call draw_state(system, t, q, v)

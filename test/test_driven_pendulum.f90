@@ -10,6 +10,7 @@ module test_driven_pendulum
     use lagrangia_pendulum, only: pendulum_t
     use lagrangia_rk4, only: new_rk4, rk4_t
     use lagrangia_system, only: system_t
+    use random_states, only: restart_random
     use reference_checks, only: check_reference, check_state
     implicit none (type, external)
     private
@@ -25,11 +26,13 @@ contains
 
         suite = TestSuite("driven_pendulum")
         call suite%addTest(TestMethod("driven_pendulum_stands_up_and_down", &
-                                      driven_pendulum_stands_up_and_down))
+                                      driven_pendulum_stands_up_and_down, setUp=restart_random))
         call suite%addTest(TestMethod("pivot_starts_high_and_moves_down", &
-                                      pivot_starts_high_and_moves_down))
-        call suite%addTest(TestMethod("resting_pivot_is_a_pendulum", resting_pivot_is_a_pendulum))
-        call suite%addTest(TestMethod("fast_drive_keeps_it_upright", fast_drive_keeps_it_upright))
+                                      pivot_starts_high_and_moves_down, setUp=restart_random))
+        call suite%addTest(TestMethod("resting_pivot_is_a_pendulum", resting_pivot_is_a_pendulum, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("fast_drive_keeps_it_upright", fast_drive_keeps_it_upright, &
+                                      setUp=restart_random))
     end function driven_pendulum_suite
 
     subroutine set(system, values)

@@ -24,17 +24,19 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("gauge")
-        call suite%addTest(TestMethod("rates_are_derivatives", rates_are_derivatives))
-        call suite%addTest(TestMethod("energy_shifts", energy_shifts))
-        call suite%addTest(TestMethod("chi_leads_to_landau", chi_leads_to_landau))
-        call suite%addTest(TestMethod("forbidden_terms_in_numbers", forbidden_terms_in_numbers))
+        call suite%addTest(TestMethod("rates_are_derivatives", rates_are_derivatives, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("energy_shifts", energy_shifts, setUp=restart_random))
+        call suite%addTest(TestMethod("chi_leads_to_landau", chi_leads_to_landau, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("forbidden_terms_in_numbers", forbidden_terms_in_numbers, &
+                                      setUp=restart_random))
     end function gauge_suite
 
     subroutine rates_are_derivatives()
         !! dF/dt written by hand against F itself along a straight motion, and its slope too.
         integer :: i
 
-        call restart_random()
         do i = 1, size(member_names)
             call try(family_t(i))
         end do

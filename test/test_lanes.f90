@@ -18,8 +18,10 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("lanes")
-        call suite%addTest(TestMethod("lanes_are_single_states", lanes_are_single_states))
-        call suite%addTest(TestMethod("a_system_needs_no_kernel", a_system_needs_no_kernel))
+        call suite%addTest(TestMethod("lanes_are_single_states", lanes_are_single_states, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("a_system_needs_no_kernel", a_system_needs_no_kernel, &
+                                      setUp=restart_random))
     end function lanes_suite
 
     subroutine lanes_are_single_states()
@@ -33,7 +35,6 @@ contains
         real(dp) :: t(lanes)
         integer :: i, j, draw
 
-        call restart_random()
         i = 0
         do
             i = i + 1

@@ -21,10 +21,10 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("least_time")
-        call suite%addTest(TestMethod("mirrors", mirrors))
-        call suite%addTest(TestMethod("refraction", refraction))
+        call suite%addTest(TestMethod("mirrors", mirrors, setUp=restart_random))
+        call suite%addTest(TestMethod("refraction", refraction, setUp=restart_random))
         call suite%addTest(TestMethod("graded_medium_follows_its_lagrangian", &
-                                      graded_medium_follows_its_lagrangian))
+                                      graded_medium_follows_its_lagrangian, setUp=restart_random))
     end function least_time_suite
 
     subroutine mirrors()
@@ -37,7 +37,6 @@ contains
         real(dp) :: x
         integer :: i
 
-        call restart_random()
         do i = 1, 20
             flat = flat_mirror_t(a=uniform(0.2_dp, 3.0_dp), b=uniform(0.2_dp, 3.0_dp), &
                                  d=uniform(0.2_dp, 3.0_dp))
@@ -97,7 +96,6 @@ contains
         real(dp) :: t, a(2), expected(2), none(0)
         integer :: i
 
-        call restart_random()
         do i = 1, 20
             call draw_parameters(medium, i > 10)
             call draw_state(medium, t, q, v)

@@ -24,9 +24,12 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("method_structure")
-        call suite%addTest(TestMethod("symplectic_as_declared", symplectic_as_declared))
-        call suite%addTest(TestMethod("reversible_as_declared", reversible_as_declared))
-        call suite%addTest(TestMethod("speed_is_kept_as_declared", speed_is_kept_as_declared))
+        call suite%addTest(TestMethod("symplectic_as_declared", symplectic_as_declared, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("reversible_as_declared", reversible_as_declared, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("speed_is_kept_as_declared", speed_is_kept_as_declared, &
+                                      setUp=restart_random))
     end function method_structure_suite
 
     subroutine symplectic_as_declared()

@@ -20,9 +20,11 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("oscillator")
-        call suite%addTest(TestMethod("hooke_and_newton", hooke_and_newton))
-        call suite%addTest(TestMethod("no_spring_no_force", no_spring_no_force))
-        call suite%addTest(TestMethod("reference_solves_it", reference_solves_it))
+        call suite%addTest(TestMethod("hooke_and_newton", hooke_and_newton, setUp=restart_random))
+        call suite%addTest(TestMethod("no_spring_no_force", no_spring_no_force, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("reference_solves_it", reference_solves_it, &
+                                      setUp=restart_random))
     end function oscillator_suite
 
     subroutine hooke_and_newton()
@@ -72,7 +74,6 @@ contains
         logical :: found
         integer :: i
 
-        call restart_random()
         do i = 1, 10
             call draw_parameters(system, edges=mod(i, 3) == 0)
             call draw_state(system, t, q, v)

@@ -24,16 +24,19 @@ contains
 
         suite = TestSuite("pendulum")
         call suite%addTest(TestMethod("lagrangian_and_tension_of_a_bob", &
-                                      lagrangian_and_tension_of_a_bob))
-        call suite%addTest(TestMethod("periods_from_rest", periods_from_rest))
-        call suite%addTest(TestMethod("states_from_rest", states_from_rest))
-        call suite%addTest(TestMethod("states_from_anywhere", states_from_anywhere))
-        call suite%addTest(TestMethod("separatrix", separatrix))
+                                      lagrangian_and_tension_of_a_bob, setUp=restart_random))
+        call suite%addTest(TestMethod("periods_from_rest", periods_from_rest, setUp=restart_random))
+        call suite%addTest(TestMethod("states_from_rest", states_from_rest, setUp=restart_random))
+        call suite%addTest(TestMethod("states_from_anywhere", states_from_anywhere, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("separatrix", separatrix, setUp=restart_random))
         call suite%addTest(TestMethod("energies_close_to_the_separatrix", &
-                                      energies_close_to_the_separatrix))
-        call suite%addTest(TestMethod("many_turns", many_turns))
-        call suite%addTest(TestMethod("equilibrium_and_no_gravity", equilibrium_and_no_gravity))
-        call suite%addTest(TestMethod("reference_solves_it", reference_solves_it))
+                                      energies_close_to_the_separatrix, setUp=restart_random))
+        call suite%addTest(TestMethod("many_turns", many_turns, setUp=restart_random))
+        call suite%addTest(TestMethod("equilibrium_and_no_gravity", equilibrium_and_no_gravity, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("reference_solves_it", reference_solves_it, &
+                                      setUp=restart_random))
     end function pendulum_suite
 
     subroutine start(g, l, theta, v, reference)
@@ -57,7 +60,6 @@ contains
         real(dp) :: t, pull(3)
         integer :: i
 
-        call restart_random()
         do i = 1, 20
             call draw_parameters(system, edges=.false.)
             call draw_state(system, t, q, v)
@@ -209,7 +211,6 @@ contains
         logical :: found
         integer :: i
 
-        call restart_random()
         do i = 1, 20
             call draw_parameters(system, edges=.false.)
             call draw_state(system, t, q, v)

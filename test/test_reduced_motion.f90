@@ -33,16 +33,21 @@ contains
 
         suite = TestSuite("reduced_motion")
         call suite%addTest(TestMethod("rouths_function_gives_its_equations", &
-                                      rouths_function_gives_its_equations))
-        call suite%addTest(TestMethod("states_leave_and_come_back", states_leave_and_come_back))
+                                      rouths_function_gives_its_equations, setUp=restart_random))
+        call suite%addTest(TestMethod("states_leave_and_come_back", states_leave_and_come_back, &
+                                      setUp=restart_random))
         call suite%addTest(TestMethod("the_whole_motion_is_the_same", &
-                                      the_whole_motion_is_the_same))
+                                      the_whole_motion_is_the_same, setUp=restart_random))
         call suite%addTest(TestMethod("between_steps_and_after_a_push", &
-                                      between_steps_and_after_a_push))
-        call suite%addTest(TestMethod("cuts_leave_no_trace", cuts_leave_no_trace))
-        call suite%addTest(TestMethod("late_is_as_good_as_early", late_is_as_good_as_early))
-        call suite%addTest(TestMethod("only_where_it_pays", only_where_it_pays))
-        call suite%addTest(TestMethod("scenes_use_it_and_say_so", scenes_use_it_and_say_so))
+                                      between_steps_and_after_a_push, setUp=restart_random))
+        call suite%addTest(TestMethod("cuts_leave_no_trace", cuts_leave_no_trace, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("late_is_as_good_as_early", late_is_as_good_as_early, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("only_where_it_pays", only_where_it_pays, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("scenes_use_it_and_say_so", scenes_use_it_and_say_so, &
+                                      setUp=restart_random))
     end function reduced_motion_suite
 
     subroutine rouths_function_gives_its_equations()
@@ -70,7 +75,6 @@ contains
         real(dp) :: t, q_new(2), v_new(2), q_left(1), v_left(1), a(2), a_left(1), p(2), p_new(2)
         integer :: k
 
-        call restart_random()
         do k = 1, 50
             call draw_parameters(system, edges=.false.)
             call draw_state(system, t, q, v)

@@ -25,12 +25,15 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("rheonomic")
-        call suite%addTest(TestMethod("wire_holds_the_bead", wire_holds_the_bead))
-        call suite%addTest(TestMethod("hoop_holds_the_bead", hoop_holds_the_bead))
-        call suite%addTest(TestMethod("rod_holds_the_bob", rod_holds_the_bob))
-        call suite%addTest(TestMethod("energy_is_fed_by_the_drive", energy_is_fed_by_the_drive))
+        call suite%addTest(TestMethod("wire_holds_the_bead", wire_holds_the_bead, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("hoop_holds_the_bead", hoop_holds_the_bead, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("rod_holds_the_bob", rod_holds_the_bob, setUp=restart_random))
+        call suite%addTest(TestMethod("energy_is_fed_by_the_drive", energy_is_fed_by_the_drive, &
+                                      setUp=restart_random))
         call suite%addTest(TestMethod("without_motion_energy_is_conserved", &
-                                      without_motion_energy_is_conserved))
+                                      without_motion_energy_is_conserved, setUp=restart_random))
     end function rheonomic_suite
 
     subroutine set(system, values)
@@ -63,7 +66,6 @@ contains
         real(dp) :: t, along(3), across(3), scale
         integer :: i
 
-        call restart_random()
         do i = 1, 20
             call draw_parameters(wire, edges=.false.)
             call draw_state(wire, t, q, v)
@@ -88,7 +90,6 @@ contains
         real(dp) :: t, force(3), outward(3), along(3), scale
         integer :: i
 
-        call restart_random()
         do i = 1, 20
             call draw_parameters(hoop, edges=.false.)
             call draw_state(hoop, t, q, v)
@@ -119,7 +120,6 @@ contains
         real(dp) :: t, force(3), rod(3), pivot, scale
         integer :: i
 
-        call restart_random()
         do i = 1, 20
             call draw_parameters(pendulum, edges=.false.)
             call draw_state(pendulum, t, q, v)
@@ -148,7 +148,6 @@ contains
         real(dp), allocatable :: q(:), v(:)
         real(dp) :: t, rate, scale, turn, turn_scale, lift
 
-        call restart_random()
         call draw_parameters(wire, edges=.false.)
         call draw_state(wire, t, q, v)
         call flow_derivative(wire, 2, t, q, v, rate, scale)

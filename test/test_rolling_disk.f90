@@ -28,19 +28,24 @@ contains
 
         suite = TestSuite("rolling_disk")
         call suite%addTest(TestMethod("moments_of_inertia_have_defaults", &
-                                      moments_of_inertia_have_defaults))
-        call suite%addTest(TestMethod("two_velocities_are_completed", two_velocities_are_completed))
+                                      moments_of_inertia_have_defaults, setUp=restart_random))
+        call suite%addTest(TestMethod("two_velocities_are_completed", &
+                                      two_velocities_are_completed, setUp=restart_random))
         call suite%addTest(TestMethod("velocities_that_slip_are_refused", &
-                                      velocities_that_slip_are_refused))
-        call suite%addTest(TestMethod("constraint_is_not_integrable", constraint_is_not_integrable))
-        call suite%addTest(TestMethod("friction_is_the_multiplier", friction_is_the_multiplier))
+                                      velocities_that_slip_are_refused, setUp=restart_random))
+        call suite%addTest(TestMethod("constraint_is_not_integrable", &
+                                      constraint_is_not_integrable, setUp=restart_random))
+        call suite%addTest(TestMethod("friction_is_the_multiplier", friction_is_the_multiplier, &
+                                      setUp=restart_random))
         call suite%addTest(TestMethod("level_friction_is_the_centripetal_force", &
-                                      level_friction_is_the_centripetal_force))
+                                      level_friction_is_the_centripetal_force, &
+                                      setUp=restart_random))
         call suite%addTest(TestMethod("level_conserves_p_phi_not_p_x", &
-                                      level_conserves_p_phi_not_p_x))
+                                      level_conserves_p_phi_not_p_x, setUp=restart_random))
         call suite%addTest(TestMethod("incline_does_not_conserve_p_phi", &
-                                      incline_does_not_conserve_p_phi))
-        call suite%addTest(TestMethod("p_theta_is_the_momentum", p_theta_is_the_momentum))
+                                      incline_does_not_conserve_p_phi, setUp=restart_random))
+        call suite%addTest(TestMethod("p_theta_is_the_momentum", p_theta_is_the_momentum, &
+                                      setUp=restart_random))
     end function rolling_disk_suite
 
     subroutine build(disk, m, r, i_roll, i_yaw, g, incline)
@@ -174,7 +179,6 @@ contains
         real(dp) :: t, a(4), lambda(2), friction(2)
         integer :: i
 
-        call restart_random()
         do i = 1, 40
             call draw_parameters(disk, edges=mod(i, 2) == 0)
             call draw_state(disk, t, q, v)
@@ -212,7 +216,6 @@ contains
         real(dp) :: t, rate, scale
         integer :: i, k
 
-        call restart_random()
         do i = 1, 20
             call build(disk, uniform(0.5_dp, 3.0_dp), uniform(0.2_dp, 2.0_dp), &
                        uniform(0.0_dp, 2.0_dp), uniform(0.1_dp, 2.0_dp), &
@@ -242,7 +245,6 @@ contains
         real(dp), allocatable :: q(:), v(:)
         real(dp) :: t, rate, scale
 
-        call restart_random()
         call build_uniform(disk, 1.7_dp, 0.6_dp, -0.3_dp)
         call disk%describe(d)
         call assertFalse(d%quantities(2)%conserved, "p_phi on an incline")
@@ -260,7 +262,6 @@ contains
         real(dp), allocatable :: q(:), v(:)
         real(dp) :: t
 
-        call restart_random()
         call draw_parameters(disk, edges=.false.)
         call draw_state(disk, t, q, v)
         call expand_lagrangian(disk, t, q, v, terms)

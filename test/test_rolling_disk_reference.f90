@@ -24,18 +24,19 @@ contains
 
         suite = TestSuite("rolling_disk_reference")
         call suite%addTest(TestMethod("orbit_is_the_centre_of_the_circle", &
-                                      orbit_is_the_centre_of_the_circle))
+                                      orbit_is_the_centre_of_the_circle, setUp=restart_random))
         call suite%addTest(TestMethod("reference_gives_the_notes_circle", &
-                                      reference_gives_the_notes_circle))
+                                      reference_gives_the_notes_circle, setUp=restart_random))
         call suite%addTest(TestMethod("reference_is_the_textbook_form", &
-                                      reference_is_the_textbook_form))
+                                      reference_is_the_textbook_form, setUp=restart_random))
         call suite%addTest(TestMethod("reference_obeys_the_equations", &
-                                      reference_obeys_the_equations))
-        call suite%addTest(TestMethod("incline_drifts_sideways", incline_drifts_sideways))
+                                      reference_obeys_the_equations, setUp=restart_random))
+        call suite%addTest(TestMethod("incline_drifts_sideways", incline_drifts_sideways, &
+                                      setUp=restart_random))
         call suite%addTest(TestMethod("slow_steering_loses_no_digits", &
-                                      slow_steering_loses_no_digits))
+                                      slow_steering_loses_no_digits, setUp=restart_random))
         call suite%addTest(TestMethod("slipping_start_has_no_reference", &
-                                      slipping_start_has_no_reference))
+                                      slipping_start_has_no_reference, setUp=restart_random))
     end function rolling_disk_reference_suite
 
     subroutine build(disk, m, r, i_roll, i_yaw, g, incline)
@@ -108,7 +109,6 @@ contains
         logical :: found
         integer :: i
 
-        call restart_random()
         do i = 1, 40
             call draw_parameters(disk, edges=.false.)
             call draw_state(disk, t0, q0, v0)
@@ -146,7 +146,6 @@ contains
         logical :: found
         integer :: i
 
-        call restart_random()
         do i = 1, 40
             call draw_parameters(disk, edges=mod(i, 2) == 0)
             if (mod(i, 3) == 0) disk%incline = 0.0_dp

@@ -29,14 +29,15 @@ contains
 
         suite = TestSuite("rotating_reference")
         call suite%addTest(TestMethod("wire_reference_gives_the_oracle", &
-                                      wire_reference_gives_the_oracle))
+                                      wire_reference_gives_the_oracle, setUp=restart_random))
         call suite%addTest(TestMethod("wire_reference_obeys_the_equations", &
-                                      wire_reference_obeys_the_equations))
+                                      wire_reference_obeys_the_equations, setUp=restart_random))
         call suite%addTest(TestMethod("wire_reference_keeps_its_digits", &
-                                      wire_reference_keeps_its_digits))
-        call suite%addTest(TestMethod("hoop_has_tilted_equilibria", hoop_has_tilted_equilibria))
+                                      wire_reference_keeps_its_digits, setUp=restart_random))
+        call suite%addTest(TestMethod("hoop_has_tilted_equilibria", hoop_has_tilted_equilibria, &
+                                      setUp=restart_random))
         call suite%addTest(TestMethod("hoop_stands_in_equilibria_only", &
-                                      hoop_stands_in_equilibria_only))
+                                      hoop_stands_in_equilibria_only, setUp=restart_random))
     end function rotating_reference_suite
 
     subroutine set(system, values)
@@ -75,7 +76,6 @@ contains
         logical :: found
         integer :: i
 
-        call restart_random()
         do i = 1, 20
             call draw_parameters(wire, edges=mod(i, 2) == 0)
             call draw_state(wire, t, q, v)

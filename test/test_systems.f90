@@ -21,9 +21,9 @@ contains
 
         suite = TestSuite("systems")
         call suite%addTest(TestMethod("every_system_keeps_its_claims", &
-                                      every_system_keeps_its_claims))
+                                      every_system_keeps_its_claims, setUp=restart_random))
         call suite%addTest(TestMethod("every_closed_form_solves_its_equations", &
-                                      every_closed_form_solves_its_equations))
+                                      every_closed_form_solves_its_equations, setUp=restart_random))
     end function systems_suite
 
     subroutine every_system_keeps_its_claims()
@@ -51,7 +51,6 @@ contains
         real(dp) :: t
         integer :: i, k, found
 
-        call restart_random()
         found = 0
         i = 0
         do

@@ -6,6 +6,7 @@ module test_text
     use lagrangia_kinds, only: dp, i8
     use lagrangia_names, only: abbreviation, advice, nearest_name
     use lagrangia_text, only: escaped, join, lower, quoted, shortened, to_text
+    use random_states, only: restart_random, uniform
     implicit none (type, external)
     private
     public :: text_suite
@@ -17,17 +18,22 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("text")
-        call suite%addTest(TestMethod("lower_leaves_other_bytes", lower_leaves_other_bytes))
-        call suite%addTest(TestMethod("join_trims_and_separates", join_trims_and_separates))
+        call suite%addTest(TestMethod("lower_leaves_other_bytes", lower_leaves_other_bytes, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("join_trims_and_separates", join_trims_and_separates, &
+                                      setUp=restart_random))
         call suite%addTest(TestMethod("shown_text_is_plain_and_bounded", &
-                                      shown_text_is_plain_and_bounded))
+                                      shown_text_is_plain_and_bounded, setUp=restart_random))
         call suite%addTest(TestMethod("long_words_lose_their_middle", &
-                                      long_words_lose_their_middle))
-        call suite%addTest(TestMethod("nearest_name_mends_slips", nearest_name_mends_slips))
-        call suite%addTest(TestMethod("nearest_name_gives_up", nearest_name_gives_up))
-        call suite%addTest(TestMethod("reals_look_short", reals_look_short))
-        call suite%addTest(TestMethod("reals_read_back", reals_read_back))
-        call suite%addTest(TestMethod("integers_in_decimal", integers_in_decimal))
+                                      long_words_lose_their_middle, setUp=restart_random))
+        call suite%addTest(TestMethod("nearest_name_mends_slips", nearest_name_mends_slips, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("nearest_name_gives_up", nearest_name_gives_up, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("reals_look_short", reals_look_short, setUp=restart_random))
+        call suite%addTest(TestMethod("reals_read_back", reals_read_back, setUp=restart_random))
+        call suite%addTest(TestMethod("integers_in_decimal", integers_in_decimal, &
+                                      setUp=restart_random))
     end function text_suite
 
     subroutine lower_leaves_other_bytes()
@@ -140,14 +146,14 @@ contains
 
     subroutine reals_read_back()
         !! Bit by bit, over all exponents.
-        real(dp) :: back, number, u(2)
+        real(dp) :: back, number
         character(32) :: text
         integer :: i, wrong
 
         wrong = 0
         do i = 1, 20000
-            call random_number(u)
-            number = (u(1) - 0.5_dp)*10.0_dp**(600*(u(2) - 0.5_dp))
+            number = uniform(-0.5_dp, 0.5_dp)
+            number = number*10.0_dp**uniform(-300.0_dp, 300.0_dp)
             text = to_text(number)
             read (text, *) back
             if (transfer(back, 1_i8) /= transfer(number, 1_i8)) wrong = wrong + 1

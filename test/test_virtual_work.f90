@@ -26,11 +26,14 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("virtual_work")
-        call suite%addTest(TestMethod("every_system_obeys_dalembert", every_system_obeys_dalembert))
+        call suite%addTest(TestMethod("every_system_obeys_dalembert", &
+                                      every_system_obeys_dalembert, setUp=restart_random))
         call suite%addTest(TestMethod("points_move_as_differences_say", &
-                                      points_move_as_differences_say))
-        call suite%addTest(TestMethod("test_charge_is_consistent", test_charge_is_consistent))
-        call suite%addTest(TestMethod("fields_are_differences", fields_are_differences))
+                                      points_move_as_differences_say, setUp=restart_random))
+        call suite%addTest(TestMethod("test_charge_is_consistent", test_charge_is_consistent, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("fields_are_differences", fields_are_differences, &
+                                      setUp=restart_random))
     end function virtual_work_suite
 
     subroutine every_system_obeys_dalembert()
@@ -42,7 +45,6 @@ contains
         real(dp) :: t
         integer :: i, k
 
-        call restart_random()
         i = 0
         do
             i = i + 1
@@ -137,7 +139,6 @@ contains
         real(dp) :: t, a(3), expected(3), none(0)
         integer :: i
 
-        call restart_random()
         do i = 1, 20
             call draw_parameters(charge, .false.)
             call draw_state(charge, t, q, v)

@@ -17,9 +17,10 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("walls")
-        call suite%addTest(TestMethod("a_wall_stops_no_run", a_wall_stops_no_run))
+        call suite%addTest(TestMethod("a_wall_stops_no_run", a_wall_stops_no_run, &
+                                      setUp=restart_random))
         call suite%addTest(TestMethod("no_step_ends_in_a_wall_unseen", &
-                                      no_step_ends_in_a_wall_unseen))
+                                      no_step_ends_in_a_wall_unseen, setUp=restart_random))
     end function walls_suite
 
     subroutine a_wall_stops_no_run()

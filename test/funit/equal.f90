@@ -2,6 +2,7 @@ module funit_equal
     !! Assertions of equality. NaN equals nothing; an infinity equals itself.
     use, intrinsic :: iso_fortran_env, only: int32, int64, real64
     use funit_exceptions, only: throw
+    use funit_locations, only: SourceLocation
     use funit_messages, only: comparison, conformable, fail_reals, headline, keyword_only, list, &
                               place
     implicit none (type, external)
@@ -22,9 +23,10 @@ module funit_equal
 
 contains
 
-    subroutine equal_string(expected, found, message)
+    subroutine equal_string(expected, found, message, location)
         character(*), intent(in) :: expected, found
         character(*), intent(in), optional :: message
+        type(SourceLocation), intent(in), optional :: location
         character(:), allocatable :: text
         integer :: same, e1, e2, f1, f2
 
@@ -43,7 +45,7 @@ contains
         if (present(message)) then
             if (len_trim(message) > 0) text = trim(message)//" "//text
         end if
-        call throw(text)
+        call throw(text, location)
     end subroutine equal_string
 
     subroutine inner(string, first, last)
@@ -60,120 +62,135 @@ contains
         end if
     end subroutine inner
 
-    subroutine equal_strings(expected, found, message)
+    subroutine equal_strings(expected, found, message, location)
         character(*), intent(in) :: expected(:), found(:)
         character(*), intent(in), optional :: message
+        type(SourceLocation), intent(in), optional :: location
         integer :: i
 
-        if (.not. conformable(shape(expected), shape(found), message)) return
+        if (.not. conformable(shape(expected), shape(found), message, location)) return
         do i = 1, size(expected)
-            call equal_string(expected(i), found(i), message)
+            call equal_string(expected(i), found(i), message, location)
         end do
     end subroutine equal_strings
 
-    subroutine equal_logical(expected, actual, unused, message)
+    subroutine equal_logical(expected, actual, unused, message, location)
         logical, intent(in) :: expected, actual
         class(keyword_only), intent(in), optional :: unused
         character(*), intent(in), optional :: message
+        type(SourceLocation), intent(in), optional :: location
 
-        call check_logicals([expected], [actual], .false., message)
+        call check_logicals([expected], [actual], .false., message, location)
     end subroutine equal_logical
 
-    subroutine equal_logicals(expected, actual, unused, message)
+    subroutine equal_logicals(expected, actual, unused, message, location)
         logical, intent(in) :: expected(:), actual(:)
         class(keyword_only), intent(in), optional :: unused
         character(*), intent(in), optional :: message
+        type(SourceLocation), intent(in), optional :: location
 
-        if (.not. conformable(shape(expected), shape(actual), message)) return
-        call check_logicals(expected, actual, .true., message)
+        if (.not. conformable(shape(expected), shape(actual), message, location)) return
+        call check_logicals(expected, actual, .true., message, location)
     end subroutine equal_logicals
 
-    subroutine equal_i32(expected, actual, message)
+    subroutine equal_i32(expected, actual, message, location)
         integer(int32), intent(in) :: expected, actual
         character(*), intent(in), optional :: message
+        type(SourceLocation), intent(in), optional :: location
 
-        call check_integers([int(expected, int64)], [int(actual, int64)], .false., message)
+        call check_integers([int(expected, int64)], [int(actual, int64)], .false., message, &
+                            location)
     end subroutine equal_i32
 
-    subroutine equal_i32s(expected, actual, message)
+    subroutine equal_i32s(expected, actual, message, location)
         integer(int32), intent(in) :: expected(:), actual(:)
         character(*), intent(in), optional :: message
+        type(SourceLocation), intent(in), optional :: location
 
-        if (.not. conformable(shape(expected), shape(actual), message)) return
-        call check_integers(int(expected, int64), int(actual, int64), .true., message)
+        if (.not. conformable(shape(expected), shape(actual), message, location)) return
+        call check_integers(int(expected, int64), int(actual, int64), .true., message, location)
     end subroutine equal_i32s
 
-    subroutine equal_i64(expected, actual, message)
+    subroutine equal_i64(expected, actual, message, location)
         integer(int64), intent(in) :: expected, actual
         character(*), intent(in), optional :: message
+        type(SourceLocation), intent(in), optional :: location
 
-        call check_integers([expected], [actual], .false., message)
+        call check_integers([expected], [actual], .false., message, location)
     end subroutine equal_i64
 
-    subroutine equal_i64s(expected, actual, message)
+    subroutine equal_i64s(expected, actual, message, location)
         integer(int64), intent(in) :: expected(:), actual(:)
         character(*), intent(in), optional :: message
+        type(SourceLocation), intent(in), optional :: location
 
-        if (.not. conformable(shape(expected), shape(actual), message)) return
-        call check_integers(expected, actual, .true., message)
+        if (.not. conformable(shape(expected), shape(actual), message, location)) return
+        call check_integers(expected, actual, .true., message, location)
     end subroutine equal_i64s
 
-    subroutine equal_i32_i64(expected, actual, message)
+    subroutine equal_i32_i64(expected, actual, message, location)
         integer(int32), intent(in) :: expected
         integer(int64), intent(in) :: actual
         character(*), intent(in), optional :: message
+        type(SourceLocation), intent(in), optional :: location
 
-        call check_integers([int(expected, int64)], [actual], .false., message)
+        call check_integers([int(expected, int64)], [actual], .false., message, location)
     end subroutine equal_i32_i64
 
-    subroutine equal_real(expected, actual, tolerance, message)
+    subroutine equal_real(expected, actual, tolerance, message, location)
         real(real64), intent(in) :: expected, actual
         real(real64), intent(in), optional :: tolerance
         character(*), intent(in), optional :: message
+        type(SourceLocation), intent(in), optional :: location
 
-        call check_reals([expected], [actual], [integer ::], tolerance, message)
+        call check_reals([expected], [actual], [integer ::], tolerance, message, location)
     end subroutine equal_real
 
-    subroutine equal_real_reals(expected, actual, tolerance, message)
+    subroutine equal_real_reals(expected, actual, tolerance, message, location)
         real(real64), intent(in) :: expected, actual(:)
         real(real64), intent(in), optional :: tolerance
         character(*), intent(in), optional :: message
+        type(SourceLocation), intent(in), optional :: location
 
         call check_reals(spread(expected, 1, size(actual)), actual, shape(actual), &
-                         tolerance, message)
+                         tolerance, message, location)
     end subroutine equal_real_reals
 
-    subroutine equal_reals(expected, actual, tolerance, message)
+    subroutine equal_reals(expected, actual, tolerance, message, location)
         real(real64), intent(in) :: expected(:), actual(:)
         real(real64), intent(in), optional :: tolerance
         character(*), intent(in), optional :: message
+        type(SourceLocation), intent(in), optional :: location
 
-        if (.not. conformable(shape(expected), shape(actual), message)) return
-        call check_reals(expected, actual, shape(actual), tolerance, message)
+        if (.not. conformable(shape(expected), shape(actual), message, location)) return
+        call check_reals(expected, actual, shape(actual), tolerance, message, location)
     end subroutine equal_reals
 
-    subroutine equal_real_matrix(expected, actual, tolerance, message)
+    subroutine equal_real_matrix(expected, actual, tolerance, message, location)
         real(real64), intent(in) :: expected, actual(:, :)
         real(real64), intent(in), optional :: tolerance
         character(*), intent(in), optional :: message
+        type(SourceLocation), intent(in), optional :: location
 
         call check_reals(spread(expected, 1, size(actual)), reshape(actual, [size(actual)]), &
-                         shape(actual), tolerance, message)
+                         shape(actual), tolerance, message, location)
     end subroutine equal_real_matrix
 
-    subroutine equal_matrices(expected, actual, tolerance, message)
+    subroutine equal_matrices(expected, actual, tolerance, message, location)
         real(real64), intent(in) :: expected(:, :), actual(:, :)
         real(real64), intent(in), optional :: tolerance
         character(*), intent(in), optional :: message
+        type(SourceLocation), intent(in), optional :: location
 
-        if (.not. conformable(shape(expected), shape(actual), message)) return
+        if (.not. conformable(shape(expected), shape(actual), message, location)) return
         call check_reals(reshape(expected, [size(actual)]), reshape(actual, [size(actual)]), &
-                         shape(actual), tolerance, message)
+                         shape(actual), tolerance, message, location)
     end subroutine equal_matrices
 
-    subroutine check_logicals(expected, actual, is_array, message)
+    subroutine check_logicals(expected, actual, is_array, message, location)
         logical, intent(in) :: expected(:), actual(:), is_array
         character(*), intent(in), optional :: message
+        type(SourceLocation), intent(in), optional :: location
         character(:), allocatable :: text
         integer :: i
 
@@ -183,31 +200,34 @@ contains
                //nl//"    Expected: <"//merge("T", "F", expected(i))//">" &
                //nl//"    Actual:   <"//merge("T", "F", actual(i))//">"
         if (is_array) text = text//nl//"    at index: "//list([i])//">"
-        call throw(text)
+        call throw(text, location)
     end subroutine check_logicals
 
-    subroutine check_integers(expected, actual, is_array, message)
+    subroutine check_integers(expected, actual, is_array, message, location)
         integer(int64), intent(in) :: expected(:), actual(:)
         logical, intent(in) :: is_array
         character(*), intent(in), optional :: message
+        type(SourceLocation), intent(in), optional :: location
         character(22) :: wanted, got, difference
         integer :: i
 
         i = findloc(expected == actual, .false., dim=1)
         if (i == 0) return
-        write (wanted, "(i0)") expected(i)
-        write (got, "(i0)") actual(i)
-        write (difference, "('<', i0, '>')") actual(i) - expected(i)
+        write (wanted, "(ss, i0)") expected(i)
+        write (got, "(ss, i0)") actual(i)
+        write (difference, "(ss, '<', i0, '>')") actual(i) - expected(i)
         call throw(headline("AssertEqual", pack([i], is_array), message) &
-                   //comparison(wanted, got, "    Difference", difference, pack([i], is_array)))
+                   //comparison(wanted, got, "    Difference", difference, pack([i], is_array)), &
+                   location)
     end subroutine check_integers
 
-    subroutine check_reals(expected, actual, extents, tolerance, message)
+    subroutine check_reals(expected, actual, extents, tolerance, message, location)
         !! Arrays come flattened; `extents` is their shape, empty for scalars.
         real(real64), intent(in) :: expected(:), actual(:)
         integer, intent(in) :: extents(:)
         real(real64), intent(in), optional :: tolerance
         character(*), intent(in), optional :: message
+        type(SourceLocation), intent(in), optional :: location
         real(real64) :: t
         integer :: i
 
@@ -216,7 +236,7 @@ contains
         i = findloc(agree(expected, actual, t), .false., dim=1)
         if (i == 0) return
         call fail_reals("AssertEqual", "    Difference", expected(i), actual(i), &
-                        actual(i) - expected(i), t, place(i, extents), message)
+                        actual(i) - expected(i), t, place(i, extents), message, location)
     end subroutine check_reals
 
     elemental logical function agree(expected, actual, tolerance)

@@ -1,12 +1,14 @@
 module funit_exceptions
     !! What the assertions of the running test have recorded, oldest first.
+    use funit_locations, only: SourceLocation, call_site, location_text
     implicit none (type, external)
     private
-    public :: anyExceptions, caught, clear_exceptions, exception_count, exception_text, throw
+    public :: anyExceptions, caught, clear_exceptions, exception_count, exception_place, &
+              exception_text, throw
 
     type :: text_t
         !! One message; lists of messages grow without copying their characters.
-        character(:), allocatable :: text
+        character(:), allocatable :: text, place
     end type text_t
 
     type(text_t), allocatable :: thrown(:)
@@ -14,9 +16,10 @@ module funit_exceptions
 
 contains
 
-    subroutine throw(message)
+    subroutine throw(message, location)
         !! Record a failure; the test goes on.
         character(*), intent(in) :: message
+        type(SourceLocation), intent(in), optional :: location  !! from the call stack if absent
         type(text_t), allocatable :: longer(:)
         integer :: i
 
@@ -25,11 +28,17 @@ contains
             allocate (longer(2*exception_count))
             do i = 1, exception_count
                 call move_alloc(thrown(i)%text, longer(i)%text)
+                call move_alloc(thrown(i)%place, longer(i)%place)
             end do
             call move_alloc(longer, thrown)
         end if
         exception_count = exception_count + 1
         thrown(exception_count)%text = trim(message)
+        if (present(location)) then
+            thrown(exception_count)%place = location_text(location)
+        else
+            thrown(exception_count)%place = call_site()
+        end if
     end subroutine throw
 
     function exception_text(i) result(text)
@@ -39,6 +48,14 @@ contains
 
         text = thrown(i)%text
     end function exception_text
+
+    function exception_place(i) result(text)
+        !! Where number `i` was recorded, as `[file:line]`.
+        integer, intent(in) :: i
+        character(:), allocatable :: text
+
+        text = thrown(i)%place
+    end function exception_place
 
     logical function anyExceptions()
         !! Whether an assertion of this test has failed.
@@ -60,6 +77,7 @@ contains
         if (.not. caught) return
         do i = found, exception_count - 1
             call move_alloc(thrown(i + 1)%text, thrown(i)%text)
+            call move_alloc(thrown(i + 1)%place, thrown(i)%place)
         end do
         exception_count = exception_count - 1
     end function caught

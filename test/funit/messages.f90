@@ -2,6 +2,7 @@ module funit_messages
     !! The words in which an assertion fails.
     use, intrinsic :: iso_fortran_env, only: real64
     use funit_exceptions, only: throw
+    use funit_locations, only: SourceLocation
     implicit none (type, external)
     private
     public :: comparison, conformable, fail_reals, headline, keyword_only, line, list, place
@@ -14,16 +15,17 @@ module funit_messages
 
 contains
 
-    logical function conformable(expected, actual, message)
+    logical function conformable(expected, actual, message, location)
         !! Whether two arrays of one rank have the same shape; record a failure if not.
         integer, intent(in) :: expected(:), actual(:)  !! shapes
         character(*), intent(in), optional :: message
+        type(SourceLocation), intent(in), optional :: location
 
         conformable = all(expected == actual)
         if (.not. conformable) then
             call throw(headline("Arrays not conformable", [integer ::], message) &
                        //line("Expected shape", 18, list(expected)) &
-                       //line("Actual shape", 18, list(actual)))
+                       //line("Actual shape", 18, list(actual)), location)
         end if
     end function conformable
 
@@ -55,23 +57,27 @@ contains
         character(80) :: buffer
 
         buffer = "0"
-        if (size(numbers) > 0) write (buffer, "(i0, *(:, ',', i0))") numbers
+        if (size(numbers) > 0) write (buffer, "(ss, i0, *(:, ',', i0))") numbers
         text = "["//trim(buffer)//"]"
     end function list
 
-    subroutine fail_reals(claim, label, expected, actual, difference, tolerance, at, message)
+    subroutine fail_reals(claim, label, expected, actual, difference, tolerance, at, message, &
+                          location)
         !! Say how far apart two numbers are.
         character(*), intent(in) :: claim, label
         real(real64), intent(in) :: expected, actual, difference, tolerance
         integer, intent(in) :: at(:)
         character(*), intent(in), optional :: message
+        type(SourceLocation), intent(in), optional :: location
         character(45) :: wanted, got
         character(135) :: apart
 
-        write (wanted, "(g0)") expected
-        write (got, "(g0)") actual
-        write (apart, "('<', g0, '> (greater than tolerance of ', g0, ')')") difference, tolerance
-        call throw(headline(claim, at, message)//comparison(wanted, got, label, apart, at))
+        write (wanted, "(ss, g0)") expected
+        write (got, "(ss, g0)") actual
+        write (apart, "(ss, '<', g0, '> (greater than tolerance of ', g0, ')')") &
+            difference, tolerance
+        call throw(headline(claim, at, message)//comparison(wanted, got, label, apart, at), &
+                   location)
     end subroutine fail_reals
 
     function comparison(expected, actual, label, difference, at) result(text)

@@ -1,5 +1,6 @@
 module funit_suites
     !! Tests, and suites of them.
+    use funit_messages, only: keyword_only
     implicit none (type, external)
     private
     public :: TestMethod, TestSuite, test_i
@@ -15,6 +16,8 @@ module funit_suites
         !! A test and its name.
         character(:), allocatable :: name
         procedure(test_i), pointer, nopass :: method => null()
+        procedure(test_i), pointer, nopass :: set_up => null()     !! runs before it
+        procedure(test_i), pointer, nopass :: tear_down => null()  !! runs after it
     end type TestMethod
 
     interface TestMethod
@@ -36,14 +39,19 @@ module funit_suites
 
 contains
 
-    function new_test_method(name, method) result(self)
-        !! The test `method`, called `name`.
+    function new_test_method(name, method, unused, setUp, tearDown) result(self)
+        !! The test `method`, called `name`. `setUp` runs before it; the test and `tearDown` only
+        !! if that did not fail.
         character(*), intent(in) :: name
         procedure(test_i) :: method
+        class(keyword_only), intent(in), optional :: unused
+        procedure(test_i), optional :: setUp, tearDown
         type(TestMethod) :: self
 
         self%name = trim(name)
         self%method => method
+        if (present(setUp)) self%set_up => setUp
+        if (present(tearDown)) self%tear_down => tearDown
     end function new_test_method
 
     function new_test_suite(name) result(self)
@@ -64,6 +72,8 @@ contains
         associate (last => self%tests(size(self%tests)))
             last%name = self%name//"."//aTest%name
             last%method => aTest%method
+            last%set_up => aTest%set_up
+            last%tear_down => aTest%tear_down
         end associate
     end subroutine add_method
 
@@ -76,8 +86,7 @@ contains
         before = size(self%tests)
         call extend(self%tests, size(aTest%tests))
         do i = 1, size(aTest%tests)
-            self%tests(before + i)%name = aTest%tests(i)%name
-            self%tests(before + i)%method => aTest%tests(i)%method
+            self%tests(before + i) = aTest%tests(i)
         end do
     end subroutine add_suite
 
@@ -92,6 +101,8 @@ contains
         do i = 1, size(tests)
             call move_alloc(tests(i)%name, longer(i)%name)
             longer(i)%method => tests(i)%method
+            longer(i)%set_up => tests(i)%set_up
+            longer(i)%tear_down => tests(i)%tear_down
         end do
         call move_alloc(longer, tests)
     end subroutine extend
