@@ -156,6 +156,71 @@ for odd in ../up /abs 'a/../../b' ''; do
     check "scene%output='$odd' is refused" eval '[ $status -eq 2 ] && one_line && [ ! -e "$work/up.dat" ]'
 done
 
+# Texts that a shell, gnuplot, a terminal, JSON or a table might take for more than a text
+inside() { # inside FOLDER WORDS...: the program, run there
+    (cd "$1" && timeout 60 "$program" "${@:2}" >"$work/out" 2>"$work/err" </dev/null)
+    status=$?
+}
+texts=('<touch owned;true ' '|touch owned;true ' '-x' '~root' '`touch owned`' '$(touch owned)' '@touch owned'
+    "it's" "'Small' oscillations" "''" '"q"' '" ; system "touch owned" #' 'a\' '\140touch owned\140' 'a_b^{2} &c ~d'
+    '50 %s %' '#' '!touch owned' '{/*9 x}' 'ä→' '$0 $h' 'a;b')
+if command -v gnuplot >/dev/null; then
+    for text in "${texts[@]}"; do
+        inside "$work" run pendulum --plot=svg --quiet "--output=$text"
+        check "--plot --output=$(printf %q "$text"): drawn, nothing is run" eval '[ $status -eq 0 ] && [ -s "$work/$text/pendulum.svg" ] && [ -z "$(find "$work" -name owned)" ]'
+        rm -rf "$work/./$text/pendulum.png"
+        (cd "$work/./$text" && timeout 20 gnuplot pendulum.gp >/dev/null 2>"$work/err")
+        status=$?
+        check "the same script, by hand" eval '[ $status -eq 0 ] && [ -s "$work/./$text/pendulum.png" ] && [ -z "$(find "$work" -name owned)" ]'
+        rm -rf "$work/./$text"
+        printf '%s\n' "&scene title='${text//\'/\'\'}' system='pendulum' dt=1e-2 duration=1 q=1 output='t' /" >"$work/title.nml"
+        run run "$work/title.nml" --plot=svg --quiet --output "$work/titles"
+        check "a title: $text" eval '[ $status -eq 0 ] && [ -z "$(find "$work" -name owned)" ] && python3 -c "import sys, xml.dom.minidom as m
+sys.exit(sys.argv[2] not in [\"\".join(c.data for c in t.childNodes if c.data) for t in m.parse(sys.argv[1]).getElementsByTagName(\"text\") if all(c.nodeType == 3 for c in t.childNodes)])" "$work/titles/t.svg" "${text%"${text##*[! ]}"}"'
+    done
+    for writer in "principle least-time" "bench precision --quick --quiet --problems P1 --methods rk4"; do
+        for text in '<touch owned;true ' '|touch owned;true '; do
+            inside "$work" $writer --plot "--output=$text"
+            check "$writer --plot --output='$text': drawn, nothing is run" eval '[ $status -eq 0 ] && [ -n "$(find "$work/$text" -name "*.png")" ] && [ -z "$(find "$work" -name owned)" ]'
+            rm -rf "${work:?}/$text"
+        done
+    done
+fi
+plain() { # no control character but the ends of lines, no byte that is not UTF-8
+    python3 -c 'import sys, unicodedata
+for name in sys.argv[1:]:
+    if any(unicodedata.category(c) in ("Cc", "Cf", "Zl", "Zp") and c != "\n" for c in open(name, "rb").read().decode("utf-8")): sys.exit(name)' "$@"
+}
+odd=$'ev\e[31mil\nrow\xff\xc3\xc2\x9b\xe2\x80\xae.nml'
+printf "&scene title='Schw\xfcnge \xc2\x9b31m \xe2\x80\xae' system='pendulum' dt=1e-2 duration=1 q=1 output='odd' /" >"$work/$odd"
+inside "$work" run "$odd" --output "$work/odd"
+check "a scene's odd name: nothing raw on stdout or stderr, two lines of the scorecard" eval '[ $status -eq 0 ] && plain "$work/out" "$work/err" "$work/odd/odd.dat" "$work/odd/odd.gp" && [ "$(grep -c "row" "$work/out")" -eq 1 ]'
+inside "$work" run "$odd" --json --output $'o\e\xff'
+check "a scene's and a folder's odd name: JSON in UTF-8" eval '[ $status -eq 0 ] && plain "$work/out" "$work/err" && python3 -c "import json, sys; d = json.load(open(sys.argv[1], encoding=\"utf-8\")); sys.exit(d[0][\"scene\"][:3] != \"ev\" + chr(27))" "$work/out"'
+inside "$work" run "$odd" --set scene%dt=-1
+check "a scene's odd name in a refusal" eval '[ $status -eq 2 ] && one_line && plain "$work/err"'
+for words in "run" "describe" "--" "--set" "run pendulum --format" "run pendulum --plot" "modes pendulum --at" "bench --tolerances"; do
+    inside "$work" $words$([ "${words##* --}" = "$words" ] || echo =)$'\e]0;x\a\xff\xe2\x80\xae'
+    check "an odd word behind '$words'" eval '[ $status -ne 0 ] && one_line && plain "$work/err" "$work/out"'
+done
+run run rotating_hoop atwood --output "$work/words"
+check "a word a column in the last line of every header" eval '[ $status -eq 0 ] && for f in "$work"/words/*.dat; do [ "$(grep "^#" "$f" | tail -n 1 | wc -w)" -eq "$(($(tail -n 1 "$f" | wc -w) + 1))" ] || exit 1; done'
+run run rotating_hoop --set "scene%columns='t','torque'" --set scene%plot=torque --output "$work/words"
+check "a unit with a blank is one word" eval '[ $status -eq 0 ] && [ "$(grep "^#" "$work/words/rotating_hoop.dat" | tail -n 1)" = "# t[s] torque[N*m]" ]'
+
+# Numbers that a table has no room for
+run run oscillator_verlet --set scene%dt=1.5 --set scene%duration=15000 --set scene%every=1 --set oscillator%k=1e4 --output "$work/stars"
+check "a failed run: no asterisks" eval '[ $status -eq 3 ] && ! grep -qF "**" "$work/out"'
+run run oscillator_verlet --set oscillator%k=1e30 --set scene%dt=1e-17 --set scene%duration=1e-14 --set scene%modes=.true. --set scene%expect_energy_drift=1e-200 --output "$work/stars"
+check "a fast oscillator: no asterisks" eval '! grep -qF "**" "$work/out" && grep -qF "1.00000E+15" "$work/out"'
+for words in "modes pendulum --set pendulum%g=1e200" "modes pendulum --set pendulum%g=1e-250" "check rotating_hoop --set rotating_hoop%m=1e12" \
+    "check pendulum --set pendulum%m=1e180 --set pendulum%g=1e-150"; do
+    run $words
+    check "$words: no asterisks" eval '[ -s "$work/out" ] && ! grep -qF "**" "$work/out"'
+done
+run run oscillator_verlet --json --set scene%dt=1.5 --set scene%duration=15 --set oscillator%k=4 --output "$work/stars"
+check "--json carries the warning of the step limit" eval 'python3 -c "import json, sys; sys.exit(\"exceeds the step limit\" not in json.load(open(sys.argv[1]))[0][\"warning\"])" "$work/out"'
+
 # Pipes: a reader that has seen enough is no error of ours, but the status tells that not all was read
 unread() { # unread WORDS...: stdout is a pipe whose reader has gone
     { sleep 0.1; timeout 20 "$program" "$@" 2>"$work/err"; echo $? >"$work/status"; } | true

@@ -13,6 +13,7 @@ module suites
     use test_canonical_maps, only: canonical_maps_suite
     use test_cart_pendulum, only: cart_pendulum_suite
     use test_catalogue, only: catalogue_suite
+    use test_characters, only: characters_suite
     use test_charged_particle, only: charged_particle_suite
     use test_charged_particle_reference, only: charged_particle_reference_suite
     use test_columns, only: columns_suite
@@ -132,6 +133,7 @@ contains
         call suite%addTest(canonical_maps_suite())
         call suite%addTest(cart_pendulum_suite())
         call suite%addTest(catalogue_suite())
+        call suite%addTest(characters_suite())
         call suite%addTest(charged_particle_suite())
         call suite%addTest(charged_particle_reference_suite())
         call suite%addTest(columns_suite())

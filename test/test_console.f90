@@ -38,7 +38,7 @@ contains
 
         path = new_folder("console")//"/out"
         call assertEqual(0, exit_status(put_some))
-        call assertEqual("a b"//new_line("a")//repeat("0123456789", 10000), contents(path))
+        call assertEqual("a b\x1B\xFF"//new_line("a")//repeat("0123456789", 10000), contents(path))
         call assertTrue(remove_file(path))
     end subroutine stdout_arrives
 
@@ -49,7 +49,7 @@ contains
 
         call send_stdout_to(new_folder("console")//"/out")
         call put("a ")
-        call put_line("b")
+        call put_line("b"//achar(27)//char(255))
         do i = 1, 10000
             call put("0123456789")
         end do
@@ -171,8 +171,8 @@ contains
         path = new_folder("note")//"/out"
         call assertEqual(0, exit_status(note_something))
         rest = contents(path)
-        call assertEqual("first"//new_line("a")//"lagrangia: a?b??[1m?c"//new_line("a"), &
-                         rest(:len(rest) - 301))
+        call assertEqual("first"//new_line("a")//"lagrangia: a\x0Ab\x00\x1B[1m\x7Fc"// &
+                         new_line("a"), rest(:len(rest) - 301))
         call assertEqual(" end"//new_line("a"), rest(len(rest) - 4:))
         call assertTrue(remove_file(path))
     end subroutine a_note_is_one_line

@@ -1,8 +1,10 @@
 module test_gnuplot
     !! Panels as a scene wants them, and scripts in which no text of the user's is a command.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_characters, only: printable
     use lagrangia_errors, only: error_t
     use lagrangia_gnuplot, only: gnuplot_script, new_panels, panel_t
+    use lagrangia_gnuplot_script, only: gnuplot_string
     use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
@@ -24,7 +26,8 @@ contains
         call suite%addTest(TestMethod("panels_are_read", panels_are_read))
         call suite%addTest(TestMethod("panels_gather_by_unit", panels_gather_by_unit))
         call suite%addTest(TestMethod("wrong_panels_are_refused", wrong_panels_are_refused))
-        call suite%addTest(TestMethod("a_title_is_no_command", a_title_is_no_command))
+        call suite%addTest(TestMethod("a_text_is_no_command", a_text_is_no_command))
+        call suite%addTest(TestMethod("marks_are_letters", marks_are_letters))
         call suite%addTest(TestMethod("columns_are_drawn_with_units", columns_are_drawn_with_units))
         call suite%addTest(TestMethod("lengths_share_a_scale", lengths_share_a_scale))
         call suite%addTest(TestMethod("a_constant_has_a_range", a_constant_has_a_range))
@@ -103,60 +106,130 @@ contains
         text = gnuplot_script("it.dat", "", title, names, units, low, high, panels)
     end function script
 
-    subroutine a_title_is_no_command()
-        !! Within single quotes gnuplot substitutes nothing; outside of them nothing of the title
-        !! is left, whatever it contains.
-        character(*), parameter :: titles(*) = [character(64) :: &
-            "plain MARK", "it's MARK", "' ; MARK ; '", "''MARK", "MARK'", """MARK"" \MARK\", &
-            "`MARK`", "$(MARK) @MARK # MARK", "\'MARK", "{/*9 MARK}_^", "MARK\"]
+    subroutine a_text_is_no_command()
+        !! Outside of strings nothing of a text is left, whatever it contains and wherever it comes
+        !! from; inside, what was written can be read back.
+        character(*), parameter :: texts(*) = [character(64) :: &
+            "plain MARK", "it's MARK", "' ; MARK ; '", "'Small' MARK", "''MARK", "MARK'", &
+            """MARK"" \MARK\", """; MARK ; """, "`MARK`", "$(MARK) @MARK # MARK", "\'MARK", &
+            "\""; MARK #", "{/*9 MARK}_^ &~%", "MARK\", "<MARK", "|MARK", "-MARK", "50 %s MARK", &
+            "\140MARK\140", "MA"//char(195)//char(164)//"MARK", "a"//char(9)//"MARK", &
+            "a"//char(10)//"MARK", "a"//char(13)//"MARK"//char(27)//"[31m", char(255)//"MARK"]
+        character(:), allocatable :: text, shown
+        type(panel_t), allocatable :: panels(:)
+        type(error_t), allocatable :: error
+        integer :: i, k
+
+        do i = 1, size(texts)
+            shown = printable(trim(texts(i)))
+            call assertEqual(shown, read_back(gnuplot_string(trim(texts(i)))), texts(i))
+            do k = 1, 4
+                call new_panels(["x"], ["t", "x"], ["s", "m"], panels, error)
+                select case (k)
+                case (1)
+                    text = gnuplot_script("it.dat", "", trim(texts(i)), ["t", "x"], ["s", "m"], &
+                                          [0.0_dp, 0.0_dp], [1.0_dp, 1.0_dp], panels)
+                case (2)
+                    text = gnuplot_script("it.dat", "", "", [character(64) :: "t", texts(i)], &
+                                          ["s", "m"], [0.0_dp, 0.0_dp], [1.0_dp, 1.0_dp], panels)
+                case (3)
+                    text = gnuplot_script("it.dat", "", "", ["t", "x"], [character(64) :: "s", &
+                                          texts(i)], [0.0_dp, 0.0_dp], [1.0_dp, 1.0_dp], panels)
+                case default
+                    text = gnuplot_script(trim(texts(i))//".dat", "", "", ["t", "x"], ["s", "m"], &
+                                          [0.0_dp, 0.0_dp], [1.0_dp, 1.0_dp], panels)
+                end select
+                call assertTrue(index(text, "MARK") > 0, "the text is there: "//texts(i))
+                text = outside(text)
+                call assertEqual(0, index(text, "MARK"), "a command: "//texts(i))
+                call assertEqual(0, scan(text, "`@"//char(9)//char(13)), "what acts: "//texts(i))
+            end do
+        end do
+    end subroutine a_text_is_no_command
+
+    subroutine marks_are_letters()
+        !! The signs of enhanced text, _ ^ { } & @ ~ and %, are what they are in every terminal.
+        character(*), parameter :: kinds(*) = [character(8) :: "pngcairo", "png", "svg", "dumb"]
         character(:), allocatable :: text
         integer :: i
 
-        do i = 1, size(titles)
-            text = script(trim(titles(i)), ["x"])
-            call assertTrue(index(text, "MARK") > 0, "the title is there: "//titles(i))
-            text = outside(text)
-            call assertEqual(0, index(text, "MARK"), "a command: "//titles(i))
-            call assertEqual(0, scan(text, "`@"), "a substitution: "//titles(i))
-            call assertTrue(index(text, "noenhanced") > 0, "marks are not letters' sizes")
+        text = script("a_b^{2}", ["x"])
+        do i = 1, size(kinds)
+            call assertTrue(index(text, "set terminal "//trim(kinds(i))//" noenhanced") > 0, &
+                            kinds(i))
         end do
-    end subroutine a_title_is_no_command
+        call assertEqual(0, index(text, " enhanced"), text)
+    end subroutine marks_are_letters
 
     pure function outside(text) result(rest)
-        !! `text` without its single-quoted strings, in which `''` is a quote. A string ends at
-        !! the end of its line at the latest.
+        !! `text` without comments and without its strings, a backslash and what stands behind it
+        !! being part of them where the quotes are double. A string ends at the end of its line.
         character(*), intent(in) :: text
         character(:), allocatable :: rest
-        logical :: within
+        character(1) :: quote
         integer :: i
 
         rest = ""
-        within = .false.
-        do i = 1, len(text)
-            if (text(i:i) == new_line("a")) within = .false.
-            if (text(i:i) == "'") then
-                within = .not. within
-            else if (.not. within) then
+        quote = " "
+        i = 0
+        do while (i < len(text))
+            i = i + 1
+            if (text(i:i) == new_line("a")) quote = " "
+            if (quote == """" .and. text(i:i) == "\") then
+                i = i + 1
+            else if (quote == "#") then
+                cycle
+            else if (text(i:i) == quote) then
+                quote = " "
+            else if (quote == " " .and. scan(text(i:i), "'""#") == 1) then
+                quote = text(i:i)
+            else if (quote == " ") then
                 rest = rest//text(i:i)
             end if
         end do
     end function outside
+
+    pure function read_back(string) result(text)
+        !! What gnuplot makes of a string between double quotes: `\ooo` is a byte, `\c` else `c`.
+        character(*), intent(in) :: string
+        character(:), allocatable :: text
+        integer :: code, i
+
+        text = ""
+        if (string(1:1) /= """" .or. string(len(string):) /= """") return
+        i = 2
+        do while (i < len(string))
+            if (string(i:i) == "\") then
+                i = i + 1
+                if (scan(string(i:i), "01234567") == 1) then
+                    read (string(i:i + 2), "(o3)") code
+                    text = text//char(code)
+                    i = i + 3
+                    cycle
+                end if
+            else if (scan(string(i:i), """`@") == 1) then
+                text = text//"UNESCAPED"
+            end if
+            text = text//string(i:i)
+            i = i + 1
+        end do
+    end function read_back
 
     subroutine columns_are_drawn_with_units()
         !! By their numbers, from the file beside the script, with labels for axes and curves.
         character(:), allocatable :: text
 
         text = script("a title", [character(12) :: "theta", "x:y+x_dot"])
-        call assertTrue(index(text, "data = folder.'it.dat'") > 0, text)
-        call assertTrue(index(text, "picture = folder.'it'") > 0, text)
-        call assertTrue(index(text, "layout 2,1 title 'a title' noenhanced") > 0, text)
-        call assertTrue(index(text, "set xlabel 't [s]'") > 0, text)
-        call assertTrue(index(text, "set ylabel 'theta [rad]'; unset key") > 0, text)
+        call assertTrue(index(text, "data = folder.""it.dat""") > 0, text)
+        call assertTrue(index(text, "picture = folder.""it""") > 0, text)
+        call assertTrue(index(text, "layout 2,1 title ""a title"" noenhanced") > 0, text)
+        call assertTrue(index(text, "set xlabel ""t [s]""") > 0, text)
+        call assertTrue(index(text, "set ylabel ""theta [rad]""; unset key") > 0, text)
         call assertTrue(index(text, "plot data using 1:3 with lines") > 0, text)
-        call assertTrue(index(text, "set xlabel 'x [m]'") > 0, text)
-        call assertTrue(index(text, "plot data using 2:5 with lines lw 1.5 title 'y [m]', data "// &
-                              "using 2:4 with lines lw 1.5 title 'x_dot [m/s]'") > 0, text)
-        call assertTrue(index(text, "set ylabel ''; set key") > 0, "units that differ")
+        call assertTrue(index(text, "set xlabel ""x [m]""") > 0, text)
+        call assertTrue(index(text, "plot data using 2:5 with lines lw 1.5 title ""y [m]"", "// &
+                        "data using 2:4 with lines lw 1.5 title ""x_dot [m/s]""") > 0, text)
+        call assertTrue(index(text, "set ylabel """"; set key") > 0, "units that differ")
     end subroutine columns_are_drawn_with_units
 
     subroutine lengths_share_a_scale()

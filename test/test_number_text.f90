@@ -1,8 +1,8 @@
 module test_number_text
-    !! Rows of numbers: every double survives the trip to text and back.
-    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual
+    !! Rows of numbers: every double survives the trip to text and back. Cells: none overflows.
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertTrue
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_number_text, only: field_width, write_csv_row, write_row
+    use lagrangia_number_text, only: field_width, fixed, scientific, write_csv_row, write_row
     implicit none (type, external)
     private
     public :: number_text_suite
@@ -17,6 +17,7 @@ contains
         call suite%addTest(TestMethod("every_double_survives", every_double_survives))
         call suite%addTest(TestMethod("a_row_has_fixed_fields", a_row_has_fixed_fields))
         call suite%addTest(TestMethod("a_csv_row_has_commas", a_csv_row_has_commas))
+        call suite%addTest(TestMethod("cells_never_overflow", cells_never_overflow))
     end function number_text_suite
 
     subroutine every_double_survives()
@@ -54,6 +55,29 @@ contains
         call write_row([5e-324_dp], row(:field_width + 1), length)
         call assertEqual(" 4.9406564584124654E-324"//new_line("a"), row(:length))
     end subroutine a_row_has_fixed_fields
+
+    subroutine cells_never_overflow()
+        !! Every size of a double, either sign: the text is there, and reads back to what it shows.
+        character(:), allocatable :: text
+        real(dp) :: back, x
+        integer :: exponent, shown
+
+        do exponent = -323, 307
+            x = merge(-9.96_dp, 1.25_dp, mod(exponent, 2) == 0)*10.0_dp**exponent
+            text = scientific(x, 2)
+            read (text, *) back
+            call assertTrue(abs(back - x) <= 0.05_dp*abs(x) + 2.0_dp*spacing(x), text)
+            read (text(index(text, "E") + 1:), *) shown
+            call assertEqual(merge(3, 2, abs(shown) >= 100), len(text) - index(text, "E") - 1, text)
+            text = fixed(x, 4)
+            read (text, *) back
+            call assertTrue(abs(back - x) <= 0.5e-4_dp + spacing(x), text)
+        end do
+        call assertEqual("1.2E-09", scientific(1.24e-9_dp, 2))
+        call assertEqual("-1.2346E+100", scientific(-1.23456e100_dp, 5))
+        call assertEqual("0.0", fixed(0.0_dp, 1))
+        call assertEqual("-0.0120", fixed(-0.012_dp, 4))
+    end subroutine cells_never_overflow
 
     subroutine a_csv_row_has_commas()
         !! And no blanks.

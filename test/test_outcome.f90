@@ -27,6 +27,10 @@ contains
         call suite%addTest(TestMethod("json_says_null_for_what_is_missing", &
                                       json_says_null_for_what_is_missing))
         call suite%addTest(TestMethod("json_strings_are_escaped", json_strings_are_escaped))
+        call suite%addTest(TestMethod("json_is_utf_8", json_is_utf_8))
+        call suite%addTest(TestMethod("json_has_what_stderr_says", json_has_what_stderr_says))
+        call suite%addTest(TestMethod("rows_have_no_asterisks", rows_have_no_asterisks))
+        call suite%addTest(TestMethod("a_row_is_one_line", a_row_is_one_line))
         call suite%addTest(TestMethod("json_numbers_have_17_digits", json_numbers_have_17_digits))
         call suite%addTest(TestMethod("rows_stand_under_their_titles", &
                                       rows_stand_under_their_titles))
@@ -168,6 +172,64 @@ contains
         outcome%scene = 'a "swing"\'
         call starts(outcome_json(outcome), '{"scene": "a \"swing\"\\", ')
     end subroutine json_strings_are_escaped
+
+    subroutine json_is_utf_8()
+        !! What is none is told by its bytes; what turns the text around is escaped.
+        call assertEqual('"\\xFF\\xC3"', json_string(char(255)//char(195)))
+        call assertEqual('"\u0085\u202e"', json_string(char(194)//char(133)//char(226)// &
+                                                      char(128)//char(174)))
+        call assertEqual('"'//char(195)//char(164)//'"', json_string(char(195)//char(164)))
+    end subroutine json_is_utf_8
+
+    subroutine json_has_what_stderr_says()
+        !! A warning, a remark, a failure.
+        type(outcome_t) :: outcome
+        character(:), allocatable :: json
+
+        call set_up(outcome)
+        json = outcome_json(outcome)
+        call contains_once(json, '"choice": null, "warning": null, "remark": null, '// &
+                           '"failure": null, "verdict": "not judged"')
+        outcome%warning = "dt is too long"
+        outcome%remark = " (the last one shortened)"
+        outcome%failure = "not finite"
+        json = outcome_json(outcome)
+        call contains_once(json, '"warning": "dt is too long", "remark": '// &
+                           '"(the last one shortened)", "failure": "not finite", '// &
+                           '"verdict": "failed"')
+    end subroutine json_has_what_stderr_says
+
+    subroutine rows_have_no_asterisks()
+        !! However large or small the numbers of a run that failed are.
+        type(outcome_t) :: outcome
+        character(:), allocatable :: row
+
+        call set_up(outcome)
+        outcome%drifts = [measure_t("energy_drift", 2e300_dp)]
+        outcome%others = [measure_t("error", 2.5e-300_dp), &
+                          measure_t("period", 5e150_dp, .true., 1e-100_dp)]
+        outcome%error_from = from_closed_form
+        outcome%omega = 1.25e157_dp
+        outcome%omega_error = 1e-200_dp
+        outcome%seconds = 1e9_dp
+        row = scorecard_row(outcome)
+        call assertEqual(0, index(row, "*"), row)
+        call contains_once(row, " 2.0E+300 energy ")
+        call contains_once(row, " 2.5E-300 exact ")
+        call contains_once(row, " 1.25000E+157 1.0E-200 ")
+        call contains_once(row, " 1000000000.0000  NOT period 5.0E+150 > 1.0E-100")
+        outcome%omega = 1.25e-7_dp
+        call contains_once(scorecard_row(outcome), " 1.25000E-07 1.0E-200 ")
+    end subroutine rows_have_no_asterisks
+
+    subroutine a_row_is_one_line()
+        !! Whatever the scene is called.
+        type(outcome_t) :: outcome
+
+        call set_up(outcome)
+        outcome%scene = "a"//achar(27)//"[31m"//new_line("a")//char(255)//char(195)//char(164)
+        call starts(scorecard_row(outcome), "a\x1B[31m\x0A\xFF"//char(195)//char(164)//" ")
+    end subroutine a_row_is_one_line
 
     subroutine json_numbers_have_17_digits()
         !! So that a double survives; whole numbers of 64 bits as they are.

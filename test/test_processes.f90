@@ -9,6 +9,7 @@ module test_processes
     use lagrangia_interrupt, only: catch_interrupts, interrupt_status
     use lagrangia_output_file, only: output_file_t
     use lagrangia_processes, only: run_program
+    use lagrangia_text, only: word_t
     use test_scratch, only: c_dup2, c_raise, contents, exit_status, new_folder, remove_file, &
         send_stdout_to
     implicit none (type, external)
@@ -135,27 +136,29 @@ contains
         type(error_t), allocatable :: error
         integer :: status
 
-        call run_program([character(12) :: "sh", "-c", "exit 7"], status, error)
+        call run_program([word_t("sh"), word_t("-c"), word_t("exit 7")], status, error)
         call assertFalse(allocated(error))
         call assertEqual(7, status)
-        call run_program([character(12) :: "sh", "-c", "kill -9 $$"], status, error)
+        call run_program([word_t("sh"), word_t("-c"), word_t("kill -9 $$")], status, error)
         call assertFalse(allocated(error))
         call assertEqual(137, status)
-        call run_program(["true"], status, error)
+        call run_program([word_t("true")], status, error)
         call assertEqual(0, status)
     end subroutine programs_return_their_status
 
     subroutine arguments_reach_no_shell()
-        !! One argument stays one argument, character for character.
+        !! One argument stays one argument, byte for byte, blanks at its end too.
         type(error_t), allocatable :: error
-        character(60) :: arguments(5)
+        type(word_t) :: arguments(6)
         integer :: status
 
-        arguments(1) = "sh"
-        arguments(2) = "-c"
-        arguments(3) = "test $# = 1 && test ""$1"" = 'a  $(b) ""c"" *;' && exit 7"
-        arguments(4) = "name"
-        arguments(5) = "a  $(b) ""c"" *;"
+        arguments(1)%text = "sh"
+        arguments(2)%text = "-c"
+        arguments(3)%text = "test $# = 2 && test ""$1"" = 'a  $(b) ""c"" *; ' && "// &
+                            "test ${#2} = 5000 && exit 7"
+        arguments(4)%text = "name"
+        arguments(5)%text = "a  $(b) ""c"" *; "
+        arguments(6)%text = repeat("x", 5000)
         call run_program(arguments, status, error)
         call assertEqual(7, status)
     end subroutine arguments_reach_no_shell
@@ -165,7 +168,7 @@ contains
         type(error_t), allocatable :: error
         integer :: status
 
-        call run_program([character(12) :: "/no/gnuplot", "-d"], status, error)
+        call run_program([word_t("/no/gnuplot"), word_t("-d")], status, error)
         call assertTrue(allocated(error))
         if (anyExceptions()) return
         call assertEqual("cannot run '/no/gnuplot': no such program", error%message)
@@ -190,7 +193,7 @@ contains
 
         call send_stdout_to(new_folder("order")//"/out")
         call put_line("one")
-        call run_program([character(8) :: "sh", "-c", "echo two"], status, error)
+        call run_program([word_t("sh"), word_t("-c"), word_t("echo two")], status, error)
         call put_line("three")
         call finish_console(error)
     end function put_run_put

@@ -4,7 +4,7 @@ module lagrangia_bench_files
     use lagrangia_contestant, only: knobs, party_closed_form, party_gsl
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
-    use lagrangia_gnuplot_script, only: begin_script, lines_t
+    use lagrangia_gnuplot_script, only: begin_script, gnuplot_string, lines_t
     use lagrangia_kinds, only: dp
     use lagrangia_machine, only: processor
     use lagrangia_output_file, only: output_file_t
@@ -174,9 +174,9 @@ contains
             character(:), allocatable :: line
             integer :: k
 
-            call script%add("set title '"//trim(problems(which)%name)//": "// &
+            call script%add("set title "//gnuplot_string(trim(problems(which)%name)//": "// &
                             trim(problems(which)%title)//", T = "// &
-                            to_text(problems(which)%duration)//" s' noenhanced offset 0,-0.7")
+                            to_text(problems(which)%duration)//" s")//" noenhanced offset 0,-0.7")
             call script%add("set xrange ["//time_range(curves, which)//"]; set yrange [1e-16:2]")
             line = ""
             do k = 1, size(curves)
@@ -200,8 +200,8 @@ contains
             line = "plot "
             do k = 1, size(methods)
                 if (k > 1) line = line//", "
-                line = line//"NaN with linespoints ls "//to_text(k)//" title '"// &
-                       trim(methods(k))//"'"
+                line = line//"NaN with linespoints ls "//to_text(k)//" title "// &
+                       gnuplot_string(trim(methods(k)))
             end do
             call script%add(line)
         end subroutine draw_legend

@@ -210,7 +210,7 @@ contains
         exponent = 0
         if (abs(number) > 0.0_dp) exponent = floor(log10(abs(number)*(1.0_dp + epsilon(number))))
         if (exponent < -3 .or. exponent > 8) then
-            write (layout, "(a, i0, a)") "(es20.", digits - 1, "e2)"
+            write (layout, "(a, i0, a)") "(es20.", digits - 1, "e3)"
         else
             behind = max(0, digits - 1 - exponent)
             write (layout, "(a, i0, a)") "(f30.", behind, ")"

@@ -11,6 +11,7 @@ module lagrangia_check
     use lagrangia_json, only: json_number, json_string
     use lagrangia_kinds, only: dp, i8
     use lagrangia_method_orders, only: audit_methods
+    use lagrangia_number_text, only: scientific
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -103,20 +104,22 @@ contains
     end subroutine put_head
 
     pure function short(value) result(text)
-        !! Two digits.
+        !! Two digits, in eight columns at least.
         real(dp), intent(in) :: value
-        character(8) :: text
+        character(:), allocatable :: text
 
-        text = "       0"
-        if (abs(value) > 0.0_dp .or. .not. abs(value) <= 0.0_dp) write (text, "(es8.1e2)") value
+        text = "0"
+        if (abs(value) > 0.0_dp .or. .not. abs(value) <= 0.0_dp) text = scientific(value, 2)
+        text = repeat(" ", max(1, 8 - len(text)))//text
     end function short
 
     pure function to_wide(number) result(text)
-        !! In seven columns.
+        !! In seven columns at least.
         integer, intent(in) :: number
-        character(7) :: text
+        character(:), allocatable :: text
 
-        write (text, "(i7)") number
+        text = to_text(number)
+        text = repeat(" ", max(1, 7 - len(text)))//text
     end function to_wide
 
     subroutine put_json(audit)

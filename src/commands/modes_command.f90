@@ -8,8 +8,9 @@ module lagrangia_modes_command
     use lagrangia_json, only: json_list, json_number, json_string
     use lagrangia_kinds, only: dp
     use lagrangia_modes_files, only: write_mode
-    use lagrangia_namelist_numbers, only: read_number
     use lagrangia_namelist_words, only: misread
+    use lagrangia_number_reader, only: read_number
+    use lagrangia_number_text, only: scientific
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, modes_t
     use lagrangia_system, only: system_t
@@ -106,7 +107,7 @@ contains
         end if
         if (modes%difference >= 0.0_dp) then
             call put_line("page against L's second derivatives, relative: "// &
-                          trim(short(modes%difference)))
+                          short(modes%difference))
         else if (allocated(modes%page%mass)) then
             call put_line("page not compared with L's second derivatives: too many coordinates")
         else
@@ -226,7 +227,7 @@ contains
         if (abs(value) >= 1e-3_dp .and. abs(value) < 1e5_dp) then
             write (text, "(f18.11)") value
         else
-            write (text, "(es18.10e3)") value
+            write (text, "(es18.10e3)") value  ! as wide as the longest
         end if
         text = adjustl(text)
     end function number
@@ -234,10 +235,9 @@ contains
     pure function short(value) result(text)
         !! Two digits.
         real(dp), intent(in) :: value
-        character(8) :: text
+        character(:), allocatable :: text
 
-        write (text, "(es8.1e2)") value
-        text = adjustl(text)
+        text = scientific(value, 2)
         if (abs(value) <= 0.0_dp) text = "0"
     end function short
 

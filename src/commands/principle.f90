@@ -10,6 +10,7 @@ module lagrangia_principle
     use lagrangia_json, only: json_number, json_string
     use lagrangia_kinds, only: dp
     use lagrangia_least_time, only: least_time_principle
+    use lagrangia_number_text, only: scientific
     use lagrangia_picture_files, only: write_picture
     use lagrangia_report, only: report_t, statement_length, statement_t
     use lagrangia_scene_files, only: draw
@@ -178,17 +179,18 @@ contains
         else if (abs(value) >= 1e-2_dp .and. abs(value) < 1e4_dp) then
             write (text, "(f15.9)") value
         else
-            write (text, "(es15.7e2)") value
+            text = scientific(value, 8)
+            text = adjustr(text)
         end if
     end function shown
 
     pure function short(value) result(text)
         !! Two digits are enough for a difference.
         real(dp), intent(in) :: value
-        character(7) :: text
+        character(:), allocatable :: text
 
         text = "      0"
-        if (abs(value) > 0.0_dp) write (text, "(es7.1e2)") value
+        if (abs(value) > 0.0_dp) text = scientific(value, 2)
     end function short
 
     subroutine put_json(report)

@@ -1,7 +1,7 @@
 module lagrangia_run_command
     !! `lagrangia` and `lagrangia run SCENE...`: scenes, their files, the scorecard.
     use lagrangia_command_line, only: command_line_t, word_t
-    use lagrangia_console, only: note, put_line
+    use lagrangia_console, only: note, put, put_line
     use lagrangia_errors, only: error_t, fail, status_interrupted, status_not_held, &
                                 status_terminated
     use lagrangia_observer, only: observer_t
@@ -96,8 +96,8 @@ contains
         if (json) then
             call put_line("]")
         else if (.not. quiet) then
-            call put_line(scorecard_legend)
-            if (stated) call put_line(statement_legend)
+            call put(scorecard_legend//new_line("a"))
+            if (stated) call put(statement_legend//new_line("a"))
             call put_line("data files and gnuplot scripts: "//folder)
         end if
         if (missed > 0 .and. .not. allocated(error)) call fail(error, to_text(missed)//" of "// &
@@ -117,6 +117,7 @@ contains
             scene%error_estimate = scene%error_estimate .or. line%has("error-estimate")
             call progress%restart(trim(scene%name))
             call play(scene, system, folder, format, watcher, outcome, error)
+            outcome%warning = warning
             if (allocated(error) .or. .not. line%has("plot")) return
             call draw(outcome%file, kind, error)
             if (allocated(error) .or. outcome%events == "") return

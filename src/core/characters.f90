@@ -1,9 +1,9 @@
 module lagrangia_characters
-    !! Characters beyond ASCII that look like plain ones: word processors and web pages put them
-    !! in the place of what was typed.
+    !! Characters beyond ASCII: those that look like plain ones, which word processors and web pages
+    !! put in the place of what was typed, and those that no terminal should receive.
     implicit none (type, external)
     private
-    public :: described, plainly, unlike
+    public :: decode, described, is_control, plainly, printable, unlike
 
     type :: lookalike_t
         integer :: code = 0              !! Unicode's number
@@ -96,12 +96,63 @@ contains
         end do
     end function unlike
 
+    pure function printable(text) result(shown)
+        !! `text` as one line in valid UTF-8: a byte of a control character, or one that is no
+        !! UTF-8, becomes `\xNN`. All else stays as it is.
+        character(*), intent(in) :: text
+        character(:), allocatable :: shown
+        character(16), parameter :: hex = "0123456789ABCDEF"
+        character(:), allocatable :: buffer
+        integer :: byte, code, filled, i, k, length
+
+        shown = text
+        do i = 1, len(text)
+            if (ichar(text(i:i)) < 32 .or. ichar(text(i:i)) > 126) exit
+        end do
+        if (i > len(text)) return
+        allocate (character(4*len(text)) :: buffer)
+        filled = 0
+        i = 1
+        do while (i <= len(text))
+            call decode(text, i, code, length)
+            if (code >= 0 .and. .not. is_control(code)) then
+                buffer(filled + 1:filled + length) = text(i:i + length - 1)
+                filled = filled + length
+            else
+                do k = i, i + length - 1
+                    byte = ichar(text(k:k))
+                    buffer(filled + 1:filled + 4) = "\x"//hex(byte/16 + 1:byte/16 + 1)// &
+                                                    hex(mod(byte, 16) + 1:mod(byte, 16) + 1)
+                    filled = filled + 4
+                end do
+            end if
+            i = i + length
+        end do
+        shown = buffer(:filled)
+    end function printable
+
+    pure function is_control(code) result(yes)
+        !! Does the character with Unicode's number `code` control a terminal (C0, DEL, C1), end a
+        !! line, or turn the direction of what follows? Source: Unicode 15, sec. 23.1, 23.2.
+        integer, intent(in) :: code
+        logical :: yes
+
+        select case (code)
+        case (0:31, 127:159, int(z"061C"), int(z"200E"):int(z"200F"), &
+              int(z"2028"):int(z"202E"), int(z"2066"):int(z"2069"))
+            yes = .true.
+        case default
+            yes = .false.
+        end select
+    end function is_control
+
     pure subroutine decode(text, position, code, length)
         !! Unicode's number of the character at `position`, -1 where its bytes are no UTF-8; and
-        !! how many bytes it has. Source: RFC 3629, without its care for overlong forms.
-        character(*), intent(in) :: text
-        integer, intent(in) :: position
+        !! how many bytes it has, 1 where they are none. Source: RFC 3629.
+        character(*), intent(in) :: text          !! holds `position`
+        integer, intent(in) :: position           !! of the first byte
         integer, intent(out) :: code, length
+        integer, parameter :: least(4) = [0, int(z"80"), int(z"800"), int(z"10000")]
         integer :: byte, i
 
         byte = ichar(text(position:position))
@@ -124,5 +175,9 @@ contains
             end if
             code = 64*code + byte - 128
         end do
+        if (code >= least(length) .and. code <= int(z"10FFFF") .and. &
+            .not. (code >= int(z"D800") .and. code <= int(z"DFFF"))) return
+        code = -1  ! an overlong form, half of a pair of UTF-16, or beyond Unicode
+        length = 1
     end subroutine decode
 end module lagrangia_characters

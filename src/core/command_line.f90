@@ -2,7 +2,7 @@ module lagrangia_command_line
     !! The words of a command line: a command, its arguments, its options.
     use lagrangia_characters, only: plainly, unlike
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_text, only: quoted, to_text
+    use lagrangia_text, only: quoted, to_text, word_t
     implicit none (type, external)
     private
     public :: word_t, option_t, command_line_t
@@ -11,10 +11,6 @@ module lagrangia_command_line
 
     integer, parameter :: no_value = 0, needs_value = 1, may_have_value = 2
     integer, parameter :: longest_word = 4096
-
-    type :: word_t
-        character(:), allocatable :: text
-    end type word_t
 
     type :: option_t
         !! An option that exists: `--name`, what its value is, what it does.

@@ -7,6 +7,7 @@ module lagrangia_console
         c_size_t
     use, intrinsic :: iso_fortran_env, only: error_unit, input_unit, output_unit
     use lagrangia_c_library, only: c_fdopen, c_fflush, c_fwrite, c_isatty, c_write
+    use lagrangia_characters, only: printable
     use lagrangia_errors, only: error_t, fail, message_length, status_file, status_pipe
     use lagrangia_files, only: e_bad_unit, e_broken_pipe, last_error, reason
     use lagrangia_text, only: shortened
@@ -38,26 +39,21 @@ contains
     end subroutine put
 
     subroutine put_line(text)
-        !! Write `text` and the end of the line to stdout.
+        !! Write `text` as one line to stdout, whatever is in it: see `printable`.
         character(*), intent(in) :: text
 
-        call put(text//new_line("a"))
+        call put(printable(text)//new_line("a"))
     end subroutine put_line
 
     subroutine note(text)
-        !! Write the one line `lagrangia: text` to stderr, in at most 300 bytes; control characters
-        !! become `?`.
+        !! Write the one line `lagrangia: text` to stderr, in at most 300 bytes, whatever is in it:
+        !! see `printable`.
         character(*), intent(in) :: text
         character(:), allocatable :: line
         integer(c_size_t) :: written
-        integer :: i
 
         call flush_console()
-        line = "lagrangia: "//shortened(text, message_length)
-        do i = 1, len(line)
-            if (iachar(line(i:i)) < 32 .or. iachar(line(i:i)) == 127) line(i:i) = "?"
-        end do
-        line = line//new_line("a")
+        line = "lagrangia: "//shortened(printable(text), message_length)//new_line("a")
         written = c_write(2_c_int, line, len(line, c_size_t))  ! if stderr is gone, who would know?
     end subroutine note
 
@@ -76,7 +72,7 @@ contains
         character(:), allocatable :: line
         integer(c_size_t) :: written
 
-        line = char(13)//char(27)//"[K"//text
+        line = char(13)//char(27)//"[K"//printable(text)
         written = c_write(2_c_int, line, len(line, c_size_t))
     end subroutine show_progress
 

@@ -8,7 +8,7 @@ module lagrangia_files
     implicit none (type, external)
     private
     public :: facts_t, folder_of, hold_standard_units, last_error, look_at, make_folders, &
-              reason, resolved, same_file
+              plain_path, reason, resolved, same_file
     public :: e_bad_unit, e_broken_pipe, e_exists, e_input_output, e_invalid, e_missing
 
     integer, parameter :: e_missing = 2       !! ENOENT; these six are the same on every Unix
@@ -106,6 +106,16 @@ contains
             folder = path(:slash - 1)
         end select
     end function folder_of
+
+    pure function plain_path(path) result(plain)
+        !! The same file by a name whose first character means nothing to any program: `./` before
+        !! a relative one, lest `-x`, `<x` and `|x` be taken for an option or a command.
+        character(*), intent(in) :: path
+        character(:), allocatable :: plain
+
+        plain = path
+        if (index(path, "/") /= 1) plain = "./"//path
+    end function plain_path
 
     subroutine make_folders(folder, number, culprit)
         !! Make `folder` and those above it where they are missing, as `mkdir -p` does.

@@ -1,7 +1,9 @@
 module lagrangia_json
     !! Pieces of JSON text (RFC 8259): strings, numbers, lists.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_characters, only: decode, is_control, printable
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_text, only: lower
     implicit none (type, external)
     private
     public :: json_string, json_number, json_list
@@ -14,22 +16,27 @@ module lagrangia_json
 contains
 
     pure function json_string(text) result(json)
-        !! `text` between double quotes; control characters escaped.
-        character(*), intent(in) :: text
+        !! `text` between double quotes; control characters escaped. JSON is UTF-8: a byte that is
+        !! none becomes the four characters `\xNN`, as on the screen.
+        character(*), intent(in) :: text  !! trailing blanks do not count
         character(:), allocatable :: json
-        character(16), parameter :: hex = "0123456789abcdef"
-        integer :: i, code
+        character(6) :: escape
+        integer :: i, code, length
 
         json = '"'
-        do i = 1, len_trim(text)
-            code = iachar(text(i:i))
-            if (code < 32 .or. code == 127) then
-                json = json//"\u00"//hex(code/16 + 1:code/16 + 1)// &
-                       hex(mod(code, 16) + 1:mod(code, 16) + 1)
+        i = 1
+        do while (i <= len_trim(text))
+            call decode(text, i, code, length)
+            if (code < 0) then
+                json = json//"\"//printable(text(i:i))
+            else if (is_control(code)) then
+                write (escape, "('\u', z4.4)") code
+                json = json//lower(escape)
             else
                 if (text(i:i) == '"' .or. text(i:i) == "\") json = json//"\"
-                json = json//text(i:i)
+                json = json//text(i:i + length - 1)
             end if
+            i = i + length
         end do
         json = json//'"'
     end function json_string

@@ -1,14 +1,45 @@
 module lagrangia_number_text
-    !! Rows of numbers as text. libgfortran formats them (correctly rounded; about half a
-    !! microsecond a number); C's stdio carries them to the file.
+    !! Numbers as text: rows of a data file, cells of a table. libgfortran formats them (correctly
+    !! rounded; about half a microsecond a number); C's stdio carries them to the file.
     use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
-    public :: field_width, write_csv_row, write_row
+    public :: field_width, fixed, scientific, write_csv_row, write_row
 
     integer, parameter :: field_width = 24  !! of `es24.16e3`: a double survives the trip
 
 contains
+
+    pure function scientific(value, digits) result(text)
+        !! `1.2E-09`: so many significant digits, and as many of the exponent as it has, but two at
+        !! least; never asterisks.
+        real(dp), intent(in) :: value
+        integer, intent(in) :: digits             !! 1 to 17
+        character(:), allocatable :: text
+        character(32) :: buffer, layout
+
+        write (layout, "(a, i0, a)") "(es32.", digits - 1, "e2)"
+        write (buffer, layout) value
+        if (index(buffer, "*") > 0) then          ! three digits of exponent
+            write (layout, "(a, i0, a)") "(es32.", digits - 1, "e3)"
+            write (buffer, layout) value
+        end if
+        text = trim(adjustl(buffer))
+    end function scientific
+
+    pure function fixed(value, decimals) result(text)
+        !! `-0.0120`: so many digits behind the point, as many before it as there are; never
+        !! asterisks.
+        real(dp), intent(in) :: value
+        integer, intent(in) :: decimals           !! 0 to 17
+        character(:), allocatable :: text
+        character(330) :: buffer                  ! huge(value) has 309 digits before its point
+        character(16) :: layout
+
+        write (layout, "(a, i0, a)") "(f330.", decimals, ")"
+        write (buffer, layout) value
+        text = trim(adjustl(buffer))
+    end function fixed
 
     pure subroutine write_row(values, row, length)
         !! A line of a text table: every value as `es24.16e3`, a blank between two, a newline.

@@ -8,7 +8,7 @@ module lagrangia_output_file
         c_fileno, c_fseek, c_fwrite, c_fwrite_reals, c_remove, c_rename
     use lagrangia_errors, only: error_t, fail, status_file
     use lagrangia_files, only: e_bad_unit, e_exists, e_invalid, e_missing, facts_t, folder_of, &
-        hold_standard_units, last_error, look_at, make_folders, reason, resolved
+        hold_standard_units, last_error, look_at, make_folders, plain_path, reason, resolved
     use lagrangia_kinds, only: dp, i8
     use lagrangia_text, only: to_text
     use lagrangia_unfinished, only: create, forget, remove_abandoned
@@ -189,11 +189,7 @@ contains
         class(output_file_t), intent(in) :: self
         character(:), allocatable :: name
 
-        if (self%temporary(1:1) == "/") then
-            name = self%temporary
-        else
-            name = "./"//self%temporary
-        end if
+        name = plain_path(self%temporary)
     end function temporary_name
 
     subroutine commit(self, error)

@@ -6,6 +6,7 @@ module lagrangia_processes
     use lagrangia_errors, only: error_t, fail, status_file
     use lagrangia_files, only: last_error, reason
     use lagrangia_interrupt, only: run_beside
+    use lagrangia_text, only: word_t
     implicit none (type, external)
     private
     public :: run_program
@@ -15,20 +16,21 @@ module lagrangia_processes
 contains
 
     subroutine run_program(arguments, status, error)
-        !! Run the program `arguments(1)`, looked for along PATH, and wait for its end. Trailing
-        !! blanks of arguments are cut. Its output goes where ours goes.
-        character(*), intent(in) :: arguments(:)
+        !! Run the program `arguments(1)`, looked for along PATH, and wait for its end. Its output
+        !! goes where ours goes.
+        type(word_t), intent(in) :: arguments(:)         !! each reaches it byte for byte
         integer, intent(out) :: status                   !! its own, or 128 + the signal it died of
         type(error_t), allocatable, intent(out) :: error !! there is no such program
         character(kind=c_char), allocatable, target :: text(:, :)
         type(c_ptr) :: pointers(size(arguments) + 1)
         integer(c_int) :: pid, code
-        integer :: i, j
+        integer :: i, j, longest
 
-        allocate (text(len(arguments) + 1, size(arguments)), source=c_null_char)
+        longest = maxval([(len(arguments(i)%text), i=1, size(arguments))])
+        allocate (text(longest + 1, size(arguments)), source=c_null_char)
         do i = 1, size(arguments)
-            do j = 1, len_trim(arguments(i))
-                text(j, i) = arguments(i) (j:j)
+            do j = 1, len(arguments(i)%text)
+                text(j, i) = arguments(i)%text(j:j)
             end do
             pointers(i) = c_loc(text(1, i))
         end do
@@ -44,14 +46,14 @@ contains
         if (pid > 0) pid = c_waitpid(pid, code, 0_c_int)
         call run_beside(0_c_int)
         if (pid < 0) then
-            call fail(error, "cannot run '"//trim(arguments(1))//"': "//reason(last_error()), &
+            call fail(error, "cannot run '"//arguments(1)%text//"': "//reason(last_error()), &
                       status_file)
             return
         end if
         status = ibits(code, 8, 8)
         if (ibits(code, 0, 7) /= 0) status = 128 + ibits(code, 0, 7)
         if (status == not_found) then
-            call fail(error, "cannot run '"//trim(arguments(1))//"': no such program", status_file)
+            call fail(error, "cannot run '"//arguments(1)%text//"': no such program", status_file)
         end if
     end subroutine run_program
 end module lagrangia_processes

@@ -4,7 +4,13 @@ module lagrangia_text
     use lagrangia_kinds, only: dp, i8
     implicit none (type, external)
     private
+    public :: word_t
     public :: escaped, join, lower, quoted, shortened, to_text
+
+    type :: word_t
+        !! A text of its own length, for lists.
+        character(:), allocatable :: text
+    end type word_t
 
     interface to_text
         !! A number as the shortest plain text that reads back to the same number.

@@ -1,5 +1,6 @@
 module lagrangia_csv_table
     !! The data file as comma-separated values (RFC 4180): one header row, then numbers.
+    use lagrangia_characters, only: printable
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_number_text, only: field_width, write_csv_row
@@ -26,12 +27,30 @@ contains
         character(:), allocatable :: text
         integer :: i
 
-        text = trim(names(1))
+        text = cell(trim(names(1)))
         do i = 2, size(names)
-            text = text//","//trim(names(i))
+            text = text//","//cell(trim(names(i)))
         end do
         call self%file%write(text//new_line("a"))
     end subroutine begin
+
+    pure function cell(text) result(safe)
+        !! One field of the header: between double quotes, those within doubled, where it must be.
+        character(*), intent(in) :: text
+        character(:), allocatable :: safe
+        character(:), allocatable :: plain
+        integer :: i
+
+        plain = printable(text)
+        safe = plain
+        if (scan(plain, ",""") == 0) return
+        safe = """"
+        do i = 1, len(plain)
+            if (plain(i:i) == """") safe = safe//""""
+            safe = safe//plain(i:i)
+        end do
+        safe = safe//""""
+    end function cell
 
     subroutine row(self, values)
         !! One sample.

@@ -1,10 +1,10 @@
 module lagrangia_gnuplot
     !! A gnuplot script that draws a data file: one panel below the other.
     !!
-    !! No text of the user is ever more than a single-quoted string.
+    !! No text of the user is ever more than a string.
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_gnuplot_script, only: begin_script, doubled, lines_t
+    use lagrangia_gnuplot_script, only: begin_script, gnuplot_string, lines_t
     use lagrangia_kinds, only: dp
     use lagrangia_names, only: advice
     use lagrangia_text, only: quoted, to_text
@@ -124,8 +124,8 @@ contains
         call script%add("set key above right")
         call script%add("set format y '%g'")
         call script%add("set lmargin 14; set rmargin 4")
-        call script%add("set multiplot layout "//to_text(size(panels))//",1 title '"// &
-                        doubled(trim(title))//"' noenhanced")
+        call script%add("set multiplot layout "//to_text(size(panels))//",1 title "// &
+                        gnuplot_string(trim(title))//" noenhanced")
         do i = 1, size(panels)
             call draw(panels(i))
         end do
@@ -156,20 +156,19 @@ contains
                                               to_text(high(y) + width)//"]"
             end if
             call script%add(line)
-            call script%add("set xlabel '"//label(names(panel%x), units(panel%x))//"'")
+            call script%add("set xlabel "//label(names(panel%x), units(panel%x)))
             if (panel%curves == 1) then
-                call script%add("set ylabel '"//label(names(y), units(y))//"'; unset key")
+                call script%add("set ylabel "//label(names(y), units(y))//"; unset key")
             else
-                line = "["//trim(units(y))//"]"
-                if (any(units(panel%y(:panel%curves)) /= units(y))) line = ""
-                call script%add("set ylabel '"//line//"'; set key above right")
+                line = gnuplot_string("["//trim(units(y))//"]")
+                if (any(units(panel%y(:panel%curves)) /= units(y))) line = gnuplot_string("")
+                call script%add("set ylabel "//line//"; set key above right")
             end if
             line = "plot data "
             do k = 1, panel%curves
                 if (k > 1) line = line//", data "
                 line = line//reading//"using "//to_text(panel%x)//":"//to_text(panel%y(k))// &
-                       " with "//how//" title '"// &
-                       label(names(panel%y(k)), units(panel%y(k)))//"'"
+                       " with "//how//" title "//label(names(panel%y(k)), units(panel%y(k)))
             end do
             call script%add(line)
         end subroutine draw
@@ -189,10 +188,10 @@ contains
     end function tick
 
     pure function label(name, unit) result(text)
-        !! `theta [rad]`.
+        !! `"theta [rad]"`.
         character(*), intent(in) :: name, unit
         character(:), allocatable :: text
 
-        text = trim(name)//" ["//trim(unit)//"]"
+        text = gnuplot_string(trim(name)//" ["//trim(unit)//"]")
     end function label
 end module lagrangia_gnuplot

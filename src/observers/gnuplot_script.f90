@@ -1,10 +1,11 @@
 module lagrangia_gnuplot_script
     !! What every gnuplot script of ours begins with: it finds its data beside itself, wherever it
-    !! is run from, and takes the best terminal that there is.
+    !! is run from, and takes the best terminal that there is. And how a text gets into a script.
+    use lagrangia_characters, only: printable
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: lines_t, begin_script, doubled
+    public :: lines_t, begin_script, gnuplot_string
 
     type :: lines_t
         character(:), allocatable :: text
@@ -28,13 +29,15 @@ contains
         dot = index(file, ".", back=.true.)
         pixels = to_text(width)//","//to_text(height)
         script%text = ""
-        call script%add("# Draws "//file//" as it lies beside this script.")
+        call script%add("# Draws "//printable(file)//" as it lies beside this script.")
+        call script%add("set encoding iso_8859_1  # a folder's name is taken apart by bytes")
         call script%add("folder = './'")
         call script%add("if (exists('ARG0')) { do for [i=1:strlen(ARG0)] { "// &
                         "if (ARG0[i:i] eq '/') { folder = ARG0[1:i] } } }")
         call script%add("if (folder[1:1] ne '/') { folder = './'.folder }")
-        call script%add("data = folder.'"//doubled(file)//"'")
-        call script%add("picture = folder.'"//doubled(file(:dot - 1))//"'")
+        call script%add("set encoding utf8")
+        call script%add("data = folder."//gnuplot_string(file))
+        call script%add("picture = folder."//gnuplot_string(file(:dot - 1)))
         call script%add("if (!exists('wanted')) { wanted = 'png' }")
         call script%add("png = picture.'.png'; svg = picture.'.svg'")
         call script%add("if (exists('ARGC') && ARGC == 2) { "// &
@@ -52,18 +55,34 @@ contains
                         to_text(rows)//" }")
     end subroutine begin_script
 
-    pure function doubled(text) result(safe)
-        !! Fit for a single-quoted string of gnuplot.
-        character(*), intent(in) :: text
-        character(:), allocatable :: safe
+    pure function gnuplot_string(text) result(string)
+        !! `text` as a string of gnuplot, quotes included: the only way for a text into a script.
+        !!
+        !! Between double quotes gnuplot knows \ and ", runs what stands between backquotes, and has
+        !! replaced macros behind @; so these four are escaped. (Between single quotes a doubled one
+        !! right behind the first ends the string.) What is not printable is escaped twice, and
+        !! so shown as `\xNN`. Source: gnuplot 5.4, "Quote Marks", "Substitution".
+        character(*), intent(in) :: text  !! trailing blanks count
+        character(:), allocatable :: string
+        character(:), allocatable :: plain
         integer :: i
 
-        safe = ""
-        do i = 1, len(text)
-            safe = safe//text(i:i)
-            if (text(i:i) == "'") safe = safe//"'"
+        plain = printable(text)
+        string = """"
+        do i = 1, len(plain)
+            select case (plain(i:i))
+            case ("""", "\")
+                string = string//"\"//plain(i:i)
+            case ("`")
+                string = string//"\140"
+            case ("@")
+                string = string//"\100"
+            case default
+                string = string//plain(i:i)
+            end select
         end do
-    end function doubled
+        string = string//""""
+    end function gnuplot_string
 
     pure subroutine add(self, line)
         !! One more line.

@@ -2,6 +2,7 @@ module lagrangia_npy
     !! NumPy's own file format, version 1.0: `data = numpy.load("x.npy")`, then `data["theta"]`.
     !!
     !! Source: NumPy documentation, `numpy.lib.format`.
+    use lagrangia_characters, only: decode
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp, i8
     use lagrangia_table, only: table_t
@@ -43,7 +44,8 @@ contains
         self%columns = size(names)
         self%kinds = ""
         do i = 1, size(names)
-            self%kinds = self%kinds//"('"//trim(names(i))//"', '"//byte_order()//"f8'), "
+            self%kinds = self%kinds//"("//python_string(trim(names(i)))//", '"//byte_order()// &
+                         "f8'), "
         end do
         text = header_text(self%kinds, 0_i8)
         if (len(text) > longest) then
@@ -69,6 +71,31 @@ contains
         header = header//to_text(rows)//",), }"
         header = header//repeat(" ", length - 1 - len(header))//new_line("a")
     end function header_text
+
+    pure function python_string(text) result(string)
+        !! `text` as a string of Python, in ASCII as the header must be.
+        character(*), intent(in) :: text
+        character(:), allocatable :: string
+        character(10) :: escape
+        integer :: code, i, length
+
+        string = "'"
+        i = 1
+        do while (i <= len(text))
+            call decode(text, i, code, length)
+            if (code < 0) code = ichar(text(i:i))
+            if (code == iachar("'") .or. code == iachar("\")) then
+                string = string//"\"//text(i:i)
+            else if (code >= 32 .and. code < 127) then
+                string = string//text(i:i)
+            else
+                write (escape, "('\U', z8.8)") code
+                string = string//escape
+            end if
+            i = i + length
+        end do
+        string = string//"'"
+    end function python_string
 
     pure function byte_order()
         !! `<` if the low byte of a number comes first on this machine, else `>`.

@@ -1,9 +1,11 @@
 module lagrangia_text_table
     !! The data file as text: a `#` header, then one row a sample; for gnuplot and numpy.loadtxt.
+    use lagrangia_characters, only: printable
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_number_text, only: field_width, write_row
     use lagrangia_table, only: table_t
+    use lagrangia_text, only: shortened
     implicit none (type, external)
     private
     public :: text_table_t
@@ -22,7 +24,7 @@ module lagrangia_text_table
 contains
 
     subroutine begin(self, header, names, units, error)
-        !! Header lines behind `# `; the last one names the columns with their units.
+        !! Header lines behind `# `; the last one names the columns with their units, a word each.
         class(text_table_t), intent(inout) :: self
         character(*), intent(in) :: header(:), names(:), units(:)
         type(error_t), allocatable, intent(out) :: error
@@ -31,15 +33,27 @@ contains
 
         text = ""
         do i = 1, size(header)
-            text = text//"# "//trim(header(i))//new_line("a")
+            text = text//"# "//trim(printable(header(i)))//new_line("a")
         end do
         self%counts_at = len(text)
         text = text//"# "//repeat(" ", counts_width)//new_line("a")//"#"
         do i = 1, size(names)
-            text = text//" "//trim(names(i))//"["//trim(units(i))//"]"
+            text = text//" "//one_word(trim(names(i))//"["//trim(units(i))//"]")
         end do
         call self%file%write(text//new_line("a"))
     end subroutine begin
+
+    pure function one_word(text) result(word)
+        !! `p_x[kg*m/s]` for `p_x[kg m/s]`: a blank in a unit is a product.
+        character(*), intent(in) :: text
+        character(:), allocatable :: word
+        integer :: i
+
+        word = printable(text)
+        do i = 1, len(word)
+            if (word(i:i) == " ") word(i:i) = "*"
+        end do
+    end function one_word
 
     subroutine row(self, values)
         !! One sample.
@@ -58,7 +72,7 @@ contains
         character(*), intent(in) :: counts
         type(error_t), allocatable, intent(out) :: error
 
-        call self%file%rewrite(self%counts_at, "# "//counts)
+        call self%file%rewrite(self%counts_at, "# "//shortened(printable(counts), counts_width))
         call self%file%commit(error)
     end subroutine finish
 

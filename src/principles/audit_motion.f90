@@ -10,6 +10,7 @@ module lagrangia_audit_motion
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: accelerations_from_lagrangian, euler_lagrange_t, &
                                   expand_lagrangian
+    use lagrangia_number_text, only: fixed, scientific
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -114,8 +115,7 @@ contains
         type(description_t) :: d
         type(cartesian_t) :: here
         type(error_t), allocatable :: error
-        character(:), allocatable :: text
-        character(12) :: number
+        character(:), allocatable :: number, text
         integer :: i
 
         call system%describe(d)
@@ -124,9 +124,10 @@ contains
         if (allocated(error) .or. size(d%reactions) == 0) return
         text = "at q = 0.5, v = 1:"
         do i = 1, size(d%reactions)
-            write (number, "(f12.6)") anint(1e6_dp*here%reaction(i))*1e-6_dp + 0.0_dp
             if (i > 1) text = text//","
-            text = text//" "//trim(d%reactions(i)%name)//" "//trim(adjustl(number))//" N"
+            number = fixed(anint(1e6_dp*here%reaction(i))*1e-6_dp + 0.0_dp, 6)
+            if (abs(here%reaction(i)) >= 1e5_dp) number = scientific(here%reaction(i), 11)
+            text = text//" "//trim(d%reactions(i)%name)//" "//number//" N"
         end do
         call audit%say(claim_gauss, text)
     end subroutine say_reactions

@@ -7,6 +7,7 @@ module lagrangia_method_orders
     use lagrangia_kinds, only: dp, i8
     use lagrangia_method_problems, only: new_problem, problems, refuses
     use lagrangia_methods, only: nth_integrator
+    use lagrangia_number_text, only: fixed
     use lagrangia_pendulum, only: pendulum_t
     use lagrangia_reference, only: reference_t
     use lagrangia_system, only: system_t
@@ -62,7 +63,7 @@ contains
             call high_order(method, m)
             claim = trim(method%name)//": order "//to_text(method%order)
             call audit%judge(claim, abs(m%order - method%order), 0.05_dp, 20.0_dp)
-            call audit%say(claim, "measured "//fixed(m%order)//" on pendulum")
+            call audit%say(claim, "measured "//fixed(m%order, 3)//" on pendulum")
             return
         end if
         do k = 1, problems
@@ -87,20 +88,10 @@ contains
 
             associate (row => audit%findings(audit%row_of(claim)))
                 row%remark = trim(row%remark)//merge("measured ", ",        ", row%remark == "")
-                row%remark = trim(row%remark)//" "//fixed(order)//" on "//trim(problem_names(k))
+                row%remark = trim(row%remark)//" "//fixed(order, 3)//" on "//trim(problem_names(k))
             end associate
         end subroutine append
     end subroutine audit_method
-
-    pure function fixed(value) result(text)
-        !! With three decimals.
-        real(dp), intent(in) :: value
-        character(:), allocatable :: text
-        character(12) :: buffer
-
-        write (buffer, "(f12.3)") value
-        text = trim(adjustl(buffer))
-    end function fixed
 
     subroutine measure_order(method, system, q, v, m)
         !! From the smallest power of two, from 32 steps on, whose error is small enough for the

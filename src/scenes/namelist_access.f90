@@ -4,10 +4,10 @@ module lagrangia_namelist_access
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_namelist_lookup, only: count_of, pick, refuse_picked
-    use lagrangia_namelist_numbers, only: read_number, to_integer
     use lagrangia_namelist_tree, only: kind_number, kind_string, namelist_t, raw_text, text_of, &
                                        value_t
     use lagrangia_namelist_words, only: misread, truth_of
+    use lagrangia_number_reader, only: read_number, to_integer
     use lagrangia_text, only: lower, quoted, to_text
     implicit none (type, external)
     private

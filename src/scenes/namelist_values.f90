@@ -1,13 +1,13 @@
 module lagrangia_namelist_values
     !! Reading what stands behind the `=` of an entry.
     use lagrangia_errors, only: error_t
-    use lagrangia_namelist_numbers, only: read_number, starts_number
     use lagrangia_namelist_scanner, only: begins_key, begins_name, carriage_return, line_feed, &
                                           next_byte, refuse, refuse_byte, scanner_t, skip_space, &
                                           tab, token_end
     use lagrangia_namelist_tree, only: add_value, kind_number, kind_string, kind_word, &
                                        max_values, namelist_t, value_t
     use lagrangia_namelist_words, only: misread, stray, truth_of
+    use lagrangia_number_reader, only: read_number, starts_number
     use lagrangia_text, only: escaped, quoted, to_text
     implicit none (type, external)
     private

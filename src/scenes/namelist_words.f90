@@ -4,7 +4,7 @@ module lagrangia_namelist_words
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_characters, only: plainly, unlike
     use lagrangia_kinds, only: dp
-    use lagrangia_namelist_numbers, only: read_number
+    use lagrangia_number_reader, only: read_number
     use lagrangia_text, only: lower, to_text
     implicit none (type, external)
     private

@@ -1,8 +1,10 @@
 module lagrangia_outcome
     !! What came out of one scene: a row of the scorecard.
+    use lagrangia_characters, only: printable
     use lagrangia_description, only: name_length
     use lagrangia_json, only: json_list, json_number, json_string
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_number_text, only: fixed, scientific
     use lagrangia_statement, only: stated_t, statement_json
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -45,6 +47,7 @@ module lagrangia_outcome
         real(dp) :: omega_error = -1.0_dp           !! of all frequencies from the closed form
         real(dp) :: seconds = 0.0_dp
         character(:), allocatable :: choice         !! `auto took ...`; "" if a method was named
+        character(:), allocatable :: warning        !! of a step that is too long, or ""
         character(:), allocatable :: remark         !! about the steps; "" if there is none
         character(:), allocatable :: failure        !! the run itself failed
     contains
@@ -123,18 +126,18 @@ contains
         !! Two digits are enough for an error.
         real(dp), intent(in) :: value
         character(:), allocatable :: text
-        character(8) :: buffer
 
-        write (buffer, "(es8.1e2)") value
-        text = trim(adjustl(buffer))
+        text = scientific(value, 2)
     end function short
 
     function outcome_json(self) result(json)
         !! One object, as `--json` prints it.
         type(outcome_t), intent(in) :: self
-        character(:), allocatable :: json
+        character(:), allocatable :: json, remark
         integer :: i
 
+        remark = ""
+        if (allocated(self%remark)) remark = adjustl(self%remark)
         json = '{"scene": '//json_string(self%scene)//', "system": '//json_string(self%system)// &
                ', "method": '//json_string(self%method)//', "t": '//json_number(self%t)// &
                ', "q": '//json_list(self%q)//', "v": '//json_list(self%v)// &
@@ -181,6 +184,9 @@ contains
         end if
         json = json//', "seconds": '//json_number(self%seconds)// &
                ', "choice": '//json_text(self%choice)// &
+               ', "warning": '//json_text(self%warning)// &
+               ', "remark": '//json_text(remark)// &
+               ', "failure": '//json_text(self%failure)// &
                ', "verdict": '//json_string(self%verdict())// &
                ', "file": '//json_text(self%file)//', "events": '//json_text(self%events)//"}"
     end function outcome_json
@@ -222,7 +228,6 @@ contains
         character(:), allocatable :: line
         character(:), allocatable :: drift, error_text, period_text
         character(:), allocatable :: omega_text
-        character(12) :: seconds
         integer :: i, k
 
         drift = "-"
@@ -244,14 +249,14 @@ contains
         end do
         omega_text = "-"
         if (self%omega > 0.0_dp) then
-            write (seconds, "(f12.5)") self%omega
-            omega_text = trim(adjustl(seconds))
+            omega_text = fixed(self%omega, 5)
+            if (self%omega < 0.01_dp .or. self%omega >= 1e6_dp) &
+                omega_text = scientific(self%omega, 6)
             if (self%omega_error >= 0.0_dp) omega_text = omega_text//" "//short(self%omega_error)
         end if
-        write (seconds, "(f12.4)") self%seconds
-        line = cells(self%scene, self%system, self%method, to_text(self%steps), &
+        line = cells(printable(self%scene), self%system, self%method, to_text(self%steps), &
                      to_text(self%evaluations), drift, error_text, period_text, omega_text, &
-                     trim(adjustl(seconds)), self%verdict())
+                     fixed(self%seconds, 4), self%verdict())
     end function scorecard_row
 
     pure function cells(scene, system, method, steps, evaluations, drift, error, period, omega, &

@@ -3,7 +3,7 @@ module lagrangia_scene_files
     use lagrangia_csv_table, only: csv_table_t
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail, status_file
-    use lagrangia_files, only: same_file
+    use lagrangia_files, only: plain_path, same_file
     use lagrangia_gnuplot, only: gnuplot_script, panel_t
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_npy, only: npy_table_t
@@ -14,7 +14,7 @@ module lagrangia_scene_files
     use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
     use lagrangia_system, only: system_t
     use lagrangia_table, only: table_t
-    use lagrangia_text, only: quoted, to_text
+    use lagrangia_text, only: quoted, to_text, word_t
     use lagrangia_text_table, only: text_table_t
     use lagrangia_version, only: build_text, version
     implicit none (type, external)
@@ -77,19 +77,18 @@ contains
         type(error_t), allocatable, intent(out) :: error
         type(output_file_t) :: picture
         character(:), allocatable :: script
-        character(4096) :: words(6)
+        type(word_t) :: words(6)
         integer :: status
 
         script = script_path(path)
-        if (script(1:1) == "-") script = "./"//script
         call picture%open(script(:len(script) - 2)//kind, error)
         if (allocated(error)) return
-        words(1) = "gnuplot"
-        words(2) = "-d"  ! not the user's start-up file
-        words(3) = "-c"
-        words(4) = script
-        words(5) = kind
-        words(6) = picture%temporary_name()
+        words(1)%text = "gnuplot"
+        words(2)%text = "-d"  ! not the user's start-up file
+        words(3)%text = "-c"
+        words(4)%text = plain_path(script)  ! a shell runs what stands behind a first < or |
+        words(5)%text = kind
+        words(6)%text = picture%temporary_name()
         call run_program(words, status, error)
         if (interrupt_status() /= 0) call fail(error, "interrupted", interrupt_status())
         if (.not. allocated(error) .and. status /= 0) call fail(error, "gnuplot ended with "// &

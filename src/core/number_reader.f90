@@ -1,5 +1,6 @@
-module lagrangia_namelist_numbers
-    !! The strict grammar of a number in a namelist, and its correctly rounded value.
+module lagrangia_number_reader
+    !! The one strict grammar of a number that a user writes, in a scene or on the command line,
+    !! and its correctly rounded value. (Fortran's `read` takes 1-3 for 1e-3.)
     use, intrinsic :: ieee_arithmetic, only: ieee_get_flag, ieee_get_halting_mode, &
                                              ieee_is_finite, ieee_overflow, ieee_set_flag, &
                                              ieee_set_halting_mode, ieee_underflow
@@ -227,4 +228,4 @@ contains
         end do
         if (index(text, "-") > 0) exponent = -exponent
     end function exponent_of
-end module lagrangia_namelist_numbers
+end module lagrangia_number_reader
