@@ -5,6 +5,7 @@ module test_characters
     use lagrangia_characters, only: printable
     use lagrangia_csv_table, only: csv_table_t
     use lagrangia_errors, only: error_t
+    use lagrangia_json, only: json_string
     use lagrangia_npy, only: npy_table_t
     use lagrangia_table, only: table_t
     use lagrangia_text_table, only: text_table_t
@@ -27,6 +28,7 @@ contains
         call suite%addTest(TestMethod("text_stays", text_stays))
         call suite%addTest(TestMethod("controls_are_told", controls_are_told))
         call suite%addTest(TestMethod("what_is_no_utf_8_is_told", what_is_no_utf_8_is_told))
+        call suite%addTest(TestMethod("json_is_utf_8", json_is_utf_8))
         call suite%addTest(TestMethod("a_text_table_has_a_word_a_column", &
                                       a_text_table_has_a_word_a_column))
         call suite%addTest(TestMethod("a_csv_table_has_a_cell_a_column", &
@@ -80,6 +82,14 @@ contains
         call assertEqual(char(244)//char(143)//char(191)//char(191), &
                          printable(char(244)//char(143)//char(191)//char(191)), "U+10FFFF")
     end subroutine what_is_no_utf_8_is_told
+
+    subroutine json_is_utf_8()
+        !! What is none is told by its bytes; what turns the text around is escaped.
+        call assertEqual('"\\xFF\\xC3"', json_string(char(255)//char(195)))
+        call assertEqual('"\u0085\u202e"', json_string(char(194)//char(133)//char(226)// &
+                                                      char(128)//char(174)))
+        call assertEqual('"'//char(195)//char(164)//'"', json_string(char(195)//char(164)))
+    end subroutine json_is_utf_8
 
     function head(table, name, unit) result(text)
         !! The file of a table without rows, whose second column is called `name`.

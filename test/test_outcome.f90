@@ -27,7 +27,6 @@ contains
         call suite%addTest(TestMethod("json_says_null_for_what_is_missing", &
                                       json_says_null_for_what_is_missing))
         call suite%addTest(TestMethod("json_strings_are_escaped", json_strings_are_escaped))
-        call suite%addTest(TestMethod("json_is_utf_8", json_is_utf_8))
         call suite%addTest(TestMethod("json_has_what_stderr_says", json_has_what_stderr_says))
         call suite%addTest(TestMethod("rows_have_no_asterisks", rows_have_no_asterisks))
         call suite%addTest(TestMethod("a_row_is_one_line", a_row_is_one_line))
@@ -172,14 +171,6 @@ contains
         outcome%scene = 'a "swing"\'
         call starts(outcome_json(outcome), '{"scene": "a \"swing\"\\", ')
     end subroutine json_strings_are_escaped
-
-    subroutine json_is_utf_8()
-        !! What is none is told by its bytes; what turns the text around is escaped.
-        call assertEqual('"\\xFF\\xC3"', json_string(char(255)//char(195)))
-        call assertEqual('"\u0085\u202e"', json_string(char(194)//char(133)//char(226)// &
-                                                      char(128)//char(174)))
-        call assertEqual('"'//char(195)//char(164)//'"', json_string(char(195)//char(164)))
-    end subroutine json_is_utf_8
 
     subroutine json_has_what_stderr_says()
         !! A warning, a remark, a failure.

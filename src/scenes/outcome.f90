@@ -250,8 +250,9 @@ contains
         omega_text = "-"
         if (self%omega > 0.0_dp) then
             omega_text = fixed(self%omega, 5)
-            if (self%omega < 0.01_dp .or. self%omega >= 1e6_dp) &
+            if (self%omega < 0.01_dp .or. self%omega >= 1e6_dp) then
                 omega_text = scientific(self%omega, 6)
+            end if
             if (self%omega_error >= 0.0_dp) omega_text = omega_text//" "//short(self%omega_error)
         end if
         line = cells(printable(self%scene), self%system, self%method, to_text(self%steps), &
