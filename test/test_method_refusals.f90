@@ -1,7 +1,7 @@
 module test_method_refusals
     !! Methods that do not fit, or do not exist.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
-    use lagrangia_catalogue, only: nth_system
+    use lagrangia_catalogue, only: new_system
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_methods, only: new_integrator, prepare_integrator
@@ -23,15 +23,19 @@ contains
     subroutine refusals_name_what_works()
         !! Verlet on the double pendulum, Boris on a pendulum, midpoint on a rolling disk; and
         !! sums that cannot be compensated, methods that do not exist.
-        call check_refusal("verlet", 3, "verlet is for forces that depend on positions only, "// &
+        call check_refusal("verlet", "double_pendulum", &
+                           "verlet is for forces that depend on positions only, "// &
                            "and here they depend on velocities; these methods work: rk4, "// &
                            "stormer_verlet, midpoint, gauss16")
-        call check_refusal("kahan_li8", 8, "kahan_li8 is for forces that depend on positions "// &
+        call check_refusal("kahan_li8", "charged_particle", &
+                           "kahan_li8 is for forces that depend on positions "// &
                            "only, and here they depend on velocities; these methods work: rk4, "// &
                            "stormer_verlet, midpoint, boris")
-        call check_refusal("boris", 2, "boris is for charges in magnetic fields; these methods "// &
+        call check_refusal("boris", "pendulum", &
+                           "boris is for charges in magnetic fields; these methods "// &
                            "work: rk4, stormer_verlet, midpoint, gauss16, verlet, ")
-        call check_refusal("midpoint", 7, "midpoint is for systems with a Hamiltonian, and "// &
+        call check_refusal("midpoint", "rolling_disk", &
+                           "midpoint is for systems with a Hamiltonian, and "// &
                            "here there are non-holonomic constraints; these methods work: rk4")
         call check_absence("midpoint", .true., "compensated", "midpoint has no compensated sums;")
         call check_absence("boris", .true., "compensated", "boris has no compensated sums; "// &
@@ -39,16 +43,15 @@ contains
         call check_absence("rk5", .false., "method", "unknown method 'rk5'; did you mean 'rk4'?")
     end subroutine refusals_name_what_works
 
-    subroutine check_refusal(name, k, message)
-        !! Method `name` refuses system `k` in words that begin like `message`.
-        character(*), intent(in) :: name, message
-        integer, intent(in) :: k
+    subroutine check_refusal(name, of, message)
+        !! Method `name` refuses the system `of` that name in words that begin like `message`.
+        character(*), intent(in) :: name, of, message
         class(integrator_t), allocatable :: method
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
 
         call new_integrator(name, method, error)
-        call nth_system(k, system)
+        call new_system(of, system, error)
         call prepare_integrator(method, system, error)
         call assertTrue(allocated(error), name//" refuses")
         if (.not. allocated(error)) return

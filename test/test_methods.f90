@@ -3,7 +3,7 @@ module test_methods
     !! listed, on every problem below that it takes.
     use funit, only: TestMethod, TestSuite, assertEqual, assertGreaterThan, assertLessThan, &
                      assertTrue
-    use lagrangia_catalogue, only: new_reference, new_system, nth_system
+    use lagrangia_catalogue, only: new_reference, new_system
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
     use lagrangia_findings, only: audit_t
@@ -183,7 +183,7 @@ contains
         integer :: k
 
         call new_integrator(name, method, error)
-        call nth_system(1, system)
+        call new_system("oscillator", system, error)
         call system%configure([2.0_dp, 4.5_dp], error)  ! omega = 1.5
         do k = -1, 1, 2
             q = 1.0_dp

@@ -4,6 +4,7 @@ module test_namelist_file
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_errors, only: error_t, status_file
     use lagrangia_namelist_file, only: most_bytes, read_whole_file
+    use test_scratch, only: new_folder, remove_file
     implicit none (type, external)
     private
     public :: namelist_file_suite
@@ -26,21 +27,9 @@ contains
         !! The tests of this module.
         type(TestSuite) :: suite
 
-        suite = TestSuite("namelist file")
-        call suite%addTest(TestMethod("files", files))
+        suite = TestSuite("namelist_file")
+        call suite%addTest(TestMethod("only_whole_regular_files", only_whole_regular_files))
     end function namelist_file_suite
-
-    subroutine delete(path)
-        !! Delete a file, a FIFO too, if it is there: an interrupted run may have left it.
-        character(*), intent(in) :: path
-        integer :: unit
-        logical :: exists
-
-        inquire (file=path, exist=exists)
-        if (.not. exists) return
-        open (newunit=unit, file=path, action="readwrite")
-        close (unit, status="delete")
-    end subroutine delete
 
     subroutine unreadable(path, expected)
         !! Reading `path` fails with just this message.
@@ -53,17 +42,18 @@ contains
         if (.not. allocated(error)) return
         call assertEqual(expected, error%message)
         call assertEqual(status_file, error%status)
-        call assertFalse(allocated(text))
+        call assertFalse(allocated(text), "no text of "//path)
     end subroutine unreadable
 
-    subroutine files()
-        !! Whole regular files only; nothing that could block or never end.
-        character(*), parameter :: fifo = "namelist_test.fifo", file = "namelist_test.nml"
-        character(:), allocatable :: text
+    subroutine only_whole_regular_files()
+        !! Nothing that could block or never end.
+        character(:), allocatable :: fifo, file, text
         type(error_t), allocatable :: error
         integer :: i, unit
         character(256) :: bytes
 
+        file = new_folder("namelist_file")//"/scene.nml"
+        fifo = new_folder("namelist_file")//"/fifo"
         do i = 0, 255
             bytes(i + 1:i + 1) = char(i)
         end do
@@ -72,7 +62,7 @@ contains
         write (unit) bytes, "no final newline"
         close (unit)
         call read_whole_file(file//"  ", text, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "a file of all bytes is read")
         if (anyExceptions()) return
         call assertEqual(272, len(text))
         call assertTrue(text == bytes//"no final newline", message="every byte comes through")
@@ -88,16 +78,15 @@ contains
         write (unit) "x"
         close (unit)
         call unreadable(file, file//": the file is longer than 1048576 bytes")
-        call delete(file)
+        call assertTrue(remove_file(file), file)
         call unreadable(file, file//": no such file")
         call unreadable("/dev/zero", "/dev/zero: not a regular file")
         call unreadable("/", "/: is a folder; a file is needed")
         call unreadable("  ", "the name of the file is empty")
         call unreadable("a"//c_null_char//"b", "a\x00b: the name of the file holds a NUL byte")
-        call delete(fifo)
         call assertEqual(0, int(mkfifo(fifo//c_null_char, int(o"600", c_int))))
         if (anyExceptions()) return
         call unreadable(fifo, fifo//": not a regular file")
-        call delete(fifo)
-    end subroutine files
+        call assertTrue(remove_file(fifo), fifo)
+    end subroutine only_whole_regular_files
 end module test_namelist_file

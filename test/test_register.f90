@@ -1,10 +1,13 @@
 module test_register
     !! Systems from outside join the catalogue, or are refused and leave it as it was.
-    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
-    use lagrangia_catalogue, only: new_system, register_system, system_names
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
+                     assertGreaterThan, assertTrue
+    use lagrangia_audit, only: audit_system
+    use lagrangia_catalogue, only: new_system, nth_system, register_system, system_names
     use lagrangia_command_line, only: word_t
     use lagrangia_description, only: conserved, description_t, name_length, quantity
     use lagrangia_errors, only: error_t, status_usage
+    use lagrangia_findings, only: audit_t
     use lagrangia_kinds, only: dp
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene
@@ -30,11 +33,12 @@ contains
 
     subroutine it_joins_the_others()
         !! At the end of the list, found by its name with its defaults, in scenes with others; and
-        !! from now on walked over by the tests that walk over the catalogue.
+        !! audited as they are.
         type(own_pendulum_t) :: own
         character(name_length), allocatable :: before(:), after(:)
         class(system_t), allocatable :: system
         type(scene_t) :: scene
+        type(audit_t) :: audit
         type(description_t) :: d
         type(error_t), allocatable :: error
         real(dp) :: a(1), values(3)
@@ -62,6 +66,10 @@ contains
         call assertFalse(allocated(error), "in a scene")
         if (anyExceptions()) return
         call assertEqual([0.5_dp, 2.0_dp, 9.81_dp], scene%parameters)
+        call nth_system(size(after), system)
+        call audit_system(system, audit)
+        call assertGreaterThan(size(audit%findings), 7, message="claims")
+        call assertEqual(0, audit%broken(), "claims that do not hold")
         call refused(own, "system 'own_pendulum': there is a system of that name: give yours "// &
                      "another one")
     end subroutine it_joins_the_others

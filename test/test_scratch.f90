@@ -6,7 +6,7 @@ module test_scratch
     use lagrangia_files, only: make_folders
     implicit none (type, external)
     private
-    public :: contents, exit_status, limit_file_size, new_folder, remove_file, &
+    public :: clean_up, contents, exit_status, limit_file_size, new_folder, remove_file, &
               send_stdout_to, write_file
     public :: c_dup2, c_link, c_pipe, c_raise, c_symlink
 
@@ -67,20 +67,36 @@ module test_scratch
 contains
 
     function new_folder(name) result(folder)
-        !! An existing folder of this name that belongs to this process and its children.
+        !! An existing folder of this name that belongs to this process and its children, until
+        !! `clean_up`.
         character(*), intent(in) :: name
         character(:), allocatable :: folder, culprit
+        integer :: number
+
+        folder = own_folder()//"/"//name
+        call make_folders(folder, number, culprit)
+    end function new_folder
+
+    function own_folder() result(folder)
+        !! That of this process, or of the one that it was forked from.
+        character(:), allocatable :: folder
         character(1000) :: root
         integer, save :: pid = 0
-        integer :: number, length, status
+        integer :: length, status
 
         call get_environment_variable("TMPDIR", root, length, status)
         if (status /= 0 .or. length == 0) root = "build"
         if (pid == 0) pid = int(c_getpid())
-        write (root(len_trim(root) + 1:), "(a, i0, a)") "/lagrangia-tests/", pid, "/"
-        folder = trim(root)//name
-        call make_folders(folder, number, culprit)
-    end function new_folder
+        write (root(len_trim(root) + 1:), "(ss, a, i0)") "/lagrangia-tests/", pid
+        folder = trim(root)
+    end function own_folder
+
+    subroutine clean_up()
+        !! Remove all folders that `new_folder` has made; for the end of the run.
+        integer :: status
+
+        call execute_command_line("rm -rf -- """//own_folder()//"""", exitstat=status)
+    end subroutine clean_up
 
     subroutine write_file(path, text)
         !! Make a file that holds `text`.

@@ -2,7 +2,7 @@ module test_virtual_work
     !! D'Alembert's principle and generalized forces, for every system at random parameters.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertGreaterThan, &
                      assertLessThanOrEqual
-    use lagrangia_catalogue, only: nth_system
+    use lagrangia_catalogue, only: nth_system, system_names
     use lagrangia_dalembert, only: conservative_forces, dalembert
     use lagrangia_description, only: description_t
     use lagrangia_driven_pendulum, only: driven_pendulum_t
@@ -61,7 +61,7 @@ contains
                                            message="-dV/dq: "//trim(d%name))
             end do
         end do
-        call assertGreaterThan(i, 11)
+        call assertEqual(size(system_names()), i - 1, "systems checked")
     end subroutine every_system_obeys_dalembert
 
     subroutine points_move_as_differences_say()
