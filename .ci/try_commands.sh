@@ -131,6 +131,11 @@ run check pendulum rolling_disk --json
 check "check: every claim holds" json 'len(d) > 25 and all(row["holds"] for row in d)'
 run principle virtual-work --json
 check "principle: its controls fail, the rest holds" json 'all(row["holds"] != row["control"] for row in d) and any(row["control"] for row in d)'
+run errata --json
+check "errata: three parts, and what is no slip" json '[sum(slip["kind"] == kind for slip in d) for kind in ("lecture", "scan", "terminology", "no slip")] == [9, 17, 2, 1]'
+check "errata: each quoted, with its line" json 'len(d) == 29 and all(q["line"] > 0 and q["scan"] in ("I", "II") and q["text"] for slip in d for q in slip["quotes"]) and all(slip["quotes"] for slip in d)'
+run errata
+check "errata: the parts, as text" eval 'grep -q "^slips of the lecture: 9$" "$work/out" && grep -q "^errors of the scan: .*: 17$" "$work/out" && grep -q "^terminology: .*: 2$" "$work/out"'
 
 # status 1: a tolerance that does not hold
 run run pendulum --set scene%expect_error=1e-30 --output "$work/o"

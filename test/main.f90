@@ -81,6 +81,7 @@ module suites
     use test_plan, only: plan_suite
     use test_precision_curve, only: precision_curve_suite
     use test_principles, only: principles_suite
+    use test_printed_formulae, only: printed_formulae_suite
     use test_processes, only: processes_suite
     use test_quadrature, only: quadrature_suite
     use test_reduced_motion, only: reduced_motion_suite
@@ -101,6 +102,7 @@ module suites
     use test_step_warning, only: step_warning_suite
     use test_stress, only: stress_suite
     use test_stress_systems, only: stress_systems_suite
+    use test_stress_texts, only: stress_texts_suite
     use test_swings, only: swings_suite
     use test_systems, only: systems_suite
     use test_text, only: text_suite
@@ -198,6 +200,7 @@ contains
         call suite%addTest(plan_suite())
         call suite%addTest(precision_curve_suite())
         call suite%addTest(principles_suite())
+        call suite%addTest(printed_formulae_suite())
         call suite%addTest(processes_suite())
         call suite%addTest(quadrature_suite())
         call suite%addTest(reduced_motion_suite())
@@ -216,6 +219,7 @@ contains
         call suite%addTest(step_warning_suite())
         call suite%addTest(stress_suite())
         call suite%addTest(stress_systems_suite())
+        call suite%addTest(stress_texts_suite())
         call suite%addTest(statement_suite())
         call suite%addTest(swings_suite())
         call suite%addTest(systems_suite())

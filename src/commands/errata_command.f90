@@ -3,7 +3,9 @@ module lagrangia_errata_command
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_errata, only: slip_numbers
-    use lagrangia_errata_ledger, only: kind_equation, kind_principle, slip_t, slips_of_the_notes
+    use lagrangia_errata_ledger, only: slips_of_the_notes
+    use lagrangia_errata_slip, only: kind_lecture, kind_none, kind_scan, kind_terminology, &
+                                     quote_t, slip_t
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_json, only: json_string
     use lagrangia_principle, only: principle_report, put_json, put_report
@@ -12,6 +14,17 @@ module lagrangia_errata_command
     implicit none (type, external)
     private
     public :: errata_command, slip_report
+
+    type :: part_t
+        character(11) :: kind = ""
+        character(90) :: heading = ""
+    end type part_t
+
+    type(part_t), parameter :: parts(*) = [ &
+        part_t(kind_lecture, "slips of the lecture"), &
+        part_t(kind_scan, "errors of the scan: letters, dots and factors that the scanner lost"), &
+        part_t(kind_terminology, "terminology: right, and called otherwise elsewhere"), &
+        part_t(kind_none, "no slip, although it was taken for one")]
 
 contains
 
@@ -84,7 +97,7 @@ contains
             yes = index(row%name, "y dx - x dy") == 1 .or. index(row%name, "times 1/y") == 1 &
                   .or. row%name == "is the disk integrable?"
         case ("E10")
-            yes = index(row%name, "at rest") == 1
+            yes = index(row%name, "B = 0") == 1
         case ("E14")
             yes = index(row%name, "y > 0") == 1
         case ("E15")
@@ -103,10 +116,17 @@ contains
         type(slip_t), intent(in) :: slip
         type(report_t), intent(in) :: report
 
+        integer :: k
+
         call put_line(trim(slip%id)//": "//trim(slip%subject))
+        call put_line("kind        "//trim(heading_of(slip%kind)))
         call put_line("place       "//place_text(slip))
-        call put_line("as written  "//trim(slip%written))
+        do k = 1, count(slip%quotes%scan /= "")
+            call put_line("as it is    "//in_full(slip%quotes(k)))
+        end do
+        call put_line("reads       "//trim(slip%reads))
         call put_line("as derived  "//trim(slip%derived))
+        if (slip%elsewhere%scan /= "") call put_line("right at    "//in_full(slip%elsewhere))
         if (slip%effect /= "") call put_line("effect      "//trim(slip%effect))
         if (size(report%rows) == 0) then
             call put_line("numbers     none: it is a matter of letters or of history")
@@ -117,68 +137,120 @@ contains
         if (slip%principle /= "") call put_line("more: lagrangia principle "//trim(slip%principle))
     end subroutine put_slip
 
+    pure function heading_of(kind) result(heading)
+        !! What a kind of slip is.
+        character(*), intent(in) :: kind
+        character(len(parts%heading)) :: heading
+
+        heading = parts(findloc(parts%kind == kind, .true., 1))%heading
+    end function heading_of
+
+    pure function in_full(quote) result(text)
+        !! `I, 142: m_2 l ...`.
+        type(quote_t), intent(in) :: quote
+        character(:), allocatable :: text
+
+        text = trim(quote%scan)//", "//to_text(quote%line)//": "//trim(quote%text)
+    end function in_full
+
     pure function place_text(slip) result(text)
         !! Where in the notes.
         type(slip_t), intent(in) :: slip
         character(:), allocatable :: text
 
-        text = "Phys 601, 1 September 2011"
-        if (index(slip%place, "II,") == 1) text = "Hamilton's Principle"
-        text = text//slip%place(index(slip%place, ","):)
-        text = trim(text)//" of the scan's text"
+        text = slip%place()
+        text = text(index(text, ","):)//" of the scan's text"
+        if (slip%quotes(1)%scan == "II") then
+            text = "Hamilton's Principle"//text
+        else
+            text = "Phys 601, 1 September 2011"//text
+        end if
     end function place_text
 
     subroutine put_all(slips, json, error)
-        !! Two lines a slip; the numbers of each are computed, and must come out.
+        !! Part by part, three lines a slip; the numbers of each are computed, and must come out.
         type(slip_t), intent(in) :: slips(:)
         logical, intent(in) :: json
         type(error_t), allocatable, intent(out) :: error
         type(report_t) :: report
-        character(7) :: verdict
-        integer :: k, misses
+        character(:), allocatable :: ending
+        integer :: k, part, misses, left
 
         misses = 0
+        left = size(slips)
         if (json) call put_line("[")
-        do k = 1, size(slips)
-            call slip_report(slips(k), report, error)
-            if (allocated(error)) return
-            misses = misses + report%misses()
-            verdict = "shown"
-            if (size(report%rows) == 0) verdict = "listed"
-            if (report%misses() > 0) verdict = "NOT SO!"
-            if (json) then
-                call put_line(object(slips(k), trim(verdict))// &
-                              trim(merge(",", " ", k < size(slips))))
-            else
-                call put_line(slips(k)%id//"  "//slips(k)%kind//" "//verdict//"  "// &
-                              trim(slips(k)%subject)//" ("//trim(slips(k)%place)//")")
-                call put_line("       written  "//trim(slips(k)%written))
-                call put_line("       derived  "//trim(slips(k)%derived))
-            end if
+        do part = 1, size(parts)
+            if (.not. json) call put_line(trim(parts(part)%heading)//": "// &
+                                          to_text(count(slips%kind == parts(part)%kind)))
+            do k = 1, size(slips)
+                if (slips(k)%kind /= parts(part)%kind) cycle
+                call slip_report(slips(k), report, error)
+                if (allocated(error)) return
+                misses = misses + report%misses()
+                left = left - 1
+                ending = ","
+                if (left == 0) ending = ""
+                if (json) then
+                    call put_line(object(slips(k), verdict_on(report))//ending)
+                else
+                    call put_line("  "//slips(k)%id//"  "//trim(slips(k)%subject)//" ("// &
+                                  slips(k)%place()//"): "//verdict_on(report))
+                    call put_line("       as it is  "//trim(slips(k)%quotes(1)%text))
+                    call put_line("       reads     "//trim(slips(k)%reads))
+                    call put_line("       derived   "//trim(slips(k)%derived))
+                end if
+            end do
         end do
         if (json) then
             call put_line("]")
         else
-            call put_line(to_text(count(slips%kind == kind_equation))//" equations, "// &
-                          to_text(count(slips%kind == kind_principle))//" principles; the rest "// &
-                          "may be the scanner's. Places: I is 1 September")
-            call put_line("2011, II is Hamilton's Principle, lines of the scan's text. "// &
-                          "'lagrangia errata E1' shows one in numbers.")
+            call put_line("Places: I is 1 September 2011, II is Hamilton's Principle, lines of "// &
+                          "the scan's text, quoted as it is.")
+            call put_line("'lagrangia errata E1' shows one in numbers.")
         end if
         if (misses > 0) call fail(error, to_text(misses)//" numbers do not come out", &
                                   status_not_held)
     end subroutine put_all
+
+    pure function verdict_on(report) result(verdict)
+        !! Whether there are numbers, and whether they come out.
+        type(report_t), intent(in) :: report
+        character(:), allocatable :: verdict
+
+        verdict = "shown"
+        if (size(report%rows) == 0) verdict = "listed"
+        if (report%misses() > 0) verdict = "NOT SO!"
+    end function verdict_on
 
     pure function object(slip, verdict) result(json)
         !! One slip.
         type(slip_t), intent(in) :: slip
         character(*), intent(in) :: verdict
         character(:), allocatable :: json
+        integer :: k
 
         json = '{"id": '//json_string(trim(slip%id))//', "kind": '//json_string(trim(slip%kind))// &
                ', "subject": '//json_string(trim(slip%subject))//', "place": '// &
-               json_string(place_text(slip))//', "written": '//json_string(trim(slip%written))// &
-               ', "derived": '//json_string(trim(slip%derived))//', "effect": '// &
-               json_string(trim(slip%effect))//', "numbers": '//json_string(verdict)//"}"
+               json_string(place_text(slip))//', "quotes": ['//quote(slip%quotes(1))
+        do k = 2, count(slip%quotes%scan /= "")
+            json = json//", "//quote(slip%quotes(k))
+        end do
+        json = json//'], "reads": '//json_string(trim(slip%reads))//', "derived": '// &
+               json_string(trim(slip%derived))//', "elsewhere": '
+        if (slip%elsewhere%scan == "") then
+            json = json//"null"
+        else
+            json = json//quote(slip%elsewhere)
+        end if
+        json = json//', "effect": '//json_string(trim(slip%effect))//', "numbers": '// &
+               json_string(verdict)//"}"
+    contains
+        pure function quote(item) result(part)
+            type(quote_t), intent(in) :: item
+            character(:), allocatable :: part
+
+            part = '{"scan": '//json_string(item%scan)//', "line": '//to_text(item%line)// &
+                   ', "text": '//json_string(item%text)//"}"
+        end function quote
     end function object
 end module lagrangia_errata_command

@@ -101,7 +101,9 @@ contains
                           rounding)
         call report%equal("disk, notes' dx: R cos(theta)", freedom_of("disk, notes' dx"), &
                           radius*abs(cos(x(4))), rounding)
-        call report%equal("is the disk integrable?", freedom_of("disk, notes' dx"), 0.0_dp, &
+        call report%equal("disk, dx and dy: larger of R |cos|, R |sin|", freedom_of("disk"), &
+                          radius*max(abs(cos(x(4))), abs(sin(x(4)))), rounding)
+        call report%equal("is the disk integrable?", freedom_of("disk"), 0.0_dp, &
                           rounding, control=.true.)
         call report%equal("dx - t dy = 0: 1", freedom_of("dx - t dy = 0"), 1.0_dp, rounding)
         call named("dx - t dy = 0", forgetful)
@@ -147,13 +149,18 @@ contains
         type(report_t), intent(inout) :: report
         type(lecture_constraint_t) :: wire, rope
         real(dp), parameter :: r = 2.0_dp, t = 0.4_dp
+        real(dp), parameter :: place(3) = [r*cos(turning*t), r*sin(turning*t), t]
+        type(hyperdual_t) :: a(1, 3)
 
         call report%section("scleronomic or rheonomic, largest |B|, |dA/dt|: zero where fixed")
         call named("Atwood's rope", rope)
         call report%equal("Atwood's rope", rope%motion(example_point(2, 2)), 0.0_dp, rounding)
         call named("rotating wire", wire)
-        call report%equal("rotating wire at r = 2 m: B = -W r  [m/s]", &
-                          wire%motion([r*cos(turning*t), r*sin(turning*t), t]), turning*r, rounding)
+        call report%equal("rotating wire at r = 2 m: |B| = W r  [m/s]", wire%motion(place), &
+                          turning*r, rounding)
+        call wire%forms(hyperdual(place), a)
+        call report%equal("the same, with its sign: B = -W r  [m/s]", a(1, 3)%re, -turning*r, &
+                          rounding)
     end subroutine moving
 
     subroutine double_pendulum_configurations(report, error)

@@ -44,7 +44,9 @@ contains
         call two_potentials(report, error)
         if (allocated(error)) return
         call report%note("s = q1 + q2/2 + q3/3 + ...; q_ddot comes from L by Lagrange's equations.")
-        call report%note("F must not contain q_dot: then dF/dt contains q_ddot.")
+        call report%note("F must not contain q_dot: dF/dt then has q_ddot, which no L has. "// &
+                         "Above, theta_ddot")
+        call report%note("in dF/dt is replaced by -(g/l) sin(theta): another L, another motion.")
     end subroutine gauge_principle
 
     subroutine same_equations(systems, report, error)
@@ -76,7 +78,7 @@ contains
         end do
         call accelerations_from_lagrangian(with_q_q_dot, t, q, v, a, none, error)
         if (allocated(error)) return
-        call report%equal("F = m l^2 theta theta_dot: not allowed", a(1), page(1), rounding, &
+        call report%equal("F = m l^2 theta theta_dot: see below", a(1), page(1), rounding, &
                           control=.true.)
         call accelerations_from_lagrangian(with_q, t, q, v, a, none, error)
         if (allocated(error)) return

@@ -14,6 +14,7 @@ module lagrangia_test_potentials
         !! Coordinates: x, y, z, m.
         real(dp) :: m = 1.0_dp
         real(dp) :: charge = 1.0_dp
+        logical :: curl_free = .false.  !! \(A = \nabla\chi\), so that \(B = 0\)
     contains
         procedure :: describe
         procedure :: configure
@@ -21,6 +22,7 @@ module lagrangia_test_potentials
         procedure :: lagrangian
         procedure :: energy
         procedure :: positions
+        procedure :: potentials
         procedure :: potential
         procedure :: fields
     end type test_charge_t
@@ -62,15 +64,23 @@ contains
         self%charge = values(2)
     end subroutine configure
 
-    pure subroutine potentials(t, q, phi, a)
-        !! \(\varphi = xy\,e^{-t} + z^2\sin x\), \(A = (yzt,\; x^2\cos t + z,\; \sin(xy) + tz)\).
+    pure subroutine potentials(self, t, q, phi, a)
+        !! \(\varphi = xy\,e^{-t} + z^2\sin x\), \(A = (yzt,\; x^2\cos t + z,\; \sin(xy) + tz)\);
+        !! or \(A = \nabla\chi\) of \(\chi = x^2y\cos t + yzt\).
+        class(test_charge_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, q(3)
         type(hyperdual_t), intent(out) :: phi, a(3)
 
         phi = q(1)*q(2)*exp((-1.0_dp)*t) + q(3)**2*sin(q(1))
-        a(1) = q(2)*q(3)*t
-        a(2) = q(1)**2*cos(t) + q(3)
-        a(3) = sin(q(1)*q(2)) + t*q(3)
+        if (self%curl_free) then
+            a(1) = 2.0_dp*q(1)*q(2)*cos(t)
+            a(2) = q(1)**2*cos(t) + q(3)*t
+            a(3) = q(2)*t
+        else
+            a(1) = q(2)*q(3)*t
+            a(2) = q(1)**2*cos(t) + q(3)
+            a(3) = sin(q(1)*q(2)) + t*q(3)
+        end if
     end subroutine potentials
 
     pure function potential(self, t, q, v) result(u)
@@ -79,7 +89,7 @@ contains
         type(hyperdual_t), intent(in) :: t, q(3), v(3)
         type(hyperdual_t) :: u, phi, a(3)
 
-        call potentials(t, q, phi, a)
+        call self%potentials(t, q, phi, a)
         u = self%charge*(phi - dot_product(a, v))
     end function potential
 
@@ -95,12 +105,12 @@ contains
         do j = 1, 3
             qq = hyperdual(q)
             qq(j)%d1 = 1.0_dp
-            call potentials(hyperdual(t), qq, phi, a)
+            call self%potentials(hyperdual(t), qq, phi, a)
             slope(j) = -phi%d1
             da(:, j) = a%d1
         end do
         qq = hyperdual(q)
-        call potentials(hyperdual_t(t, 1.0_dp, 0.0_dp, 0.0_dp), qq, phi, a)
+        call self%potentials(hyperdual_t(t, 1.0_dp, 0.0_dp, 0.0_dp), qq, phi, a)
         induced = -a%d1
         magnetic = [da(3, 2) - da(2, 3), da(1, 3) - da(3, 1), da(2, 1) - da(1, 2)]
     end subroutine fields
@@ -133,7 +143,7 @@ contains
         real(dp) :: e
         type(hyperdual_t) :: phi, a(3)
 
-        call potentials(hyperdual(t), hyperdual(q), phi, a)
+        call self%potentials(hyperdual(t), hyperdual(q), phi, a)
         e = 0.5_dp*self%m*dot_product(v, v) + self%charge*phi%re
     end function energy
 

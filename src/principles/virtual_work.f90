@@ -224,8 +224,17 @@ contains
                           e*slope(1) + e*induced(1), rounding)
         call report%equal("at rest, without dA/dt: -e dphi/dx", from_potential(1, still), &
                           e*slope(1), rounding, control=.true.)
-        call report%equal("at rest, as in the notes: -dphi/dx", from_potential(1, still), &
-                          slope(1), rounding, control=.true.)
+        call report%section("B = 0, made up: A = grad(chi), chi = x^2 y cos t + y z t; moving [N]")
+        charge%curl_free = .true.
+        call charge%fields(t, q, slope, induced, b)
+        call report%equal("B = 0: largest component of rot A  [T]", maxval(abs(b)), 0.0_dp, &
+                          rounding)
+        call report%equal("B = 0: Q_x = -e dPhi/dx, Phi = phi + dchi/dt", from_potential(1, v), &
+                          e*(slope(1) + 2.0_dp*q(1)*q(2)*sin(t)), rounding)
+        call report%equal("B = 0: Q_y = -e dPhi/dy, a gradient whatever A", from_potential(2, v), &
+                          e*(slope(2) + q(1)**2*sin(t) - q(3)), rounding)
+        call report%equal("B = 0: as in the notes, -dPhi/dx", from_potential(1, v), &
+                          slope(1) + 2.0_dp*q(1)*q(2)*sin(t), rounding, control=.true.)
     contains
         pure function from_potential(i, rate) result(force_i)
             integer, intent(in) :: i

@@ -5,6 +5,7 @@ module lagrangia_chaos
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
     use lagrangia_verdicts, only: verdicts_t
     implicit none (type, external)
     private
@@ -18,24 +19,32 @@ contains
     subroutine judge_chaos(system, method, other, duration, verdicts)
         !! The growth of a small difference, followed along the motion and rescaled on the way,
         !! gives Lyapunov's exponent and a bound: an error made at \(s\) grows by
-        !! \(G(t)/G(s)\). Two methods at their tightest tolerances must part where the bound says
-        !! that a rounding error has become as large as the motion.
+        !! \(G(t)/G(s)\). The exponent is the mean over windows of `duration`, and its error is
+        !! that of their scatter: another build draws other windows. Two methods at their tightest
+        !! tolerances must part where the bound says that a rounding error has become as large as
+        !! the motion.
         class(system_t), intent(in) :: system
         class(dense_integrator_t), intent(inout) :: method, other
         real(dp), intent(in) :: duration  !! s
         type(verdicts_t), intent(inout) :: verdicts
         real(dp), parameter :: loose = 1e-10_dp, tight = 1e-14_dp
+        integer, parameter :: windows = 16
         real(dp), allocatable :: growth(:), distance(:)
-        real(dp) :: excess, predicted, measured
+        real(dp) :: excess, predicted, measured, exponent, rates(windows), uncertain
         integer :: k, n
 
         n = nint(duration/interval)
         method%tolerance = tight
         other%tolerance = tight
-        call follow_growth(system, method, n, growth)
-        call verdicts%judge("Lyapunov's exponent", "ln(growth)/time, 1/s", growth(n)/duration, &
-                            least=0.1_dp, remark="every "//short(log(10.0_dp)*duration/ &
-                            growth(n), 2)//" s cost a digit")
+        call follow_growth(system, method, windows*n, growth)
+        rates = [(growth(k*n) - growth((k - 1)*n), k=1, windows)]/duration
+        exponent = sum(rates)/windows
+        uncertain = sqrt(sum((rates - exponent)**2)/(windows*(windows - 1.0_dp)))
+        call verdicts%judge("Lyapunov's exponent", "ln(growth)/time, 1/s", exponent, &
+                            least=0.1_dp, remark="+- "//short(uncertain, 2)//" (1 sigma), from "// &
+                            to_text(windows)//" windows of "//short(duration, 3)//" s, "// &
+                            short(minval(rates), 3)//" to "//short(maxval(rates), 3)// &
+                            "; every "//short(log(10.0_dp)/exponent, 2)//" s cost a digit")
         predicted = interval*findloc(growth > -log(epsilon(loose)), .true., 1)
         call follow_distance(system, method, other, n, distance)
         measured = interval*findloc(.not. distance < no_digit, .true., 1)

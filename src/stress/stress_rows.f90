@@ -18,14 +18,16 @@ module lagrangia_stress_rows
               "A longer step multiplies the fastest oscillation every time, however slow the "// &
               "motion that you look at: 2/omega for Verlet, 2.83/omega for RK4."), &
         row_t("energy_growth", "energy error of a long run: its law, fitted", &
-              "Symplectic methods keep the energy near its value for ever, RK4 loses some "// &
-              "at every step. Of a nearly exact one rounding is left: a random walk, sqrt(N)."), &
+              "A symplectic method keeps the energy near its value for exponentially long, if "// &
+              "steps are small; RK4 loses some at each. Of a nearly exact one rounding is "// &
+              "left: a random walk, sqrt(N)."), &
         row_t("rounding", "Verlet on the oscillator: what rounding alone does in 10^7 steps", &
-              "Every sum drops half a digit at random; compensated sums (compensated = .true.) "// &
-              "carry it along."), &
+              "Every sum is rounded, by half a unit in the last place at most; compensated "// &
+              "sums (compensated = .true.) carry that along."), &
         row_t("reversal", "time reversal: as many steps back as forth", &
-              "Newton's equations run backwards as well; a method that does, too, cannot lose "// &
-              "energy steadily."), &
+              "Newton's equations run backwards as well. A method that does, too, loses no "// &
+              "energy steadily on an orbit that is its own mirror image in time; on others "// &
+              "it may."), &
         row_t("symplectic", "the Jacobian J of a step, W the symplectic matrix", &
               "J'WJ = W is Liouville's theorem and more: a step is a canonical transformation."), &
         row_t("same_bytes", "the same bits, however often a run is looked at", &
@@ -37,7 +39,8 @@ module lagrangia_stress_rows
               "It waits at the top ever longer, and each power of ten costs a run a digit; the "// &
               "closed form, by the arithmetic-geometric mean, keeps them all."), &
         row_t("large_angles", "a pendulum after many turns", &
-              "An angle of 1e6 rad has ten digits behind the point: no method gives them back."), &
+              "An angle of 1e6 rad has ten digits behind the point: no method gives back the "// &
+              "rest."), &
         row_t("mass_ratios", "double pendulums whose bobs differ by up to 10^12", &
               "An ordinary eigenvalue solver loses the slow mode beside a fast one; from the "// &
               "factors of M and K both have all digits. The motion becomes a simple pendulum's."), &
@@ -54,8 +57,8 @@ module lagrangia_stress_rows
         row_t("zeno", "infinitely many bounces in a finite time", &
               "The sum of the flights is finite; a run must pass it, and rest, not hang."), &
         row_t("chaos", "the double pendulum from (2, 1) rad: errors grow exponentially", &
-              "No step size helps: digits are lost at a steady rate, and the time after which "// &
-              "none is left is part of the result."), &
+              "No step size helps: digits are lost, on average at a steady rate, and the time "// &
+              "after which none is left is part of the result."), &
         row_t("edges_of_numbers", "denormals, overflow, NaN (RK4)", &
               "A run that leaves the numbers says so, with the last good state, and status 3.")]
 end module lagrangia_stress_rows

@@ -76,22 +76,18 @@ contains
             quantity("tension2", "N", "of the string at m2: y2 - a_s t^2/2 - R phi = 0")]
         d%equations = [character(len(d%title)) :: &
             "(m1 + m2 + I/R^2) x_ddot = (m1 - m2)(g + a_s)"]
-        if (self%time_dependent) then
-            d%lagrangian = [character(len(d%title)) :: &
-                "m1/2 (a_s t - x_dot)^2 + m2/2 (a_s t + x_dot)^2 + I/(2 R^2) x_dot^2", &
-                "+ m1 g (x - a_s t^2/2) - m2 g (x + a_s t^2/2)"]
-            d%energy = "(m1 + m2 + I/R^2)/2 x_dot^2 - (m1 + m2)/2 (a_s t)^2 - (m1 - m2) g x "// &
-                       "+ (m1 + m2) g a_s t^2/2"
-            d%constraint = "holonomic, rheonomic: y1 + y2 = a_s t^2 for the heights; in the "// &
-                           "support's frame x + y + pi R = l"
-        else
-            d%lagrangian = [character(len(d%title)) :: &
-                "(m1 + m2 + I/R^2)/2 x_dot^2 + (m1 - m2) g x"]
-            d%energy = "(m1 + m2 + I/R^2)/2 x_dot^2 - (m1 - m2) g x"
-            d%constraint = "holonomic, scleronomic: x + y + pi R = l"
-        end if
+        d%lagrangian = [character(len(d%title)) :: &
+            "(m1 + m2 + I/R^2)/2 x_dot^2 + (m1 - m2)(g x - a_s t x_dot)", &
+            "+ (m1 + m2)/2 (a_s - g) a_s t^2"]
+        d%energy = "(m1 + m2 + I/R^2)/2 x_dot^2 - (m1 - m2) g x - (m1 + m2)/2 (a_s - g) a_s t^2"
+        d%constraint = "holonomic, scleronomic (rheonomic unless a_s = 0): y_m1 + y_m2 = a_s t^2"
+        if (self%time_dependent) d%constraint = "holonomic, rheonomic: y_m1 + y_m2 = a_s t^2"
         d%notes = [character(len(d%title)) :: &
-            "The notes have (m1 + m2) d(x_dot^2)/dt^2: a slip, it is (m1 + m2) x_ddot.", &
+            "The notes' machine: a_s = 0, I = 0. The scan has (m1 + m2) d(x_dot^2)/dt^2: read "// &
+            "(m1 + m2) x_ddot.", &
+            "y_m1, y_m2: heights above where both are level at t = 0. The notes' x + y + pi R "// &
+            "= l counts", &
+            "both down from the axle, l the rope's length: its x and y are larger by constants.", &
             "A support that accelerates (a_s) makes it rheonomic: L contains t, the energy "// &
             "function is not T + V.", &
             "Effective gravity g + a_s: the L of a fixed support with g + a_s for g differs by "// &

@@ -57,7 +57,7 @@ contains
         d%equations = [character(len(d%title)) :: "m v_dot = e (E + v x B) - trap r"]
         d%constraint = "none: three free coordinates"
         d%notes = [character(len(d%title)) :: &
-            "The notes have F = - grad(phi) for B = 0: a slip, F = - e grad(phi), and dA/dt = 0.", &
+            "The notes have F = - grad(phi) for B = 0: a slip, e is missing: - e grad(phi).", &
             "General: L = m/2 v.v - e phi + e A.v; here phi = - E.r. B does no work.", &
             "Any gauge, one motion: m v + e A depends on it, m v + e B x r - e E t does not.", &
             "Free: drift E x B/B^2, turning at omega_c = e B/m, falling freely along B.", &

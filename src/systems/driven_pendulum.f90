@@ -86,8 +86,8 @@ contains
         d%constraint = "holonomic, rheonomic: x^2 + (y - a cos(W t))^2 = l^2"
         if (.not. self%driven()) d%constraint = "holonomic, scleronomic: x^2 + (y - a)^2 = l^2"
         d%notes = [character(len(d%title)) :: &
-            "The notes ask that V be free of t: not needed for Lagrange's equations, which hold;", &
-            "what is lost is the energy: dh/dt = - dL/dt. This pendulum is not in the notes.", &
+            "As the notes say: V = m g y has no t, V(theta, t) has, by way of y(theta, t).", &
+            "Lagrange's equations hold; h is not conserved: dh/dt = - dL/dt.", &
             "a, W: amplitude, drive_frequency. y, y_p count upwards; at t = 0 the pivot is at a.", &
             "A function of t alone may be left out of L (uniqueness): then h changes, not theta.", &
             "Upside down it is stable for a fast drive: (a W)^2 > 2 g l, a << l (Kapitza)."]

@@ -56,7 +56,7 @@ contains
         d%equations = [character(len(d%title)) :: "m x_ddot + k x = 0"]
         d%constraint = "none"
         d%notes = [character(len(d%title)) :: &
-            "The notes have dL/dx_dot = m d(x_dot)/dt: a slip, the momentum is m x_dot.", &
+            "The scan has dL/dx_dot = m d(x_dot)/dt: read dL/dx_dot = m x_dot, the momentum.", &
             "omega^2 = k/m at any amplitude; x = x0 cos(omega t) + v0/omega sin(omega t).", &
             "The actual path makes the action stationary; it is a minimum only for t < pi/omega."]
         d%source = "Hamilton's Principle: example HSM"

@@ -1,0 +1,182 @@
+module test_printed_formulae
+    !! What `describe` prints is what the code computes: L, energy, equations of motion, constraints
+    !! and quantities of every system, read as text and evaluated at random states.
+    use formula, only: formula_value, names_t
+    use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
+    use lagrangia_catalogue, only: new_system, nth_system, system_names
+    use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
+    use printed_statements, only: judge_all, tally_t
+    use random_states, only: draw_parameters, draw_state, restart_random
+    implicit none (type, external)
+    private
+    public :: printed_formulae_suite
+
+    integer, parameter :: draws = 20
+
+contains
+
+    function printed_formulae_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("printed_formulae")
+        call suite%addTest(TestMethod("formulae_are_read", formulae_are_read))
+        call suite%addTest(TestMethod("every_description_is_the_code", &
+                                      every_description_is_the_code))
+        call suite%addTest(TestMethod("the_ball_does_what_it_says", the_ball_does_what_it_says))
+        call suite%addTest(TestMethod("wrong_formulae_are_seen", wrong_formulae_are_seen))
+    end function printed_formulae_suite
+
+    subroutine formulae_are_read()
+        !! Products side by side, division, powers, brackets, names that begin alike.
+        type(names_t) :: names
+
+        call names%set("m", 2.0_dp)
+        call names%set("m1", 3.0_dp)
+        call names%set("theta", 0.5_dp)
+        call names%set("theta_dot", 7.0_dp)
+        call names%set("T_(k+1)", 5.0_dp)
+        call is("m/2 theta_dot^2", 49.0_dp)
+        call is("m/(2 m1) - 1/2*4", 1.0_dp/3.0_dp - 2.0_dp)
+        call is("- m1 sin(theta)^2 + m cos(theta)", -3.0_dp*sin(0.5_dp)**2 + 2.0_dp*cos(0.5_dp))
+        call is("(m1 - m)(m1 + m) T_(k+1)", 25.0_dp)
+        call is("exp(-theta m) sqrt(4)", 2.0_dp*exp(-1.0_dp))
+        call is("2(m^2 - 1)^2", 18.0_dp)
+        call is_not("m2")
+        call is_not("theta_ddot")
+        call is_not("m (")
+        call is_not("m + of the plane")
+        call is_not("")
+    contains
+        subroutine is(text, expected)
+            character(*), intent(in) :: text
+            real(dp), intent(in) :: expected
+            real(dp) :: value, size_of
+            logical :: ok
+
+            call formula_value(text, names, value, size_of, ok)
+            call assertTrue(ok, text)
+            call assertEqual(expected, value, 1e-14_dp*abs(expected), text)
+        end subroutine is
+
+        subroutine is_not(text)
+            character(*), intent(in) :: text
+            real(dp) :: value, size_of
+            logical :: ok
+
+            call formula_value(text, names, value, size_of, ok)
+            call assertTrue(.not. ok, "'"//text//"' is no formula")
+        end subroutine is_not
+    end subroutine formulae_are_read
+
+    subroutine every_description_is_the_code()
+        !! Exactly so many statements of each system; what is in words only is known by name.
+        character(*), parameter :: in_words = " atwood.total_energy hanging_chain.L_z "// &
+            "hanging_chain.tension1 charged_particle.L_axis driven_pendulum.mechanical_energy "
+        integer, parameter :: statements(13) = &
+            [5, 6, 11, 8, 8, 10, 21, 12, 8, 9, 9, 7, 10]
+        class(system_t), allocatable :: system
+        type(tally_t) :: tally
+        integer :: i, k
+
+        call restart_random()
+        call assertEqual(size(statements), size(system_names()), "systems")
+        do i = 1, size(statements)
+            call nth_system(i, system)
+            tally = tally_t()
+            do k = 1, draws
+                call try(system, in_words, tally)
+            end do
+            call assertEqual(0, tally%wrong, trim(tally%first))
+            call assertEqual(draws*statements(i), tally%right, "statements of system "//to_text(i))
+        end do
+    end subroutine every_description_is_the_code
+
+    subroutine try(system, in_words, tally)
+        !! One draw of parameters and a state.
+        class(system_t), intent(inout) :: system
+        character(*), intent(in) :: in_words
+        type(tally_t), intent(inout) :: tally
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: q(:), v(:)
+        real(dp) :: t
+
+        call draw_parameters(system, .false.)
+        call system%describe(d)
+        if (d%name == "hanging_chain") then
+            call system%configure([3.0_dp, d%parameters(2:)%value(1)], error)
+            call system%describe(d)
+        end if
+        call draw_state(system, t, q, v)
+        if (d%name == "bouncing_ball") q = abs(q)
+        call judge_all(system, d, t, q, v, in_words, tally)
+    end subroutine try
+
+    subroutine the_ball_does_what_it_says()
+        !! Its equations that hold on the floor: an impact, and rest.
+        class(system_t), allocatable :: system
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+        real(dp), parameter :: m = 0.7_dp, g = 9.81_dp, restitution = 0.6_dp
+        real(dp) :: q(1), v(1), a(1)
+
+        call new_system("bouncing_ball", system, error)
+        call assertTrue(.not. allocated(error), "bouncing_ball")
+        if (allocated(error)) return
+        call system%configure([m, g, restitution], error)
+        call system%describe(d)
+        call assertEqual(3, size(d%equations))
+        call assertEqual("y = 0, y_dot < 0: y_dot -> -restitution*y_dot", trim(d%equations(2)))
+        q = 0.0_dp
+        v = -1.5_dp
+        call system%impact(1, 0.0_dp, q, v)
+        call assertEqual(restitution*1.5_dp, v(1), 1e-15_dp)
+        call assertEqual("y = 0, y_dot = 0: y_ddot = 0, lambda = m g", trim(d%equations(3)))
+        v = 0.0_dp
+        call system%accelerations(0.0_dp, q, v, a)
+        call assertEqual(0.0_dp, a(1), 0.0_dp)
+        call assertEqual(m*g, system%quantity(1, 0.0_dp, q, v), 1e-15_dp)
+    end subroutine the_ball_does_what_it_says
+
+    subroutine wrong_formulae_are_seen()
+        !! What `describe atwood` once printed: an equation with a_s, an L without it, and a rope
+        !! that does not fit the positions; a sign; a factor.
+        class(system_t), allocatable :: system
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+        type(tally_t) :: tally
+
+        call new_system("atwood", system, error)
+        call assertTrue(.not. allocated(error), "atwood")
+        if (allocated(error)) return
+        call system%configure([3.1_dp, 1.9_dp, 9.81_dp, 0.02_dp, 0.13_dp, 1.7_dp], error)
+        call system%describe(d)
+        call counts(0, "as it is printed")
+        d%lagrangian = [character(len(d%lagrangian)) :: &
+                        "(m1 + m2 + I/R^2)/2 x_dot^2 + (m1 - m2) g x"]
+        call counts(1, "an L without a_s")
+        d%constraint = "holonomic, scleronomic: x + y + pi R = l"
+        call counts(2, "a rope that does not fit")
+        d%equations = [character(len(d%equations)) :: &
+                       "(m1 + m2 + I/R^2) x_ddot = (m1 - m2)(g - a_s)"]
+        call counts(3, "a sign")
+        d%quantities(4)%meaning = "m1 (g + a_s)(m2 + I/R^2)/(m1 + m2 + I/R^2): string at m1"
+        call counts(4, "a factor")
+        d%energy = "(m1 + m2 + I/R^2) x_dot^2 - (m1 - m2) g x"
+        call counts(5, "another factor")
+    contains
+        subroutine counts(expected, what)
+            integer, intent(in) :: expected
+            character(*), intent(in) :: what
+
+            tally = tally_t()
+            call judge_all(system, d, 0.7_dp, [0.4_dp], [-0.9_dp], " atwood.total_energy ", tally)
+            call assertEqual(expected, tally%wrong, what//": "//trim(tally%first))
+        end subroutine counts
+    end subroutine wrong_formulae_are_seen
+end module test_printed_formulae
