@@ -231,7 +231,7 @@ contains
                           rounding)
         call report%equal("B = 0: Q_x = -e dPhi/dx, Phi = phi + dchi/dt", from_potential(1, v), &
                           e*(slope(1) + 2.0_dp*q(1)*q(2)*sin(t)), rounding)
-        call report%equal("B = 0: Q_y = -e dPhi/dy, a gradient whatever A", from_potential(2, v), &
+        call report%equal("B = 0: Q_y = -e dPhi/dy, whatever A", from_potential(2, v), &
                           e*(slope(2) + q(1)**2*sin(t) - q(3)), rounding)
         call report%equal("B = 0: as in the notes, -dPhi/dx", from_potential(1, v), &
                           slope(1) + 2.0_dp*q(1)*q(2)*sin(t), rounding, control=.true.)
