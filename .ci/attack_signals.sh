@@ -5,9 +5,10 @@ set -u
 source "$(dirname "$0")/attack_tools.sh"
 
 # A script that was started in the background ignores SIGINT, and so would its children
-heard=(env --default-signal=INT,TERM)
+heard=(env --default-signal=HUP,INT,QUIT,TERM,XCPU)
 "${heard[@]}" true 2>/dev/null || heard=()
 
+endings="HUP:129 INT:130 QUIT:131 TERM:143 XCPU:152"
 ended() { # ended SIGNAL: send it to the child; its status. One that hangs is killed
     kill -"$1" $child
     for _ in $(seq 100); do
@@ -29,7 +30,7 @@ begin() { # begin FOLDER: a long run in the background; returns when its tempora
     done
 }
 set -m # else a shell lets its background jobs ignore SIGINT
-for pair in INT:130 TERM:143 KILL:137; do
+for pair in $endings KILL:137; do
     mkdir "$work/${pair%:*}"
     plant "$work/${pair%:*}" pendulum.dat pendulum.gp
     begin "$work/${pair%:*}"
@@ -62,7 +63,7 @@ begin_command() { # begin_command WORDS...: in the background; returns when it c
         sleep 0.01
     done
 }
-for signal in INT:130 TERM:143; do
+for signal in $endings; do
     for writer in "modes hanging_chain --set hanging_chain%n=1000 --output" "principle action --output" \
         "bench --quick --output" "run double_pendulum --set scene%duration=1e5 --error-estimate --output" stress check; do
         folder=$work/${signal%:*}${writer%% *}
@@ -82,6 +83,36 @@ for signal in INT:130 TERM:143; do
     ended "${signal%:*}"
     check "modes: SIG${signal%:*} between two of many files: each is whole" eval '[ $status -eq ${signal#*:} ] && leftovers "$folder" && [ "$(wc -l "$folder"/*.dat | sed "/total/d" | awk "{ print \$1 }" | sort -u | wc -l)" -eq 1 ]'
 done
+
+# The program's own clock runs out: SIGXCPU from the system, once a second
+mkdir "$work/clock"
+plant "$work/clock" pendulum.dat
+(ulimit -S -t 1; exec timeout 20 "$program" run pendulum --set scene%duration=1e6 --set scene%every=1000 --output "$work/clock" >"$work/out" 2>"$work/err" </dev/null)
+status=$?
+check "ulimit -t: status 152, one line, the old file lives" eval '[ $status -eq 152 ] && one_line && unharmed "$work/clock" pendulum.dat && leftovers "$work/clock"'
+
+# Little stack, little memory: the command works, or says in one line what it lacks; it never hangs
+in_little() { # in_little LIMIT... -- WORDS...: OpenBLAS is left to its own devices
+    local limit=()
+    while [ "$1" != -- ]; do limit+=("$1"); shift; done
+    shift
+    (ulimit "${limit[@]}"; exec env -u OPENBLAS_NUM_THREADS timeout 20 "$program" "$@" >"$work/out" 2>"$work/err" </dev/null)
+    status=$?
+}
+for writer in "run double_pendulum --output" "run hanging_chain --output" "modes hanging_chain --output" "principle action --output" "bench --quick --quiet --output"; do
+    in_little -s 256 -- $writer "$work/little"
+    check "$writer: 256 kB of stack are enough" eval '[ $status -eq 0 ] && [ ! -s "$work/err" ]'
+    in_little -s 64 -- $writer "$work/little"
+    check "$writer: 64 kB of stack are not" eval '[ $status -eq 4 ] && one_line && grep -q "ulimit -s 8192" "$work/err"'
+done
+for memory in 100000 140000 180000 200000; do
+    for writer in list "modes double_pendulum" "check pendulum"; do
+        in_little -v $memory -- $writer
+        check "$writer: ulimit -v $memory: works or says what it lacks" eval '[ $status -eq 0 ] || { [ $status -eq 4 ] && one_line && grep -q "not enough memory" "$work/err"; }'
+    done
+done
+in_little -v 250000 -- modes double_pendulum
+check "modes double_pendulum: ulimit -v 250000 is enough" eval '[ $status -eq 0 ]'
 
 # Pictures: gnuplot that is missing, fails, stops half-way or hangs; and the disk that is full when it draws
 fake() { # fake LINES: a gnuplot of our own; its fifth word is the file to draw into
@@ -115,7 +146,7 @@ run "${plot[@]}"
 check "--plot: a whole picture has its name" eval '[ $status -eq 0 ] && grep -q "^svg" "$work/drawn/pendulum.svg" && leftovers "$work/drawn"'
 plant "$work/drawn" pendulum.svg
 fake "echo \$\$ >'$work/gnuplot'" 'echo "<svg>" >"$5"' 'exec sleep 30'
-for signal in INT:130 TERM:143; do
+for signal in $endings; do
     rm -f "$work/gnuplot"
     begin_command "${plot[@]}"
     for _ in $(seq 200); do

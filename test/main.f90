@@ -86,6 +86,7 @@ module suites
     use test_quadrature, only: quadrature_suite
     use test_reduced_motion, only: reduced_motion_suite
     use test_register, only: register_suite
+    use test_resources, only: resources_suite
     use test_rheonomic, only: rheonomic_suite
     use test_rolling_disk, only: rolling_disk_suite
     use test_rolling_disk_reference, only: rolling_disk_reference_suite
@@ -204,6 +205,7 @@ contains
         call suite%addTest(processes_suite())
         call suite%addTest(quadrature_suite())
         call suite%addTest(reduced_motion_suite())
+        call suite%addTest(resources_suite())
         call suite%addTest(rheonomic_suite())
         call suite%addTest(rolling_disk_suite())
         call suite%addTest(rolling_disk_reference_suite())

@@ -214,9 +214,10 @@ contains
         call refused("&a x=-1e400 /", &
                      "1:6: &a: x: '-1e400' is too large for a double (at most 1.79769e308)")
         call refused("&a x=1e-400 /", &
-                     "1:6: &a: x: '1e-400' is too small for a double (at least 2.22508e-308, or 0)")
-        call refused("&a x=4e-310 /", &
-                     "1:6: &a: x: '4e-310' is too small for a double (at least 2.22508e-308, or 0)")
+                     "1:6: &a: x: '1e-400' is too small for a double (at least 4.94066e-324, or 0)")
+        call refused("&a x=-2.4e-324 /", &
+                     "1:6: &a: x: '-2.4e-324' is too small for a double (at least 4.94066e-324, "// &
+                     "or 0)")
         call refused("&a x=-inf /", "1:6: &a: x: '-inf' is not finite; a finite number is needed")
         call refused("&a x=0x1F /", &
                      "1:6: &a: x: '0x1F' is not a decimal number; hexadecimal is not read here")

@@ -61,21 +61,25 @@ contains
     end subroutine failed
 
     subroutine numbers_are_rounded_correctly()
-        !! Every form of a number, halfway cases, the ends of the range.
+        !! Every form of a number, halfway cases, the ends of the range, subnormal numbers.
+        real(dp), parameter :: least = tiny(1.0_dp)*epsilon(1.0_dp)
         type(namelist_t) :: tree
         type(error_t), allocatable :: error
         real(dp), allocatable :: x(:)
 
         call read_text("&a x = 1 +2 -3. .5 -.5e0 1d3 1E-3 0.1 9007199254740993 0e999 "// &
                        "1.7976931348623157e308 2.2250738585072014e-308 1e+22 -0.0"// &
-                       " 1.00000000000000011102230246251565404236316680908203126 /", tree)
+                       " 1.00000000000000011102230246251565404236316680908203126"// &
+                       " 4.9406564584124654E-324 -2.5e-324 2.2250738585072009e-308 /", tree)
         if (anyExceptions()) return
-        call get_reals(tree, "a", "x", 15, 15, x, error)
+        call get_reals(tree, "a", "x", 18, 18, x, error)
         call check(error)
         if (anyExceptions()) return
         call assertEqual([1.0_dp, 2.0_dp, -3.0_dp, 0.5_dp, -0.5_dp, 1000.0_dp, 0.001_dp, &
                           0.1_dp, 9007199254740992.0_dp, 0.0_dp, huge(1.0_dp), tiny(1.0_dp), &
-                          1e22_dp, 0.0_dp, 1.0_dp + epsilon(1.0_dp)], x)
+                          1e22_dp, 0.0_dp, 1.0_dp + epsilon(1.0_dp), least, -least, &
+                          tiny(1.0_dp) - least], x)
+        call assertTrue(x(16) > 0.0_dp .and. x(17) < 0.0_dp, message="subnormal, not zero")
         call assertEqual(-1.0_dp, sign(1.0_dp, x(14)), message="the sign of -0.0")
     end subroutine numbers_are_rounded_correctly
 

@@ -17,6 +17,9 @@ module test_processes
     public :: processes_suite
 
     integer(c_int), parameter :: sigint = 2, sigalrm = 14, sigterm = 15
+    integer(c_int), parameter :: endings(*) = [1_c_int, 2_c_int, 3_c_int, 15_c_int, 24_c_int]
+
+    integer(c_int) :: chosen = 0  !! one of these, for a child process
 
 contains
 
@@ -26,6 +29,7 @@ contains
 
         suite = TestSuite("processes")
         call suite%addTest(TestMethod("signals_are_remembered", signals_are_remembered))
+        call suite%addTest(TestMethod("every_ending_has_its_status", every_ending_has_its_status))
         call suite%addTest(TestMethod("a_second_sigint_kills", a_second_sigint_kills))
         call suite%addTest(TestMethod("who_does_not_look_is_ended", who_does_not_look_is_ended))
         call suite%addTest(TestMethod("ignored_signals_stay_ignored", ignored_signals_stay_ignored))
@@ -61,6 +65,48 @@ contains
         status = int(c_raise(sigterm))
         status = interrupt_status()
     end function catch_sigterm
+
+    subroutine every_ending_has_its_status()
+        !! SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXCPU: seen by who looks; the second of a kind
+        !! removes what is unfinished as the first would a second later.
+        character(:), allocatable :: folder
+        integer :: i
+
+        folder = new_folder("twice")
+        do i = 1, size(endings)
+            chosen = endings(i)
+            call assertEqual(128 + int(chosen), exit_status(catch_chosen), message="seen")
+            call assertEqual(128 + int(chosen), exit_status(raise_twice), message="the second")
+            call assertEqual("lagrangia: interrupted"//new_line("a"), contents(folder//"/err"))
+            call assertTrue(remove_file(folder//"/err"))
+        end do
+        call assertTrue(remove_file(folder), "a temporary was left")
+    end subroutine every_ending_has_its_status
+
+    function catch_chosen() result(status)
+        !! What the chosen signal leads to.
+        integer :: status
+
+        call prepare(chosen)
+        status = int(c_raise(chosen))
+        status = interrupt_status()
+    end function catch_chosen
+
+    function raise_twice() result(status)
+        !! 0 if the second of the chosen signals does nothing.
+        integer :: status
+        type(output_file_t) :: file
+        type(error_t), allocatable :: error
+
+        call send_stdout_to(new_folder("twice")//"/err")
+        status = int(c_dup2(1_c_int, 2_c_int))
+        call prepare(chosen)
+        call catch_interrupts(c_funloc(give_up))
+        call file%open(new_folder("twice")//"/a.dat", error)
+        status = int(c_raise(chosen))
+        status = int(c_raise(chosen))
+        status = 0
+    end function raise_twice
 
     subroutine prepare(number)
         !! Make sure that whoever started the tests did not have this signal ignored; catch it.

@@ -4,9 +4,14 @@ module lagrangia_program
     use lagrangia_commands, only: dispatch
     use lagrangia_console, only: note
     use lagrangia_errors, only: error_t, status_ok
+    use lagrangia_kinds, only: dp
+    use lagrangia_resources, only: check_memory, check_stack
     implicit none (type, external)
     private
     public :: lagrangia_main
+
+    integer, parameter :: least_stack = 256          !! kB, for all that is computed
+    real(dp), parameter :: least_memory = 150e6_dp   !! bytes, most of them for OpenBLAS
 
 contains
 
@@ -22,7 +27,10 @@ contains
         if (present(failed)) then
             allocate (error, source=failed)
         else
-            call dispatch(error)
+            call check_stack(least_stack, error)
+            ! OpenBLAS tries for ever to get the 128 MB that its first call takes
+            if (.not. allocated(error)) call check_memory(least_memory, "lagrangia", error)
+            if (.not. allocated(error)) call dispatch(error)
         end if
         status = status_ok
         if (allocated(error)) then

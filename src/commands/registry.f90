@@ -183,8 +183,8 @@ contains
         call add("")
         call add("exit status: 0 all is well, 1 a check or tolerance did not hold, 2 usage or")
         call add("  scene error, 3 the numbers failed, 4 LAPACK or GSL refused, 5 file error, "// &
-                 "130 interrupted,")
-        call add("  141 the reader of a pipe has gone, 143 terminated")
+                 "128 + n signal n")
+        call add("  (130 interrupted, 141 the reader of a pipe has gone, 143 terminated)")
     contains
         subroutine add(line)
             character(*), intent(in) :: line

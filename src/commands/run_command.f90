@@ -2,8 +2,7 @@ module lagrangia_run_command
     !! `lagrangia` and `lagrangia run SCENE...`: scenes, their files, the scorecard.
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: note, put, put_line
-    use lagrangia_errors, only: error_t, fail, status_interrupted, status_not_held, &
-                                status_terminated
+    use lagrangia_errors, only: error_t, fail, is_signal, status_not_held
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_json, outcome_t, scorecard_head, scorecard_legend, &
                                  scorecard_row
@@ -69,7 +68,7 @@ contains
             call progress%clear()
             if (allocated(scene_error)) then
                 call scene_error%add_context(paths(i)%text)
-                if (stops_all(scene_error)) then
+                if (is_signal(scene_error)) then
                     call move_alloc(scene_error, error)
                     return
                 end if
@@ -124,14 +123,6 @@ contains
             call draw(outcome%events, kind, error)
         end subroutine run_one
     end subroutine run_command
-
-    pure function stops_all(error) result(yes)
-        !! An interrupt ends everything.
-        type(error_t), intent(in) :: error
-        logical :: yes
-
-        yes = error%status == status_interrupted .or. error%status == status_terminated
-    end function stops_all
 
     subroutine choose_scenes(line, paths, error)
         !! The named scenes or all; every one is read, so that nothing runs if one is wrong.

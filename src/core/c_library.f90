@@ -7,8 +7,8 @@ module lagrangia_c_library
     private
     public :: c_access, c_alarm, c_chmod, c_close, c_dlsym, c_dup, c_errno, c_execvp, c_exit, &
               c_fclose, c_fdopen, c_fflush, c_fileno, c_flock, c_fopen, c_fork, c_free, c_fseek, &
-              c_fwrite, c_fwrite_reals, c_getpid, c_isatty, c_kill, c_lstat, c_mkdir, &
-              c_realpath, c_remove, c_rename, c_signal, c_stat, c_strerror, c_strlen, c_waitpid, &
+              c_fwrite, c_fwrite_reals, c_getpid, c_getrlimit, c_isatty, c_kill, c_lstat, &
+              c_malloc, c_mkdir, c_realpath, c_remove, c_rename, c_signal, c_stat, c_strerror, c_strlen, c_waitpid, &
               c_write
 
     ! allow(assumed-size): C takes the address of the first element
@@ -173,6 +173,21 @@ module lagrangia_c_library
             implicit none (type, external)
             integer(c_int) :: pid
         end function c_getpid
+
+        function c_getrlimit(resource, limits) bind(c, name="getrlimit") result(status)
+            import :: c_int, c_long
+            implicit none (type, external)
+            integer(c_int), value :: resource        !! 3 the stack
+            integer(c_long), intent(out) :: limits(2)  !! now, and the most; < 0: none
+            integer(c_int) :: status
+        end function c_getrlimit
+
+        function c_malloc(bytes) bind(c, name="malloc") result(memory)
+            import :: c_ptr, c_size_t
+            implicit none (type, external)
+            integer(c_size_t), value :: bytes
+            type(c_ptr) :: memory
+        end function c_malloc
 
         function c_signal(number, handler) bind(c, name="signal") result(old)
             import :: c_funptr, c_int

@@ -3,9 +3,9 @@ module lagrangia_errors
     use lagrangia_text, only: shortened
     implicit none (type, external)
     private
-    public :: error_t, fail, message_length
+    public :: error_t, fail, is_signal, message_length
     public :: status_ok, status_not_held, status_usage, status_numbers, status_library, &
-              status_file, status_interrupted, status_pipe, status_terminated
+              status_file, status_interrupted, status_of_signal, status_pipe, status_terminated
 
     integer, parameter :: status_ok = 0            !! all is well
     integer, parameter :: status_not_held = 1      !! a check or a scene's tolerance did not hold
@@ -13,6 +13,7 @@ module lagrangia_errors
     integer, parameter :: status_numbers = 3       !! overflow, NaN, no convergence
     integer, parameter :: status_library = 4       !! LAPACK or GSL refused
     integer, parameter :: status_file = 5          !! a file could not be read or written
+    integer, parameter :: status_of_signal = 128   !! plus the number of the signal that ended it
     integer, parameter :: status_interrupted = 130 !! SIGINT
     integer, parameter :: status_pipe = 141        !! SIGPIPE: nobody reads what is printed
     integer, parameter :: status_terminated = 143  !! SIGTERM
@@ -46,6 +47,14 @@ contains
         if (present(key)) error%key = key
         if (present(element)) error%element = element
     end subroutine fail
+
+    pure function is_signal(error) result(yes)
+        !! Whether a signal is behind `error`: then everything ends, not only what failed.
+        type(error_t), intent(in) :: error
+        logical :: yes
+
+        yes = error%status > status_of_signal
+    end function is_signal
 
     pure subroutine add_context(self, context)
         !! Put `context: ` before the message.

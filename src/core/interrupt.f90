@@ -4,16 +4,22 @@ module lagrangia_interrupt
     use, intrinsic :: iso_c_binding, only: c_associated, c_funloc, c_funptr, c_int, c_intptr_t, &
         c_null_funptr
     use lagrangia_c_library, only: c_alarm, c_kill, c_signal
-    use lagrangia_errors, only: status_interrupted, status_ok, status_terminated
+    use lagrangia_errors, only: status_of_signal, status_ok
     implicit none (type, external)
     private
     public :: catch_interrupts, interrupt_status, run_beside
 
-    integer(c_int), parameter :: sigint = 2    !! these numbers are the same on every Unix
+    integer(c_int), parameter :: sighup = 1    !! these numbers are the same on every Unix
+    integer(c_int), parameter :: sigint = 2
+    integer(c_int), parameter :: sigquit = 3
     integer(c_int), parameter :: sigpipe = 13
     integer(c_int), parameter :: sigalrm = 14
     integer(c_int), parameter :: sigterm = 15
-    integer(c_int), parameter :: sigxfsz = 25  !! except this one on MIPS
+    integer(c_int), parameter :: sigxcpu = 24  !! except these two on MIPS
+    integer(c_int), parameter :: sigxfsz = 25
+
+    integer(c_int), parameter :: endings(*) = [sighup, sigint, sigquit, sigterm, sigxcpu]
+    !! what asks a program to end: the terminal is gone, Ctrl-C, Ctrl-\, `kill`, `ulimit -t`
 
     integer(c_intptr_t), parameter :: ignored = 1  !! C's SIG_IGN
 
@@ -26,32 +32,29 @@ module lagrangia_interrupt
 contains
 
     subroutine catch_interrupts(give_up)
-        !! From now on SIGINT and SIGTERM change what `interrupt_status` returns; where nobody looks
-        !! at that for a second, `give_up` is to end the program. The second of a kind ends it at
-        !! once. A signal that our parent had us ignore (`nohup`, a job in the background of a
+        !! From now on a signal that asks the program to end (SIGHUP, SIGINT, SIGQUIT, SIGTERM,
+        !! SIGXCPU) changes what `interrupt_status` returns; where nobody looks at that for a
+        !! second, `give_up` is to end the program. The second of a kind ends it at once: by
+        !! `give_up` too, without one as if it was never caught. A signal that our parent had us ignore (`nohup`, a job in the background of a
         !! script) stays ignored. A broken pipe or a file beyond `ulimit -f` no longer ends the
         !! program: the write fails, and is reported.
         type(c_funptr), intent(in), optional :: give_up  !! a handler of signals
+        integer :: i
 
         if (present(give_up)) unheeded = give_up
-        call install(sigint, c_funloc(remember_signal))
-        call install(sigterm, c_funloc(remember_signal))
+        do i = 1, size(endings)
+            call install(endings(i), c_funloc(remember_signal))
+        end do
         call install(sigpipe, c_funloc(do_nothing))
         call install(sigxfsz, c_funloc(do_nothing))
     end subroutine catch_interrupts
 
     function interrupt_status() result(status)
-        !! 0, or the exit status due to a signal: 130 (SIGINT), 143 (SIGTERM). Costs a load.
+        !! 0, or the exit status due to a signal, 128 + its number. Costs a load.
         integer :: status
 
-        select case (caught)
-        case (sigint)
-            status = status_interrupted
-        case (sigterm)
-            status = status_terminated
-        case default
-            status = status_ok
-        end select
+        status = status_ok
+        if (caught /= 0) status = status_of_signal + int(caught)
     end function interrupt_status
 
     subroutine run_beside(pid)
@@ -77,7 +80,7 @@ contains
         type(c_funptr) :: old
 
         if (caught == 0) caught = number
-        old = c_signal(number, c_null_funptr)  ! C's SIG_DFL: the next one ends the program
+        old = c_signal(number, unheeded)  ! null is C's SIG_DFL: the next one ends the program
         if (beside > 0) number = c_kill(beside, sigterm)
         if (.not. c_associated(unheeded)) return
         old = c_signal(sigalrm, unheeded)

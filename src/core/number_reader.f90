@@ -59,8 +59,8 @@ contains
         number = quiet_strtod(with_letter_e(token))
         if (.not. ieee_is_finite(number)) then
             problem = "is too large for a double (at most 1.79769e308)"
-        else if (abs(number) < tiny(number) .and. any_digit_but_zero(token, parts)) then
-            problem = "is too small for a double (at least 2.22508e-308, or 0)"
+        else if (abs(number) <= 0.0_dp .and. any_digit_but_zero(token, parts)) then
+            problem = "is too small for a double (at least 4.94066e-324, or 0)"
         end if
     end subroutine read_number
 

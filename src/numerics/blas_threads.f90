@@ -1,12 +1,20 @@
 module lagrangia_blas_threads
-    !! OpenBLAS starts a thread for every core. At our sizes they only cost, and their number
-    !! changes last digits. Other BLAS libraries have no such switch, and need none.
+    !! OpenBLAS starts a thread for every core, before any program begins. At our sizes they only
+    !! cost, their number changes last digits, and where memory is limited (`ulimit -v`) they keep
+    !! the program from ending. It does not count cores where these two numbers of its own are set:
+    !! an executable's variables take the place of a shared library's of the same name. A version
+    !! that has no such variables is told at the start of the program. Other BLAS libraries have no
+    !! threads, or none that start so early.
     use, intrinsic :: iso_c_binding, only: c_associated, c_f_procpointer, c_funptr, c_int, &
                                            c_null_char, c_null_ptr
     use lagrangia_c_library, only: c_dlsym
     implicit none (type, external)
     private
     public :: blas_threads, use_one_blas_thread
+    public :: cores, threads  ! private, the library would not see them
+
+    integer(c_int), bind(c, name="blas_cpu_number") :: cores = 1_c_int     !! that it may use
+    integer(c_int), bind(c, name="blas_num_threads") :: threads = 1_c_int  !! that it starts
 
     abstract interface
         subroutine set_number(n) bind(c)

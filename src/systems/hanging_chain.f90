@@ -119,7 +119,7 @@ contains
         class(hanging_chain_t), intent(in) :: self
         real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
         real(dp), intent(out) :: a(lanes, self%ndof)
-        real(dp), dimension(lanes, most) :: tau, s, c, pivot
+        real(dp), dimension(lanes, self%n) :: tau, s, c, pivot  ! too much for a small stack
         integer :: k
 
         associate (n => self%n, g => self%g, l => self%l/self%n)

@@ -1,0 +1,44 @@
+module test_resources
+    !! What a command lacks is said before it is missed.
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_errors, only: error_t, status_library
+    use lagrangia_kinds, only: dp
+    use lagrangia_resources, only: check_memory, check_stack
+    implicit none (type, external)
+    private
+    public :: resources_suite
+
+contains
+
+    function resources_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("resources")
+        call suite%addTest(TestMethod("memory", memory))
+        call suite%addTest(TestMethod("stack", stack))
+    end function resources_suite
+
+    subroutine memory()
+        !! A megabyte can be had, 1e18 bytes cannot, nor more than can be counted.
+        type(error_t), allocatable :: error
+
+        call check_memory(1e6_dp, "a test", error)
+        call assertFalse(allocated(error), message="a megabyte")
+        call check_memory(1e18_dp, "a test", error)
+        call assertTrue(allocated(error), message="1e18 bytes")
+        if (.not. allocated(error)) return
+        call assertEqual("not enough memory: a test needs 1000000000000 MB", error%message)
+        call assertEqual(status_library, error%status)
+        call check_memory(1e300_dp, "a test", error)
+        call assertTrue(allocated(error), message="1e300 bytes")
+    end subroutine memory
+
+    subroutine stack()
+        !! 16 kB there are, else no test would run.
+        type(error_t), allocatable :: error
+
+        call check_stack(16, error)
+        call assertFalse(allocated(error), message="16 kB")
+    end subroutine stack
+end module test_resources
