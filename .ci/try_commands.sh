@@ -131,6 +131,10 @@ run check pendulum rolling_disk --json
 check "check: every claim holds" json 'len(d) > 25 and all(row["holds"] for row in d)'
 run principle virtual-work --json
 check "principle: its controls fail, the rest holds" json 'all(row["holds"] != row["control"] for row in d) and any(row["control"] for row in d)'
+run run cart_pendulum_small --output "$work/o"
+check "a period beside 2 pi/omega is marked small" eval 'grep -q "E-07 small  *3.83601" "$work/out" && grep -q "^small: against 2 pi/omega" "$work/out"'
+run run cart_pendulum --output "$work/o"
+check "an exact one is not" eval '! grep -q small "$work/out"'
 run errata --json
 check "errata: three parts, and what is no slip" json '[sum(slip["kind"] == kind for slip in d) for kind in ("lecture", "scan", "terminology", "no slip")] == [9, 17, 2, 1]'
 check "errata: each quoted, with its line" json 'len(d) == 29 and all(q["line"] > 0 and q["scan"] in ("I", "II") and q["text"] for slip in d for q in slip["quotes"]) and all(slip["quotes"] for slip in d)'

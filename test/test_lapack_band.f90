@@ -4,7 +4,7 @@ module test_lapack_band
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_errors, only: error_t, status_library
     use lagrangia_kinds, only: dp
-    use lagrangia_lapack_band, only: count_negative, solve_band
+    use lagrangia_lapack_band, only: count_negative, lowest_mode, solve_band
     use lagrangia_richardson, only: extrapolated
     implicit none (type, external)
     private
@@ -24,6 +24,7 @@ contains
         call suite%addTest(TestMethod("refuses_bad_bands", refuses_bad_bands))
         call suite%addTest(TestMethod("counts_negative_eigenvalues", counts_negative_eigenvalues))
         call suite%addTest(TestMethod("refuses_bad_tridiagonals", refuses_bad_tridiagonals))
+        call suite%addTest(TestMethod("finds_the_lowest_mode", finds_the_lowest_mode))
         call suite%addTest(TestMethod("extrapolates_even_powers", extrapolates_even_powers))
     end function lapack_band_suite
 
@@ -46,6 +47,34 @@ contains
         call assertFalse(allocated(error))
         call assertEqual(truth, x, 1e-12_dp)
     end subroutine solves_two_diagonals_each_side
+
+    subroutine finds_the_lowest_mode()
+        !! Of a chain of n equal springs and masses: \(2 - 2\cos\frac\pi{n+1}\) and half a sine;
+        !! of one number, itself; refusals by their message.
+        integer, parameter :: n = 9
+        real(dp) :: value, vector(n), other(2), half_sine(n)
+        type(error_t), allocatable :: error
+        integer :: k
+
+        call lowest_mode([(2.0_dp, k=1, n)], [(-1.0_dp, k=1, n - 1)], value, vector, error)
+        call assertFalse(allocated(error), "chain")
+        call assertEqual(2.0_dp - 2.0_dp*cos(pi/(n + 1)), value, 1e-14_dp)
+        half_sine = [(sin(k*pi/(n + 1)), k=1, n)]
+        half_sine = half_sine/norm2(half_sine)
+        call assertEqual(half_sine, sign(1.0_dp, vector(1))*vector, 1e-13_dp)
+        call lowest_mode([-3.0_dp], vector(:0), value, other(:1), error)
+        call assertFalse(allocated(error), "one number")
+        call assertEqual(-3.0_dp, value, 1e-15_dp)
+        call lowest_mode([1.0_dp, 2.0_dp], vector(:0), value, other, error)
+        call assertTrue(allocated(error), "shapes")
+        if (allocated(error)) call assertEqual("tridiagonal matrix: shapes do not match", &
+                                               error%message)
+        call lowest_mode([1.0_dp, ieee_value(1.0_dp, ieee_quiet_nan)], [1.0_dp], value, other, error)
+        call assertTrue(allocated(error), "NaN")
+        if (allocated(error)) call assertEqual("tridiagonal matrix: not every element is finite", &
+                                               error%message)
+        call assertEqual(0.0_dp, maxval(abs(other)), 0.0_dp, "zero after an error")
+    end subroutine finds_the_lowest_mode
 
     subroutine refuses_bad_bands()
         !! Each by its message.

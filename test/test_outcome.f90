@@ -252,8 +252,15 @@ contains
         call assertEqual(index(head, "steps") + 5, index(row, " 10 ") + 3, "steps")
         call assertEqual(index(head, "evaluations") + 11, index(row, " 40 ") + 3, "evaluations")
         call assertEqual(index(head, "worst drift"), index(row, "3.0E-09 p_x"), "the worst drift")
-        call assertEqual(index(head, "period error"), index(row, "2.5E-01"), "the judged period")
+        call assertEqual(index(head, "period error"), index(row, "2.5E-01 small "), &
+                         "the judged period, and that it is not the exact one")
+        call assertTrue(outcome%period_is_small(), "2 pi/omega")
         call assertEqual(index(head, "verdict"), index(row, "NOT small_period"), "verdict")
+        outcome%others(1)%judged = .true.
+        outcome%others(2)%judged = .false.
+        row = scorecard_row(outcome)
+        call assertEqual(index(head, "period error"), index(row, "5.0E-01  "), "the exact period")
+        call assertFalse(outcome%period_is_small(), "the exact period")
     end subroutine rows_stand_under_their_titles
 
     subroutine rows_say_where_an_error_is_from()

@@ -18,6 +18,8 @@ contains
 
         suite = TestSuite("principles")
         call suite%addTest(TestMethod("all_is_as_it_must_be", all_is_as_it_must_be))
+        call suite%addTest(TestMethod("the_picture_of_the_action", the_picture_of_the_action))
+        call suite%addTest(TestMethod("what_is_replaced_is_said", what_is_replaced_is_said))
         call suite%addTest(TestMethod("rows_are_judged", rows_are_judged))
         call suite%addTest(TestMethod("refuses_unknown_names", refuses_unknown_names))
     end function principles_suite
@@ -58,6 +60,48 @@ contains
             call assertTrue(all(abs(report%picture%values) < huge(1.0_dp)), trim(names(i)))
         end do
     end subroutine all_is_as_it_must_be
+
+    subroutine the_picture_of_the_action()
+        !! Before the conjugate point the action rises on both sides, beyond it it falls on both;
+        !! the oscillator's is \((mTa^2/4)((\pi/T)^2 - \omega^2)\), m = 0.5 kg, omega = 2/s, but for
+        !! the square of the step over 12, 2e-5 of the first term, which is 1.9 times the sum.
+        type(report_t) :: report
+        type(error_t), allocatable :: error
+        real(dp), parameter :: pi = acos(-1.0_dp), times(2) = [1.0_dp, 2.0_dp]
+        integer :: i, k
+
+        call principle_report("action", report, error)
+        call assertFalse(allocated(error), "action")
+        if (anyExceptions()) return
+        associate (values => report%picture%values)
+            call assertEqual(121, size(values, 2), "samples")
+            do k = 1, size(values, 2)
+                if (k == 61) cycle  ! the actual path
+                call assertTrue(all(values([2, 5], k) > 0.0_dp), "before: a rise on both sides")
+                call assertTrue(all(values([3, 6], k) < 0.0_dp), "beyond: a fall on both sides")
+                do i = 1, 2
+                    associate (exact => 0.125_dp*times(i)*values(1, k)**2* &
+                               ((pi/times(i))**2 - 4.0_dp))
+                        call assertEqual(exact, values(1 + i, k), 1e-4_dp*abs(exact), "parabola")
+                    end associate
+                end do
+            end do
+            call assertEqual(0.0_dp, maxval(abs(values(:, 61))), 1e-15_dp, "nothing at 0")
+        end associate
+    end subroutine the_picture_of_the_action
+
+    subroutine what_is_replaced_is_said()
+        !! F = m l^2 theta theta_dot, with theta_ddot in dF/dt replaced: `gauge` has the numbers.
+        type(report_t) :: report
+        type(error_t), allocatable :: error
+
+        call principle_report("gauge", report, error)
+        call assertFalse(allocated(error), "gauge")
+        if (anyExceptions()) return
+        call assertEqual(1, count(report%rows%name == "F = m l^2 theta theta_dot: see below"))
+        call assertTrue(index(report%notes(2), "dF/dt then has q_ddot, which no L has.") > 0)
+        call assertTrue(index(report%notes(3), "is replaced by -(g/l) sin(theta)") > 0)
+    end subroutine what_is_replaced_is_said
 
     subroutine rows_are_judged()
         !! NaN holds nothing, and is not what a control must give either.

@@ -34,7 +34,7 @@ contains
         class(observer_t), pointer :: watcher
         type(outcome_t) :: outcome
         character(:), allocatable :: folder, format, kind
-        logical :: json, quiet, stated
+        logical :: json, quiet, small, stated
         integer :: i, missed
 
         json = line%has("json")
@@ -57,6 +57,7 @@ contains
 
         watcher => progress
         missed = 0
+        small = .false.
         stated = .false.
         if (json) then
             call put_line("[")
@@ -80,6 +81,7 @@ contains
                 if (allocated(outcome%state)) call put_line("    at the end: "// &
                                                             statement_line(outcome%state))
                 stated = stated .or. allocated(outcome%state)
+                small = small .or. outcome%period_is_small()
             end if
             if (outcome%choice /= "" .and. .not. quiet) call note(paths(i)%text//": "// &
                 outcome%choice)
@@ -96,6 +98,8 @@ contains
             call put_line("]")
         else if (.not. quiet) then
             call put(scorecard_legend//new_line("a"))
+            if (small) call put_line("small: against 2 pi/omega of small oscillations, not the "// &
+                                     "exact period")
             if (stated) call put(statement_legend//new_line("a"))
             call put_line("data files and gnuplot scripts: "//folder)
         end if

@@ -5,7 +5,7 @@ module lagrangia_lapack_band
     use lagrangia_kinds, only: dp, this_part_needs_real64
     implicit none (type, external)
     private
-    public :: count_negative, solve_band
+    public :: count_negative, lowest_mode, solve_band
 
     interface
         pure subroutine dgbsv(n, kl, ku, nrhs, ab, ldab, ipiv, b, ldb, info)
@@ -26,6 +26,18 @@ module lagrangia_lapack_band
             integer, intent(out) :: m, nsplit, iblock(n), isplit(n), iwork(3*n), info
             real(dp), intent(out) :: w(n), work(4*n)
         end subroutine dstebz
+
+        pure subroutine dstevx(jobz, range, n, d, e, vl, vu, il, iu, abstol, m, w, z, ldz, work, &
+                               iwork, ifail, info)
+            import :: dp
+            implicit none (type, external)
+            character, intent(in) :: jobz, range
+            integer, intent(in) :: n, il, iu, ldz
+            real(dp), intent(in) :: vl, vu, abstol
+            real(dp), intent(inout) :: d(n), e(n)
+            integer, intent(out) :: m, iwork(5*n), ifail(n), info
+            real(dp), intent(out) :: w(n), z(ldz, 1), work(5*n)
+        end subroutine dstevx
     end interface
 
 contains
@@ -99,4 +111,41 @@ contains
         if (info /= 0) call fail(error, "tridiagonal matrix: LAPACK's dstebz failed", &
                                  status_library)
     end subroutine count_negative
+
+    pure subroutine lowest_mode(diagonal, off, value, vector, error)
+        !! The lowest eigenvalue of a symmetric tridiagonal matrix, and its eigenvector.
+        !!
+        !! Source: LAPACK Users' Guide, 3rd ed., sec. 2.4.4; `dstevx`.
+        real(dp), intent(in) :: diagonal(:)  !! (n), n > 0
+        real(dp), intent(in) :: off(:)       !! (n - 1)
+        real(dp), intent(out) :: value       !! zero after an error
+        real(dp), intent(out) :: vector(:)   !! (n), of length 1; zero after an error
+        type(error_t), allocatable, intent(out) :: error  !! shapes, NaN
+        real(dp) :: d(size(diagonal)), e(size(diagonal)), w(size(diagonal)), z(size(diagonal), 1)
+        real(dp) :: work(5*size(diagonal))
+        integer :: n, found, info, iwork(5*size(diagonal)), failed(size(diagonal))
+
+        value = 0.0_dp
+        vector = 0.0_dp
+        n = size(diagonal)
+        if (n == 0 .or. size(off) /= n - 1 .or. size(vector) /= n) then
+            call fail(error, "tridiagonal matrix: shapes do not match", status_library)
+            return
+        end if
+        if (.not. (all(ieee_is_finite(diagonal)) .and. all(ieee_is_finite(off)))) then
+            call fail(error, "tridiagonal matrix: not every element is finite", status_library)
+            return
+        end if
+        d = diagonal
+        e = 0.0_dp
+        e(:n - 1) = off
+        call dstevx("v", "i", n, d, e, 0.0_dp, 0.0_dp, 1, 1, 0.0_dp, found, w, z, n, work, iwork, &
+                    failed, info)
+        if (info /= 0) then
+            call fail(error, "tridiagonal matrix: LAPACK's dstevx failed", status_library)
+            return
+        end if
+        value = w(1)
+        vector = z(:, 1)
+    end subroutine lowest_mode
 end module lagrangia_lapack_band

@@ -6,7 +6,8 @@ module lagrangia_action
     !! the first conjugate point, \(T > \pi/\omega\) for the oscillator, neighbours have less.
     use lagrangia_action_paths, only: extrapolated_action, extrapolated_change, oscillator_action, &
                                       oscillator_path, straight, swing, swing_period
-    use lagrangia_discrete_action, only: action_gradient, action_of, find_path, negative_curvatures
+    use lagrangia_discrete_action, only: action_gradient, action_of, find_path, &
+                                         lowest_variation, negative_curvatures
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_oscillator, only: oscillator_t
@@ -224,18 +225,20 @@ contains
     end subroutine least_or_not
 
     subroutine draw_variations(oscillator, pendulum, report, error)
-        !! The picture: \(S[q+\eta] - S[q]\) over the amplitude of \(\eta\), before and beyond the
-        !! conjugate point.
+        !! The picture: \(S[q+a\eta] - S[q]\), before and beyond the conjugate point. \(\eta\) is
+        !! the variation that lowers the action most (or raises it least): the oscillator's half
+        !! sine, and another for the pendulum, along which its cubic terms stay small.
         class(system_t), intent(in) :: oscillator, pendulum
         type(report_t), intent(inout) :: report
         type(error_t), allocatable, intent(out) :: error
         integer, parameter :: n = 200, samples = 121
-        real(dp) :: times(4), least, wave(n + 1)
-        real(dp), allocatable :: path(:, :), varied(:, :)
-        integer :: i, j
+        real(dp), parameter :: reach(2) = [1.0_dp, 0.4_dp]  !! m, rad
+        real(dp) :: times(4)
+        integer :: i
 
         report%picture%file = "principle_action"
-        report%picture%title = "Action of q + a sin(pi t/T), less that of the actual path q"
+        report%picture%title = "Action of q + a eta, less that of the actual path q; "// &
+                               "eta: what lowers it most"
         report%picture%names = [character(32) :: "a", "oscillator_wT_2", "oscillator_wT_4", &
                                 "a_theta", "pendulum_0.45_periods", "pendulum_0.70_periods"]
         report%picture%units = [character(16) :: "m", "J s", "J s", "rad", "J s", "J s"]
@@ -244,31 +247,33 @@ contains
         allocate (report%picture%values(6, samples))
         times(:2) = [1.0_dp, 2.0_dp]
         times(3:) = [0.45_dp, 0.7_dp]*swing_period(widest, g/l)
-        wave = [(sin(pi*j/n), j=0, n)]
-        do i = 1, 4
-            if (i <= 2) then
-                call true_path(oscillator, times(i), n, path, error)
-            else
-                call true_path(pendulum, times(i), n, path, error)
-            end if
+        do i = 1, 2
+            call draw(oscillator, times(i), 1, 1 + i)
+            if (.not. allocated(error)) call draw(pendulum, times(2 + i), 4, 4 + i)
             if (allocated(error)) return
-            do j = 1, samples
-                associate (row => report%picture%values(:, j))
-                    row(1) = (j - 1)*2.0_dp/(samples - 1) - 1.0_dp
-                    row(4) = row(1)
-                    allocate (varied, source=path)
-                    varied(1, :) = varied(1, :) + row(1)*wave
-                    if (i <= 2) then
-                        least = action_of(oscillator, 0.0_dp, times(i)/n, path)
-                        row(i + 1) = action_of(oscillator, 0.0_dp, times(i)/n, varied) - least
-                    else
-                        least = action_of(pendulum, 0.0_dp, times(i)/n, path)
-                        row(i + 2) = action_of(pendulum, 0.0_dp, times(i)/n, varied) - least
-                    end if
-                    deallocate (varied)
-                end associate
-            end do
         end do
+    contains
+        subroutine draw(system, time, across, up)
+            class(system_t), intent(in) :: system
+            real(dp), intent(in) :: time        !! s
+            integer, intent(in) :: across, up   !! columns
+            real(dp), allocatable :: path(:, :), varied(:, :)
+            real(dp) :: eta(n + 1), actual, a
+            integer :: j
+
+            call true_path(system, time, n, path, error)
+            if (allocated(error)) return
+            call lowest_variation(system, 0.0_dp, time/n, path, eta, error)
+            if (allocated(error)) return
+            actual = action_of(system, 0.0_dp, time/n, path)
+            allocate (varied, source=path)
+            do j = 1, samples
+                a = reach(merge(1, 2, across == 1))*(2.0_dp*(j - 1)/(samples - 1) - 1.0_dp)
+                varied(1, :) = path(1, :) + a*eta
+                report%picture%values(across, j) = a
+                report%picture%values(up, j) = action_of(system, 0.0_dp, time/n, varied) - actual
+            end do
+        end subroutine draw
     end subroutine draw_variations
 
     subroutine true_path(system, time, n, path, error)

@@ -10,11 +10,12 @@ module lagrangia_discrete_action
     use lagrangia_hyperdual, only: assignment(=), hyperdual, hyperdual_t, operator(*), &
         operator(+), operator(-), operator(/)
     use lagrangia_kinds, only: dp
-    use lagrangia_lapack_band, only: count_negative, solve_band
+    use lagrangia_lapack_band, only: count_negative, lowest_mode, solve_band
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: action_gradient, action_of, expand_action, find_path, negative_curvatures
+    public :: action_gradient, action_of, expand_action, find_path, lowest_variation, &
+              negative_curvatures
 
     integer, parameter :: most_steps = 30            !! of Newton's method
     real(dp), parameter :: nearly_there = 1e-7_dp    !! the next step squares it
@@ -151,4 +152,23 @@ contains
         call expand_action(system, t0, h, path, gradient, band)
         call count_negative(band(2, :), band(3, :size(gradient) - 1), count, error)
     end subroutine negative_curvatures
+
+    pure subroutine lowest_variation(system, t0, h, path, variation, error)
+        !! The variation along which the action is bent least, or falls most: the eigenvector of
+        !! the lowest eigenvalue of its Hessian. Zero at both ends; its largest value is 1. One
+        !! coordinate only.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t0, h           !! s
+        real(dp), intent(in) :: path(:, :)      !! (1, points)
+        real(dp), intent(out) :: variation(:)   !! (points)
+        type(error_t), allocatable, intent(out) :: error  !! LAPACK's
+        real(dp), allocatable :: gradient(:), band(:, :)
+        real(dp) :: lowest, inner(size(path, 2) - 2)
+
+        variation = 0.0_dp
+        call expand_action(system, t0, h, path, gradient, band)
+        call lowest_mode(band(2, :), band(3, :size(gradient) - 1), lowest, inner, error)
+        if (allocated(error)) return
+        variation(2:size(path, 2) - 1) = inner/inner(maxloc(abs(inner), 1))
+    end subroutine lowest_variation
 end module lagrangia_discrete_action

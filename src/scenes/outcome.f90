@@ -54,6 +54,8 @@ module lagrangia_outcome
         procedure :: verdict
         procedure :: holds
         procedure :: error
+        procedure :: period_is_small
+        procedure, private :: shown_period
     end type outcome_t
 
 contains
@@ -88,6 +90,30 @@ contains
             if (self%others(i)%name == "error") value = self%others(i)%worst
         end do
     end function error
+
+    pure function shown_period(self) result(which)
+        !! Which of `others` is the period error of the scorecard: one that is judged, or the
+        !! first; 0 if there is none.
+        class(outcome_t), intent(in) :: self
+        integer :: which, i
+
+        which = 0
+        do i = 1, size(self%others)
+            if (index(self%others(i)%name, "period") == 0) cycle
+            if (self%others(i)%judged .or. which == 0) which = i
+        end do
+    end function shown_period
+
+    pure function period_is_small(self) result(yes)
+        !! Whether that is the error beside \(2\pi/\omega\) and not beside the exact period.
+        class(outcome_t), intent(in) :: self
+        logical :: yes
+        integer :: i
+
+        i = self%shown_period()
+        yes = .false.
+        if (i > 0) yes = self%others(i)%name == "small_period"
+    end function period_is_small
 
     function verdict(self) result(text)
         !! `holds`, `not judged`, or what did not hold.
@@ -164,6 +190,7 @@ contains
             json = json//"null"
         end if
         json = json//', "period_error": '//find(self%others, "period")
+        json = json//', "small_period_error": '//find(self%others, "small_period")
         json = json//', "omega": '
         if (self%omega > 0.0_dp) then
             json = json//json_number(self%omega)
@@ -242,11 +269,9 @@ contains
         if (self%error_from == from_half_step) error_text = short(self%error())//" estimate"
         if (self%error_from == from_steps) error_text = short(self%error())//" steps"
         period_text = "-"
-        do i = 1, size(self%others)
-            if (index(self%others(i)%name, "period") == 0) cycle
-            if (.not. (self%others(i)%judged .or. period_text == "-")) cycle
-            period_text = short(self%others(i)%worst)
-        end do
+        i = self%shown_period()
+        if (i > 0) period_text = short(self%others(i)%worst)
+        if (self%period_is_small()) period_text = period_text//" small"
         omega_text = "-"
         if (self%omega > 0.0_dp) then
             omega_text = fixed(self%omega, 5)
