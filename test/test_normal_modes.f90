@@ -1,9 +1,12 @@
 module test_normal_modes
     !! Normal modes of anybody's K and M, as another program asks for them.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
-    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
+    use, intrinsic :: iso_fortran_env, only: real128
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
+                     assertLessThan, assertTrue
     use lagrangia, only: dp, error_t, is_oscillation, is_unstable, is_zero_mode, normal_modes, &
                          normal_modes_t
+    use random_states, only: restart_random, uniform
     implicit none (type, external)
     private
     public :: normal_modes_suite
@@ -19,6 +22,10 @@ contains
         call suite%addTest(TestMethod("free_chain_has_a_zero_mode", free_chain_has_a_zero_mode))
         call suite%addTest(TestMethod("negative_springs_are_unstable", &
                                       negative_springs_are_unstable))
+        call suite%addTest(TestMethod("slow_modes_beside_fast_ones_keep_their_digits", &
+                                      slow_modes_beside_fast_ones_keep_their_digits))
+        call suite%addTest(TestMethod("graded_matrices_keep_their_digits", &
+                                      graded_matrices_keep_their_digits))
         call suite%addTest(TestMethod("bad_matrices_give_nothing", bad_matrices_give_nothing))
     end function normal_modes_suite
 
@@ -101,6 +108,139 @@ contains
         call assertTrue(ieee_is_nan(modes%omega(1)), "no frequency")
         call assertEqual(3.0_dp, modes%omega(2), 1e-15_dp)
     end subroutine negative_springs_are_unstable
+
+    subroutine slow_modes_beside_fast_ones_keep_their_digits()
+        !! A small frequency is no zero mode, however fast another is; what the elements of \(K\)
+        !! cancel to their last digit is one, exactly.
+        real(dp), parameter :: one(2) = 1.0_dp
+
+        call check([1e16_dp, 0.0_dp, 4.0_dp], [4.0_dp, 1e16_dp], is_oscillation)
+        call check([1e300_dp, 0.0_dp, 1e-300_dp], [1e-300_dp, 1e300_dp], is_oscillation)
+        call check([1e16_dp, 1e3_dp, 4.0_dp], [4.0_dp - 1e-10_dp, 1e16_dp], is_oscillation)
+        call check([1e16_dp, 0.0_dp, -4.0_dp], [-4.0_dp, 1e16_dp], is_unstable)
+        call check([1e16_dp, -1e16_dp, 1e16_dp], [0.0_dp, 2e16_dp], is_zero_mode)
+        call check([1e16_dp, 1e8_dp, 1.0_dp], [0.0_dp, 1e16_dp + 1.0_dp], is_zero_mode)
+        call check([0.0_dp, 0.0_dp, 1e-9_dp], [0.0_dp, 1e-9_dp], is_zero_mode)
+    contains
+        subroutine check(k, omega2, label)
+            !! `k` is \(K_{11}, K_{12}, K_{22}\).
+            real(dp), intent(in) :: k(3), omega2(2)
+            integer, intent(in) :: label
+            type(normal_modes_t) :: modes
+            type(error_t), allocatable :: error
+
+            call normal_modes(reshape([k(1), k(2), k(2), k(3)], [2, 2]), diagonal(one), modes, &
+                              error)
+            call assertFalse(allocated(error))
+            if (anyExceptions()) return
+            call assertEqual(label, modes%label(1), "label of the slow one")
+            call assertEqual(omega2(1), modes%omega2(1), 4.0_dp*spacing(omega2(1)), "slow")
+            call assertEqual(omega2(2), modes%omega2(2), 4.0_dp*spacing(omega2(2)), "fast")
+        end subroutine check
+    end subroutine slow_modes_beside_fast_ones_keep_their_digits
+
+    subroutine graded_matrices_keep_their_digits()
+        !! Random \(K = DCD\) and \(M = EBE\), \(C\) and \(B\) well-conditioned, \(D\) and
+        !! \(E\) over many decades, \(K\) definite or not, against Jacobi's method in quadruple
+        !! precision. What rounding of the elements does is some \(n\epsilon\) times the conditions
+        !! of \(C\) and \(B\), below 20 each; `dsygv` alone is off by many times the smallest.
+        integer, parameter :: decades(3) = [4, 8, 12]
+        type(normal_modes_t) :: modes
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: k(:, :), m(:, :), omega2(:)
+        real(dp) :: worst
+        integer :: i, j, n
+
+        call restart_random()
+        worst = 0.0_dp
+        do j = 1, size(decades)
+            do i = 1, 100
+                n = 2 + mod(i, 6)
+                call draw_graded(n, decades(j), mod(i, 3) == 0, k, m)
+                call quad_frequencies(k, m, omega2)
+                call normal_modes(k, m, modes, error)
+                call assertFalse(allocated(error))
+                if (anyExceptions()) return
+                worst = max(worst, maxval(abs(modes%omega2/omega2 - 1.0_dp)))
+            end do
+        end do
+        call assertLessThan(worst, 7*400*epsilon(worst), message="relative")
+    end subroutine graded_matrices_keep_their_digits
+
+    subroutine draw_graded(n, decades, indefinite, k, m)
+        !! See `graded_matrices_keep_their_digits`.
+        integer, intent(in) :: n, decades
+        logical, intent(in) :: indefinite
+        real(dp), allocatable, intent(out) :: k(:, :), m(:, :)
+        real(dp) :: scale(n, 2), sign_of
+        integer :: i, j
+
+        allocate (k(n, n), m(n, n))
+        do j = 1, n
+            scale(j, 1) = 10.0_dp**(decades*uniform(-0.25_dp, 0.25_dp))
+            scale(j, 2) = 10.0_dp**(decades*uniform(-0.25_dp, 0.25_dp))
+        end do
+        do j = 1, n
+            sign_of = merge(-1.0_dp, 1.0_dp, indefinite .and. j == 1)
+            do i = 1, j
+                k(i, j) = merge(sign_of, uniform(-0.12_dp, 0.12_dp), i == j)*scale(i, 1)*scale(j, 1)
+                m(i, j) = merge(1.0_dp, uniform(-0.12_dp, 0.12_dp), i == j)*scale(i, 2)*scale(j, 2)
+                k(j, i) = k(i, j)
+                m(j, i) = m(i, j)
+            end do
+        end do
+    end subroutine draw_graded
+
+    subroutine quad_frequencies(k, m, omega2)
+        !! Of \(L^{-1}KL^{-\top}\), \(M = LL^\top\), by Jacobi's rotations; ascending.
+        real(dp), intent(in) :: k(:, :), m(:, :)
+        real(dp), allocatable, intent(out) :: omega2(:)
+        real(real128), dimension(size(k, 1), size(k, 1)) :: a, l
+        real(real128) :: theta, t, c, s, x(size(k, 1)), y(size(k, 1))
+        real(dp) :: values(size(k, 1))
+        integer :: n, i, j, p, q, sweep
+
+        n = size(k, 1)
+        a = k
+        l = 0.0_real128
+        do j = 1, n
+            do i = j, n
+                l(i, j) = m(i, j) - dot_product(l(i, :j - 1), l(j, :j - 1))
+                l(i, j) = merge(sqrt(abs(l(i, j))), l(i, j)/max(l(j, j), tiny(t)), i == j)
+            end do
+        end do
+        do i = 1, n
+            a(i, :) = (a(i, :) - matmul(l(i, :i - 1), a(:i - 1, :)))/l(i, i)
+        end do
+        do i = 1, n
+            a(:, i) = (a(:, i) - matmul(a(:, :i - 1), l(i, :i - 1)))/l(i, i)
+        end do
+        do sweep = 1, 40
+            do p = 1, n - 1
+                do q = p + 1, n
+                    if (abs(a(p, q)) <= 0.0_real128) cycle
+                    theta = (a(q, q) - a(p, p))/(2.0_real128*a(p, q))
+                    t = sign(1.0_real128, theta)/(abs(theta) + sqrt(theta**2 + 1.0_real128))
+                    c = 1.0_real128/sqrt(t**2 + 1.0_real128)
+                    s = t*c
+                    x = a(:, p)
+                    y = a(:, q)
+                    a(:, p) = c*x - s*y
+                    a(:, q) = s*x + c*y
+                    x = a(p, :)
+                    y = a(q, :)
+                    a(p, :) = c*x - s*y
+                    a(q, :) = s*x + c*y
+                end do
+            end do
+        end do
+        values = [(real(a(i, i), dp), i=1, n)]
+        allocate (omega2(n))
+        do i = 1, n
+            omega2(i) = minval(values)
+            values(minloc(values, 1)) = huge(values)
+        end do
+    end subroutine quad_frequencies
 
     subroutine bad_matrices_give_nothing()
         !! One line, status 2 for what can be seen, 4 for what LAPACK finds.

@@ -2,6 +2,7 @@ module lagrangia_eigen
     !! Eigenproblems of small oscillations, with every check that LAPACK leaves to its callers.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_errors, only: error_t, fail, status_library
+    use lagrangia_jacobi, only: refine_modes
     use lagrangia_kinds, only: dp
     use lagrangia_lapack_eigen, only: dgejsv, dsygv, dsygvd
     use lagrangia_text, only: to_text
@@ -10,6 +11,8 @@ module lagrangia_eigen
     public :: normal_modes, modes_from_factors, residual_ratio
 
     integer, parameter :: small = 32  !! up to here dsygv is the faster one
+    real(dp), parameter :: graded = 1.0_dp/16.0_dp
+    !! the smallest over the largest, below which LAPACK's rounding of the largest is refined
 
     interface normal_modes
         !! `lagrangia_normal_modes` has another form of it.
@@ -20,7 +23,8 @@ contains
 
     pure subroutine matrix_modes(stiffness, inertia, omega2, modes, error)
         !! Solve \(K u = \omega^2 M u\) with \(u^\top M u = 1\), \(\omega^2\) ascending; of each
-        !! mode the component that is largest in magnitude is positive.
+        !! mode the component that is largest in magnitude is positive. Small \(\omega^2\) keep
+        !! the digits that the elements of \(K\) and \(M\) leave them: see `lagrangia_jacobi`.
         !!
         !! Source: Landau & Lifshitz, *Mechanics*, 3rd ed., sec. 23; LAPACK `dsygv`, `dsygvd`.
         real(dp), intent(in) :: stiffness(:, :)             !! \(K\), symmetric, (n, n)
@@ -73,8 +77,44 @@ contains
             deallocate (omega2, modes)
             return
         end if
+        if (minval(abs(omega2)) < graded*maxval(abs(omega2))) then
+            if (n <= small) modes = unit_masses(inertia)
+            call refine_modes(stiffness, inertia, omega2, modes)
+            call sort(omega2, modes)
+        end if
         call orient(modes)
     end subroutine matrix_modes
+
+    pure function unit_masses(inertia) result(modes)
+        !! One coordinate a column, \(u^\top M u = 1\).
+        real(dp), intent(in) :: inertia(:, :)
+        real(dp) :: modes(size(inertia, 1), size(inertia, 1))
+        integer :: i
+
+        modes = 0.0_dp
+        do i = 1, size(inertia, 1)
+            modes(i, i) = 1.0_dp/sqrt(inertia(i, i))
+        end do
+    end function unit_masses
+
+    pure subroutine sort(omega2, modes)
+        !! Ascending, by insertion: they hardly are out of order.
+        real(dp), intent(inout) :: omega2(:), modes(:, :)
+        real(dp) :: one, column(size(modes, 1))
+        integer :: i, k
+
+        do i = 2, size(omega2)
+            one = omega2(i)
+            column = modes(:, i)
+            do k = i - 1, 1, -1
+                if (omega2(k) <= one) exit
+                omega2(k + 1) = omega2(k)
+                modes(:, k + 1) = modes(:, k)
+            end do
+            omega2(k + 1) = one
+            modes(:, k + 1) = column
+        end do
+    end subroutine sort
 
     pure subroutine check_matrix(a, name, error)
         !! Square, not empty, finite, symmetric to rounding: that of an element, or of the sums of

@@ -3,10 +3,11 @@ module lagrangia_normal_modes
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_eigen, only: normal_modes
     use lagrangia_errors, only: error_t
+    use lagrangia_jacobi, only: zero_modes
     use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
-    public :: normal_modes_t, normal_modes, put_labels, vanishing
+    public :: normal_modes_t, normal_modes, put_labels
     public :: is_oscillation, is_zero_mode, is_unstable
 
     integer, parameter :: is_oscillation = 1, is_zero_mode = 2, is_unstable = 3
@@ -39,16 +40,9 @@ contains
 
         call normal_modes(stiffness, inertia, modes%omega2, modes%shapes, error)
         if (allocated(error)) return
-        call put_labels(vanishing(modes%omega2), modes%omega2, modes%omega, modes%label)
+        call put_labels(zero_modes(stiffness, modes%shapes), modes%omega2, modes%omega, &
+                        modes%label)
     end subroutine labelled_modes
-
-    pure function vanishing(omega2) result(vanishes)
-        !! What is below the rounding of the largest.
-        real(dp), intent(in) :: omega2(:)
-        logical :: vanishes(size(omega2))
-
-        vanishes = abs(omega2) <= 16*size(omega2)*epsilon(omega2)*maxval(abs(omega2))
-    end function vanishing
 
     pure subroutine put_labels(vanishes, omega2, omega, label)
         !! A negative square is a growth rate; what `vanishes` becomes 0.

@@ -9,11 +9,12 @@ module lagrangia_small_oscillations
     use lagrangia_errors, only: error_t, fail, status_library
     use lagrangia_gyroscopic, only: gyroscopic_modes, gyroscopic_ratio, is_steady
     use lagrangia_hyperdual, only: hyperdual_t
+    use lagrangia_jacobi, only: zero_modes
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
     use lagrangia_linearised, only: linearised_t
     use lagrangia_normal_modes, only: is_oscillation, is_unstable, is_zero_mode, normal_modes, &
-                                      normal_modes_t, put_labels, vanishing
+                                      normal_modes_t, put_labels
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -247,26 +248,37 @@ contains
     end subroutine solve_gyroscopic
 
     pure subroutine label_modes(modes)
-        !! Below rounding a frequency is a zero mode, unless one of exact factors or slow only
-        !! beside a fast one.
+        !! A zero mode is what stiffness does not hold, to the rounding of its own terms; of exact
+        !! factors, exactly. With gyroscopic forces a mode may be slow because the fast one is
+        !! fast: then its spring is there. There are never more than \(K\) alone has.
         type(modes_t), intent(inout) :: modes
         logical :: vanishes(size(modes%omega2))
+        real(dp), allocatable :: omega2(:), shapes(:, :)
+        type(error_t), allocatable :: error
         real(dp) :: rounding, spring
-        integer :: j
+        integer :: j, free
 
-        vanishes = vanishing(modes%omega2)
-        if (allocated(modes%page%root)) vanishes = abs(modes%omega2) <= 0.0_dp
+        vanishes = .false.
         if (allocated(modes%quadrature)) then
+            call normal_modes(modes%stiffness, modes%mass, omega2, shapes, error)
+            free = 0
+            if (.not. allocated(error)) free = count(zero_modes(modes%stiffness, shapes))
             rounding = 16*size(modes%omega2)*epsilon(rounding)
-            do j = 1, size(vanishes)
-                ! a mode may be slow because the fast one is fast: then its spring is there
+            do while (free > 0)
+                j = minloc(abs(modes%omega2), 1, .not. vanishes)
                 associate (u => modes%shapes(:, j), w => modes%quadrature(:, j))
                     spring = abs(dot_product(u, matmul(modes%stiffness, u)) + &
                                  dot_product(w, matmul(modes%stiffness, w)))
-                    vanishes(j) = vanishes(j) .and. spring <= rounding* &
-                                  maxval(abs(modes%stiffness))*(sum(u**2) + sum(w**2))
+                    if (abs(modes%omega2(j)) > rounding*maxval(abs(modes%omega2)) .or. &
+                        spring > rounding*maxval(abs(modes%stiffness))*(sum(u**2) + sum(w**2))) exit
                 end associate
+                vanishes(j) = .true.
+                free = free - 1
             end do
+        else if (allocated(modes%page%root)) then
+            vanishes = abs(modes%omega2) <= 0.0_dp
+        else
+            vanishes = zero_modes(modes%stiffness, modes%shapes)
         end if
         call put_labels(vanishes, modes%omega2, modes%omega, modes%label)
     end subroutine label_modes
