@@ -1,8 +1,8 @@
 module lagrangia_gauss_adaptive
-    !! Gauss-Legendre collocation, order 16, that chooses its steps: fast at any tolerance. For
-    !! smooth forces: where a force has a kink the error is larger than the tolerance.
+    !! Gauss-Legendre collocation, order 16, by tolerance: fast for smooth forces.
     !!
-    !! - *Error.* See `lagrangia_gauss_control`.
+    !! - *Error.* See `lagrangia_gauss_control`. Over a kink or a jump of the force, which the dense
+    !!   output sees (`lagrangia_gauss_kinks`; not without it), steps are halved many times.
     !! - *Iteration.* Sweeps end where what they would still change is a tenth of the tolerance.
     !! - *Steps* are as long as the error allows, but not so long that sweeps would converge
     !!   slowly: a sweep wins a factor of about \((h/h_0)^2\), and \((1/h)/\log(h_0/h)\) sweeps a
@@ -11,6 +11,7 @@ module lagrangia_gauss_adaptive
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_gauss_control, only: longer, seen_whole, weigh
     use lagrangia_gauss_dense, only: gauss_dense_t
+    use lagrangia_gauss_kinks, only: see_kinks
     use lagrangia_gauss_stages, only: gauss_stages_t
     use lagrangia_gauss_tables, only: stages
     use lagrangia_integrator, only: dense_integrator_t, same
@@ -99,7 +100,7 @@ contains
         end if
         good = to >= from
         do while (self%t_new < self%t_end .and. good)
-            call take_step(self, system, good)
+            call take_whole_step(self, system, good)
         end do
         q = self%s%q
         v = self%s%v
@@ -133,23 +134,35 @@ contains
         type(error_t), allocatable, intent(out) :: error
         logical :: good
 
+        call take_whole_step(self, system, good)
+        if (.not. good) call fail(error, "no step is small enough at t = "//to_text(self%t_new)// &
+                  " s: the motion diverges or is not smooth there (try dop853)", status_numbers)
+    end subroutine step
+
+    pure subroutine take_whole_step(self, system, good)
+        !! One accepted step that went over nothing between its nodes, or none: then `good` is
+        !! false. Where only the ends of steps are asked for, any accepted step.
+        type(gauss_adaptive_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        logical, intent(out) :: good
+        real(dp) :: first(self%s%n)
+
         do
             call self%inside%keep(self%t_new, self%s%q, self%s%v)
+            first = self%s%start
             call take_step(self, system, good)
-            if (.not. good) exit
-            if (.not. self%dense) then
-                call self%inside%keep(self%t_new, self%s%q, self%s%v)
-                return
-            end if
+            if (.not. good) return
+            if (.not. self%dense) call self%inside%keep(self%t_new, self%s%q, self%s%v)
+            if (.not. self%dense) return
             call self%inside%fit(system, self%t_new, self%s%q, self%s%v, self%s%known, &
                                  self%weight, good)
             self%evaluations = self%evaluations + 2*stages*self%inside%sweeps
+            if (good) call see_kinks(self%inside, system, self%tolerance, first, self%s%start, &
+                                     self%evaluations, good)
             if (good) return
             call take_back(self, system)
         end do
-        call fail(error, "no step is small enough at t = "//to_text(self%t_new)// &
-                  " s: the motion diverges or is not smooth there", status_numbers)
-    end subroutine step
+    end subroutine take_whole_step
 
     pure subroutine take_back(self, system)
         !! Undo a step that went over something between its nodes; the next one is half as long.

@@ -13,7 +13,7 @@ module lagrangia_gauss_dense
     use lagrangia_system, only: lanes, system_t
     implicit none (type, external)
     private
-    public :: gauss_dense_t
+    public :: gauss_dense_t, points
 
     integer, parameter :: points = 2*lanes
     integer, parameter :: most_sweeps = 10
@@ -31,10 +31,14 @@ module lagrangia_gauss_dense
         real(dp), allocatable :: a(:, :)              !! their Chebyshev coefficients
         real(dp), allocatable :: v(:, :), q(:, :)     !! those of velocities and coordinates
         real(dp), allocatable :: q_lane(:, :), v_lane(:, :), f_lane(:, :)
+        real(dp), allocatable :: apart(:, :)  !! of both quadratures: velocity/h, coordinate/h**2
+        real(dp), allocatable :: ends(:, :)   !! the series of the accelerations there
+        real(dp), allocatable :: noise(:)     !! of accelerations, where it was looked for
     contains
         procedure :: prepare
         procedure :: keep
         procedure :: fit
+        procedure :: place
         procedure :: at
     end type gauss_dense_t
 
@@ -54,6 +58,9 @@ contains
         self%v_old = state
         self%q_new = state
         self%v_new = state
+        self%apart = block(:2, :)
+        self%ends = block(:2, :)
+        self%noise = state
         self%q_lane = block
         self%v_lane = block
         self%f_lane = block
@@ -122,6 +129,9 @@ contains
         do d = 1, system%ndof
             difference(1) = (v_new(d) - sum(self%v(:, d)))/self%h
             difference(2) = (q_new(d) - sum(self%q(:, d)))/self%h**2
+            self%apart(:, d) = abs(difference)
+            self%ends(1, d) = sum(self%a(0::2, d)) - sum(self%a(1::2, d))
+            self%ends(2, d) = sum(self%a(:, d))
             self%a(0, d) = self%a(0, d) + difference(1)
             self%a(1, d) = self%a(1, d) + 3.0_dp*difference(1) - 6.0_dp*difference(2)
             call integrate_series(self, d)
@@ -192,21 +202,11 @@ contains
         real(dp), intent(in) :: weight(system%ndof)
         real(dp), intent(out) :: change
         real(dp) :: times(lanes)
-        integer :: d, group, k
+        integer :: d, group
 
         change = 0.0_dp
         do group = 0, lanes, lanes
-            times = self%t + 0.5_dp*self%h*(1.0_dp + self%t_at(group + 1:group + lanes, 1))
-            self%q_lane(:, :) = 0.0_dp
-            self%v_lane(:, :) = 0.0_dp
-            do d = 1, system%ndof
-                do k = points + 1, 0, -1
-                    self%q_lane(:, d) = self%q_lane(:, d) &
-                                        + self%q(k, d)*self%t_at(group + 1:group + lanes, k)
-                    self%v_lane(:, d) = self%v_lane(:, d) &
-                                        + self%v(k, d)*self%t_at(group + 1:group + lanes, k)
-                end do
-            end do
+            call self%place(group, times)
             call system%accelerations_lanes(times, self%q_lane, self%v_lane, self%f_lane)
             do d = 1, system%ndof
                 change = change + weight(d)*sum((self%f_lane(:, d) &
@@ -217,6 +217,26 @@ contains
         change = sqrt(change/points)
         self%sweeps = self%sweeps + 1
     end subroutine evaluate
+
+    pure subroutine place(self, group, times)
+        !! Where the present motion is at eight of the points.
+        class(gauss_dense_t), intent(inout) :: self
+        integer, intent(in) :: group
+        real(dp), intent(out) :: times(lanes)
+        integer :: d, k
+
+        times = self%t + 0.5_dp*self%h*(1.0_dp + self%t_at(group + 1:group + lanes, 1))
+        self%q_lane(:, :) = 0.0_dp
+        self%v_lane(:, :) = 0.0_dp
+        do d = 1, size(self%q_lane, 2)
+            do k = points + 1, 0, -1
+                self%q_lane(:, d) = self%q_lane(:, d) &
+                                    + self%q(k, d)*self%t_at(group + 1:group + lanes, k)
+                self%v_lane(:, d) = self%v_lane(:, d) &
+                                    + self%v(k, d)*self%t_at(group + 1:group + lanes, k)
+            end do
+        end do
+    end subroutine place
 
     pure subroutine at(self, t, q, v)
         !! The state at `t`; at the ends of the step, and beyond, the ends themselves. From the

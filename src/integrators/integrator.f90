@@ -44,7 +44,8 @@ module lagrangia_integrator
         real(dp) :: t_old = 0.0_dp        !! s
         real(dp) :: t_new = 0.0_dp        !! s
         real(dp) :: t_end = 0.0_dp        !! no step goes beyond, s
-        logical :: dense = .true.         !! false: only the ends of steps are asked for: cheaper
+        logical :: dense = .true.         !! false: only the ends of steps are asked for: cheaper,
+        !! but gauss16 looks for no kinks of the force
         integer(i8) :: accepted = 0
         integer(i8) :: rejected = 0
     contains
