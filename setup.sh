@@ -2,7 +2,8 @@
 # Make this machine ready to build and run lagrangia; what is already there is left alone.
 #
 #   ./setup.sh          compiler, LAPACK, BLAS, GSL, gnuplot and fpm
-#   ./setup.sh --dev    the same, and the tools of .ci/run: two for lint, valgrind
+#   ./setup.sh --dev    the same, and what .ci/run needs: two tools for lint, valgrind,
+#                       the reference BLAS and LAPACK
 #
 # Debian and its relatives: missing libraries come from apt-get (as root, or through sudo), fpm and
 # the lint tools from pip into a virtual environment of their own. Elsewhere it says what to install.
@@ -21,7 +22,7 @@ say() { printf 'setup: %s\n' "$*"; }
 complain() { printf 'setup: %s\n' "$*" >&2; ready=false; }
 has() { command -v "$1" >/dev/null 2>&1; }
 
-usage() { sed -n '2,9s/^# \{0,1\}//p' "$0"; }
+usage() { sed -n '2,10s/^# \{0,1\}//p' "$0"; }
 
 at_least() { # at_least WANTED VERSION
     [ -n "$2" ] && [ "$(printf '%s\n%s\n' "$1" "$2" | sort -V | head -n 1)" = "$1" ]
@@ -84,6 +85,8 @@ find_missing() {
         tool_is_fine fortitude || missing_tools+=(fortitude)
         tool_is_fine findent || missing_tools+=(findent)
         has valgrind || missing_packages+=(valgrind)
+        compgen -G '/usr/lib/*/blas/libblas.so.3' >/dev/null || missing_packages+=(libblas3)
+        compgen -G '/usr/lib/*/lapack/liblapack.so.3' >/dev/null || missing_packages+=(liblapack3)
     fi
     if [ ${#missing_tools[@]} -gt 0 ] && [ -z "$(find_python)" ]; then
         missing_packages+=(python3-venv)

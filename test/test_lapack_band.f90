@@ -69,7 +69,8 @@ contains
         call assertTrue(allocated(error), "shapes")
         if (allocated(error)) call assertEqual("tridiagonal matrix: shapes do not match", &
                                                error%message)
-        call lowest_mode([1.0_dp, ieee_value(1.0_dp, ieee_quiet_nan)], [1.0_dp], value, other, error)
+        call lowest_mode([1.0_dp, ieee_value(1.0_dp, ieee_quiet_nan)], [1.0_dp], value, other, &
+                         error)
         call assertTrue(allocated(error), "NaN")
         if (allocated(error)) call assertEqual("tridiagonal matrix: not every element is finite", &
                                                error%message)

@@ -163,7 +163,7 @@ contains
             real(dp), intent(in) :: left, right, bottom, upper  !! pixels
             character(200) :: line
 
-            write (line, "(4(a, f6.4))") "set lmargin at screen ", left/width, &
+            write (line, "(ss, 4(a, f6.4))") "set lmargin at screen ", left/width, &
                 "; set rmargin at screen ", right/width, "; set bmargin at screen ", &
                 bottom/height, "; set tmargin at screen ", upper/height
             call script%add(trim(line))

@@ -181,7 +181,7 @@ contains
         type(cell_t) :: cell
 
         cell%value = real(number, dp)
-        write (cell%shown, "(i0)") number
+        write (cell%shown, "(ss, i0)") number
         cell%json = cell%shown
     end function count_cell
 
@@ -210,10 +210,10 @@ contains
         exponent = 0
         if (abs(number) > 0.0_dp) exponent = floor(log10(abs(number)*(1.0_dp + epsilon(number))))
         if (exponent < -3 .or. exponent > 8) then
-            write (layout, "(a, i0, a)") "(es20.", digits - 1, "e3)"
+            write (layout, "(ss, a, i0, a)") "(ss, es20.", digits - 1, "e3)"
         else
             behind = max(0, digits - 1 - exponent)
-            write (layout, "(a, i0, a)") "(f30.", behind, ")"
+            write (layout, "(ss, a, i0, a)") "(ss, f30.", behind, ")"
         end if
         write (buffer, layout) number
         text = trim(adjustl(buffer))

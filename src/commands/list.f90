@@ -88,7 +88,8 @@ contains
                 call put(adaptive%name, "order "//to_text(adaptive%order)//", steps by "// &
                          "tolerance: "//adaptive%title)
             end do
-            call put(auto, "a closed form where one is known; otherwise the fastest of these")
+            call put(auto, "a closed form where one is known; otherwise gauss16, mostly the "// &
+                     "fastest")
         end subroutine list_methods
 
         subroutine list_scenes(error)

@@ -225,9 +225,9 @@ contains
         text = "0"
         if (abs(value) <= 0.0_dp) return
         if (abs(value) >= 1e-3_dp .and. abs(value) < 1e5_dp) then
-            write (text, "(f18.11)") value
+            write (text, "(ss, f18.11)") value
         else
-            write (text, "(es18.10e3)") value  ! as wide as the longest
+            write (text, "(ss, es18.10e3)") value  ! as wide as the longest
         end if
         text = adjustl(text)
     end function number

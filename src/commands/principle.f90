@@ -175,9 +175,9 @@ contains
         character(15) :: text
 
         if (abs(value) < 1e6_dp .and. abs(value - anint(value)) <= 0.0_dp) then
-            write (text, "(i15)") nint(value)
+            write (text, "(ss, i15)") nint(value)
         else if (abs(value) >= 1e-2_dp .and. abs(value) < 1e4_dp) then
-            write (text, "(f15.9)") value
+            write (text, "(ss, f15.9)") value
         else
             text = scientific(value, 8)
             text = adjustr(text)

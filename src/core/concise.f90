@@ -39,7 +39,7 @@ contains
         integer, intent(out) :: place
         character(wide) :: buffer
 
-        write (buffer, "(es64.14e4)") error
+        write (buffer, "(ss, es64.14e4)") error
         buffer = adjustl(buffer)
         digit = buffer(1:1)
         place = power_of(error, 14)
@@ -56,7 +56,7 @@ contains
         integer :: power
         character(wide) :: buffer, layout
 
-        write (layout, "(a, i0, a)") "(es64.", digits, "e4)"
+        write (layout, "(ss, a, i0, a)") "(ss, es64.", digits, "e4)"
         write (buffer, layout) number
         read (buffer(index(buffer, "E") + 1:), *) power
     end function power_of
@@ -68,7 +68,7 @@ contains
         character(:), allocatable :: text
         character(wide) :: buffer, layout
 
-        write (layout, "(a, i0, a)") "(f64.", digits, ")"
+        write (layout, "(ss, a, i0, a)") "(ss, f64.", digits, ")"
         write (buffer, layout) value
         text = trim(adjustl(buffer))
         if (digits == 0) text = text(:len(text) - 1)
@@ -93,7 +93,7 @@ contains
         digits = top - place
         top = power_of(value, digits)
         digits = top - place  ! one more where 9.99... became 10
-        write (layout, "(a, i0, a)") "(es64.", digits, "e4)"
+        write (layout, "(ss, a, i0, a)") "(ss, es64.", digits, "e4)"
         write (buffer, layout) value
         text = trim(adjustl(buffer(:index(buffer, "E") - 1)))
         if (digits == 0) text = text(:len(text) - 1)

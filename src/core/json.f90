@@ -49,7 +49,7 @@ contains
 
         json = "null"
         if (.not. ieee_is_finite(value)) return
-        write (text, "(es24.16e3)") value
+        write (text, "(ss, es24.16e3)") value
         json = trim(adjustl(text))
     end function json_real
 
@@ -59,7 +59,7 @@ contains
         character(:), allocatable :: json
         character(20) :: text
 
-        write (text, "(i0)") value
+        write (text, "(ss, i0)") value
         json = trim(text)
     end function json_integer
 

@@ -18,10 +18,10 @@ contains
         character(:), allocatable :: text
         character(32) :: buffer, layout
 
-        write (layout, "(a, i0, a)") "(es32.", digits - 1, "e2)"
+        write (layout, "(ss, a, i0, a)") "(ss, es32.", digits - 1, "e2)"
         write (buffer, layout) value
         if (index(buffer, "*") > 0) then          ! three digits of exponent
-            write (layout, "(a, i0, a)") "(es32.", digits - 1, "e3)"
+            write (layout, "(ss, a, i0, a)") "(ss, es32.", digits - 1, "e3)"
             write (buffer, layout) value
         end if
         text = trim(adjustl(buffer))
@@ -36,7 +36,7 @@ contains
         character(330) :: buffer                  ! huge(value) has 309 digits before its point
         character(16) :: layout
 
-        write (layout, "(a, i0, a)") "(f330.", decimals, ")"
+        write (layout, "(ss, a, i0, a)") "(ss, f330.", decimals, ")"
         write (buffer, layout) value
         text = trim(adjustl(buffer))
     end function fixed
@@ -47,7 +47,7 @@ contains
         character((field_width + 1)*size(values)), intent(out) :: row
         integer, intent(out) :: length      !! `row(:length)` is the line
 
-        write (row, "(*(es24.16e3, :, 1x))") values
+        write (row, "(ss, *(es24.16e3, :, 1x))") values
         length = len(row)
         row(length:) = new_line("a")
     end subroutine write_row
@@ -60,7 +60,7 @@ contains
         character((field_width + 1)*size(values)) :: padded
         integer :: column, first, last
 
-        write (padded, "(*(es24.16e3, :, ','))") values
+        write (padded, "(ss, *(es24.16e3, :, ','))") values
         length = 0
         do column = 1, size(values)
             last = (field_width + 1)*column - 1

@@ -164,7 +164,7 @@ contains
         character(:), allocatable :: text
         character(24) :: buffer
 
-        write (buffer, "(i0)") number
+        write (buffer, "(ss, i0)") number
         text = trim(buffer)
     end function int64_to_text
 
@@ -184,7 +184,7 @@ contains
         end if
         ! fifteen digits survive a normal double, so a shorter text is those without its zeros
         do digits = merge(1, 15, abs(number) < tiny(number)), 17
-            write (layout, "(a, i0, a)") "(es32.", digits - 1, "e3)"
+            write (layout, "(ss, a, i0, a)") "(ss, es32.", digits - 1, "e3)"
             write (buffer, layout) abs(number)
             read (buffer, *, iostat=ios) back
             if (ios == 0 .and. .not. abs(back - abs(number)) > 0.0_dp) exit

@@ -51,7 +51,7 @@ contains
         character(12) :: buffer
         real(dp) :: near
 
-        write (buffer, "(es12.3e3)") number
+        write (buffer, "(ss, es12.3e3)") number
         read (buffer, *) near
         text = to_text(near)
     end function rounded

@@ -63,9 +63,10 @@ contains
         d%constraint = "unilateral: y >= 0, lambda >= 0, lambda y = 0"
         d%notes = [character(len(d%title)) :: &
             "The energy is that of a flight: it is multiplied by restitution^2 at every bounce.", &
-            "Thrown from the floor with v0 the ball rests after 2 v0/(g (1 - restitution)).", &
+            "Thrown from the floor with v0 it rests after 2 v0/(g (1 - restitution)); elastic, "// &
+            "never.", &
             "A flight shorter than the time's last digit is none: there the ball comes to rest."]
-        d%source = "Constraints: the particle above a floor, a unilateral constraint"
+        d%source = "Phys 601, 1 September 2011: the constraint y > 0, unilateral"
     end subroutine describe
 
     pure subroutine configure(self, values, error)

@@ -42,11 +42,13 @@ contains
             d%quantities = [ &
                 conserved("p_theta", "kg m^2/s", "i_yaw theta_dot: steering goes on", &
                           self%m*self%r*speed), &
-                quantity("p_phi", "kg m^2/s", "(i_roll + m r^2) phi_dot: conserved on the level"), &
+                quantity("p_phi", "kg m^2/s", "(i_roll + m r^2) phi_dot: about the contact; "// &
+                         "conserved on the level"), &
                 conserved("roll_yaw", "J", "(i_roll + m r^2) phi_dot theta_dot + "// &
                           "m g r sin(incline) cos(theta): on any incline", d%energy_scale), &
                 conserved("orbit_x", "m/s^2", "theta_dot (theta_dot x + r phi_dot cos(theta)) "// &
-                          "- r kappa sin(theta)^2/2: level, centre of the circle", self%g), &
+                          "- r kappa sin(theta)^2/2: level, theta_dot^2 times the centre's x", &
+                          self%g), &
                 conserved("orbit_y", "m/s^2", "theta_dot (theta_dot y + r phi_dot sin(theta)) "// &
                           "- r kappa (theta_dot t - sin(2 theta)/2)/2", self%g), &
                 conserved("slip_x", "m/s", "x_dot - r sin(theta) phi_dot: zero, it rolls", speed), &
@@ -56,7 +58,8 @@ contains
                 quantity("p_x", "kg m/s", "m x_dot: changes, although on the level L has no x"), &
                 quantity("p_y", "kg m/s", "m y_dot: changes, although L has no y")]
             if (abs(self%pull()) <= 0.0_dp) d%quantities(2) = &
-                conserved("p_phi", "kg m^2/s", "(i_roll + m r^2) phi_dot: as the plane is level", &
+                conserved("p_phi", "kg m^2/s", "(i_roll + m r^2) phi_dot: about the contact; "// &
+                          "the plane is level", &
                           self%m*self%r*speed)
         end associate
         d%points = [point("centre", self%m)]
@@ -81,13 +84,15 @@ contains
                        "y_dot + r cos(theta) phi_dot = 0"
         d%notes = [character(len(d%title)) :: &
             "The notes' test (unequal partials of A) shows only that A.dq is not exact;", &
-            "Frobenius decides: a^da = r cos(theta) dx^dphi^dtheta: no integrating factor.", &
+            "Frobenius decides: of the notes' dx a^da = r cos(theta) dx^dphi^dtheta: no "// &
+            "integrating factor.", &
             "Four coordinates, two velocities: every (x, y, phi, theta) can be reached.", &
             "Level: lambda = m r phi_dot theta_dot (cos(theta), sin(theta)), and a circle of "// &
             "radius r phi_dot/theta_dot.", &
-            "Inclined: it does not run downhill but drifts sideways, at r kappa/(2 theta_dot).", &
+            "Inclined, steering: it does not run downhill but drifts sideways, at "// &
+            "r kappa/(2 theta_dot).", &
             "Lagrange-d'Alembert: the constraint is not put into L.", &
-            "The disk is held upright, without friction; v may be given as phi_dot, theta_dot."]
+            "What holds the disk upright resists no motion; v may be given as phi_dot, theta_dot."]
         d%source = "Phys 601, 1 September 2011: nonholonomic constraint A.q_dot + B = 0"
     end subroutine describe
 end submodule lagrangia_rolling_disk_description
