@@ -6,7 +6,7 @@ module system_checks
     use funit, only: anyExceptions, assertEqual, assertGreaterThan, assertTrue
     use lagrangia_audit, only: audit_system, draws
     use lagrangia_audit_equations, only: claim_accelerations, claim_energy
-    use lagrangia_audit_motion, only: claim_gauss
+    use lagrangia_audit_newton, only: claim_gauss
     use lagrangia_findings, only: audit_t
     use lagrangia_system, only: system_t
     implicit none (type, external)

@@ -1,22 +1,13 @@
 module lagrangia_least_squares
-    !! Small least-squares problems, free and with conditions, and a test of definiteness. LAPACK.
+    !! Small least-squares problems, and a test of definiteness. LAPACK.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_errors, only: error_t, fail, status_library
     use lagrangia_kinds, only: dp, this_part_needs_real64
     implicit none (type, external)
     private
-    public :: constrained_least_squares, least_squares, smallest_pivot
+    public :: least_squares, smallest_pivot
 
     interface
-        pure subroutine dgglse(m, n, p, a, lda, b, ldb, c, d, x, work, lwork, info)
-            import :: dp
-            implicit none (type, external)
-            integer, intent(in) :: m, n, p, lda, ldb, lwork
-            real(dp), intent(inout) :: a(lda, n), b(ldb, n), c(m), d(p)
-            real(dp), intent(out) :: x(n), work(lwork)
-            integer, intent(out) :: info
-        end subroutine dgglse
-
         pure subroutine dgels(trans, m, n, nrhs, a, lda, b, ldb, work, lwork, info)
             import :: dp
             implicit none (type, external)
@@ -38,51 +29,6 @@ module lagrangia_least_squares
     end interface
 
 contains
-
-    pure subroutine constrained_least_squares(a, c, b, d, x, error)
-        !! The `x` with \(Bx = d\) exactly that makes \(\lVert Ax - c\rVert\) least.
-        !!
-        !! Source: LAPACK Users' Guide, 3rd ed., sec. 2.3.3; `dgglse`.
-        real(dp), intent(in) :: a(:, :)                   !! (m, n)
-        real(dp), intent(in) :: c(:)                      !! (m)
-        real(dp), intent(in) :: b(:, :)                   !! (p, n), of rank p; p <= n <= m + p
-        real(dp), intent(in) :: d(:)                      !! (p)
-        real(dp), intent(out) :: x(:)                     !! (n); zero after an error
-        type(error_t), allocatable, intent(out) :: error  !! shapes, NaN, rank
-        real(dp) :: a_work(size(a, 1), size(a, 2)), b_work(max(1, size(b, 1)), size(b, 2))
-        real(dp) :: c_work(size(c)), d_work(size(d)), work(64*(size(a) + size(b) + 1))
-        integer :: info
-
-        x = 0.0_dp
-        if (size(a, 2) /= size(x) .or. size(b, 2) /= size(x) .or. size(a, 1) /= size(c) .or. &
-            size(b, 1) /= size(d) .or. size(d) > size(x) .or. size(x) > size(c) + size(d)) then
-            call fail(error, "constrained least squares: shapes do not match", status_library)
-            return
-        end if
-        if (.not. (all(ieee_is_finite(a)) .and. all(ieee_is_finite(b)) .and. &
-                   all(ieee_is_finite(c)) .and. all(ieee_is_finite(d)))) then
-            call fail(error, "constrained least squares: not every coefficient is finite", &
-                      status_library)
-            return
-        end if
-        if (size(x) == 0) return
-        a_work = a
-        b_work = 0.0_dp
-        b_work(:size(b, 1), :) = b
-        c_work = c
-        d_work = d
-        call dgglse(size(c), size(x), size(d), a_work, max(1, size(a, 1)), b_work, &
-                    size(b_work, 1), c_work, d_work, x, work, size(work), info)
-        if (info == 0 .and. all(ieee_is_finite(x))) return
-        x = 0.0_dp
-        if (info == 1) then
-            call fail(error, "constrained least squares: the conditions depend on each other", &
-                      status_library)
-        else
-            call fail(error, "constrained least squares: the solution is not unique", &
-                      status_library)
-        end if
-    end subroutine constrained_least_squares
 
     pure subroutine least_squares(a, c, x, error)
         !! The `x` that makes \(\lVert Ax - c\rVert\) least; \(A\) of full rank, (m, n), m >= n.

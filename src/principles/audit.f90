@@ -7,7 +7,8 @@ module lagrangia_audit
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use lagrangia_audit_equations, only: audit_accelerations, audit_constraints, audit_energy, &
                                          audit_lanes, audit_momenta, claim_accelerations
-    use lagrangia_audit_motion, only: audit_gauss, audit_inertia, audit_rates, say_reactions
+    use lagrangia_audit_motion, only: audit_rates
+    use lagrangia_audit_newton, only: audit_gauss, audit_inertia, say_reactions
     use lagrangia_audit_structure, only: audit_cyclic, audit_flags, audit_mass
     use lagrangia_description, only: description_t
     use lagrangia_diagnosis, only: diagnose
@@ -16,6 +17,7 @@ module lagrangia_audit
     use lagrangia_kinds, only: dp
     use lagrangia_random_draws, only: random_t
     use lagrangia_system, only: default_values, system_t
+    use lagrangia_term_sizes, only: motion_t, nearby_t, new_nearby, solve_motion
     implicit none (type, external)
     private
     public :: audit_system, draws
@@ -45,7 +47,7 @@ contains
         do i = 1, draws
             call random%parameters(system, mod(i, 2) == 0, values, error, fixed, given)
             if (.not. allocated(error)) then
-                call audit_state(system, random, mod(i, 2) == 1, all_free, audit, error)
+                call audit_state(system, values, random, mod(i, 2) == 1, all_free, audit, error)
             end if
             if (allocated(error)) then
                 call audit%judge("parameters and states are taken", 1.0_dp, 0.0_dp, 1.0_dp)
@@ -104,14 +106,18 @@ contains
         call system%configure(values, error)
     end subroutine show_reactions
 
-    subroutine audit_state(system, random, inside, all_free, audit, error)
+    subroutine audit_state(system, values, random, inside, all_free, audit, error)
         !! Every claim, at one state.
         class(system_t), intent(in) :: system
+        real(dp), intent(in) :: values(:)  !! its parameters
         type(random_t), intent(inout) :: random
         logical, intent(in) :: inside    !! no parameter was put on the edge of its domain
         logical, intent(in) :: all_free  !! nor was one given
         type(audit_t), intent(inout) :: audit
         type(error_t), allocatable, intent(out) :: error
+        type(nearby_t) :: nearby
+        type(motion_t) :: motion
+        type(error_t), allocatable :: unsolved
         real(dp), allocatable :: q(:), v(:), other_q(:), other_v(:)
         real(dp) :: t, other_t
 
@@ -119,14 +125,21 @@ contains
         if (allocated(error)) return
         call random%state(system, other_t, other_q, other_v, error)
         if (allocated(error)) return
-        call audit_accelerations(audit, system, t, q, v)
-        call audit_gauss(audit, system, t, q, v)
-        call audit_constraints(audit, system, t, q, v)
-        call audit_energy(audit, system, t, q, v)
-        call audit_rates(audit, system, t, q, v)
-        call audit_momenta(audit, system, t, q, v)
-        call audit_lanes(audit, system, t, q, v)
-        call audit_inertia(audit, system, t, q, v)
+        call new_nearby(nearby, system, values, t, q, v)
+        call solve_motion(nearby, motion, unsolved)
+        if (allocated(unsolved)) then
+            call audit%judge(claim_accelerations, 1.0_dp, 0.0_dp, 1.0_dp)
+            call audit%say(claim_accelerations, unsolved%message)
+        else
+            call audit_accelerations(audit, system, nearby, motion)
+            call audit_gauss(audit, system, nearby, motion)
+            call audit_constraints(audit, system, nearby, motion)
+        end if
+        call audit_energy(audit, system, nearby)
+        if (.not. allocated(unsolved)) call audit_rates(audit, system, nearby, motion)
+        call audit_momenta(audit, system, nearby)
+        if (.not. allocated(unsolved)) call audit_lanes(audit, system, nearby, motion)
+        call audit_inertia(audit, system, nearby)
         if (inside) call audit_mass(audit, system, t, q, v)
         call audit_cyclic(audit, system, t, q, v)
         call audit_flags(audit, system, t, q, v, other_t, other_v, inside .and. all_free)

@@ -2,6 +2,7 @@ module lagrangia_audit_structure
     !! What a system says of its structure: integrators and small oscillations rely on it.
     use lagrangia_description, only: description_t
     use lagrangia_findings, only: audit_t
+    use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
     use lagrangia_least_squares, only: smallest_pivot
@@ -93,17 +94,36 @@ contains
     end subroutine audit_cyclic
 
     subroutine audit_mass(audit, system, t, q, v)
-        !! \(\partial^2 L/\partial v\,\partial v\) is positive definite: by Cholesky, of the matrix
-        !! scaled to a diagonal of ones. The number shown is what the smallest pivot lacks of 1.
+        !! \(\partial^2 L/\partial v\,\partial v\) is positive definite, for the velocities that
+        !! the constraints \(A\dot q + b = 0\) leave: with a multiple of \(A^\top A\) added. By
+        !! Cholesky, of the matrix scaled to a diagonal of ones. The number shown is what the
+        !! smallest pivot lacks of 1.
         type(audit_t), intent(inout) :: audit
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t, q(:), v(:)
         character(*), parameter :: claim = "mass matrix is positive definite"
         type(euler_lagrange_t) :: terms
-        real(dp) :: lack
+        type(hyperdual_t) :: place(size(q)), rows(system%constraints, size(q))
+        type(hyperdual_t) :: drift(system%constraints)
+        real(dp) :: lack, weight, matrix(size(q), size(q))
+        integer :: i, k
 
         call expand_lagrangian(system, t, q, v, terms)
-        lack = 1.0_dp - smallest_pivot(terms%mass)
+        place%re = q
+        call system%constraint_rows(hyperdual_t(re=t), place, rows, drift)
+        matrix = terms%mass
+        do k = 1, system%constraints
+            weight = 0.0_dp
+            do i = 1, size(q)
+                if (abs(rows(k, i)%re) > 0.0_dp) then
+                    weight = max(weight, abs(terms%mass(i, i))/rows(k, i)%re**2)
+                end if
+            end do
+            do i = 1, size(q)
+                matrix(:, i) = matrix(:, i) + weight*rows(k, :)%re*rows(k, i)%re
+            end do
+        end do
+        lack = 1.0_dp - smallest_pivot(matrix)
         call audit%judge(claim, lack, 1.0_dp - 100.0_dp*epsilon(lack), 1.0_dp)
         if (.not. lack < 1.0_dp) call audit%say(claim, "a pivot is zero or negative")
     end subroutine audit_mass

@@ -10,19 +10,21 @@ module lagrangia_diagnosis
                                         term_length, term_names
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
-    use lagrangia_lagrange, only: accelerations_from_lagrangian, euler_lagrange_t, &
-                                  expand_lagrangian
     use lagrangia_parameters, only: default_values
     use lagrangia_random_draws, only: random_t
     use lagrangia_system, only: system_t
     use lagrangia_term_fit, only: best_term
+    use lagrangia_term_sizes, only: motion_t, nearby_t, new_nearby, solve_motion
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: diagnose, factor_text
 
     integer, parameter :: states = 40
-    real(dp), parameter :: rounding = 1e-11_dp  !! relative, of the equations at these states
+    real(dp), parameter :: rounding = 100.0_dp*epsilon(1.0_dp)
+    !! of the terms of an equation, as in `lagrangia_audit_equations`
+    real(dp), parameter :: aside = 1e-6_dp
+    !! of the worst: what is so much better suffers from how the wrong equations were solved
     real(dp), parameter :: explained = 1e-9_dp  !! misfit of a term that explains a difference
 
 contains
@@ -35,64 +37,82 @@ contains
         type(random_t) :: random
         type(error_t), allocatable :: error
         real(dp), dimension(states, system%ndof) :: wrong, residual
+        real(dp), dimension(system%ndof) :: of_acceleration, of_equation
         real(dp), allocatable :: in_accelerations(:, :, :, :), in_equations(:, :, :)
         logical, dimension(system%ndof) :: bad, unfulfilled
-        real(dp) :: sizes(system%ndof)
         integer :: i, n
 
         n = system%ndof
         allocate (in_equations(states, n, term_count(n) + n))
         allocate (in_accelerations(states, n, term_count(n), n + 1))
         call system%describe(d)
-        call collect(system, random, wrong, residual, in_accelerations, in_equations, error)
+        call collect(system, random, wrong, residual, of_acceleration, of_equation, &
+                     in_accelerations, in_equations, error)
         remark = "the accelerations cannot be compared"
         if (allocated(error)) return
-        sizes = maxval(abs(wrong), 1)
-        bad = sizes > rounding*(1.0_dp + maxval(sizes))
-        unfulfilled = maxval(abs(residual), 1) > rounding*(1.0_dp + maxval(abs(residual)))
+        bad = of_acceleration > max(rounding, aside*maxval(of_acceleration))
+        unfulfilled = of_equation > max(rounding, aside*maxval(of_equation))
         if (count(unfulfilled) == 1 .and. count(bad) /= 1) then
             i = findloc(unfulfilled, .true., 1)
             remark = "the equation of "//trim(d%coordinates(i)%name)//" is not that of L"// &
                      equation_term(d, i, residual(:, i), in_equations)
         else
-            i = maxloc(sizes, 1)
+            i = maxloc(of_acceleration, 1)
             remark = trim(d%coordinates(i)%name)//"_ddot is not that of L"// &
                      acceleration_term(d, i, wrong(:, i), in_accelerations)
             if (count(bad) > 1) remark = remark//"; others are wrong too"
         end if
     end subroutine diagnose
 
-    subroutine collect(system, random, wrong, residual, in_accelerations, in_equations, error)
+    subroutine collect(system, random, wrong, residual, of_acceleration, of_equation, &
+                       in_accelerations, in_equations, error)
         !! Differences and terms at many states: `wrong(s, i)` of \(\ddot q_i\), `residual(s, i)`
-        !! of equation `i` with the system's accelerations in it.
+        !! of equation `i` with the system's accelerations in it; and the largest of each,
+        !! relative to the size of its terms.
         class(system_t), intent(in) :: system
         type(random_t), intent(inout) :: random
-        real(dp), intent(out) :: wrong(:, :), residual(:, :)
+        real(dp), intent(out) :: wrong(:, :), residual(:, :), of_acceleration(:), of_equation(:)
         real(dp), intent(out) :: in_accelerations(:, :, :, :), in_equations(:, :, :)
         type(error_t), allocatable, intent(out) :: error
-        type(euler_lagrange_t) :: terms
+        type(description_t) :: d
+        type(nearby_t) :: nearby
+        type(motion_t) :: motion
         real(dp), allocatable :: q(:), v(:), by_equation(:, :), by_acceleration(:, :, :)
-        real(dp) :: t, a(system%ndof), oracle(system%ndof), multipliers(system%constraints)
+        real(dp), dimension(system%ndof) :: a, size_of_row
+        real(dp) :: t
         integer :: s, j, n
 
         n = system%ndof
+        call system%describe(d)
+        of_acceleration = 0.0_dp
+        of_equation = 0.0_dp
         do s = 1, states
             call random%state(system, t, q, v, error)
             if (allocated(error)) return
             call system%accelerations(t, q, v, a)
-            call accelerations_from_lagrangian(system, t, q, v, oracle, multipliers, error)
+            call new_nearby(nearby, system, default_values(d), t, q, v)
+            call solve_motion(nearby, motion, error)
             if (allocated(error)) return
             call acceleration_terms(system, t, q, v, by_acceleration, error)
             if (allocated(error)) return
             call equation_terms(system, t, q, v, by_equation)
-            call expand_lagrangian(system, t, q, v, terms)
-            wrong(s, :) = a - oracle
-            residual(s, :) = matmul(terms%mass, a - oracle)
-            in_accelerations(s, :, :, :) = by_acceleration
-            in_equations(s, :, :size(by_equation, 2)) = by_equation
-            do j = 1, n  ! an inertia term counted more often is one on the right less often
-                in_equations(s, :, size(by_equation, 2) + j) = -terms%mass(:, j)*a(j)
-            end do
+            wrong(s, :) = a - motion%accelerations
+            associate (mass => nearby%terms(0)%mass)
+                residual(s, :) = matmul(mass, wrong(s, :))
+                size_of_row = motion%equation_size + matmul(abs(mass), abs(a))
+                in_accelerations(s, :, :, :) = by_acceleration
+                in_equations(s, :, :size(by_equation, 2)) = by_equation
+                do j = 1, n  ! an inertia term counted more often is one on the right less often
+                    in_equations(s, :, size(by_equation, 2) + j) = -mass(:, j)*a(j)
+                end do
+            end associate
+            where (abs(wrong(s, :)) > 0.0_dp)
+                of_acceleration = max(of_acceleration, abs(wrong(s, :)) &
+                                      /(motion%size + abs(wrong(s, :))))
+            end where
+            where (abs(residual(s, :)) > 0.0_dp)
+                of_equation = max(of_equation, abs(residual(s, :))/size_of_row)
+            end where
         end do
     end subroutine collect
 
@@ -152,16 +172,22 @@ contains
         real(dp), intent(in) :: factor
         type(description_t), intent(in) :: d
         character(:), allocatable :: text
+        real(dp), parameter :: zero = 1e-11_dp  !! what rounding leaves of 1 - 1
         real(dp), allocatable :: values(:)
+        real(dp) :: rounded
+        character(13) :: number
         integer :: i, j
 
         allocate (values, source=default_values(d))
-        if (abs(2.0_dp*factor - anint(2.0_dp*factor)) < 1e-8_dp) then
-            text = to_text(0.5_dp*anint(2.0_dp*factor) + 0.0_dp)  ! zero has no sign
+        if (abs(2.0_dp*factor - anint(2.0_dp*factor)) <= 1e-8_dp*abs(factor) .or. &
+            abs(factor) < zero) then
+            text = to_text(0.5_dp*anint(2.0_dp*factor) + 0.0_dp)
             if (text(max(1, len(text) - 1):) == ".0") text = text(:len(text) - 2)
             return
         end if
-        text = to_text(real(nint(1e6_dp*factor), dp)*1e-6_dp)
+        write (number, "(es13.6)") factor
+        read (number, *) rounded
+        text = to_text(rounded)
         if (any(d%parameters%count > 1)) return
         do i = 1, size(values)
             if (same(values(i))) text = name(i)
@@ -177,7 +203,7 @@ contains
             real(dp), intent(in) :: value
             logical :: same
 
-            same = abs(value - factor) < 1e-8_dp*abs(factor)
+            same = abs(value - factor) < 1e-8_dp*abs(factor) + zero
         end function same
 
         function name(k)

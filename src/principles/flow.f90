@@ -1,11 +1,10 @@
 module lagrangia_flow
     !! How fast quantities of a system change along its motion.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_kinds, only: dp
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: flow_derivative
+    public :: flow_derivative, quantity_of
 
     real(dp), parameter :: order8(4) = [4.0_dp/5.0_dp, -1.0_dp/5.0_dp, 4.0_dp/105.0_dp, &
                                         -1.0_dp/280.0_dp]
@@ -13,64 +12,132 @@ module lagrangia_flow
 
 contains
 
-    subroutine flow_derivative(system, i, t, q, v, rate, scale, noise)
+    subroutine flow_derivative(system, i, t, q, v, rate, scale, noise, size_of_terms, errors)
         !! Time derivative of quantity `i` (0: the energy) along the equations of motion, by
         !! central differences of order 8 along \((1, \dot q, \ddot q)\), and the size of what
-        !! adds up to it: the changes with time, coordinates and velocities taken one by one. The
-        !! step is shortened where it would leave the places where the quantity is a number.
+        !! adds up to it: the changes with time, coordinates and velocities taken one by one.
         class(system_t), intent(in) :: system
         integer, intent(in) :: i
         real(dp), intent(in) :: t, q(:), v(:)
         real(dp), intent(out) :: rate, scale
         real(dp), intent(out), optional :: noise
-        !! of the rate, absolute: rounding of the values over the step, and the difference
-        !! between orders 6 and 8, which truncation stays below
-        real(dp) :: a(size(q)), zero(size(q)), one(size(q)), h, other
+        !! of the rate, absolute: rounding of the values over the step, the difference between
+        !! orders 6 and 8, which truncation stays below, and what errors of the accelerations do
+        real(dp), intent(in), optional :: size_of_terms  !! of the quantity, else from the state
+        real(dp), intent(in), optional :: errors(:)      !! of the accelerations, else none
+        real(dp) :: a(size(q)), zero(size(q)), one(size(q)), h, kept, part, carried, largest
         integer :: k
 
         call system%accelerations(t, q, v, a)
         zero = 0.0_dp
-        h = 0.02_dp/(1.0_dp + maxval(abs(v)) + maxval(abs(a)))
-        do k = 1, 20
-            rate = slope(system, i, t, q, v, 1.0_dp, v, a, h, order8)
-            if (ieee_is_finite(rate)) exit
-            h = 0.25_dp*h
-        end do
-        scale = abs(slope(system, i, t, q, v, 1.0_dp, zero, zero, h, order8))
+        if (present(size_of_terms)) then
+            largest = size_of_terms
+        else
+            largest = size_from_state(system, i, t, q, v)
+        end if
+        call choose_step(system, i, t, q, v, a, largest, h, rate, kept)
+        call slope(system, i, t, q, v, 1.0_dp, zero, zero, h, order8, scale)
+        scale = abs(scale)
+        carried = 0.0_dp
         do k = 1, size(q)
             one = zero
             one(k) = v(k)
-            scale = scale + abs(slope(system, i, t, q, v, 0.0_dp, one, zero, h, order8))
-            one(k) = a(k)
-            scale = scale + abs(slope(system, i, t, q, v, 0.0_dp, zero, one, h, order8))
+            call slope(system, i, t, q, v, 0.0_dp, one, zero, h, order8, part)
+            scale = scale + abs(part)
+            one(k) = abs(a(k)) + abs(v(k)) + tiny(h)
+            call slope(system, i, t, q, v, 0.0_dp, zero, one, h, order8, part)
+            scale = scale + abs(a(k))*abs(part)/one(k)
+            if (present(errors)) carried = carried + errors(k)*abs(part)/one(k)
         end do
-        scale = scale + abs(value_of(system, i, t, q, v)) + tiny(1.0_dp)
-        if (.not. present(noise)) return
-        other = slope(system, i, t, q, v, 1.0_dp, v, a, h, order6)
-        noise = abs(rate - other) + epsilon(h)/h*(abs(value_of(system, i, t, q, v)) + h*scale)
+        scale = scale + largest + tiny(1.0_dp)
+        if (present(noise)) noise = kept + carried + epsilon(h)*scale
     end subroutine flow_derivative
 
-    function slope(system, i, t, q, v, dt, dq, dv, h, weight) result(rate)
+    subroutine choose_step(system, i, t, q, v, a, size_of_terms, h, rate, noise)
+        !! From the shortest step on, each time four times as long, as long as the rates agree
+        !! within their noise: a step that is too long shows, whatever its own estimate says.
+        !!
+        !! Source: O. V. Lepskii, Theory Probab. Appl. 35, 454 (1991).
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: i
+        real(dp), intent(in) :: t, q(:), v(:), a(:), size_of_terms
+        real(dp), intent(out) :: h, rate, noise
+        integer, parameter :: steps = 20
+        real(dp) :: next, now, other, largest, now_noise
+        integer :: k
+
+        h = 0.1_dp/(1.0_dp + maxval(abs(v)) + sqrt(maxval(abs(a))))*0.25_dp**steps
+        next = h
+        do k = 0, steps
+            call slope(system, i, t, q, v, 1.0_dp, v, a, next, order6, other)
+            call slope(system, i, t, q, v, 1.0_dp, v, a, next, order8, now, largest)
+            now_noise = abs(now - other) + (epsilon(h)*(size_of_terms + largest) &
+                                            + tiny(h))/next
+            if (k > 0) then
+                if (.not. abs(now - rate) <= 3.0_dp*noise) return
+                if (.not. now_noise < noise) then
+                    next = 4.0_dp*next
+                    cycle
+                end if
+            end if
+            h = next
+            rate = now
+            noise = now_noise
+            next = 4.0_dp*next
+        end do
+    end subroutine choose_step
+
+    function size_from_state(system, i, t, q, v) result(size_of_terms)
+        !! \(|f| + \sum_k|x_k\,\partial f/\partial x_k|\) over time, coordinates and velocities.
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: i
+        real(dp), intent(in) :: t, q(:), v(:)
+        real(dp) :: size_of_terms
+        real(dp), parameter :: step = 16.0_dp*epsilon(1.0_dp)
+        real(dp) :: value, q_near(size(q)), v_near(size(q))
+        integer :: k
+
+        value = quantity_of(system, i, t, q, v)
+        size_of_terms = abs(value) &
+                        + abs(quantity_of(system, i, t*(1.0_dp - step), q, v) - value)/step
+        do k = 1, size(q)
+            q_near = q
+            v_near = v
+            q_near(k) = q(k)*(1.0_dp - step)
+            size_of_terms = size_of_terms &
+                            + abs(quantity_of(system, i, t, q_near, v) - value)/step
+            v_near(k) = v(k)*(1.0_dp - step)
+            size_of_terms = size_of_terms &
+                            + abs(quantity_of(system, i, t, q, v_near) - value)/step
+        end do
+    end function size_from_state
+
+    subroutine slope(system, i, t, q, v, dt, dq, dv, h, weight, rate, largest)
         !! Derivative of quantity `i` in the direction `(dt, dq, dv)`.
         class(system_t), intent(in) :: system
         integer, intent(in) :: i
         real(dp), intent(in) :: t, q(:), v(:), dt, dq(:), dv(:), h, weight(:)
-        real(dp) :: rate
+        real(dp), intent(out) :: rate
+        real(dp), intent(out), optional :: largest  !! of the values that it is made of
         real(dp), dimension(size(q)) :: q_after, v_after, q_before, v_before
+        real(dp) :: after, before
         integer :: k
 
         rate = 0.0_dp
+        if (present(largest)) largest = 0.0_dp
         do k = 1, size(weight)
             q_after = q + k*h*dq
             v_after = v + k*h*dv
             q_before = q - k*h*dq
             v_before = v - k*h*dv
-            rate = rate + weight(k)/h*(value_of(system, i, t + k*h*dt, q_after, v_after) &
-                                       - value_of(system, i, t - k*h*dt, q_before, v_before))
+            after = quantity_of(system, i, t + k*h*dt, q_after, v_after)
+            before = quantity_of(system, i, t - k*h*dt, q_before, v_before)
+            rate = rate + weight(k)/h*(after - before)
+            if (present(largest)) largest = max(largest, abs(after), abs(before))
         end do
-    end function slope
+    end subroutine slope
 
-    function value_of(system, i, t, q, v) result(value)
+    function quantity_of(system, i, t, q, v) result(value)
         !! Quantity `i`, or the energy if `i` is 0.
         class(system_t), intent(in) :: system
         integer, intent(in) :: i
@@ -82,5 +149,5 @@ contains
         else
             value = system%quantity(i, t, q, v)
         end if
-    end function value_of
+    end function quantity_of
 end module lagrangia_flow

@@ -14,11 +14,11 @@ module lagrangia_gauss_principle
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
-    use lagrangia_least_squares, only: constrained_least_squares, least_squares
+    use lagrangia_lapack, only: solve_linear
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: cartesian_t, least_constraint, new_cartesian
+    public :: cartesian_t, gauss_equations, least_constraint, linearise, new_cartesian
 
     type :: cartesian_t
         !! A state as Newton has it, and what Gauss makes of it. `n` Cartesian coordinates, `k`
@@ -88,22 +88,22 @@ contains
         c%x = x%re
         c%x_dot = x%d1
         c%x_ddot = x%d12
-        call linearise(system, t, size(d%reactions), c)
+        allocate (c%force(size(x)), c%slope(size(d%reactions), size(x)))
+        allocate (c%right(size(d%reactions)), c%held(size(d%reactions)))
+        call linearise(system, t, c)
     end subroutine new_cartesian
 
-    pure subroutine linearise(system, t, k, c)
-        !! Forces; slopes of the constraints, one coordinate after the other; their rates at
-        !! constant velocity.
+    pure subroutine linearise(system, t, c)
+        !! From `x` and `x_dot`: forces; slopes of the constraints, one coordinate after the
+        !! other; their rates at constant velocity.
         class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t
-        integer, intent(in) :: k
-        type(cartesian_t), intent(inout) :: c
+        real(dp), intent(in) :: t                !! s
+        type(cartesian_t), intent(inout) :: c    !! all of it allocated
         type(hyperdual_t), dimension(size(c%x)) :: x, u
-        type(hyperdual_t) :: held(k)
+        type(hyperdual_t) :: held(size(c%held))
         integer :: i, holonomic
 
-        holonomic = k - system%constraints
-        allocate (c%force(size(c%x)), c%slope(k, size(c%x)), c%right(k), c%held(k))
+        holonomic = size(held) - system%constraints
         x%re = c%x
         u%re = c%x_dot
         do i = 1, size(c%x)
@@ -124,26 +124,39 @@ contains
         c%right(holonomic + 1:) = -held(holonomic + 1:)%d1
     end subroutine linearise
 
+    pure subroutine gauss_equations(c, matrix, right)
+        !! What the minimum of \(Z\) fulfils, with a multiplier for each constraint:
+        !! \(m\ddot x - A^\top\lambda = F\) and \(A\ddot x = b\), as one linear system for
+        !! \((\ddot x, \lambda)\).
+        type(cartesian_t), intent(in) :: c
+        real(dp), intent(out) :: matrix(:, :)  !! (n + k, n + k)
+        real(dp), intent(out) :: right(:)      !! (n + k)
+        integer :: i, n
+
+        n = size(c%x)
+        matrix = 0.0_dp
+        do i = 1, n
+            matrix(i, i) = c%mass(i)
+        end do
+        matrix(:n, n + 1:) = -transpose(c%slope)
+        matrix(n + 1:, :n) = c%slope
+        right(:n) = c%force
+        right(n + 1:) = c%right
+    end subroutine gauss_equations
+
     pure subroutine minimise(self, error)
-        !! Minimise \(Z\); then the multipliers from \(A^\top\lambda = m\ddot x - F\).
+        !! Minimise \(Z\), and the multipliers with it. \(Z\) is a sum of squares: it is least
+        !! where it does not change along any direction that the constraints allow.
         type(cartesian_t), intent(inout) :: self
         type(error_t), allocatable, intent(out) :: error
-        real(dp) :: weight(size(self%x), size(self%x)), wanted(size(self%x))
-        real(dp) :: directions(size(self%x), size(self%right))
-        integer :: i
+        real(dp), dimension(size(self%x) + size(self%right)) :: solution, right
+        real(dp) :: matrix(size(solution), size(solution))
 
-        weight = 0.0_dp
-        wanted = 0.0_dp
-        do i = 1, size(self%x)
-            weight(i, i) = sqrt(self%mass(i))
-            if (self%mass(i) > 0.0_dp) wanted(i) = self%force(i)/weight(i, i)
-        end do
-        allocate (self%acceleration(size(self%x)), self%reaction(size(self%right)))
-        call constrained_least_squares(weight, wanted, self%slope, self%right, &
-                                       self%acceleration, error)
+        call gauss_equations(self, matrix, right)
+        call solve_linear(matrix, right, solution, error)
         if (allocated(error)) return
-        wanted = self%mass*self%acceleration - self%force
-        directions = transpose(self%slope)
-        call least_squares(directions, wanted, self%reaction, error)
+        allocate (self%acceleration(size(self%x)), self%reaction(size(self%right)))
+        self%acceleration = solution(:size(self%x))
+        self%reaction = solution(size(self%x) + 1:)
     end subroutine minimise
 end module lagrangia_gauss_principle

@@ -17,7 +17,7 @@ module lagrangia_lagrange
     implicit none (type, external)
     private
     public :: euler_lagrange_t, expand_lagrangian, accelerations_from_lagrangian
-    public :: energy_from_lagrangian
+    public :: equations_of_motion, energy_from_lagrangian
 
     type :: euler_lagrange_t
         !! The Lagrangian's derivatives at one state.
@@ -73,6 +73,35 @@ contains
         terms%force = terms%force + terms%dl_dq
     end subroutine expand_lagrangian
 
+    pure subroutine equations_of_motion(system, t, q, v, terms, matrix, right)
+        !! Lagrange's equations and the rates of the non-holonomic constraints as one linear
+        !! system for \((\ddot q, \lambda)\), `n` coordinates and `k` constraints.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        type(euler_lagrange_t), intent(in) :: terms  !! of L at this state
+        real(dp), intent(out) :: matrix(:, :)        !! (n + k, n + k)
+        real(dp), intent(out) :: right(:)            !! (n + k)
+        type(hyperdual_t) :: tt, qq(system%ndof)
+        type(hyperdual_t) :: rows(system%constraints, system%ndof), drift(system%constraints)
+        real(dp) :: rate(system%constraints, system%ndof)
+        integer :: n
+
+        n = system%ndof
+        matrix = 0.0_dp
+        matrix(:n, :n) = terms%mass
+        right(:n) = terms%force
+        if (system%constraints == 0) return
+        tt%re = t
+        tt%d1 = 1.0_dp
+        qq%re = q
+        qq%d1 = v
+        call system%constraint_rows(tt, qq, rows, drift)
+        matrix(n + 1:, :n) = rows%re
+        matrix(:n, n + 1:) = -transpose(rows%re)
+        rate = rows%d1
+        right(n + 1:) = -matmul(rate, v) - drift%d1
+    end subroutine equations_of_motion
+
     pure subroutine accelerations_from_lagrangian(system, t, q, v, a, multipliers, error)
         !! Accelerations, and the multipliers \(\lambda\) of the non-holonomic constraints.
         class(system_t), intent(in) :: system
@@ -80,38 +109,18 @@ contains
         real(dp), intent(out) :: a(system%ndof), multipliers(system%constraints)
         type(error_t), allocatable, intent(out) :: error
         type(euler_lagrange_t) :: terms
-        type(hyperdual_t) :: tt, qq(system%ndof)
-        type(hyperdual_t) :: rows(system%constraints, system%ndof), drift(system%constraints)
         real(dp), dimension(system%ndof + system%constraints, &
                             system%ndof + system%constraints) :: matrix
         real(dp), dimension(system%ndof + system%constraints) :: right, solution
-        real(dp), dimension(system%constraints, system%ndof) :: constraint, rate
-        integer :: n, k
 
-        n = system%ndof
-        k = system%constraints
         a = 0.0_dp
         multipliers = 0.0_dp
         call expand_lagrangian(system, t, q, v, terms)
-        matrix = 0.0_dp
-        matrix(:n, :n) = terms%mass
-        right(:n) = terms%force
-        if (k > 0) then
-            tt%re = t
-            tt%d1 = 1.0_dp
-            qq%re = q
-            qq%d1 = v
-            call system%constraint_rows(tt, qq, rows, drift)
-            constraint = rows%re
-            rate = rows%d1
-            matrix(n + 1:, :n) = constraint
-            matrix(:n, n + 1:) = -transpose(constraint)
-            right(n + 1:) = -matmul(rate, v) - drift%d1
-        end if
+        call equations_of_motion(system, t, q, v, terms, matrix, right)
         call solve_linear(matrix, right, solution, error)
         if (allocated(error)) return
-        a = solution(:n)
-        multipliers = solution(n + 1:)
+        a = solution(:system%ndof)
+        multipliers = solution(system%ndof + 1:)
     end subroutine accelerations_from_lagrangian
 
     pure function energy_from_lagrangian(system, t, q, v) result(energy)

@@ -1,0 +1,127 @@
+program main
+    !! `extremes [COUNT]`: audits of every system at COUNT random parameter sets over twelve
+    !! decades. No claim may fail. Then the mutants of the tests: each whose accelerations are off
+    !! by more than a millionth must be found, and its coordinate be named.
+    use extremes, only: audit_at_random, differs, show_parameters
+    use lagrangia_blas_threads, only: use_one_blas_thread
+    use lagrangia_catalogue, only: system_names
+    use lagrangia_catalogue, only: new_system
+    use lagrangia_errors, only: error_t
+    use lagrangia_findings, only: audit_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_random_draws, only: random_t
+    use lagrangia_system, only: system_t
+    use mutants, only: mutants_known, new_mutant
+    implicit none (type, external)
+
+    integer :: count, false_alarms, missed
+
+    count = 1000
+    call read_count(count)
+    call use_one_blas_thread()
+    false_alarms = 0
+    missed = 0
+    call audit_systems()
+    call audit_mutants()
+    print "(i0, a, i0, a)", false_alarms, " false alarms, ", missed, " slips missed"
+    if (false_alarms + missed > 0) stop 1, quiet=.true.
+
+contains
+
+    subroutine read_count(count)
+        !! From the command line.
+        integer, intent(inout) :: count
+        character(20) :: text
+        integer :: status
+
+        call get_command_argument(1, text)
+        if (text == "") return
+        read (text, *, iostat=status) count
+        if (status /= 0) error stop "extremes: a whole number is needed"
+    end subroutine read_count
+
+    subroutine audit_systems()
+        !! All of the catalogue.
+        character(:), allocatable :: names(:)
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(random_t) :: random
+        type(audit_t) :: audit
+        real(dp), allocatable :: values(:)
+        integer :: i, k, row, before
+
+        names = system_names()
+        do i = 1, size(names)
+            before = false_alarms
+            do k = 1, count
+                call new_system(trim(names(i)), system, error)
+                audit = audit_t()
+                call audit_at_random(system, random, audit, values)
+                do row = 1, size(audit%findings)
+                    if (audit%findings(row)%holds) cycle
+                    false_alarms = false_alarms + 1
+                    if (false_alarms - before > 6) cycle
+                    print "(a)", "lagrangia check "//show_parameters(system, values)
+                    print "(4x, a, 2es9.1, 2x, a)", audit%findings(row)%claim, &
+                        audit%findings(row)%worst, audit%findings(row)%bound, &
+                        trim(audit%findings(row)%remark)
+                end do
+                deallocate (system)
+            end do
+            print "(a, i0, a, i0, a)", trim(names(i))//": ", count, " parameter sets, ", &
+                false_alarms - before, " false alarms"
+        end do
+    end subroutine audit_systems
+
+    subroutine audit_mutants()
+        !! Those of the tests.
+        class(system_t), allocatable :: system
+        character(:), allocatable :: expected
+        type(random_t) :: random
+        type(audit_t) :: audit
+        real(dp), allocatable :: values(:)
+        real(dp) :: difference
+        integer :: i, k, row, seen, found, named, before
+
+        do i = 1, mutants_known
+            seen = 0
+            found = 0
+            named = 0
+            before = missed
+            do k = 1, max(1, count/10)
+                if (allocated(system)) deallocate (system)
+                call new_mutant(i, system, expected)
+                expected = coordinate_of(expected)
+                audit = audit_t()
+                call audit_at_random(system, random, audit, values)
+                call differs(system, values, difference)
+                if (.not. difference > 1e-6_dp) cycle
+                seen = seen + 1
+                row = audit%row_of("accelerations as from L")
+                if (.not. audit%findings(row)%holds) found = found + 1
+                if (coordinate_of(audit%findings(row)%remark) == expected) named = named + 1
+                if (coordinate_of(audit%findings(row)%remark) == expected) cycle
+                missed = missed + 1
+                if (missed - before > 3) cycle
+                print "(a)", "missed: "//show_parameters(system, values)
+                print "(4x, a, 2es9.1, 2x, a)", "wanted "//expected, audit%findings(row)%worst, &
+                    difference, trim(audit%findings(row)%remark)
+            end do
+            print "(a, i0, a, i0, a, i0, a)", expected//": ", seen, " slips, ", found, &
+                " found, ", named, " named"
+        end do
+    end subroutine audit_mutants
+
+    function coordinate_of(remark) result(name)
+        !! The one that is named; of weak coupling whether an equation is wrong or the
+        !! acceleration that was solved from it cannot be told.
+        character(*), intent(in) :: remark
+        character(:), allocatable :: name
+        integer :: last
+
+        name = remark(:max(0, index(remark, " is not that of L") - 1))
+        last = index(name, "_ddot")
+        if (last > 0) name = name(:last - 1)
+        if (index(name, "the equation of ") == 1) name = name(17:)
+    end function coordinate_of
+end program main
