@@ -82,6 +82,9 @@ run run pendulum --format npy --output "$work/o"
 check "npy: NumPy's mark" eval '[ "$(head -c 6 "$work/o/pendulum.npy" | tail -c 5)" = NUMPY ]'
 run run pendulum --quiet --output "$work/o"
 check "--quiet: not a word" eval '[ $status -eq 0 ] && [ ! -s "$work/out" ] && [ ! -s "$work/err" ]'
+"$program" run pendulum --json --output "$work/o" >"$work/out" 2>"$work/err" <&-
+status=$?  # the scene's file is then descriptor 0
+check "stdin closed: the scene is read" json 'd[0]["scene"] == "pendulum"'
 run run cart_pendulum atwood --json --output "$work/o"
 check "--json: the fields that were promised" json '[r["scene"] for r in d] == ["cart_pendulum", "atwood"] and all(set(r) >= set("scene system method t q v steps evaluations energy_drift error omega seconds verdict file".split()) for r in d)'
 check "--json: final state" json 'd[0]["t"] == 20 and len(d[0]["q"]) == 2 and abs(d[1]["q"][0] - 1.962*2) < 1e-12 and d[1]["error"] < 1e-13'
@@ -119,6 +122,21 @@ check "describe: a whole number" grep -q 'default 3;' "$work/out"
 # Small oscillations, the audit, the principles
 run modes cart_pendulum --set cart_pendulum%m1=2 --set cart_pendulum%m2=0.5 --set cart_pendulum%l=1.3 --json
 check "modes: a zero mode and (m1 + m2) g/(m1 l)" json 'd["omega2"][0] == 0 and d["label"][0] == "zero mode" and abs(d["omega2"][1]/(2.5*9.81/(2*1.3)) - 1) < 1e-14'
+run modes rotating_hoop --set rotating_hoop%r=0.5 --set rotating_hoop%omega=7 --json
+check "modes rotating_hoop: the bottom, unstable, and cos(theta*) = g/(omega^2 r)" json 'd["label"] == ["unstable"] and (lambda e: abs(e["at"][0] - __import__("math").acos(9.81/24.5)) < 1e-15 and abs(e["omega2"][0] - (49 - (9.81/3.5)**2)) < 1e-12 and e["label"] == ["oscillation"])(d["elsewhere"])'
+run modes rotating_hoop --set rotating_hoop%r=0.5 --set rotating_hoop%omega=7
+check "modes rotating_hoop: both in words" eval '[ $(grep -c "small oscillations about theta = " "$work/out") = 2 ]'
+run modes rotating_hoop --set rotating_hoop%r=0.5 --set rotating_hoop%omega=4 --json
+check "modes rotating_hoop, turned slowly: the bottom alone" json 'd["at"] == [0.0] and d["label"] == ["oscillation"] and "elsewhere" not in d'
+run modes rotating_hoop --set rotating_hoop%r=0.5 --set rotating_hoop%omega=7 --at 0 --json
+check "modes rotating_hoop --at 0: what was asked for" json 'd["at"] == [0.0] and "elsewhere" not in d'
+for name in $("$program" list systems 2>/dev/null | awk '{print $1}'); do
+    run describe "$name"
+    case $name in
+        double_pendulum|hanging_chain) check "describe $name: no closed form" grep -q '^  gauss16; no closed form is known$' "$work/out" ;;
+        *) check "describe $name: a closed form" grep -q '^  a closed form where one is known' "$work/out" ;;
+    esac
+done
 run modes hanging_chain --set hanging_chain%n=200 --output "$work/modes"
 check "modes: a long chain, a file and a script a mode" eval '[ $status -eq 0 ] && [ "$(ls "$work/modes" | wc -l)" -eq 400 ]'
 refuses 2 "the nearest is --at 0.0" modes pendulum --at 1

@@ -13,7 +13,7 @@ module extremes
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: audit_at_random, show_parameters, differs
+    public :: audit_at_random, coordinate_of, differs, show_parameters
 
     real(dp), parameter :: decades = 6.0_dp  !! to either side of 1
 
@@ -89,8 +89,9 @@ contains
     end function show_parameters
 
     subroutine differs(mutant, values, difference)
-        !! By how much the accelerations of a mutant are off, relative to the true ones: the
-        !! largest at some states. A slip may do nothing at some parameters.
+        !! By how much the accelerations of a mutant are off, relative to the true ones and to
+        !! the squares of the velocities: the largest at some states. A slip may do nothing at
+        !! some parameters.
         class(system_t), intent(inout) :: mutant
         real(dp), intent(in) :: values(:)
         real(dp), intent(out) :: difference
@@ -116,9 +117,22 @@ contains
             call mutant%accelerations(t, q, v, b)
             do i = 1, size(a)
                 if (abs(a(i) - b(i)) > 0.0_dp) then
-                    difference = max(difference, abs(a(i) - b(i))/(abs(a(i)) + abs(b(i))))
+                    difference = max(difference, &
+                                     abs(a(i) - b(i))/(abs(a(i)) + abs(b(i)) + v(i)**2))
                 end if
             end do
         end do
     end subroutine differs
+    function coordinate_of(remark) result(name)
+        !! The one that is named; of weak coupling whether an equation is wrong or the
+        !! acceleration that was solved from it cannot be told.
+        character(*), intent(in) :: remark
+        character(:), allocatable :: name
+        integer :: last
+
+        name = remark(:max(0, index(remark, " is not that of L") - 1))
+        last = index(name, "_ddot")
+        if (last > 0) name = name(:last - 1)
+        if (index(name, "the equation of ") == 1) name = name(17:)
+    end function coordinate_of
 end module extremes

@@ -1,17 +1,21 @@
 module test_audit
     !! The audit finds every slip that was planted, and says where; and nothing where there is none.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+    use biased_liars, only: biased_claims, new_biased_liar
+    use extremes, only: audit_at_random, coordinate_of, differs, show_parameters
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_audit, only: audit_system, draws
-    use lagrangia_catalogue, only: new_system
+    use lagrangia_catalogue, only: new_system, system_names
     use lagrangia_description, only: description_t
     use lagrangia_diagnosis, only: factor_text
     use lagrangia_errors, only: error_t
     use lagrangia_findings, only: audit_t
     use lagrangia_kinds, only: dp
+    use lagrangia_random_draws, only: random_t
     use lagrangia_system, only: system_t
     use liars, only: liars_known, new_liar
     use mutants, only: mutants_known, new_mutant
+    use turned_flags, only: new_turned
     implicit none (type, external)
     private
     public :: audit_suite
@@ -26,6 +30,14 @@ contains
         call suite%addTest(TestMethod("wrong_equations_are_named", wrong_equations_are_named))
         call suite%addTest(TestMethod("factors_of_zero_have_no_sign", factors_of_zero_have_no_sign))
         call suite%addTest(TestMethod("wrong_claims_are_named", wrong_claims_are_named))
+        call suite%addTest(TestMethod("claims_are_judged_from_both_sides", &
+                                      claims_are_judged_from_both_sides))
+        call suite%addTest(TestMethod("every_claim_has_its_liars", every_claim_has_its_liars))
+        call suite%addTest(TestMethod("flags_are_judged_both_ways", flags_are_judged_both_ways))
+        call suite%addTest(TestMethod("no_false_alarm_over_twelve_decades", &
+                                      no_false_alarm_over_twelve_decades))
+        call suite%addTest(TestMethod("slips_are_named_over_twelve_decades", &
+                                      slips_are_named_over_twelve_decades))
         call suite%addTest(TestMethod("given_parameters_stay", given_parameters_stay))
         call suite%addTest(TestMethod("findings_keep_the_worst", findings_keep_the_worst))
     end function audit_suite
@@ -87,6 +99,142 @@ contains
             call assertTrue(audit%findings(row)%holds, unharmed//", although not "//expected)
         end do
     end subroutine wrong_claims_are_named
+
+    subroutine claims_are_judged_from_both_sides()
+        !! A thousandth too much, and a thousandth too little, at every state.
+        class(system_t), allocatable :: system
+        character(:), allocatable :: claim
+        type(audit_t) :: audit
+        integer :: k, way, row
+
+        do k = 1, biased_claims
+            do way = -1, 1, 2
+                audit = audit_t()
+                if (allocated(system)) deallocate (system)
+                call new_biased_liar(k, way, system, claim)
+                call audit_system(system, audit)
+                row = audit%row_of(claim)
+                call assertTrue(row > 0, claim//": claim")
+                if (row == 0) cycle
+                call assertFalse(audit%findings(row)%holds, &
+                                 claim//trim(merge(": above", ": below", way > 0)))
+            end do
+        end do
+    end subroutine claims_are_judged_from_both_sides
+
+    subroutine every_claim_has_its_liars()
+        !! No claim that the audit makes of any system is without one, up to whose it is.
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        character(:), allocatable :: names(:), claim
+        type(audit_t) :: audit
+        integer :: i, k, row
+        logical :: covered
+
+        allocate (names, source=system_names())
+        do i = 1, size(names)
+            call new_system(trim(names(i)), system, error)
+            call audit_system(system, audit)
+        end do
+        do row = 1, size(audit%findings)
+            associate (asked => audit%findings(row)%claim)
+                covered = index(asked, "says what is true") > 0  ! flags_are_judged_both_ways
+                do k = 1, biased_claims
+                    call new_biased_liar(k, 1, system, claim)
+                    covered = covered .or. asked == claim .or. &
+                              (index(asked, " is conserved") > 0 .and. &
+                               index(claim, " is conserved") > 0) .or. &
+                              (asked(:8) == "Gauss's " .and. claim == "Gauss's tension")
+                end do
+                call assertTrue(covered, trim(asked)//" has its liars")
+            end associate
+        end do
+    end subroutine every_claim_has_its_liars
+
+    subroutine flags_are_judged_both_ways()
+        !! Said though it is not so, and not said though it is.
+        character(*), parameter :: velocity = "velocity_forces says what is true"
+        character(*), parameter :: time = "time_dependent says what is true"
+        character(*), parameter :: cyclic = "the cyclic coordinate is cyclic"
+
+        call expect("pendulum", "velocity_forces", velocity, "velocity_forces is true, yet no")
+        call expect("cart_pendulum", "velocity_forces", velocity, &
+                    "velocity_forces is false, yet the")
+        call expect("pendulum", "time_dependent", time, "time_dependent is true, yet L has no")
+        call expect("driven_pendulum", "time_dependent", time, &
+                    "time_dependent is false, yet the acc")
+        call expect("pendulum", "time in L", time, "time_dependent is false, yet L")
+        call expect("pendulum", "cyclic", cyclic, "L depends on theta")
+        call expect("pendulum", "cyclic 2", cyclic, "there is no coordinate of that number")
+        call expect("pendulum", "cyclic -1", cyclic, "there is no coordinate of that number")
+    contains
+        subroutine expect(name, flag, claim, remark)
+            character(*), intent(in) :: name, flag, claim, remark
+            class(system_t), allocatable :: liar
+            type(audit_t) :: audit
+            integer :: row
+
+            call new_turned(name, flag, liar)
+            call audit_system(liar, audit)
+            row = audit%row_of(claim)
+            call assertTrue(row > 0, name//": "//flag//" is judged")
+            if (row == 0) return
+            call assertFalse(audit%findings(row)%holds, name//": "//flag)
+            call assertEqual(remark, audit%findings(row)%remark(:len(remark)), name//": "//flag)
+        end subroutine expect
+    end subroutine flags_are_judged_both_ways
+
+    subroutine no_false_alarm_over_twelve_decades()
+        !! `.ci/extremes` draws more of them.
+        character(:), allocatable :: names(:)
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(random_t) :: random
+        type(audit_t) :: audit
+        real(dp), allocatable :: values(:)
+        integer :: i, k
+
+        allocate (names, source=system_names())
+        do i = 1, size(names)
+            do k = 1, 4
+                call new_system(trim(names(i)), system, error)
+                audit = audit_t()
+                call audit_at_random(system, random, audit, values)
+                call assertEqual(0, audit%broken(), "check "//show_parameters(system, values))
+            end do
+        end do
+    end subroutine no_false_alarm_over_twelve_decades
+
+    subroutine slips_are_named_over_twelve_decades()
+        !! Each mutant at parameters where it does something.
+        class(system_t), allocatable :: system
+        character(:), allocatable :: expected
+        type(random_t) :: random
+        type(audit_t) :: audit
+        real(dp), allocatable :: values(:)
+        real(dp) :: difference
+        integer :: i, k, row, seen
+
+        do i = 1, mutants_known
+            seen = 0
+            do k = 1, 30
+                if (allocated(system)) deallocate (system)
+                call new_mutant(i, system, expected)
+                audit = audit_t()
+                call audit_at_random(system, random, audit, values)
+                call differs(system, values, difference)
+                if (.not. difference > 1e-6_dp) cycle
+                seen = seen + 1
+                row = audit%row_of("accelerations as from L")
+                call assertFalse(audit%findings(row)%holds, show_parameters(system, values))
+                call assertEqual(coordinate_of(expected), &
+                                 coordinate_of(audit%findings(row)%remark), &
+                                 show_parameters(system, values))
+                if (seen == 3) exit
+            end do
+            call assertEqual(3, seen, expected//": sets at which it is a slip")
+        end do
+    end subroutine slips_are_named_over_twelve_decades
 
     subroutine given_parameters_stay()
         !! With g = 0 in all draws the pendulum's angular momentum is conserved in all of them.

@@ -36,6 +36,7 @@ contains
         call suite%addTest(TestMethod("without restitution it stays at once", plastic))
         call suite%addTest(TestMethod("thrown down at the floor it bounces at once", down_at_once))
         call suite%addTest(TestMethod("at rest on the floor it stays", at_rest))
+        call suite%addTest(TestMethod("without gravity it flies on", no_gravity))
         call suite%addTest(TestMethod("methods of fixed step bounce too", fixed_step))
         call suite%addTest(TestMethod("a run without impacts is refused", plain_run))
     end function bouncing_ball_suite
@@ -81,17 +82,35 @@ contains
                                       message="never below the floor")
     end subroutine bounce
 
-    subroutine closed_form(restitution, q0, v0, reference)
+    subroutine closed_form(restitution, q0, v0, reference, g)
         real(dp), intent(in) :: restitution, q0, v0
         type(bouncing_ball_reference_t), intent(out) :: reference
+        real(dp), intent(in), optional :: g  !! else that of the tests
         type(bouncing_ball_t) :: system
         type(error_t), allocatable :: error
         logical :: found
 
         call system%configure([mass, gravity, restitution], error)
+        if (present(g)) call system%configure([mass, g, restitution], error)
         call new_bouncing_ball_reference(reference, system, 0.0_dp, [q0], [v0], found)
         call assertTrue(found, "closed form")
     end subroutine closed_form
+
+    subroutine no_gravity()
+        !! g = 0: down from 1 m with 2 m/s, at the floor after 0.5 s, up with 0.6 of it for ever.
+        type(bouncing_ball_reference_t) :: reference
+        real(dp) :: q(1), v(1)
+
+        call closed_form(0.6_dp, 1.0_dp, -2.0_dp, reference, g=0.0_dp)
+        call reference%state_at(0.25_dp, q, v)
+        call assertEqual([0.5_dp, -2.0_dp], [q, v], 4.0_dp*epsilon(1.0_dp), "before the impact")
+        call reference%state_at(2.5_dp, q, v)
+        call assertEqual([2.4_dp, 1.2_dp], [q, v], 8.0_dp*epsilon(1.0_dp), "after it")
+        call assertEqual(huge(1.0_dp), reference%rest_time(), message="it never rests")
+        call closed_form(0.6_dp, 1.0_dp, 2.0_dp, reference, g=0.0_dp)
+        call reference%state_at(3.0_dp, q, v)
+        call assertEqual([7.0_dp, 2.0_dp], [q, v], 16.0_dp*epsilon(1.0_dp), "upwards, no impact")
+    end subroutine no_gravity
 
     subroutine known_times()
         !! To 25 digits from the geometric series (restitution 0.8, 3 m/s).

@@ -261,6 +261,13 @@ contains
         row = scorecard_row(outcome)
         call assertEqual(index(head, "period error"), index(row, "5.0E-01  "), "the exact period")
         call assertFalse(outcome%period_is_small(), "the exact period")
+        outcome%others = [measure_t("period", 0.5_dp)]
+        row = scorecard_row(outcome)
+        call assertEqual(index(head, "period error"), index(row, "5.0E-01"), "a lone period")
+        outcome%others = [measure_t("small_period", 0.125_dp, .true., 1.0_dp), &
+                          measure_t("period", 0.5_dp)]
+        row = scorecard_row(outcome)
+        call assertEqual(index(head, "period error"), index(row, "1.2E-01"), "judged, first")
     end subroutine rows_stand_under_their_titles
 
     subroutine rows_say_where_an_error_is_from()

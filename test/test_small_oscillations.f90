@@ -144,6 +144,10 @@ contains
         call assertEqual(-9.81_dp/1.3_dp, modes%omega2(1), 1e-14_dp)
         call solve("cart_pendulum", [2.0_dp, 0.5_dp, 1.3_dp, 9.81_dp], [0.3_dp, pi], modes)
         call assertEqual([is_unstable, is_zero_mode], modes%label)
+        call solve("rotating_hoop", [0.4_dp, 1.0_dp, 3.0_dp, 9.81_dp], [0.0_dp], modes)
+        call assertFalse(allocated(modes%page%elsewhere), "turned slowly: the bottom alone")
+        call solve("rotating_hoop", [0.4_dp, 1.0_dp, 5.0_dp, 9.81_dp], [0.0_dp], modes)
+        call assertEqual([1.16755690380504296_dp], modes%page%elsewhere, 4.0_dp*epsilon(pi), "tilt")
         call solve("rotating_hoop", [0.4_dp, 1.0_dp, 5.0_dp, 9.81_dp], [1.16755690380504296_dp], &
                    modes)
         call assertEqual(21.150556_dp, modes%omega2(1), 1e-12_dp)

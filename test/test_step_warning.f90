@@ -23,17 +23,21 @@ contains
                                       nothing_is_said_without_a_limit))
     end function step_warning_suite
 
-    function warning_of(system_name, steps) result(text)
+    function warning_of(system_name, steps, parameters) result(text)
         !! Of a scene with these keys.
         character(*), intent(in) :: system_name, steps
+        character(*), intent(in), optional :: parameters  !! of the system, else its defaults
         character(:), allocatable :: text
         type(scene_t) :: scene
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
+        character(:), allocatable :: group
 
+        group = ""
+        if (present(parameters)) group = parameters
         call parse_scene("&scene system = '"//system_name//"', duration = 10.0, "//steps//" /"// &
-                         new_line("a")//"&"//system_name//" /", "a.nml", [word_t ::], scene, &
-                         system, error)
+                         new_line("a")//"&"//system_name//" "//group//" /", "a.nml", &
+                         [word_t ::], scene, system, error)
         call assertFalse(allocated(error), steps)
         text = "not read"
         if (.not. allocated(error)) text = step_warning(scene, system)
@@ -52,6 +56,20 @@ contains
         call assertEqual("", warning_of("double_pendulum", "dt = 0.488, q = 0.5, 0.0"))
         call assertEqual("dt = 0.49 s", first_words( &
                          warning_of("double_pendulum", "dt = 0.49, q = 0.5, 0.0")))
+        ! omega = sqrt(24.5/0.5) = 7: the limit is 2/7, neither 2 nor 14 nor 2/49
+        call assertEqual("dt = 0.2858 s exceeds the step limit 0.2857 s of verlet "// &
+                         "(2.0/omega_max, omega_max = 7.0 rad/s): small oscillations would "// &
+                         "grow at every step", warning_of("oscillator", &
+                         "method = 'verlet', dt = 0.2858, q = 1.0", "m = 0.5, k = 24.5"))
+        call assertEqual("", warning_of("oscillator", "method = 'verlet', dt = 0.2856, q = 1.0", &
+                                        "m = 0.5, k = 24.5"))
+        ! slow: omega = sqrt(1.62/2) = 0.9, on the moon
+        call assertEqual("", warning_of("pendulum", "method = 'verlet', dt = 2.22, q = 1.0", &
+                                        "l = 2.0, g = 1.62"))
+        call assertEqual("dt = 2.23 s exceeds the step limit 2.222 s of verlet (2.0/omega_max, "// &
+                         "omega_max = 0.9 rad/s): small oscillations would grow at every step", &
+                         warning_of("pendulum", "method = 'verlet', dt = 2.23, q = 1.0", &
+                                    "l = 2.0, g = 1.62"))
     end subroutine long_steps_are_warned_of
 
     pure function first_words(text) result(words)

@@ -1,16 +1,19 @@
 module lagrangia_describe
     !! `lagrangia describe SYSTEM`: what a lecturer would write on the blackboard.
-    use lagrangia_catalogue, only: new_system
+    use lagrangia_catalogue, only: new_reference, new_system
     use lagrangia_choice, only: auto, workhorse
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_description, only: description_t, line_length, quantity_t
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_kinds, only: dp
+    use lagrangia_random_draws, only: random_t
+    use lagrangia_reference, only: reference_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: describe_command
+    public :: describe_command, has_closed_form
 
 contains
 
@@ -61,7 +64,12 @@ contains
         call put_line("structure")
         call put_line("  "//structure(system))
         call put_line("method = '"//auto//"'")
-        call put_line("  a closed form where one is known from the start, otherwise "//workhorse)
+        if (has_closed_form(system)) then
+            call put_line("  a closed form where one is known from the start, otherwise "// &
+                          workhorse)
+        else
+            call put_line("  "//workhorse//"; no closed form is known")
+        end if
         if (size(d%notes) > 0) call put_block("notes", d%notes)
     contains
         function default_text(i) result(text)
@@ -80,6 +88,33 @@ contains
             end associate
         end function default_text
     end subroutine describe_command
+
+    function has_closed_form(system) result(yes)
+        !! One is known of the motion from some state, with some parameters: from one of 40 drawn,
+        !! in motion or at rest.
+        class(system_t), intent(in) :: system
+        logical :: yes
+        class(system_t), allocatable :: drawn
+        class(reference_t), allocatable :: reference
+        type(random_t) :: random
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: values(:), q(:), v(:)
+        real(dp) :: t
+        integer :: i
+
+        yes = .true.
+        allocate (drawn, source=system)
+        do i = 1, 40
+            call random%parameters(drawn, mod(i, 2) == 0, values, error)
+            if (.not. allocated(error)) call random%state(drawn, t, q, v, error)
+            if (allocated(error)) cycle
+            call new_reference(drawn, t, q, v, reference)
+            if (allocated(reference)) return
+            call new_reference(drawn, t, q, 0.0_dp*v, reference)
+            if (allocated(reference)) return
+        end do
+        yes = .false.
+    end function has_closed_form
 
     subroutine put_quantity(item)
         !! `  theta   [rad]   angle ...`.

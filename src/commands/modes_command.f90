@@ -27,12 +27,15 @@ module lagrangia_modes_command
 contains
 
     subroutine modes_command(line, error)
-        !! Find, print, and with `--output` write one data file a mode.
+        !! Find, print, and with `--output` write one data file a mode. Without `--at` another
+        !! equilibrium that the page knows is shown as well.
         type(command_line_t), intent(in) :: line
         type(error_t), allocatable, intent(out) :: error
         class(system_t), allocatable :: system
-        type(modes_t) :: modes
+        type(modes_t) :: modes, others
         real(dp), allocatable :: at(:)
+        character(:), allocatable :: json
+        logical :: elsewhere
         integer :: j
 
         if (size(line%arguments) == 0) then
@@ -49,10 +52,18 @@ contains
         if (allocated(error)) return
         call find_modes(system, at, line%has("at"), modes, error)
         if (allocated(error)) return
+        elsewhere = allocated(modes%page%elsewhere) .and. .not. line%has("at")
+        if (elsewhere) call find_modes(system, modes%page%elsewhere, .true., others, error)
+        if (allocated(error)) return
         if (line%has("json")) then
-            call put_line(as_json(line%arguments(1)%text, modes))
+            json = as_json(line%arguments(1)%text, modes)
+            if (elsewhere) json = json(:len(json) - 1)//', "elsewhere": '// &
+                                  as_json(line%arguments(1)%text, others)//"}"
+            call put_line(json)
         else if (.not. line%has("quiet")) then
             call print_modes(system, modes)
+            if (elsewhere) call put_line("")
+            if (elsewhere) call print_modes(system, others)
         end if
         if (.not. line%has("output")) return
         do j = 1, size(modes%omega2)

@@ -20,7 +20,6 @@ module lagrangia_record
         class(table_t), allocatable :: table              !! absent: nothing is written
         class(reference_t), allocatable :: reference      !! a closed form,
         type(shadow_t), allocatable :: shadow             !! or the run at half the step
-        real(dp) :: time = 0.0_dp                         !! of the latest sample, s
         real(dp), allocatable :: row(:)                   !! the latest sample
         real(dp), allocatable :: low(:), high(:)          !! range of each column so far
         integer(i8) :: rows = 0
@@ -54,7 +53,6 @@ contains
             allocate (self%low(size(self%row)), source=huge(t))
             allocate (self%high(size(self%row)), source=-huge(t))
         end if
-        self%time = t
         call self%columns%evaluate(system, t, q, v, deviation, self%row)
         odd = findloc(ieee_is_finite(self%row), .false., 1)
         if (odd > 0) then

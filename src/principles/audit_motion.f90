@@ -56,11 +56,12 @@ contains
                                             nearby%v(:, i))
                 end associate
             end do
+            ! beyond, differences and squares overflow: of infinity nothing can be said
+            if (abs(values(0)) > sqrt(huge(rate))) return
             call flow_derivative(system, quantity, nearby%t(0), nearby%q(:, 0), nearby%v(:, 0), &
                                  rate, scale, noise, term_size(values), &
                                  epsilon(rate)*motion%size)
             scale = scale + abs(expected)
-            if (scale > huge(scale)) return  ! overflow: of infinity nothing can be said
             call audit%judge(claim, abs(rate - expected)/scale, (noise + rounded)/scale, &
                              differencing)
         end subroutine judge_rate

@@ -55,7 +55,9 @@ contains
 
     subroutine choose_step(system, i, t, q, v, a, size_of_terms, h, rate, noise)
         !! From the shortest step on, each time four times as long, as long as the rates agree
-        !! within their noise: a step that is too long shows, whatever its own estimate says.
+        !! within their noise: a step that is too long shows, whatever its own estimate says. It
+        !! ends where the noise is small enough: what is fast and too small to show at a short
+        !! step would be averaged away by a long one.
         !!
         !! Source: O. V. Lepskii, Theory Probab. Appl. 35, 454 (1991).
         class(system_t), intent(in) :: system
@@ -63,6 +65,8 @@ contains
         real(dp), intent(in) :: t, q(:), v(:), a(:), size_of_terms
         real(dp), intent(out) :: h, rate, noise
         integer, parameter :: steps = 20
+        real(dp), parameter :: values = 2.0_dp*sum(abs(order8))  !! as many add up, each rounded
+        real(dp), parameter :: enough = 1e-12_dp  !! of the quantity, a second
         real(dp) :: next, now, other, largest, now_noise
         integer :: k
 
@@ -71,7 +75,7 @@ contains
         do k = 0, steps
             call slope(system, i, t, q, v, 1.0_dp, v, a, next, order6, other)
             call slope(system, i, t, q, v, 1.0_dp, v, a, next, order8, now, largest)
-            now_noise = abs(now - other) + (epsilon(h)*(size_of_terms + largest) &
+            now_noise = abs(now - other) + (values*epsilon(h)*(size_of_terms + largest) &
                                             + tiny(h))/next
             if (k > 0) then
                 if (.not. abs(now - rate) <= 3.0_dp*noise) return
@@ -83,6 +87,7 @@ contains
             h = next
             rate = now
             noise = now_noise
+            if (noise <= enough*(size_of_terms + largest)) return
             next = 4.0_dp*next
         end do
     end subroutine choose_step

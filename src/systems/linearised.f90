@@ -13,5 +13,6 @@ module lagrangia_linearised
         real(dp), allocatable :: root(:, :)        !! \(S\), (rank, n), with \(K = S^\top S\)
         real(dp), allocatable :: inverse(:, :)     !! \(W\), with \(W^\top M W = 1\)
         real(dp), allocatable :: omega2(:)         !! closed form, ascending, s^-2
+        real(dp), allocatable :: elsewhere(:)      !! another equilibrium
     end type linearised_t
 end module lagrangia_linearised

@@ -183,7 +183,7 @@ contains
 
     pure subroutine linearise(self, q, page)
         !! \(M = mr^2\); \(\Omega^2 = g/r - \omega^2\) at the bottom, \(-g/r - \omega^2\) at the
-        !! top, \(\omega^2 - g^2/(\omega r)^2\) tilted.
+        !! top, \(\omega^2 - g^2/(\omega r)^2\) tilted: where \(\cos\theta = g/(\omega^2 r)\).
         class(rotating_hoop_t), intent(in) :: self
         real(dp), intent(in) :: q(self%ndof)
         type(linearised_t), intent(out) :: page
@@ -198,6 +198,7 @@ contains
             page%mass = reshape([m*r**2], [1, 1])
             page%stiffness = reshape([m*r**2*w2], [1, 1])
             page%omega2 = [w2]
+            if (w**2*r > g) page%elsewhere = [acos(g/(w**2*r))]
         end associate
     end subroutine linearise
 

@@ -2,10 +2,9 @@ program main
     !! `extremes [COUNT]`: audits of every system at COUNT random parameter sets over twelve
     !! decades. No claim may fail. Then the mutants of the tests: each whose accelerations are off
     !! by more than a millionth must be found, and its coordinate be named.
-    use extremes, only: audit_at_random, differs, show_parameters
+    use extremes, only: audit_at_random, coordinate_of, differs, show_parameters
     use lagrangia_blas_threads, only: use_one_blas_thread
-    use lagrangia_catalogue, only: system_names
-    use lagrangia_catalogue, only: new_system
+    use lagrangia_catalogue, only: new_system, system_names
     use lagrangia_errors, only: error_t
     use lagrangia_findings, only: audit_t
     use lagrangia_kinds, only: dp
@@ -111,17 +110,4 @@ contains
                 " found, ", named, " named"
         end do
     end subroutine audit_mutants
-
-    function coordinate_of(remark) result(name)
-        !! The one that is named; of weak coupling whether an equation is wrong or the
-        !! acceleration that was solved from it cannot be told.
-        character(*), intent(in) :: remark
-        character(:), allocatable :: name
-        integer :: last
-
-        name = remark(:max(0, index(remark, " is not that of L") - 1))
-        last = index(name, "_ddot")
-        if (last > 0) name = name(:last - 1)
-        if (index(name, "the equation of ") == 1) name = name(17:)
-    end function coordinate_of
 end program main
