@@ -176,6 +176,27 @@ refuses 2 "needs a value" run pendulum --set
 refuses 2 "these methods work" run cart_pendulum --set scene%method=verlet --output "$work/none"
 refuses 2 "alpha = 2: from 0.0 to pi/2 is needed" run wedge --set wedge%alpha=2 --output "$work/none"
 refuses 2 "another scene of this run writes the output" run pendulum pendulum_rotation --set scene%output=a --output "$work/none"
+refuses 2 "given twice, as 'a' and 'b'" run pendulum --output a --output=b
+refuses 2 "given twice, as '' and 'svg'" run pendulum --plot --plot=svg
+refuses 2 "lacks the letter of its exponent" bench --tolerances 1-3
+refuses 2 "lacks the letter of its exponent" modes pendulum --at 1-3
+refuses 2 "lacks the letter of its exponent" run pendulum --set scene%dt=1-3 --output "$work/none"
+refuses 2 "a number is needed behind '='" run pendulum --set "scene%event='theta = 1-3'" --output "$work/none"
+refuses 2 "begins or ends with a blank; write 'csv'" run pendulum --format 'csv ' --output "$work/none"
+refuses 2 "begins or ends with a blank; write 'svg'" run pendulum --plot='svg ' --output "$work/none"
+refuses 2 "begins or ends with a blank; write 'wedge'" describe 'wedge '
+refuses 2 "unknown command 'run '; did you mean 'run'?" 'run ' pendulum
+refuses 2 "unknown command ''" '' run pendulum
+refuses 2 "unknown scene 'pendulum '; did you mean 'pendulum'?" run 'pendulum ' --output "$work/none"
+refuses 2 "unknown system 'pendulum " check "pendulum                            x"
+refuses 5 "pendulum.nml\\x20: no such file; there is one without that blank" run 'data/scenes/pendulum.nml '
+refuses 5 "\\x20data/scenes/pendulum.nml: no such file; there is one without that blank" run ' data/scenes/pendulum.nml'
+cp data/scenes/pendulum.nml "$work/blank.nml "
+run run "$work/blank.nml " --quiet --set scene%output=blank --output "$work/b "
+check "names that end with a blank are those files" eval '[ $status -eq 0 ] && [ -s "$work/b /blank.dat" ]'
+(cd "$work" && "$program" run pendlum) >"$work/out" 2>"$work/err"
+status=$?
+check "outside the checkout: a wrong word is named" eval '[ $status -eq 5 ] && one_line && grep -qF "unknown scene '"'pendlum'"'; there are no scenes in '"'data/scenes/'"' here: start lagrangia in the project" "$work/err"'
 long=$(printf '%03000d' 0)
 for words in "$long" "run $long" "run pendulum --$long" "run pendulum --format $long" "run pendulum --plot=$long" "run pendulum --set scene%dt=$long.x" \
     "run pendulum --set $long" "run pendulum $long" "modes $long" "modes pendulum --at $long,x" "describe $long" "describe wedge $long" "list $long" \

@@ -225,10 +225,20 @@ contains
         call refused("speed", "unknown part 'speed'; there are precision, steps, energy, "// &
                      "growth, modes, output")
         call refused("--output=", "option '--output' needs the name of a folder")
-        call refused("--tolerances=0", "tolerance '0' is not allowed: a number from 1e-16 to "// &
+        call refused("--tolerances=0", "tolerance 0.0 is not allowed: a number from 1e-16 to "// &
                      "below 1 is needed")
-        call refused("--tolerances=1e-3,nan", "tolerance 'nan' is not allowed: a number from "// &
-                     "1e-16 to below 1 is needed")
+        call refused("--tolerances=1e-3,nan", "--tolerances '1e-3,nan': 'nan': is not finite; a finite "// &
+                     "number is needed")
+        call refused("--tolerances=1-3", "--tolerances '1-3': '1-3': lacks the letter of its "// &
+                     "exponent (1.5e-3, not 1.5-3); sums are not computed")
+        call refused("--tolerances=1e-3e", "--tolerances '1e-3e': '1e-3e': is not a number; "// &
+                     "write it like 0.01, -2 or 1e-3, without a unit (a text needs quotes)")
+        call refused("--tolerances=10^-3", "--tolerances '10^-3': '10^-3': a number is needed, "// &
+                     "nothing is computed; write 0.001")
+        call refused("--tolerances=", "--tolerances '': '': is not a number; write it like "// &
+                     "0.01, -2 or 1e-3, without a unit (a text needs quotes)")
+        call refused("steps"//repeat(" ", 28)//"x", "unknown part 'steps"//repeat(" ", 28)// &
+                     "x'; did you mean 'steps'?")
         call refused("--tolerances=1e-9,1e-6", "tolerances must fall from each to the next: "// &
                      "1e-3,1e-6,1e-9")
     contains

@@ -11,7 +11,8 @@ module test_command_line
     public :: command_line_suite
 
     type(option_t), parameter :: some(*) = [ &
-        option_t("set", needs_value, "KEY=VALUE", ""), &
+        option_t("set", needs_value, "KEY=VALUE", "", repeatable=.true., any_text=.true.), &
+    option_t("to", needs_value, "DIR", ""), &
         option_t("plot", may_have_value, "svg|png", ""), option_t("help", no_value, "", "")]
 
 contains
@@ -26,6 +27,8 @@ contains
         call suite%addTest(TestMethod("values_follow_or_are_joined", values_follow_or_are_joined))
         call suite%addTest(TestMethod("two_hyphens_end_the_options", two_hyphens_end_the_options))
         call suite%addTest(TestMethod("wrong_options_are_refused", wrong_options_are_refused))
+        call suite%addTest(TestMethod("values_are_given_once", values_are_given_once))
+        call suite%addTest(TestMethod("blanks_are_not_overlooked", blanks_are_not_overlooked))
         call suite%addTest(TestMethod("wrong_commands_are_refused", wrong_commands_are_refused))
         call suite%addTest(TestMethod("options_go_with_their_commands", &
                                       options_go_with_their_commands))
@@ -148,6 +151,43 @@ contains
         call assertEqual(message, error%message)
         call assertEqual(status_usage, error%status)
     end subroutine refused
+
+    subroutine values_are_given_once()
+        !! The same value again is none; what may be repeated is.
+        type(command_line_t) :: line
+        type(error_t), allocatable :: error
+
+        call refused("--to|a|--to=b", "option '--to' is given twice, as 'a' and 'b'; give one "// &
+                     "of them")
+        call refused("--plot|--plot=svg", "option '--plot' is given twice, as '' and 'svg'; "// &
+                     "give one of them")
+        call parse_words(split("--to|a|--to=a|--set|a|--set|b|--help|--help"), some, line, error)
+        call assertFalse(allocated(error), "nothing contradicts")
+        call assertEqual(2, size(line%values_of("set")))
+        call parse_words(split("--output|a|--output=a "), options, line, error)
+        call assertTrue(allocated(error), "a blank is a difference")
+    end subroutine values_are_given_once
+
+    subroutine blanks_are_not_overlooked()
+        !! For Fortran `'a ' == 'a'`, not for a file system. A folder may have any name.
+        type(command_line_t) :: line
+        type(error_t), allocatable :: error
+        integer :: which
+
+        call refused("--to|a ", "the value 'a ' of option '--to' begins or ends with a blank; "// &
+                     "write 'a'")
+        call refused("--to= a", "the value ' a' of option '--to' begins or ends with a blank; "// &
+                     "write 'a'")
+        call refused("|run", "unknown command ''; 'lagrangia --help' shows them")
+        call check_refused("run ", "unknown command 'run '; did you mean 'run'?")
+        call check_refused("describe|wedge ", "'wedge ' begins or ends with a blank; write 'wedge'")
+        call check_refused("bench| steps", "' steps' begins or ends with a blank; write 'steps'")
+        call parse_words(split("run|a |--output|b |--set| c "), options, line, error)
+        call assertFalse(allocated(error), "names of files")
+        call check_line(line, which, error)
+        call assertFalse(allocated(error), "a name of a file")
+        call assertEqual(2, len(line%value_of("output", "")), "a folder, byte for byte")
+    end subroutine blanks_are_not_overlooked
 
     subroutine wrong_commands_are_refused()
         !! With the nearest, or all of them.

@@ -61,7 +61,9 @@ contains
               action="write")
         write (unit) bytes, "no final newline"
         close (unit)
-        call read_whole_file(file//"  ", text, error)
+        call unreadable(file//"  ", file//" \x20: no such file")
+        call unreadable(" "//file, "\x20"//file//": no such file")
+        call read_whole_file(file, text, error)
         call assertFalse(allocated(error), "a file of all bytes is read")
         if (anyExceptions()) return
         call assertEqual(272, len(text))
@@ -82,7 +84,8 @@ contains
         call unreadable(file, file//": no such file")
         call unreadable("/dev/zero", "/dev/zero: not a regular file")
         call unreadable("/", "/: is a folder; a file is needed")
-        call unreadable("  ", "the name of the file is empty")
+        call unreadable("", "the name of the file is empty")
+        call unreadable(" ", "\x20: no such file")
         call unreadable("a"//c_null_char//"b", "a\x00b: the name of the file holds a NUL byte")
         call assertEqual(0, int(mkfifo(fifo//c_null_char, int(o"600", c_int))))
         if (anyExceptions()) return

@@ -123,6 +123,8 @@ contains
                      "event = 'theta = up': a number is needed behind '=', as in "//looks)
         call refused(scene//"event = 'theta = 1e999'", &
                      "event = 'theta = 1e999': a number is needed behind '=', as in "//looks)
+        call refused(scene//"event = 'theta = 1-3'", &
+                     "event = 'theta = 1-3': a number is needed behind '=', as in "//looks)
         call refused(scene//"event = 'theta upwards'", "event = 'theta upwards': 'upwards' is "// &
                      "none of rising, falling, stop; an event looks like "//looks)
         call refused(scene//"event = 'energy_drift'", &

@@ -1,6 +1,5 @@
 module lagrangia_bench_choice
     !! What the options of `lagrangia bench` choose; everything is checked before anything is run.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_bench_problems, only: problem_names
     use lagrangia_catalogue, only: refuse_name, system_names
     use lagrangia_command_line, only: command_line_t
@@ -8,8 +7,9 @@ module lagrangia_bench_choice
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
+    use lagrangia_number_list, only: read_numbers
     use lagrangia_stopwatch, only: effort, effort_t
-    use lagrangia_text, only: quoted
+    use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
     private
     public :: bench_choice_t, parts, read_choice
@@ -50,6 +50,9 @@ contains
         allocate (words(size(line%arguments)))
         do i = 1, size(words)
             words(i) = line%arguments(i)%text
+            if (len(line%arguments(i)%text) <= name_length) cycle
+            call refuse_name("part", line%arguments(i)%text, parts, error)
+            return
         end do
         call choose("part", words, parts, choice%parts, error)
         if (allocated(error)) return
@@ -62,7 +65,9 @@ contains
         call choose("method", split(line, "methods"), contestant_names(), &
                     choice%methods, error)
         if (allocated(error)) return
-        call read_tolerances(split(line, "tolerances"), choice%tolerances, error)
+        allocate (choice%tolerances(0))
+        if (line%has("tolerances")) call read_tolerances(line%value_of("tolerances", ""), &
+                                                         choice%tolerances, error)
     end subroutine read_choice
 
     pure subroutine choose(kind, words, names, chosen, error)
@@ -87,27 +92,22 @@ contains
         end do
     end subroutine choose
 
-    pure subroutine read_tolerances(words, tolerances, error)
+    pure subroutine read_tolerances(text, tolerances, error)
         !! Numbers between the precision and 1, tightened from one to the next.
-        character(*), intent(in) :: words(:)
+        character(*), intent(in) :: text  !! with commas between them
         real(dp), allocatable, intent(out) :: tolerances(:)
         type(error_t), allocatable, intent(out) :: error
-        integer :: i, ios
+        integer :: i
 
-        allocate (tolerances(size(words)))
-        do i = 1, size(words)
-            ios = 1
-            if (verify(trim(words(i)), "0123456789.eE+-") == 0) read (words(i), *, iostat=ios) &
-                tolerances(i)
-            if (ios /= 0) tolerances(i) = 0.0_dp
-            if (.not. (ieee_is_finite(tolerances(i)) .and. tolerances(i) >= least_tolerance .and. &
-                       tolerances(i) < 1.0_dp)) then
-                call fail(error, "tolerance "//quoted(trim(words(i)))//" is not allowed: a "// &
-                          "number from 1e-16 to below 1 is needed")
-                return
-            end if
+        call read_numbers("--tolerances", text, tolerances, error)
+        if (allocated(error)) return
+        do i = 1, size(tolerances)
+            if (tolerances(i) >= least_tolerance .and. tolerances(i) < 1.0_dp) cycle
+            call fail(error, "tolerance "//to_text(tolerances(i))//" is not allowed: a "// &
+                      "number from 1e-16 to below 1 is needed")
+            return
         end do
-        do i = 2, size(words)
+        do i = 2, size(tolerances)
             if (tolerances(i) < tolerances(i - 1)) cycle
             call fail(error, "tolerances must fall from each to the next: 1e-3,1e-6,1e-9")
             return

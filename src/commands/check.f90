@@ -2,7 +2,7 @@ module lagrangia_check
     !! `lagrangia check [SYSTEM...]`: the audit of systems and methods, a table each.
     use lagrangia_audit, only: audit_system
     use lagrangia_audited, only: audited_t, read_audited
-    use lagrangia_catalogue, only: system_names
+    use lagrangia_catalogue, only: refuse_name, system_names
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_description, only: name_length
@@ -59,6 +59,9 @@ contains
             allocate (names(size(line%arguments)))
             do i = 1, size(names)
                 names(i) = line%arguments(i)%text
+                if (len(line%arguments(i)%text) <= name_length) cycle
+                call refuse_name("system", line%arguments(i)%text, system_names(), error)
+                return
             end do
             methods = any(names == "methods")
             names = pack(names, names /= "methods")

@@ -8,13 +8,12 @@ module lagrangia_modes_command
     use lagrangia_json, only: json_list, json_number, json_string
     use lagrangia_kinds, only: dp
     use lagrangia_modes_files, only: write_mode
-    use lagrangia_namelist_words, only: misread
-    use lagrangia_number_reader, only: read_number
+    use lagrangia_number_list, only: read_numbers
     use lagrangia_number_text, only: scientific
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, modes_t
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: quoted, to_text
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: modes_command
@@ -48,7 +47,7 @@ contains
         call read_named_system(line%arguments(1)%text, line%values_of("set"), system, error)
         if (allocated(error)) return
         allocate (at(system%ndof), source=0.0_dp)
-        if (line%has("at")) call read_numbers(line%value_of("at", ""), at, error)
+        if (line%has("at")) call read_numbers("--at", line%value_of("at", ""), at, error)
         if (allocated(error)) return
         call find_modes(system, at, line%has("at"), modes, error)
         if (allocated(error)) return
@@ -71,34 +70,6 @@ contains
             if (allocated(error) .or. interrupt_status() /= 0) return
         end do
     end subroutine modes_command
-
-    subroutine read_numbers(text, values, error)
-        !! `q1,q2,...`: numbers between commas, as a scene writes them.
-        character(*), intent(in) :: text
-        real(dp), allocatable, intent(out) :: values(:)
-        type(error_t), allocatable, intent(out) :: error
-        character(:), allocatable :: phrase, problem, word
-        real(dp) :: value
-        integer :: first, last
-
-        allocate (values(0))
-        first = 1
-        do while (first <= len(text) + 1)
-            last = index(text(first:)//",", ",") + first - 2
-            word = trim(adjustl(text(first:last)))
-            call misread(word, phrase, problem)
-            if (problem == "") then
-                call read_number(word, value, problem)
-                phrase = word
-            end if
-            if (problem /= "") then
-                call fail(error, "--at "//quoted(text)//": "//quoted(phrase)//": "//problem)
-                return
-            end if
-            values = [values, value]
-            first = last + 2
-        end do
-    end subroutine read_numbers
 
     subroutine print_modes(system, modes)
         !! For the eye: twelve digits, and differences.

@@ -1,7 +1,8 @@
 module lagrangia_registry
     !! The commands and options that there are, as data: help, dispatch and refusals read it.
-    use lagrangia_command_line, only: command_line_t, may_have_value, needs_value, no_value, &
-                                      option_t, without_hyphens
+    use lagrangia_command_line, only: command_line_t, has_outer_blanks, is_same, &
+                                      may_have_value, needs_value, no_value, option_t, &
+                                      without_hyphens
     use lagrangia_errors, only: error_t, fail
     use lagrangia_names, only: nearest_name
     use lagrangia_text, only: join, quoted
@@ -19,9 +20,11 @@ module lagrangia_registry
     end type command_t
 
     type(option_t), parameter :: options(*) = [ &
-        option_t("set", needs_value, "GROUP%KEY=VALUE", "override a scene's value; repeatable"), &
+        option_t("set", needs_value, "GROUP%KEY=VALUE", "override a scene's value; repeatable", &
+                 repeatable=.true., any_text=.true.), &
         option_t("at", needs_value, "Q1,Q2,...", "the equilibrium (default: at or near zero)"), &
-        option_t("output", needs_value, "DIR", "where data files go (default data/output)"), &
+        option_t("output", needs_value, "DIR", "where data files go (default data/output)", &
+                 any_text=.true.), &
         option_t("format", needs_value, "text|csv|npy", "of the data files"), &
         option_t("plot", may_have_value, "svg|png", "draw the data files by gnuplot"), &
         option_t("error-estimate", no_value, "", "state the final state to the digits that hold"), &
@@ -69,7 +72,7 @@ contains
         integer :: i
 
         do which = 1, size(commands)
-            if (commands(which)%name == line%command) exit
+            if (is_same(trim(commands(which)%name), line%command)) exit
         end do
         if (line%strange /= "") call refuse_option(line%strange, which, error)
         if (allocated(error)) return
@@ -97,7 +100,16 @@ contains
         if (command%most >= 0 .and. size(line%arguments) > command%most) then
             call fail(error, "'"//trim("lagrangia "//command%name)//"' does not take "// &
                       quoted(line%arguments(command%most + 1)%text))
+            return
         end if
+        do i = 1, size(line%arguments)
+            associate (word => line%arguments(i)%text)
+                if (.not. has_outer_blanks(word) .or. command%name == "run") cycle  ! a file's name
+                call fail(error, quoted(word)//" begins or ends with a blank; write "// &
+                          quoted(trim(adjustl(word))))
+                return
+            end associate
+        end do
     end subroutine check_line
 
     pure subroutine refuse_option(name, which, error)

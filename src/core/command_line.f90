@@ -6,7 +6,7 @@ module lagrangia_command_line
     implicit none (type, external)
     private
     public :: word_t, option_t, command_line_t
-    public :: command_words, parse_words, without_hyphens
+    public :: command_words, has_outer_blanks, is_same, parse_words, without_hyphens
     public :: no_value, needs_value, may_have_value
 
     integer, parameter :: no_value = 0, needs_value = 1, may_have_value = 2
@@ -18,6 +18,8 @@ module lagrangia_command_line
         integer :: takes = no_value
         character(24) :: value = ""
         character(80) :: meaning = ""
+        logical :: repeatable = .false.  !! several values may be given
+        logical :: any_text = .false.    !! a value may begin or end with blanks
     end type option_t
 
     type :: command_line_t
@@ -60,9 +62,10 @@ contains
         type(option_t), intent(in) :: options(:)  !! every option there is
         type(command_line_t), intent(out) :: line
         type(error_t), allocatable, intent(out) :: error
-        logical :: literal
+        logical :: literal, named
         integer :: i
 
+        named = .false.
         line%command = ""
         line%strange = ""
         allocate (line%arguments(0), line%names(0), line%values(0))
@@ -77,8 +80,12 @@ contains
                               quoted("--"//without_hyphens(plainly(text))))
                     return
                 else if (literal .or. index(text, "-") /= 1 .or. text == "-") then
-                    if (line%command == "" .and. .not. literal) then
+                    if (.not. (named .or. literal)) then
+                        named = .true.
                         line%command = text
+                        if (text == "") call fail(error, "unknown command "//quoted(text)// &
+                                                  "; 'lagrangia --help' shows them")
+                        if (allocated(error)) return
                     else
                         call append(line%arguments, text)
                     end if
@@ -143,6 +150,8 @@ contains
                 return
             end if
         end if
+        call check_value(options(k), name, value, line, error)
+        if (allocated(error)) return
         call append(line%names, trim(options(k)%name))
         call append(line%values, value)
     contains
@@ -159,6 +168,40 @@ contains
             end do
         end function has_word
     end subroutine take_option
+
+    pure subroutine check_value(option, name, value, line, error)
+        !! Refuse a second value that is another one, and blanks that would go unseen.
+        type(option_t), intent(in) :: option
+        character(*), intent(in) :: name, value      !! as they were typed
+        type(command_line_t), intent(in) :: line     !! what was typed before
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: before
+
+        before = line%value_of(trim(option%name), value)
+        if (.not. (option%repeatable .or. is_same(before, value))) then
+            call fail(error, "option '"//name//"' is given twice, as "//quoted(before)//" and "// &
+                      quoted(value)//"; give one of them")
+        else if (has_outer_blanks(value) .and. .not. option%any_text) then
+            call fail(error, "the value "//quoted(value)//" of option '"//name//"' begins or "// &
+                      "ends with a blank; write "//quoted(trim(adjustl(value))))
+        end if
+    end subroutine check_value
+
+    pure function is_same(text1, text2) result(same)
+        !! Byte for byte: blanks at the end count, as they do not for `==`.
+        character(*), intent(in) :: text1, text2
+        logical :: same
+
+        same = text1 == text2 .and. len(text1) == len(text2)
+    end function is_same
+
+    pure function has_outer_blanks(text) result(yes)
+        !! Does it begin or end with a blank?
+        character(*), intent(in) :: text
+        logical :: yes
+
+        yes = len_trim(adjustl(text)) < len(text)
+    end function has_outer_blanks
 
     pure subroutine append(list, text)
         !! Add a word at the end.

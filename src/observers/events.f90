@@ -10,6 +10,7 @@ module lagrangia_events
     use lagrangia_description, only: line_length, name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
+    use lagrangia_number_reader, only: read_number
     use lagrangia_system, only: system_t
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
@@ -17,7 +18,7 @@ module lagrangia_events
     public :: event_t, event_box_t, column_event_t, contact_event_t
     public :: new_column_event, new_contact_event
 
-    integer, parameter :: word_length = 64
+    integer, parameter :: word_length = line_length  !! no word of an event is cut
 
     type, abstract :: event_t
         character(line_length) :: label = ""
@@ -81,7 +82,8 @@ contains
         type(error_t), allocatable, intent(out) :: error
         character(word_length) :: words(7)
         character(name_length) :: name(1)
-        integer :: i, count, status
+        character(:), allocatable :: problem
+        integer :: i, count
 
         call split(text, words, count)
         if (count < 1) then
@@ -98,9 +100,8 @@ contains
         if (allocated(error)) return
         i = 2
         if (words(i) == "=") then
-            read (words(i + 1), *, iostat=status) self%level
-            if (status /= 0 .or. verify(trim(words(i + 1)), "+-.0123456789eEdD") > 0 &
-                .or. .not. abs(self%level) <= huge(self%level) .or. i == count) then
+            call read_number(trim(words(i + 1)), self%level, problem)
+            if (problem /= "") then
                 call fail(error, "a number is needed behind '=', as in "//example())
                 return
             end if

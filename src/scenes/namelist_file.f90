@@ -59,36 +59,35 @@ module lagrangia_namelist_file
 contains
 
     subroutine read_whole_file(path, text, error)
-        !! The bytes of the regular file `path`, at most `most_bytes`; trailing blanks of the path
-        !! do not count. Directories, FIFOs, terminals and devices are refused without waiting.
+        !! The bytes of the regular file `path`, at most `most_bytes`. Directories, FIFOs, terminals
+        !! and devices are refused without waiting.
         character(*), intent(in) :: path
         character(:), allocatable, intent(out) :: text
         type(error_t), allocatable, intent(out) :: error
         integer(c_int) :: descriptor, status
         character(:), allocatable :: problem
-        logical :: exists
         type(facts_t) :: facts
 
         problem = ""
-        if (len_trim(path) == 0) then
+        if (len(path) == 0) then
             problem = "the name of the file is empty"
         else if (index(path, c_null_char) > 0) then
             problem = "the name of the file holds a NUL byte"
         else
-            descriptor = posix_open(trim(path)//c_null_char, ior(read_only, do_not_block))
+            descriptor = posix_open(path//c_null_char, ior(read_only, do_not_block))
             if (descriptor >= 0_c_int) then
                 call read_open_file(descriptor, text, problem)
                 status = posix_close(descriptor)
-                facts = look_at(trim(path))
+                facts = look_at(path)
                 if (facts%folder) problem = "is a folder; a file is needed"
             else
-                inquire (file=trim(path), exist=exists)
+                facts = look_at(path)
                 problem = "no such file"
-                if (exists) problem = "the file cannot be opened; may it be read?"
+                if (facts%found) problem = "the file cannot be opened; may it be read?"
             end if
         end if
         if (len(problem) == 0) return
-        if (len_trim(path) > 0) problem = trim(short_source(trim(path)))//": "//problem
+        if (len(path) > 0) problem = trim(short_source(path))//": "//problem
         call fail(error, problem, status_file)
     end subroutine read_whole_file
 

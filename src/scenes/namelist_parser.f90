@@ -69,7 +69,7 @@ contains
         integer :: group
 
         scanner%overrides = .true.
-        scanner%source = short_source("--set "//escaped(text, 90))
+        scanner%source = short_source(trim("--set "//escaped(text, 90)))
         scanner%offset = len(tree%text)
         tree%text = tree%text//text
         call skip_space(text, scanner, error)

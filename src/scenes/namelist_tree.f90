@@ -81,13 +81,16 @@ contains
     end subroutine new_namelist
 
     pure function short_source(source) result(shown)
-        !! `source` fit for a message; of a long one the end is kept.
+        !! `source` fit for a message, a blank at either end as `\x20`; of a long one the end is
+        !! kept.
         character(*), intent(in) :: source
         character(source_length) :: shown
         character(:), allocatable :: full
         integer :: length
 
         full = escaped(source, 4*len(source))
+        if (len_trim(full) < len(full)) full = full(:len(full) - 1)//"\x20"
+        if (index(full, " ") == 1) full = "\x20"//full(2:)
         length = len(full)
         if (length > source_length) full = "..."//full(length - source_length + 4:)
         shown = full

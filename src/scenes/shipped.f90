@@ -2,9 +2,9 @@ module lagrangia_shipped
     !! The scenes that come with the toolkit: the files `data/scenes/*.nml`.
     use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_funptr, c_int, &
                                            c_null_char, c_null_funptr, c_ptr, c_size_t
-    use lagrangia_command_line, only: word_t
+    use lagrangia_command_line, only: has_outer_blanks, is_same, word_t
     use lagrangia_description, only: name_length
-    use lagrangia_errors, only: error_t, fail, status_file
+    use lagrangia_errors, only: error_t, fail, status_file, status_usage
     use lagrangia_files, only: facts_t, look_at
     use lagrangia_namelist_tree, only: short_source
     use lagrangia_names, only: nearest_name
@@ -87,7 +87,7 @@ contains
         character(:), allocatable :: near
         type(facts_t) :: facts
         logical :: is_path
-        integer :: i
+        integer :: i, status
 
         path = name
         is_path = index(name, "/") > 0 .or. index(name, ending) > 0
@@ -96,31 +96,47 @@ contains
             if (facts%found) return
         end if
         call shipped_scenes(paths, error)
-        if (allocated(error) .and. is_path) call fail(error, &
-            trim(short_source(name))//": no such file", status_file)
-        if (allocated(error)) return
-        allocate (names(size(paths)))
-        do i = 1, size(paths)
-            names(i) = scene_name(paths(i)%text)
-            if (names(i) == name .and. .not. is_path) then
-                path = paths(i)%text
-                return
-            end if
-        end do
-        near = nearest_name(scene_name(name), names)
-        if (near /= "") then
-            near = "; did you mean '"//near//"'?"
-        else if (index(name, "=") > 0) then
-            near = "; a value is set by --set GROUP%KEY=VALUE"
+        status = status_usage
+        if (is_path .or. allocated(error)) status = status_file
+        if (allocated(error)) then
+            near = ""
+            if (.not. is_path) near = "; there are no scenes in '"//folder//"' here: start "// &
+                "lagrangia in the project's folder, or give the path of a .nml file"
         else
-            near = "; 'lagrangia list scenes' shows the names, a path ends in .nml"
+            allocate (names(size(paths)))
+            do i = 1, size(paths)
+                names(i) = scene_name(paths(i)%text)
+                if (is_same(trim(names(i)), name) .and. .not. is_path) then
+                    path = paths(i)%text
+                    return
+                end if
+            end do
+            near = remedy(name, names)
         end if
+        facts = look_at(trim(adjustl(name)))
+        if (has_outer_blanks(name) .and. facts%found) near = "; there is one without "// &
+            "that blank"
         if (is_path) then
-            call fail(error, trim(short_source(name))//": no such file"//near, status_file)
+            call fail(error, trim(short_source(name))//": no such file"//near, status)
         else
-            call fail(error, "unknown scene "//quoted(name)//near)
+            call fail(error, "unknown scene "//quoted(name)//near, status)
         end if
     end subroutine find_scene
+
+    pure function remedy(name, names) result(text)
+        !! What to type in the place of `name`, where there are the scenes `names`.
+        character(*), intent(in) :: name, names(:)
+        character(:), allocatable :: text
+
+        text = nearest_name(scene_name(name), names)
+        if (text /= "") then
+            text = "; did you mean '"//text//"'?"
+        else if (index(name, "=") > 0) then
+            text = "; a value is set by --set GROUP%KEY=VALUE"
+        else
+            text = "; 'lagrangia list scenes' shows the names, a path ends in .nml"
+        end if
+    end function remedy
 
     pure function scene_name(path) result(name)
         !! The file's name without its folder and its ending.
