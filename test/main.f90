@@ -59,6 +59,7 @@ module suites
     use test_lapack, only: lapack_suite
     use test_lapack_band, only: lapack_band_suite
     use test_least_time, only: least_time_suite
+    use test_library_arguments, only: library_arguments_suite
     use test_method_refusals, only: method_refusals_suite
     use test_method_structure, only: method_structure_suite
     use test_methods, only: methods_suite
@@ -179,6 +180,7 @@ contains
         call suite%addTest(lapack_suite())
         call suite%addTest(lapack_band_suite())
         call suite%addTest(least_time_suite())
+        call suite%addTest(library_arguments_suite())
         call suite%addTest(method_refusals_suite())
         call suite%addTest(method_structure_suite())
         call suite%addTest(methods_suite())

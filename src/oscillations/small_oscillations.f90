@@ -4,6 +4,7 @@ module lagrangia_small_oscillations
     !! Linearised about an equilibrium, Lagrange's equations are
     !! \(M\ddot\delta + G\dot\delta + K\delta = 0\) with \(M = L_{vv}\), \(G = L_{vq} - L_{qv}\) and
     !! \(K = -L_{qq}\): once from the page, once from the Lagrangian's exact second derivatives.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_description, only: description_t, name_length
     use lagrangia_eigen, only: modes_from_factors, residual_ratio
     use lagrangia_errors, only: error_t, fail, status_library
@@ -13,6 +14,7 @@ module lagrangia_small_oscillations
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
     use lagrangia_linearised, only: linearised_t
+    use lagrangia_mass_matrix, only: check_mass_matrix, list_of
     use lagrangia_normal_modes, only: is_oscillation, is_unstable, is_zero_mode, normal_modes, &
                                       normal_modes_t, put_labels
     use lagrangia_system, only: system_t
@@ -62,6 +64,11 @@ contains
             g = 0.0_dp
             if (allocated(modes%page%gyroscopic)) g = modes%page%gyroscopic
         end if
+        if (.not. allocated(modes%page%mass)) call check_mass_matrix(m, error)
+        if (allocated(error)) then
+            call error%add_context("at q = "//list_of(modes%at)//", v = 0")
+            return
+        end if
         modes%mass = m
         modes%stiffness = k
         modes%gyroscopic = g
@@ -88,7 +95,12 @@ contains
         real(dp), intent(in) :: start(:)
         type(error_t), allocatable, intent(out) :: error
         type(description_t) :: d
+        type(hyperdual_t) :: qq(size(start)), vv(size(start)), l
 
+        if (system%ndof < 1) then
+            call fail(error, "the system has no coordinates: configure it first")
+            return
+        end if
         call system%describe(d)
         if (size(start) /= system%ndof) then
             call fail(error, "--at takes "//to_text(system%ndof)//" value"// &
@@ -101,6 +113,12 @@ contains
             call fail(error, "the Lagrangian of this "//trim(d%name)//" contains the time: it "// &
                       "has no equilibrium to oscillate about")
         end if
+        if (allocated(error)) return
+        qq%re = start
+        l = system%lagrangian(hyperdual_t(), qq, vv)
+        if (ieee_is_finite(l%re)) return
+        call fail(error, "the Lagrangian of this "//trim(d%name)//" is not a finite number at "// &
+                  "q = "//list_of(start)//", v = 0", status_library)
     end subroutine check_system
 
     pure function force(system, q) result(f)

@@ -9,6 +9,7 @@ module lagrangia_dense_run
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_box_t
     use lagrangia_run, only: plan_t, run
+    use lagrangia_start, only: check_start
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -26,7 +27,7 @@ contains
         type(plan_t), intent(in) :: plan
         type(event_box_t), intent(inout) :: events(:)
         type(observer_box_t), intent(in) :: observers(:)
-        real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+        real(dp), intent(inout) :: q(:), v(:)  !! the start; the end on return, (system%ndof)
         real(dp), intent(out) :: ended  !! time of the last sample, s
         type(error_t), allocatable, intent(out) :: error
 
@@ -51,7 +52,7 @@ contains
         type(plan_t), intent(in) :: plan
         type(event_box_t), intent(inout) :: events(:)
         type(observer_box_t), intent(in) :: observers(:)
-        real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+        real(dp), intent(inout) :: q(:), v(:)  !! the start; the end on return, (system%ndof)
         real(dp), intent(out) :: ended  !! time of the last sample, s
         type(error_t), allocatable, intent(out) :: error
         type(watch_t) :: watch
@@ -66,6 +67,8 @@ contains
         impacts = 0
         ended = plan%t0
         stopped = .false.
+        call check_start(system, plan%t0, q, v, error)
+        if (allocated(error)) return
         call method%prepare(system, error)
         if (allocated(error)) return
         call method%start(system, plan%t0, q, v, t_end)

@@ -1,10 +1,12 @@
 module lagrangia_run
     !! The one loop: a system, an integrator, and whoever wants to see the states.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_errors, only: error_t, fail
     use lagrangia_integrator, only: integrator_t
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_box_t
+    use lagrangia_start, only: check_start
     use lagrangia_stepwise, only: whole_steps
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
@@ -32,13 +34,22 @@ module lagrangia_run
 contains
 
     pure subroutine new_plan(plan, t0, dt, duration, every, error)
-        !! Count the steps; fails where they cannot be counted or do not move the time.
+        !! Count the steps; fails where they cannot be counted or do not move the time, and on a
+        !! number that makes no sense.
         type(plan_t), intent(out) :: plan
-        real(dp), intent(in) :: t0, dt, duration
+        real(dp), intent(in) :: t0, dt, duration  !! finite, s; the step positive, no time negative
         integer(i8), intent(in) :: every  !! steps between samples
         type(error_t), allocatable, intent(out) :: error
         real(dp) :: count
 
+        call check_times(t0, duration, error)
+        if (allocated(error)) return
+        if (.not. (ieee_is_finite(dt) .and. dt > 0.0_dp)) then
+            call fail(error, "must be positive and finite, not "//to_text(dt), key="dt")
+        else if (every < 1) then
+            call fail(error, "must be at least 1, not "//to_text(every), key="every")
+        end if
+        if (allocated(error)) return
         count = duration/dt
         if (count > 1e15_dp) then
             call fail(error, "duration/dt = "//to_text(count)//" steps are too many to count", &
@@ -60,10 +71,16 @@ contains
     pure subroutine new_sampled_plan(plan, t0, duration, samples, error)
         !! So many samples after that of the start; fails where they cannot be told apart.
         type(plan_t), intent(out) :: plan
-        real(dp), intent(in) :: t0, duration
-        integer(i8), intent(in) :: samples
+        real(dp), intent(in) :: t0, duration  !! finite, s; the duration not negative
+        integer(i8), intent(in) :: samples    !! at least 1
         type(error_t), allocatable, intent(out) :: error
 
+        call check_times(t0, duration, error)
+        if (allocated(error)) return
+        if (samples < 1) then
+            call fail(error, "must be at least 1, not "//to_text(samples), key="samples")
+            return
+        end if
         if (duration/samples < 4.0_dp*spacing(abs(t0) + duration)) then
             call fail(error, "so many samples cannot be told apart near t = "// &
                       to_text(t0 + duration)//" s", key="samples")
@@ -73,6 +90,19 @@ contains
         plan%duration = duration
         plan%equal = samples
     end subroutine new_sampled_plan
+
+    pure subroutine check_times(t0, duration, error)
+        !! Both finite, as is the end; time does not run backwards.
+        real(dp), intent(in) :: t0, duration
+        type(error_t), allocatable, intent(out) :: error
+
+        if (.not. ieee_is_finite(t0)) then
+            call fail(error, "must be finite, not "//to_text(t0), key="t0")
+        else if (.not. (ieee_is_finite(duration) .and. duration >= 0.0_dp)) then
+            call fail(error, "must be finite and not negative, not "//to_text(duration), &
+                      key="duration")
+        end if
+    end subroutine check_times
 
     pure function samples(self) result(count)
         !! Number of the last sample; that of the start is 0.
@@ -109,7 +139,7 @@ contains
         class(integrator_t), intent(inout) :: integrator
         type(plan_t), intent(in) :: plan
         type(observer_box_t), intent(in) :: observers(:)
-        real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+        real(dp), intent(inout) :: q(:), v(:)  !! the start; the end on return, (system%ndof)
         type(error_t), allocatable, intent(out) :: error
         real(dp) :: q_start(system%ndof), v_start(system%ndof)
         integer(i8) :: done, block_end
@@ -118,6 +148,12 @@ contains
             call fail(error, "unilateral constraints need a run that looks for impacts: run_dense")
             return
         end if
+        if (plan%every < 1 .or. plan%equal > 0) then
+            call fail(error, "the plan is not one of new_plan")
+            return
+        end if
+        call check_start(system, plan%t0, q, v, error)
+        if (allocated(error)) return
         call integrator%prepare(system, error)
         if (allocated(error)) return
         done = 0

@@ -1,0 +1,63 @@
+module lagrangia_start
+    !! What a run needs before its first step: a system with its parameters, a state of its size,
+    !! equations of motion there.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_errors, only: error_t, fail, status_numbers
+    use lagrangia_kinds, only: dp
+    use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
+    use lagrangia_lagrangian_system, only: lagrangian_system_t
+    use lagrangia_mass_matrix, only: check_mass_matrix, list_of
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: check_start
+
+contains
+
+    pure subroutine check_start(system, t, q, v, error)
+        !! Fails (status 2) for a system that was never configured and arrays of another size; and,
+        !! where a system has its Lagrangian only, for an L that is no number (status 3) or a mass
+        !! matrix that leaves accelerations open (status 4).
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(:), v(:)  !! s, coordinates, velocities
+        type(error_t), allocatable, intent(out) :: error
+
+        if (system%ndof < 1) then
+            call fail(error, "the system has no coordinates: configure it first")
+        else if (size(q) /= system%ndof) then
+            call fail(error, "q has "//to_text(size(q))//" values; the system has "// &
+                      to_text(system%ndof)//" coordinates", key="q")
+        else if (size(v) /= system%ndof) then
+            call fail(error, "v has "//to_text(size(v))//" values; the system has "// &
+                      to_text(system%ndof)//" velocities", key="v")
+        end if
+        if (allocated(error)) return
+        if (.not. all(ieee_is_finite([t, q, v]))) return  ! the run says so
+        select type (system)
+        class is (lagrangian_system_t)
+            call check_lagrangian(system, t, q, v, error)
+        end select
+        if (allocated(error)) call error%add_context("at t = "//to_text(t)//", q = "// &
+            list_of(q)//", v = "//list_of(v))
+    end subroutine check_start
+
+    pure subroutine check_lagrangian(system, t, q, v, error)
+        !! See `check_start`. Accelerations by hand may be finite where the mass matrix is singular.
+        class(lagrangian_system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(:), v(:)
+        type(error_t), allocatable, intent(out) :: error
+        type(euler_lagrange_t) :: terms
+        real(dp) :: a(system%ndof)
+
+        call expand_lagrangian(system, t, q, v, terms)
+        if (.not. ieee_is_finite(terms%l)) then
+            call fail(error, "the Lagrangian is not a finite number", status_numbers)
+        else if (.not. all(ieee_is_finite([terms%dl_dq, terms%dl_dv, terms%force]))) then
+            call fail(error, "a derivative of the Lagrangian is not finite", status_numbers)
+        end if
+        if (allocated(error)) return
+        call system%accelerations(t, q, v, a)
+        if (.not. all(ieee_is_finite(a))) call check_mass_matrix(terms%mass, error)
+    end subroutine check_lagrangian
+end module lagrangia_start

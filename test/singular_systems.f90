@@ -1,0 +1,77 @@
+module singular_systems
+    !! Own systems that have no equations of motion: for tests of what is said about them.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use lagrangia, only: coordinate, description_t, dp, hyperdual_t, lagrangian_system_t, &
+                         operator(*), operator(**), operator(+), operator(-)
+    implicit none (type, external)
+    private
+    public :: blind_t, light_t, skew_t
+
+    type, abstract, extends(lagrangian_system_t) :: two_t
+        !! Coordinates x and y, no parameters.
+    contains
+        procedure :: outline
+    end type two_t
+
+    type, extends(two_t) :: light_t
+        !! y has no mass: \(L = \dot x^2/2 - x^2/2 - y^2/2\).
+    contains
+        procedure :: lagrangian => light_lagrangian
+    end type light_t
+
+    type, extends(two_t) :: skew_t
+        !! A mass of -1: \(L = \dot x\dot y - xy\).
+    contains
+        procedure :: lagrangian => skew_lagrangian
+    end type skew_t
+
+    type, extends(two_t) :: blind_t
+        !! L is NaN; the accelerations are 0, by hand.
+    contains
+        procedure :: lagrangian => blind_lagrangian
+        procedure :: accelerations => no_accelerations
+    end type blind_t
+
+contains
+
+    pure subroutine outline(self, d)
+        class(two_t), intent(in) :: self
+        type(description_t), intent(out) :: d
+
+        d%name = "two"
+        d%title = "two coordinates"
+        d%coordinates = [coordinate("x", "m", "one"), coordinate("y", "m", "another")]
+    end subroutine outline
+
+    pure function light_lagrangian(self, t, q, v) result(l)
+        class(light_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t) :: l
+
+        l = 0.5_dp*v(1)**2 - 0.5_dp*q(1)**2 - 0.5_dp*q(2)**2
+    end function light_lagrangian
+
+    pure function skew_lagrangian(self, t, q, v) result(l)
+        class(skew_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t) :: l
+
+        l = v(1)*v(2) - q(1)*q(2)
+    end function skew_lagrangian
+
+    pure function blind_lagrangian(self, t, q, v) result(l)
+        class(blind_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t) :: l
+
+        l = ieee_value(1.0_dp, ieee_quiet_nan)*q(1)
+    end function blind_lagrangian
+
+    pure subroutine no_accelerations(self, t, q, v, a)
+        class(blind_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: a(self%ndof)
+
+        a = 0.0_dp
+    end subroutine no_accelerations
+end module singular_systems

@@ -1,0 +1,237 @@
+module test_library_arguments
+    !! What a program may hand to the library by mistake: each is an error, none a crash.
+    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_quiet_nan, ieee_value
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia, only: dp, error_t, find_modes, i8, integrator_t, modes_t, new_integrator, &
+                         new_plan, new_system, normal_modes, normal_modes_t, observer_box_t, &
+                         plan_t, run, system_t
+    use lagrangia_errors, only: status_library, status_numbers, status_usage
+    use lagrangia_run, only: new_sampled_plan
+    use singular_systems, only: blind_t, light_t, skew_t
+    implicit none (type, external)
+    private
+    public :: library_arguments_suite
+
+contains
+
+    function library_arguments_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("library_arguments")
+        call suite%addTest(TestMethod("plans_of_nonsense", plans_of_nonsense))
+        call suite%addTest(TestMethod("sampled_plans_of_nonsense", sampled_plans_of_nonsense))
+        call suite%addTest(TestMethod("states_of_another_size", states_of_another_size))
+        call suite%addTest(TestMethod("systems_without_parameters", systems_without_parameters))
+        call suite%addTest(TestMethod("matrices_of_nonsense", matrices_of_nonsense))
+        call suite%addTest(TestMethod("singular_mass_matrices", singular_mass_matrices))
+        call suite%addTest(TestMethod("a_lagrangian_of_nan", a_lagrangian_of_nan))
+        call suite%addTest(TestMethod("a_rolling_run_goes_on", a_rolling_run_goes_on))
+    end function library_arguments_suite
+
+    subroutine refused(error, message, status)
+        !! An error in just these words.
+        type(error_t), allocatable, intent(in) :: error
+        character(*), intent(in) :: message
+        integer, intent(in) :: status
+
+        call assertTrue(allocated(error), message="not refused: "//message)
+        if (.not. allocated(error)) return
+        call assertEqual(message, error%message)
+        call assertEqual(status, error%status, message=message)
+    end subroutine refused
+
+    subroutine plans_of_nonsense()
+        !! NaN, infinite, zero and negative in each place.
+        real(dp) :: nan, inf
+
+        nan = ieee_value(nan, ieee_quiet_nan)
+        inf = ieee_value(inf, ieee_positive_inf)
+        call no_plan(nan, 0.1_dp, 1.0_dp, 1_i8, "t0", "must be finite, not nan")
+        call no_plan(inf, 0.1_dp, 1.0_dp, 1_i8, "t0", "must be finite, not inf")
+        call no_plan(0.0_dp, nan, 1.0_dp, 1_i8, "dt", "must be positive and finite, not nan")
+        call no_plan(0.0_dp, inf, 1.0_dp, 1_i8, "dt", "must be positive and finite, not inf")
+        call no_plan(0.0_dp, 0.0_dp, 1.0_dp, 1_i8, "dt", "must be positive and finite, not 0.0")
+        call no_plan(0.0_dp, -0.1_dp, 1.0_dp, 1_i8, "dt", "must be positive and finite, not -0.1")
+        call no_plan(0.0_dp, 0.1_dp, nan, 1_i8, "duration", &
+                     "must be finite and not negative, not nan")
+        call no_plan(0.0_dp, 0.1_dp, inf, 1_i8, "duration", &
+                     "must be finite and not negative, not inf")
+        call no_plan(0.0_dp, 0.1_dp, -1.0_dp, 1_i8, "duration", &
+                     "must be finite and not negative, not -1.0")
+        call no_plan(0.0_dp, 0.1_dp, 1.0_dp, 0_i8, "every", "must be at least 1, not 0")
+        call no_plan(0.0_dp, 0.1_dp, 1.0_dp, -3_i8, "every", "must be at least 1, not -3")
+    end subroutine plans_of_nonsense
+
+    subroutine no_plan(t0, dt, duration, every, key, message)
+        !! Refused, and `key` is to blame.
+        real(dp), intent(in) :: t0, dt, duration
+        integer(i8), intent(in) :: every
+        character(*), intent(in) :: key, message
+        type(plan_t) :: plan
+        type(error_t), allocatable :: error
+
+        call new_plan(plan, t0, dt, duration, every, error)
+        call refused(error, message, status_usage)
+        if (allocated(error)) call assertEqual(key, error%key)
+    end subroutine no_plan
+
+    subroutine sampled_plans_of_nonsense()
+        !! The same where the method chooses its steps.
+        type(plan_t) :: plan
+        type(error_t), allocatable :: error
+
+        call new_sampled_plan(plan, 0.0_dp, 1.0_dp, 0_i8, error)
+        call refused(error, "must be at least 1, not 0", status_usage)
+        call new_sampled_plan(plan, 0.0_dp, -1.0_dp, 10_i8, error)
+        call refused(error, "must be finite and not negative, not -1.0", status_usage)
+        call new_sampled_plan(plan, ieee_value(1.0_dp, ieee_quiet_nan), 1.0_dp, 10_i8, error)
+        call refused(error, "must be finite, not nan", status_usage)
+    end subroutine sampled_plans_of_nonsense
+
+    subroutine try_run(system, q, v, error)
+        !! A run of ten steps of rk4.
+        class(system_t), intent(in) :: system
+        real(dp), intent(inout) :: q(:), v(:)
+        type(error_t), allocatable, intent(out) :: error
+        class(integrator_t), allocatable :: integrator
+        type(observer_box_t) :: nobody(0)
+        type(plan_t) :: plan
+
+        call new_integrator("rk4", integrator, error)
+        if (.not. allocated(error)) call new_plan(plan, 0.0_dp, 1e-2_dp, 0.1_dp, 1_i8, error)
+        if (.not. allocated(error)) call run(system, integrator, plan, nobody, q, v, error)
+    end subroutine try_run
+
+    subroutine states_of_another_size()
+        !! Too short, too long, empty; a plan whose parts were set by hand.
+        class(system_t), allocatable :: system
+        class(integrator_t), allocatable :: integrator
+        type(observer_box_t) :: nobody(0)
+        type(plan_t) :: plan
+        type(error_t), allocatable :: error
+        real(dp) :: q(3), v(3)
+
+        call new_system("cart_pendulum", system, error)
+        call system%configure([2.0_dp, 1.0_dp, 1.0_dp, 9.81_dp], error)
+        call assertFalse(allocated(error), message="configured")
+        q = 0.5_dp
+        v = 0.0_dp
+        call try_run(system, q(:1), v(:2), error)
+        call refused(error, "q has 1 values; the system has 2 coordinates", status_usage)
+        call try_run(system, q(:2), v, error)
+        call refused(error, "v has 3 values; the system has 2 velocities", status_usage)
+        call try_run(system, q(:0), v(:2), error)
+        call refused(error, "q has 0 values; the system has 2 coordinates", status_usage)
+        call try_run(system, q(:2), v(:2), error)
+        call assertFalse(allocated(error), message="of the right size")
+        call new_integrator("rk4", integrator, error)
+        plan%every = 0
+        plan%steps = 10
+        plan%dt = 0.1_dp
+        call run(system, integrator, plan, nobody, q(:2), v(:2), error)
+        call refused(error, "the plan is not one of new_plan", status_usage)
+    end subroutine states_of_another_size
+
+    subroutine systems_without_parameters()
+        !! An object that nobody configured.
+        type(blind_t) :: own
+        type(modes_t) :: modes
+        type(error_t), allocatable :: error
+        real(dp) :: q(2), v(2)
+
+        q = 0.5_dp
+        v = 0.0_dp
+        call try_run(own, q, v, error)
+        call refused(error, "the system has no coordinates: configure it first", status_usage)
+        call find_modes(own, q, .true., modes, error)
+        call refused(error, "the system has no coordinates: configure it first", status_usage)
+    end subroutine systems_without_parameters
+
+    subroutine matrices_of_nonsense()
+        !! Not square, empty, of two sizes, NaN, not symmetric, indefinite.
+        type(normal_modes_t) :: modes
+        type(error_t), allocatable :: error
+        real(dp) :: one(2, 2), k(2, 2)
+
+        one = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp], [2, 2])
+        call normal_modes(reshape([1.0_dp, 2.0_dp], [1, 2]), one, modes, error)
+        call refused(error, "K is 1 by 2: a square matrix is needed", status_usage)
+        call normal_modes(one(:0, :0), one(:0, :0), modes, error)
+        call refused(error, "K is 0 by 0: a square matrix is needed", status_usage)
+        call normal_modes(one, one(:1, :1), modes, error)
+        call refused(error, "K has 2 rows, M has 1", status_usage)
+        k = one
+        k(2, 2) = ieee_value(1.0_dp, ieee_quiet_nan)
+        call normal_modes(k, one, modes, error)
+        call refused(error, "K(2, 2) is not finite", status_usage)
+        call normal_modes(one, -one, modes, error)
+        call refused(error, "M is not positive definite: its leading minor of order 1 is not", &
+                     status_library)
+        call assertFalse(allocated(modes%omega2), message="nothing of a failure is left")
+    end subroutine matrices_of_nonsense
+
+    subroutine singular_mass_matrices()
+        !! Named by `run` and by `find_modes`, with the state and the eigenvalue.
+        type(light_t) :: light
+        type(skew_t) :: skew
+        type(modes_t) :: modes
+        type(error_t), allocatable :: error
+        real(dp) :: q(2), v(2)
+
+        q = [0.0_dp, 0.5_dp]
+        v = [0.25_dp, 0.0_dp]
+        call light%configure([real(dp) ::], error)
+        call assertFalse(light%time_dependent, message="L does not contain the time")
+        call try_run(light, q, v, error)
+        call refused(error, "at t = 0.0, q = 0.0, 0.5, v = 0.25, 0.0: the mass matrix d2L/dv "// &
+                     "dv is singular: it has the eigenvalue 0.0 beside 1.0", status_library)
+        call find_modes(light, [0.0_dp, 0.0_dp], .true., modes, error)
+        call refused(error, "at q = 0.0, 0.0, v = 0: the mass matrix d2L/dv dv is singular: it "// &
+                     "has the eigenvalue 0.0 beside 1.0", status_library)
+        call skew%configure([real(dp) ::], error)
+        call try_run(skew, q, v, error)
+        call refused(error, "at t = 0.0, q = 0.0, 0.5, v = 0.25, 0.0: the mass matrix d2L/dv "// &
+                     "dv is not positive definite: it has the eigenvalue -1.0", status_library)
+    end subroutine singular_mass_matrices
+
+    subroutine a_lagrangian_of_nan()
+        !! Refused by `run` although its accelerations, by hand, are numbers.
+        type(blind_t) :: blind
+        type(modes_t) :: modes
+        type(error_t), allocatable :: error
+        real(dp) :: q(2), v(2)
+
+        q = 0.0_dp
+        v = 0.0_dp
+        call blind%configure([real(dp) ::], error)
+        call try_run(blind, q, v, error)
+        call refused(error, "at t = 0.0, q = 0.0, 0.0, v = 0.0, 0.0: the Lagrangian is not a "// &
+                     "finite number", status_numbers)
+        call find_modes(blind, q, .true., modes, error)
+        call assertTrue(allocated(error), message="modes of NaN")
+    end subroutine a_lagrangian_of_nan
+
+    subroutine a_rolling_run_goes_on()
+        !! The end of a run of rk4 down an incline is a start; a slip of 1e-6 is none.
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        real(dp) :: q(4), v(4), again(4), slip
+
+        call new_system("rolling_disk", system, error)
+        call system%configure([1.0_dp, 0.5_dp, 0.125_dp, 0.0625_dp, 9.81_dp, 0.3_dp], error)
+        call assertFalse(allocated(error), message="configured")
+        q = [0.0_dp, 0.0_dp, 0.0_dp, 0.4_dp]
+        call system%complete_velocities(0.0_dp, q, [2.0_dp, 1.5_dp], v, error)
+        call try_run(system, q, v, error)
+        call assertFalse(allocated(error), message="ran")
+        slip = abs(v(1) - 0.5_dp*sin(q(4))*v(3))
+        call assertTrue(slip > 16*epsilon(slip)*norm2(v), message="the method lets it slip")
+        call system%complete_velocities(0.1_dp, q, v, again, error)
+        call assertFalse(allocated(error), message="a run's end is a start")
+        call assertEqual(v, again, message="kept as it is")
+        v(1) = v(1) + 1e-6_dp
+        call system%complete_velocities(0.1_dp, q, v, again, error)
+        call assertTrue(allocated(error), message="this slips")
+    end subroutine a_rolling_run_goes_on
+end module test_library_arguments
