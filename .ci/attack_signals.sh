@@ -91,6 +91,26 @@ plant "$work/clock" pendulum.dat
 status=$?
 check "ulimit -t: status 152, one line, the old file lives" eval '[ $status -eq 152 ] && one_line && unharmed "$work/clock" pendulum.dat && leftovers "$work/clock"'
 
+# A run of days off a terminal says so on stderr, once; --json stays JSON, --quiet stays quiet
+for words in "" --json --quiet; do
+    ${heard[@]+"${heard[@]}"} "$program" run pendulum --set scene%duration=1e9 --set scene%every=1000000 $words --output "$work/days" >"$work/out" 2>"$work/err" </dev/null &
+    child=$!
+    for _ in $(seq 100); do
+        [ -s "$work/err" ] && break
+        sleep 0.05
+    done
+    ended TERM
+    check "a run of days $words: how long it takes is said" eval 'case $words in --quiet) one_line ;; *) [ "$(wc -l <"$work/err")" -eq 2 ] && grep -q "^lagrangia: pendulum takes about [0-9]* \(h\|days\)$" "$work/err" && ! grep -q about "$work/out" ;; esac'
+done
+${heard[@]+"${heard[@]}"} "$program" check hanging_chain --set hanging_chain%n=1000 >"$work/out" 2>"$work/err" </dev/null &
+child=$!
+for _ in $(seq 100); do
+    [ -s "$work/err" ] && break
+    sleep 0.05
+done
+ended TERM
+check "check of a long chain: how long it takes is said" grep -q "^lagrangia: the audit of hanging_chain with 1000 coordinates takes about [0-9]* [a-z]*$" "$work/err"
+
 # Little stack, little memory: the command works, or says in one line what it lacks; it never hangs
 in_little() { # in_little LIMIT... -- WORDS...: OpenBLAS is left to its own devices
     local limit=()

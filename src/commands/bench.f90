@@ -61,7 +61,7 @@ contains
         call new_goals(goals)
         do i = 1, size(parts)
             if (.not. any(choice%parts == parts(i))) cycle
-            call progress%restart("bench "//trim(parts(i)))
+            call progress%restart("bench "//trim(parts(i)), line%has("quiet"))
             select case (parts(i))
             case ("precision")
                 call bench_precision()

@@ -4,14 +4,17 @@ module lagrangia_check
     use lagrangia_audited, only: audited_t, read_audited
     use lagrangia_catalogue, only: refuse_name, system_names
     use lagrangia_command_line, only: command_line_t
-    use lagrangia_console, only: put_line
-    use lagrangia_description, only: name_length
+    use lagrangia_console, only: note, put_line
+    use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_findings, only: audit_t, claim_length, finding_t
+    use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_json, only: json_number, json_string
     use lagrangia_kinds, only: dp, i8
     use lagrangia_method_orders, only: audit_methods
     use lagrangia_number_text, only: scientific
+    use lagrangia_progress, only: about
+    use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -31,6 +34,7 @@ contains
         call choose(line, audited, methods, error)
         if (allocated(error)) return
         do i = 1, size(audited)
+            call announce(audited(i)%system, audited(i)%given)
             call audit_system(audited(i)%system, audit, audited(i)%fixed, audited(i)%given)
         end do
         if (methods) call audit_methods(audit)
@@ -42,6 +46,42 @@ contains
         if (audit%broken() > 0) call fail(error, to_text(audit%broken())//" of "// &
             to_text(size(audit%findings))//" claims do not hold", status_not_held)
     end subroutine check_command
+
+    subroutine announce(default, given)
+        !! Say how long the audit of a system of many coordinates takes: as long as some 1500
+        !! expansions of L, each of which evaluates it \(n(n + 1)/2 + 2n + 1\) times.
+        class(system_t), intent(in) :: default
+        real(dp), intent(in) :: given(:)  !! parameters
+        integer, parameter :: expansions = 1500, tries = 20
+        real(dp), parameter :: long = 20.0_dp  !! s; what is sooner there needs no announcement
+        type(description_t) :: d
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(hyperdual_t), allocatable :: q(:), v(:)
+        type(hyperdual_t) :: t, l
+        integer(i8) :: start, finish, rate
+        real(dp) :: n, seconds
+        integer :: i
+
+        allocate (system, source=default)
+        call system%configure(given, error)
+        if (allocated(error)) return  ! the audit says so
+        allocate (q(system%ndof), v(system%ndof))
+        q%re = 0.1_dp
+        v%re = 1.0_dp
+        call system_clock(start, rate)
+        do i = 1, tries
+            l = system%lagrangian(t, q, v)
+            v(1)%re = v(1)%re + 0.01_dp*sign(1.0_dp, l%re)  ! so that none can be left out
+        end do
+        call system_clock(finish)
+        n = real(system%ndof, dp)
+        seconds = expansions*(n*(n + 1)/2 + 2*n + 1)*real(finish - start, dp)/(rate*real(tries, dp))
+        if (seconds < long) return
+        call system%describe(d)
+        call note("the audit of "//trim(d%name)//" with "//to_text(system%ndof)// &
+                  " coordinates takes about "//about(seconds))
+    end subroutine announce
 
     subroutine choose(line, audited, methods, error)
         !! The systems named, where `methods` is a name too; or everything.

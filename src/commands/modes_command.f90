@@ -6,10 +6,11 @@ module lagrangia_modes_command
     use lagrangia_errors, only: error_t, fail
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_json, only: json_list, json_number, json_string
-    use lagrangia_kinds, only: dp
+    use lagrangia_kinds, only: dp, i8
     use lagrangia_modes_files, only: write_mode
     use lagrangia_number_list, only: read_numbers
     use lagrangia_number_text, only: scientific
+    use lagrangia_progress, only: progress_t
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, modes_t
     use lagrangia_system, only: system_t
@@ -32,6 +33,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
         class(system_t), allocatable :: system
         type(modes_t) :: modes, others
+        type(progress_t) :: progress
         real(dp), allocatable :: at(:)
         character(:), allocatable :: json
         logical :: elsewhere
@@ -65,10 +67,13 @@ contains
             if (elsewhere) call print_modes(system, others)
         end if
         if (.not. line%has("output")) return
+        call progress%restart(line%arguments(1)%text, line%has("quiet"))
         do j = 1, size(modes%omega2)
             call write_mode(system, modes, j, line%value_of("output", ""), error)
-            if (allocated(error) .or. interrupt_status() /= 0) return
+            if (allocated(error) .or. interrupt_status() /= 0) exit
+            call progress%tick(int(j, i8), size(modes%omega2, kind=i8))
         end do
+        call progress%clear()
     end subroutine modes_command
 
     subroutine print_modes(system, modes)

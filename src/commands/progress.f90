@@ -1,7 +1,7 @@
 module lagrangia_progress
-    !! How far a long run is, on a terminal's stderr only.
+    !! How far a long run is, on a terminal's stderr; elsewhere one line that says how long it takes.
     use, intrinsic :: iso_fortran_env, only: error_unit
-    use lagrangia_console, only: is_terminal, show_progress
+    use lagrangia_console, only: is_terminal, note, show_progress
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_t
@@ -9,15 +9,17 @@ module lagrangia_progress
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: progress_t
+    public :: about, progress_t
 
     real(dp), parameter :: patience = 2.0_dp   !! s before anything is shown
     real(dp), parameter :: interval = 0.2_dp   !! s between two updates
+    real(dp), parameter :: long = 60.0_dp      !! s; a run that takes less needs no announcement
 
     type, extends(observer_t) :: progress_t
         character(:), allocatable :: label
         integer(i8), private :: start = 0, rate = 0
         real(dp), private :: next = patience
+        logical, private :: terminal = .false.  !! else there is one line at most
         logical :: shown = .false.
     contains
         procedure :: observe
@@ -28,16 +30,19 @@ module lagrangia_progress
 
 contains
 
-    subroutine restart(self, label)
+    subroutine restart(self, label, quiet)
         !! A new run begins.
         class(progress_t), intent(inout) :: self
-        character(*), intent(in) :: label
+        character(*), intent(in) :: label       !! what runs, in one word
+        logical, intent(in), optional :: quiet  !! say nothing where there is no terminal
 
         self%label = label
         self%next = patience
         self%shown = .false.
         call system_clock(self%start, self%rate)
-        if (.not. is_terminal(error_unit)) self%next = huge(patience)
+        self%terminal = is_terminal(error_unit)
+        if (self%terminal .or. .not. present(quiet)) return
+        if (quiet) self%next = huge(patience)
     end subroutine restart
 
     subroutine observe(self, system, t, q, v, error)
@@ -49,7 +54,7 @@ contains
     end subroutine observe
 
     subroutine tick(self, done, steps)
-        !! Rewrite the line when it is time.
+        !! Rewrite the line when it is time; or announce, once, how long it will be.
         class(progress_t), intent(inout) :: self
         integer(i8), intent(in) :: done, steps
         integer(i8) :: now
@@ -58,12 +63,33 @@ contains
         call system_clock(now)
         seconds = real(now - self%start, dp)/real(self%rate, dp)
         if (seconds < self%next) return
+        if (.not. self%terminal) then
+            if (done < 1) return
+            self%next = huge(patience)
+            if (seconds*(real(steps, dp)/real(done, dp)) >= long) call note(self%label// &
+                " takes about "//about(seconds*(real(steps, dp)/real(done, dp))))
+            return
+        end if
         self%next = seconds + interval
         self%shown = .true.
         percent = 100.0_dp*real(done, dp)/real(max(steps, 1_i8), dp)
         call show_progress(self%label//": "//to_text(int(percent))//" %, "// &
                            to_text(int(seconds))//" s")
     end subroutine tick
+
+    pure function about(seconds) result(text)
+        !! A duration in two digits at most, of the unit that suits: `50 s`, `12 min`, `31 years`.
+        real(dp), intent(in) :: seconds  !! s, not negative
+        character(:), allocatable :: text
+        character(7), parameter :: names(5) = ["s      ", "min    ", "h      ", "days   ", &
+                                               "years  "]
+        real(dp), parameter :: units(5) = [1.0_dp, 60.0_dp, 3600.0_dp, 86400.0_dp, 31557600.0_dp]
+        real(dp), parameter :: highest = 1e9_dp  !! years
+        integer :: i
+
+        i = max(1, count(seconds >= 2*units))
+        text = to_text(nint(min(seconds/units(i), highest)))//" "//trim(names(i))
+    end function about
 
     subroutine clear(self)
         !! Remove the line, if there is one.

@@ -118,7 +118,7 @@ contains
             warning = step_warning(scene, system)
             if (warning /= "" .and. .not. quiet) call note(path//": "//warning)
             scene%error_estimate = scene%error_estimate .or. line%has("error-estimate")
-            call progress%restart(trim(scene%name))
+            call progress%restart(trim(scene%name), quiet)
             call play(scene, system, folder, format, watcher, outcome, error)
             outcome%warning = warning
             if (allocated(error) .or. .not. line%has("plot")) return
