@@ -68,11 +68,40 @@ for how in "is_killed:before the kill:killed by signal 11" "stops:before the sto
 done
 
 # A test's random numbers are its own: each test of a suite that draws begins the sequence again
-for file in $(grep -lE '^ *use (random_states|reference_checks)\b' test/test_*.f90); do
-    [ "$(grep -c 'setUp=restart_random' "$file")" -eq "$(grep -c 'addTest(TestMethod(' "$file")" ] ||
-        echo "$file: not every TestMethod has setUp=restart_random"
-done >"$work/out"
+python3 - test/test_*.f90 >"$work/out" <<'END'
+# each test that draws, itself or by a procedure of its file, has the set-up or calls it
+import re, sys
+draws = re.compile(r"\b(uniform|draw_parameters|draw_state|check_reference|check_state|check_system)\(")
+for path in sys.argv[1:]:
+    text = open(path).read()
+    if not re.search(r"^ *use (random_states|reference_checks|system_checks)\b", text, re.M): continue
+    body = dict(re.findall(r"^    (?:pure |elemental |recursive )*(?:subroutine|function) (\w+)(.*?)^    end (?:subroutine|function)", text, re.M | re.S))
+    def drawing(name, seen):
+        if name in seen: return False
+        words = set(re.findall(r"\w+", body[name])) & set(body)
+        return bool(draws.search(body[name])) or any(drawing(w, seen | {name}) for w in words)
+    for test, rest in re.findall(r'TestMethod\("[^"]*",[\s&]*(\w+)(.*?)\)\)', text, re.S):
+        if test in body and drawing(test, set()) and "restart_random" not in rest + body[test]:
+            print(f"{path}: {test} draws, and has no setUp=restart_random")
+END
 check "each test begins its random numbers" [ ! -s "$work/out" ]
+python3 - test/*.f90 >"$work/out" <<'END'
+# each assertTrue and assertFalse with one argument: nothing but the condition
+import re, sys
+for path in sys.argv[1:]:
+    text = re.sub(r"&\s*\n\s*", "", open(path).read()) if "test_harness" not in path else ""
+    for call in re.finditer(r"call assert(?:True|False)\(", text):
+        depth, quote, commas, at = 1, None, 0, call.end()
+        while depth:
+            c, at = text[at], at + 1
+            if quote: quote = None if c == quote else quote
+            elif c in "'\"": quote = c
+            elif c in "([": depth += 1
+            elif c in ")]": depth -= 1
+            elif c == "," and depth == 1: commas += 1
+        if not commas: print(path + ": " + text[call.start():at])
+END
+check "each assertTrue and assertFalse has a message" [ ! -s "$work/out" ]
 grep -nE 'random_number|random_seed' test/*.f90 >"$work/out"
 check "no test draws from elsewhere" [ ! -s "$work/out" ]
 

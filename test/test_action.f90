@@ -71,7 +71,7 @@ contains
 
         call build(system, [1.0_dp, 1.0_dp])
         call extrapolated_action(system, 2.0_dp, 1.0_dp, 0.5_dp, action, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: oscillator actions")
         call assertEqual(-0.835911056622486836_dp, action, 1e-14_dp)
         call build(system, [1.3_dp, 0.7_dp])
         call extrapolated_action(system, 1.7_dp, -0.6_dp, 1.1_dp, action, error)
@@ -149,11 +149,11 @@ contains
 
         call build(system, [1.3_dp, 0.7_dp, 9.81_dp])
         call walker%make("verlet", system, 0.0_dp, h, [0.4_dp], [5.0_dp], q, v, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: verlet is stationary")
         rounding = 16.0_dp*epsilon(h)*1.3_dp*0.49_dp*maxval(abs(q))/h**2
         call assertLessThan(action_gradient(system, 0.0_dp, h, q + 0.5_dp*h*v), rounding)
         call walker%make("velocity_verlet", system, 0.0_dp, h, [0.4_dp], [5.0_dp], points, v, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: verlet is stationary")
         call assertLessThan(action_gradient(system, 0.0_dp, h, points), rounding)
         call assertGreaterThan(action_gradient(system, 0.0_dp, h, q), 1e9_dp*rounding)
         call assertGreaterThan(action_gradient(system, 0.0_dp, 1.001_dp*h, points), &
@@ -174,14 +174,14 @@ contains
         call build(system, [1.3_dp, 0.7_dp, 0.9_dp, 1.7_dp, 9.81_dp])
         call walker%make("rk4", system, 0.0_dp, time/800.0_dp, [1.2_dp, -0.7_dp], &
                          [0.5_dp, 1.5_dp], q, v, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: paths of two coordinates")
         do i = 1, 3
             n = 25*2**(i - 1)
             allocate (path(2, n + 1))
             path(1:1, :) = straight(q(1, 1), q(1, 801), n)
             path(2:2, :) = straight(q(2, 1), q(2, 801), n)
             call find_path(system, 0.0_dp, time/n, path, error)
-            call assertFalse(allocated(error))
+            call assertFalse(allocated(error), "no error: paths of two coordinates")
             if (anyExceptions()) return
             away(i) = maxval(abs(path - q(:, ::800/n)))
             deallocate (path)
@@ -205,7 +205,7 @@ contains
             time = i*pi/sqrt(0.7_dp/1.3_dp)
             call negative_curvatures(system, 0.0_dp, 0.99_dp*time/n, straight(0.0_dp, 1.0_dp, n), &
                                      before, error)
-            call assertFalse(allocated(error))
+            call assertFalse(allocated(error), "no error: signs change at conjugate points")
             call negative_curvatures(system, 0.0_dp, 1.01_dp*time/n, straight(0.0_dp, 1.0_dp, n), &
                                      after, error)
             call assertEqual(i - 1, before)
@@ -236,7 +236,7 @@ contains
         call build(system, [1.0_dp, 2.0_dp])
         allocate (path, source=straight(1.0_dp, 2.0_dp, 2))
         call find_path(system, 0.0_dp, 1.0_dp, path, error)
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: hopeless paths are refused")
         if (anyExceptions()) return
         call assertEqual("path between two points: band system: the matrix is singular", &
                          error%message)
@@ -255,11 +255,11 @@ contains
 
         call build(system, [1.0_dp, 4.0_dp])
         call walker%make("rk4", system, 0.0_dp, 0.01_dp, [0.3_dp], [0.7_dp], q, v, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: walker starts at the start")
         call assertEqual([0.3_dp, 0.3_dp*cos(0.02_dp) + 0.35_dp*sin(0.02_dp), &
                           0.3_dp*cos(0.04_dp) + 0.35_dp*sin(0.04_dp)], q(1, :), 1e-9_dp)
         call driven%configure([0.5_dp, 0.8_dp, 9.81_dp, 0.1_dp, 5.0_dp], error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: walker starts at the start")
         call walker%make("rk4", driven, 0.3_dp, 0.05_dp, [0.3_dp], [0.7_dp], q, v, error)
         call new_rk4(rk4)
         call rk4%prepare(driven, error)
@@ -268,6 +268,6 @@ contains
         call rk4%advance(driven, 0.3_dp, 0.05_dp, 0_i8, 2_i8, angle, rate)
         call assertEqual([angle(1), rate(1)], [q(1, 3), v(1, 3)], 0.0_dp)
         call walker%make("rk5", system, 0.0_dp, 0.01_dp, [0.3_dp], [0.7_dp], q, v, error)
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: walker starts at the start")
     end subroutine walker_starts_at_the_start
 end module test_action

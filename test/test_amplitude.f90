@@ -138,7 +138,7 @@ contains
             dropped = a - linear
             size_of(i) = maxval(abs(dropped))
         end do
-        call assertTrue(size_of(3) > 0.0_dp)
+        call assertTrue(size_of(3) > 0.0_dp, "size_of(3) > 0.0")
         if (anyExceptions()) return
         call assertEqual(3.0_dp, log(size_of(1:2)/size_of(2:3))/log(2.0_dp), 0.01_dp, "order")
     end subroutine dropped_term_is_of_third_order

@@ -247,7 +247,7 @@ contains
         call audit_system(system, audit, [.false., .false., .true.], [1.0_dp, 1.0_dp, 0.0_dp])
         call assertEqual(0, audit%broken())
         row = audit%row_of("L_z is conserved")
-        call assertTrue(row > 0)
+        call assertTrue(row > 0, "row > 0")
         if (anyExceptions()) return
         call assertEqual(draws, audit%findings(row)%states)
     end subroutine given_parameters_stay
@@ -271,7 +271,8 @@ contains
         call audit%judge("claim", nan, 1.0_dp, 10.0_dp)
         call assertEqual(1, audit%broken())
         call audit%judge("claim", 0.1_dp, 0.1_dp, 10.0_dp)
-        call assertTrue(ieee_is_nan(audit%findings(1)%worst))
+        call assertTrue(ieee_is_nan(audit%findings(1)%worst), &
+                        "ieee_is_nan(audit%findings(1)%worst)")
         call audit%begin("there")
         call audit%judge("claim", 2.0_dp, 1.0_dp, 1.0_dp)
         call assertEqual(2, size(audit%findings))

@@ -83,8 +83,9 @@ contains
                 last = p%system%energy(p%duration, p%q_end, p%v_end)
                 call assertEqual(first, last, tolerance=1e-13_dp*(1.0_dp + abs(first)), &
                                  message=p%name)
-                call assertTrue(p%error_of(p%q_end, p%v_end) <= 0.0_dp)
-                call assertTrue(p%error_of(p%q, p%v) > 1e-3_dp)
+                call assertTrue(p%error_of(p%q_end, p%v_end) <= 0.0_dp, &
+                                "p%error_of(p%q_end, p%v_end) <= 0.0")
+                call assertTrue(p%error_of(p%q, p%v) > 1e-3_dp, "p%error_of(p%q, p%v) > 1e-3")
             end associate
         end do
     end subroutine energy_is_kept_to_the_end
@@ -100,7 +101,7 @@ contains
         call get_problems(problems)
         if (anyExceptions()) return
         call new_contestants([character(name_length) ::], everybody)
-        call assertTrue(size(everybody) >= 7)
+        call assertTrue(size(everybody) >= 7, "size(everybody) >= 7")
         do k = 1, size(everybody)
             solved = 0
             do i = 1, size(problems)
@@ -149,7 +150,8 @@ contains
             end if
             call assertEqual(q(:n), x(:n), tolerance=1e-12_dp)
             call assertEqual(v(:n), w(:n), tolerance=1e-12_dp)
-            call assertTrue(any(abs(q(:n) - problems(i)%q) > 0.01_dp))
+            call assertTrue(any(abs(q(:n) - problems(i)%q) > 0.01_dp), &
+                            "any(abs(q(:n) - problems(i)%q) > 0.01)")
         end do
     end subroutine concrete_loops_are_rk4
 
@@ -183,8 +185,8 @@ contains
                          table%object(2))
         call assertEqual(1.5_dp, table%value("rk4", "us"))
         call assertEqual(1.0_dp, table%value("gauss16", "count"))
-        call assertFalse(table%value("rk5", "us") >= 0.0_dp)
-        call assertFalse(table%value("rk4", "ns") >= 0.0_dp)
+        call assertFalse(table%value("rk5", "us") >= 0.0_dp, "not table%value('rk5', 'us') >= 0.0")
+        call assertFalse(table%value("rk4", "ns") >= 0.0_dp, "not table%value('rk4', 'ns') >= 0.0")
         do i = 1, 40
             call table%add([word_cell("more"), number_cell(real(i, dp), 3), count_cell(int(i, i8))])
         end do
@@ -198,9 +200,9 @@ contains
         type(error_t), allocatable :: error
 
         call check_build(.true., error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: debug builds are refused")
         call check_build(.false., error)
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: debug builds are refused")
         if (.not. allocated(error)) return
         call assertEqual("bench: this build is not optimised, and its times would mislead; "// &
                          "'fpm run --profile release -- bench' builds one that is", error%message)
@@ -214,9 +216,10 @@ contains
 
         call choose([character(24) :: "bench", "precision", "--problems", "P1,P3", "--methods", &
                      "rk4,gsl_rk8pd", "--tolerances", "1e-6,1e-9", "--quick"])
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: choices are checked")
         call assertEqual(2, size(choice%problems))
-        call assertTrue(choice%plan%quick .and. all(choice%methods == ["rk4      ", "gsl_rk8pd"]))
+        call assertTrue(choice%plan%quick .and. all(choice%methods == ["rk4      ", "gsl_rk8pd"]), &
+                        "choice%plan%quick .and. all(choice%methods == ['rk4      ', 'gsl_rk...")
         call assertEqual([1e-6_dp, 1e-9_dp], choice%tolerances)
         call refused("--problems=P5", "unknown problem 'P5'; did you mean 'P1'?")
         call refused("--methods=gsl_rk8", "unknown method 'gsl_rk8'; did you mean 'gsl_rk4'?")

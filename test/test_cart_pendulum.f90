@@ -165,7 +165,7 @@ contains
         do i = 1, 30
             f%k = sin(0.05_dp*i)
             call integrate_period(f, 0.0_dp, pi, integral, error)
-            call assertFalse(allocated(error))
+            call assertFalse(allocated(error), "no error: period is the integral")
             call start([0.6_dp, 1.7_dp, 0.8_dp, 3.7_dp], [0.2_dp, 0.1_dp*i], [0.0_dp, 0.0_dp], &
                        reference)
             call assertRelativelyEqual(2.0_dp*sqrt(0.8_dp/3.7_dp)*integral, reference%period, &
@@ -245,7 +245,7 @@ contains
             call draw_parameters(system, edges=mod(i, 2) == 0)
             call draw_state(system, t, q, v)
             call new_cart_pendulum_reference(reference, system, t, q, v, found)
-            call assertTrue(found)
+            call assertTrue(found, "found")
             call check_reference(reference, system, t, q, v, "cart-pendulum")
             if (anyExceptions()) return
         end do

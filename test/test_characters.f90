@@ -100,14 +100,14 @@ contains
 
         path = new_folder("characters")//"/head"
         call table%file%open(path, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: json is utf 8")
         call table%begin(["title "//char(10)//"1 2"], [character(20) :: "t", name], &
                          [character(20) :: "s", unit], error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: json is utf 8")
         call table%finish("rows: 0"//char(10)//repeat("x ", 300), error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: json is utf 8")
         text = contents(path)
-        call assertTrue(remove_file(path))
+        call assertTrue(remove_file(path), "it was there: "//path)
     end function head
 
     subroutine a_text_table_has_a_word_a_column()

@@ -65,7 +65,7 @@ contains
                    0.0_dp)
         call new_charged_particle_reference(reference, particle, 3.0_dp, nil, &
                                             [1.0_dp, 0.0_dp, 0.0_dp], found)
-        call assertTrue(found)
+        call assertTrue(found, "found")
         call reference%state_at(4.0_dp, q, v)
         call assertEqual([0.949263425153478913_dp, -0.445433727757094953_dp, 0.0_dp], q, 1e-15_dp)
         call reference%state_at(13.0_dp, q, v)
@@ -115,7 +115,7 @@ contains
             call draw_parameters(particle, edges=mod(i, 2) == 0)
             call draw_state(particle, t, q, v)
             call new_charged_particle_reference(reference, particle, t, q, v, found)
-            call assertTrue(found)
+            call assertTrue(found, "found")
             call check_reference(reference, particle, t, q, v, "charge")
             if (anyExceptions()) return
         end do

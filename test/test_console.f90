@@ -39,7 +39,7 @@ contains
         path = new_folder("console")//"/out"
         call assertEqual(0, exit_status(put_some))
         call assertEqual("a b\x1B\xFF"//new_line("a")//repeat("0123456789", 10000), contents(path))
-        call assertTrue(remove_file(path))
+        call assertTrue(remove_file(path), "it was there: "//path)
     end subroutine stdout_arrives
 
     function put_some() result(status)
@@ -145,7 +145,7 @@ contains
         path = new_folder("closed")//"/a.dat"
         call assertEqual(status_file, exit_status(write_and_put))
         call assertEqual("data", contents(path))
-        call assertTrue(remove_file(path))
+        call assertTrue(remove_file(path), "it was there: "//path)
     end subroutine a_file_never_becomes_stdout
 
     function write_and_put() result(status)
@@ -174,7 +174,7 @@ contains
         call assertEqual("first"//new_line("a")//"lagrangia: a\x0Ab\x00\x1B[1m\x7Fc"// &
                          new_line("a"), rest(:len(rest) - 301))
         call assertEqual(" end"//new_line("a"), rest(len(rest) - 4:))
-        call assertTrue(remove_file(path))
+        call assertTrue(remove_file(path), "it was there: "//path)
     end subroutine a_note_is_one_line
 
     function note_something() result(status)

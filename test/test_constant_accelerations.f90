@@ -114,11 +114,11 @@ contains
         call system%configure([3.0_dp, 2.0_dp, 9.81_dp, 0.4_dp, 0.1_dp, -9.81_dp], error)
         call system%accelerations(0.0_dp, [0.3_dp], [0.7_dp], a)
         call assertEqual(0.0_dp, a(1), 0.0_dp, "free fall")
-        call assertTrue(system%time_dependent)
+        call assertTrue(system%time_dependent, "system%time_dependent")
         call system%describe(d)
         call assertTrue(index(d%constraint, "rheonomic") > 0, d%constraint)
         call system%configure([3.0_dp, 3.0_dp, 9.81_dp, 0.4_dp, 0.1_dp, 0.0_dp], error)
-        call assertFalse(system%time_dependent)
+        call assertFalse(system%time_dependent, "not system%time_dependent")
         call assertEqual(1, system%cyclic)
         call system%describe(d)
         call assertTrue(index(d%constraint, "scleronomic") > 0, d%constraint)
@@ -141,7 +141,7 @@ contains
             call draw_parameters(system, edges=.false.)
             call draw_state(system, t, q, v)
             call new_atwood_reference(reference, system, t, q, v, found)
-            call assertTrue(found)
+            call assertTrue(found, "found")
             call check_reference(reference, system, t, q, v, "atwood")
             if (anyExceptions()) return
         end do
@@ -226,7 +226,7 @@ contains
         type(error_t), allocatable :: error
 
         call system%configure([0.7_dp, 2.0_dp, 1.6_dp, 9.81_dp], error)
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: wedge angle is bounded")
         if (.not. allocated(error)) return
         call assertEqual("wedge: alpha = 1.6 is not allowed: from 0.0 to pi/2", &
                          error%message)
@@ -245,7 +245,7 @@ contains
             call draw_parameters(system, edges=.false.)
             call draw_state(system, t, q, v)
             call new_wedge_reference(reference, system, t, q, v, found)
-            call assertTrue(found)
+            call assertTrue(found, "found")
             call check_reference(reference, system, t, q, v, "wedge")
             if (anyExceptions()) return
         end do

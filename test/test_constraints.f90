@@ -70,11 +70,11 @@ contains
         call assertEqual(0, rank)
         call matrix_rank(matrix(:0, :), rank, error)
         call assertEqual(0, rank)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: ranks")
         nan = 0.0_dp
         matrix(1, 2) = nan/nan
         call matrix_rank(matrix, rank, error)
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: ranks")
         if (anyExceptions()) return
         call assertEqual("rank: not every element is finite", error%message)
     end subroutine ranks
@@ -91,7 +91,7 @@ contains
             call assertEqual(1, count(examples%name == examples(i)%name))
             call new_constraint(constraint, examples(i))
             call classify(constraint, verdict, growth, error)
-            call assertFalse(allocated(error))
+            call assertFalse(allocated(error), "no error: every class is found")
             call assertEqual(examples(i)%growth, growth, trim(examples(i)%name))
             select case (examples(i)%name)
             case ("disk", "disk, notes' dx")
@@ -159,7 +159,7 @@ contains
         integer :: k
 
         call disk%configure([1.3_dp, radius, 0.06_dp, 0.03_dp, 9.81_dp, 0.0_dp], error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: disk is the systems")
         call new_constraint(constraint, examples(findloc(examples%name == "disk", .true., 1)))
         do k = 1, 5
             x = example_point(4, k)
@@ -182,7 +182,7 @@ contains
         engel%rows = 2
         engel%timed = .false.
         call engel%growth([0.3_dp, -0.4_dp, 0.7_dp, 0.2_dp, 0.0_dp], dimensions, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: brackets of brackets")
         call assertEqual([2, 3, 4], dimensions)
         engel%power = 3
         call engel%growth([0.3_dp, -0.4_dp, 0.7_dp, 0.2_dp, 0.0_dp], dimensions, error)
@@ -203,7 +203,7 @@ contains
         real(dp), allocatable :: path(:, :)
 
         call loop_of_disk(walker, [-0.7_dp, 2.1_dp], -3.0_dp, path, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: loops")
         call assertEqual([0.3_dp*3.0_dp*(sin(2.1_dp) + sin(0.7_dp)), &
                           -0.3_dp*3.0_dp*(cos(2.1_dp) - cos(0.7_dp)), 0.0_dp, -0.7_dp], &
                          path(2:, size(path, 2)), 1e-13_dp)

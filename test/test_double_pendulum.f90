@@ -175,12 +175,12 @@ contains
 
         call system%configure([1.3_dp, 0.7_dp, 0.9_dp, 1.7_dp, 9.81_dp], error)
         call system%describe(d)
-        call assertFalse(d%quantities(1)%conserved)
+        call assertFalse(d%quantities(1)%conserved, "not d%quantities(1)%conserved")
         call flow_derivative(system, 1, 0.0_dp, [0.3_dp, 0.4_dp], [0.5_dp, -0.6_dp], rate, scale)
         call assertGreaterThan(abs(rate), 1.0_dp)
         call system%configure([1.3_dp, 0.7_dp, 0.9_dp, 1.7_dp, 0.0_dp], error)
         call system%describe(d)
-        call assertTrue(d%quantities(1)%conserved)
+        call assertTrue(d%quantities(1)%conserved, "d%quantities(1)%conserved")
         call assertEqual("L_z", d%quantities(1)%name)
     end subroutine angular_momentum_needs_no_gravity
 end module test_double_pendulum

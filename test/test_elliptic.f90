@@ -54,8 +54,8 @@ contains
         call assertRelativelyEqual(3.6956373629898746_dp, elliptic_k(0.1_dp), 4.0_dp*eps)
         call assertRelativelyEqual(8.29405146361544_dp, elliptic_k(1e-3_dp), 4.0_dp*eps)
         call assertRelativelyEqual(692.1618222593336_dp, elliptic_k(1e-300_dp), 4.0_dp*eps)
-        call assertFalse(ieee_is_finite(elliptic_k(0.0_dp)))
-        call assertFalse(ieee_is_nan(elliptic_k(0.0_dp)))
+        call assertFalse(ieee_is_finite(elliptic_k(0.0_dp)), "not ieee_is_finite(elliptic_k(0.0))")
+        call assertFalse(ieee_is_nan(elliptic_k(0.0_dp)), "not ieee_is_nan(elliptic_k(0.0))")
     end subroutine complete_integral
 
     subroutine jacobi_up_to_the_separatrix()
@@ -222,13 +222,17 @@ contains
         call assertTrue(all(ieee_is_nan([sn, cn, dn])), message="k' > 1")
         call jacobi(bad, 0.5_dp, sn, cn, dn)
         call assertTrue(all(ieee_is_nan([sn, cn, dn])), message="u")
-        call assertTrue(all(ieee_is_nan(amplitude([0.4_dp, bad], [bad, 0.5_dp]))))
-        call assertTrue(all(ieee_is_nan(elliptic_k([-0.1_dp, 1.1_dp, bad]))))
+        call assertTrue(all(ieee_is_nan(amplitude([0.4_dp, bad], [bad, 0.5_dp]))), &
+                        "all(ieee_is_nan(amplitude([0.4, bad], [bad, 0.5])))")
+        call assertTrue(all(ieee_is_nan(elliptic_k([-0.1_dp, 1.1_dp, bad]))), &
+                        "all(ieee_is_nan(elliptic_k([-0.1, 1.1, bad])))")
         call assertTrue(all(ieee_is_nan(agm([-1.0_dp, 1.0_dp, bad, 1.0_dp], &
-                                            [1.0_dp, -1.0_dp, 1.0_dp, bad]))))
+                                            [1.0_dp, -1.0_dp, 1.0_dp, bad]))), &
+                        "agm of what has none")
         bad = ieee_value(1.0_dp, ieee_positive_inf)
-        call assertTrue(all(ieee_is_nan(agm([bad, 1.0_dp], [1.0_dp, bad]))))
-        call assertTrue(ieee_is_nan(amplitude(bad, 0.5_dp)))
+        call assertTrue(all(ieee_is_nan(agm([bad, 1.0_dp], [1.0_dp, bad]))), &
+                        "all(ieee_is_nan(agm([bad, 1.0], [1.0, bad])))")
+        call assertTrue(ieee_is_nan(amplitude(bad, 0.5_dp)), "ieee_is_nan(amplitude(bad, 0.5))")
     end subroutine arguments_out_of_range_give_nan
 
     subroutine check(kc, u, expected)

@@ -23,7 +23,7 @@ contains
         type(error_t), allocatable :: error
 
         call fail(error, "no such system: pendulun")
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: fail sets the message")
         if (anyExceptions()) return
         call assertEqual("no such system: pendulun", error%message)
         call assertEqual(len("no such system: pendulun"), len(error%message))

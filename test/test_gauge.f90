@@ -80,7 +80,7 @@ contains
         integer :: i
 
         call pendulum%configure([0.5_dp, 0.8_dp, 9.81_dp], error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: energy shifts")
         do i = 1, size(member_names)
             call gauged%set(pendulum, family_t(i))
             call assertEqual(energy_from_lagrangian(gauged, 0.7_dp, q, v), &
@@ -101,9 +101,9 @@ contains
                                             0.0_dp, 1.9_dp, 0.6_dp]
 
         call charge%configure(values, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: chi leads to landau")
         call landau%configure(values, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: chi leads to landau")
         call gauged%set(charge, chi_t(values(2)*values(8)))
         t = hyperdual(0.4_dp)
         q = hyperdual([0.4_dp, 0.9_dp, -0.2_dp])
@@ -123,11 +123,11 @@ contains
         real(dp) :: a(1), none(0)
 
         call with_q%configure([0.5_dp, 0.8_dp, 9.81_dp], error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: forbidden terms in numbers")
         call accelerations_from_lagrangian(with_q, 0.0_dp, q, v, a, none, error)
         call assertEqual(-9.81_dp/0.8_dp*sin(0.9_dp) + 1.0_dp/0.32_dp, a(1), rounding)
         call with_q_q_dot%configure([0.5_dp, 0.8_dp, 9.81_dp], error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: forbidden terms in numbers")
         call accelerations_from_lagrangian(with_q_q_dot, 0.0_dp, q, v, a, none, error)
         call assertEqual(-9.81_dp/0.8_dp*(2.0_dp*sin(0.9_dp) + 0.9_dp*cos(0.9_dp))/3.0_dp, a(1), &
                          rounding)

@@ -45,7 +45,7 @@ contains
             kc = sqrt((1.0_dp - k(i))*(1.0_dp + k(i)))
             call jacobi(u, kc, ours(1), ours(2), ours(3))
             call jacobi_sn_cn_dn(u, k(i), gsl(1), gsl(2), gsl(3), error)
-            call assertFalse(allocated(error))
+            call assertFalse(allocated(error), "no error: agrees where it can")
             call assertEqual(ours, gsl, tolerance=4.0_dp*eps*u/kc**2)
         end do
     end subroutine agrees_where_it_can
@@ -59,23 +59,23 @@ contains
         cn = 7.0_dp
         dn = 7.0_dp
         call jacobi_sn_cn_dn(9.0_dp, 1.0_dp - 0.5_dp*eps, sn, cn, dn, error)
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: refuses the rest")
         call assertEqual([0.0_dp, 0.0_dp, 0.0_dp], [sn, cn, dn])
         if (allocated(error)) then
             call assertEqual("elljac: no digit is right this close to modulus 1", error%message)
             call assertEqual(status_library, error%status)
         end if
         call jacobi_sn_cn_dn(9.0_dp, 1.2_dp, sn, cn, dn, error)
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: refuses the rest")
         if (allocated(error)) then
             call assertEqual("elljac: GSL says: input domain error", error%message)
             call assertEqual(status_library, error%status)
         end if
         bad = ieee_value(1.0_dp, ieee_quiet_nan)
         call jacobi_sn_cn_dn(bad, 0.5_dp, sn, cn, dn, error)
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: refuses the rest")
         call jacobi_sn_cn_dn(0.5_dp, bad, sn, cn, dn, error)
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: refuses the rest")
         if (allocated(error)) then
             call assertEqual("elljac: argument and modulus must be finite", error%message)
             call assertEqual(status_numbers, error%status)
@@ -99,10 +99,10 @@ contains
 
             g = f
             call brent_root(g, lower, upper, root, error)
-            call assertFalse(allocated(error))
+            call assertFalse(allocated(error), "no error: try")
             call assertEqual(truth, root, tolerance=4.0_dp*eps*abs(truth))
             call find_root(g, lower, upper, ours, error)
-            call assertFalse(allocated(error))
+            call assertFalse(allocated(error), "no error: try")
             call assertEqual(ours, root, tolerance=4.0_dp*eps*abs(truth))
         end subroutine try
     end subroutine finds_roots

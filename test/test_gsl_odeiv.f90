@@ -109,7 +109,8 @@ contains
 
         call solve("pendulum", "rk4", 0.01_dp, any_error, [1.9_dp], [0.3_dp], 4.0_dp, worst, &
                    evaluations)
-        call assertTrue(evaluations >= 11*400 .and. evaluations <= 13*400)
+        call assertTrue(evaluations >= 11*400 .and. evaluations <= 13*400, &
+                        "evaluations >= 11*400 .and. evaluations <= 13*400")
     end subroutine evaluations_are_counted
 
     subroutine the_jacobian_is_right()
@@ -124,7 +125,7 @@ contains
         call new_system("charged_particle", system, error)
         call system%configure([2.0_dp, 3.0_dp, 0.1_dp, 0.2_dp, 0.3_dp, 0.5_dp, 0.7_dp, 1.1_dp, &
                                0.8_dp], error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: the jacobian is right")
         context%system => system
         y = [0.3_dp, -0.4_dp, 0.5_dp, 1.2_dp, -0.6_dp, 0.9_dp]
         status = gsl_jacobian(0.0_dp, y, jacobian, by_time, c_loc(context))
@@ -164,7 +165,7 @@ contains
         status = gsl_jacobian(t, y, jacobian, by_time, c_loc(context))
         call assertEqual(0, int(status))
         slope = (a(1, 1) - 8.0_dp*a(1, 2) + 8.0_dp*a(1, 3) - a(1, 4))/(12*h)
-        call assertTrue(abs(slope) > 1e-2_dp)
+        call assertTrue(abs(slope) > 1e-2_dp, "abs(slope) > 1e-2")
         call assertEqual([0.0_dp, slope], by_time, tolerance=1e-6_dp*abs(slope))
         call assertEqual([0.0_dp, 1.0_dp], jacobian(1:2))
     end subroutine time_enters_the_jacobian
@@ -193,7 +194,7 @@ contains
         call start("rk4", 0.0_dp)
         call refused("odeiv2: the first step must be positive and finite", status_numbers)
         call start("rk8pd", 1e-3_dp)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: refusals have words")
         t = 0.0_dp
         y = 1.0_dp
         call driver%integrate(t, 1.0_dp, y, error)

@@ -175,7 +175,7 @@ contains
         call new_chain(chain, n)
         call chain%linearise(spread(0.0_dp, 1, n), page)
         call normal_modes(page%stiffness, page%mass, omega2, u, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: divide and conquer agrees")
         if (anyExceptions()) return
         call assertEqual(page%omega2, omega2, 10*n*epsilon(1.0_dp)*page%omega2(n))
         call assertLessThan(residual_ratio(page%stiffness, page%mass, omega2, u), 300.0_dp)
@@ -192,7 +192,7 @@ contains
         call find_modes(chain, [pi, pi, pi, pi], .true., modes, error)
         call assertFalse(allocated(error), "upright")
         if (anyExceptions()) return
-        call assertTrue(all(modes%label == is_unstable))
+        call assertTrue(all(modes%label == is_unstable), "all(modes%label == is_unstable)")
         call assertEqual(-4*g/2.6_dp*laguerre_zeros(4), modes%omega2(4:1:-1), 1e-12_dp)
         call find_modes(chain, [0.0_dp, pi, 0.0_dp, 0.0_dp], .true., modes, error)
         call assertEqual(1, count(modes%label == is_unstable))

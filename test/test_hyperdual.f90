@@ -233,16 +233,16 @@ contains
 
     subroutine comparisons_see_the_value()
         !! Derivatives play no part.
-        call assertTrue(y < x)
-        call assertFalse(x < y)
-        call assertFalse(x < x)
-        call assertTrue(x > y)
-        call assertFalse(y > x)
-        call assertFalse(x > x)
-        call assertTrue(x < 1.4_dp)
-        call assertFalse(x < 1.3_dp)
-        call assertTrue(x > 1.3_dp)
-        call assertFalse(x > 1.4_dp)
+        call assertTrue(y < x, "y < x")
+        call assertFalse(x < y, "not x < y")
+        call assertFalse(x < x, "not x < x")
+        call assertTrue(x > y, "x > y")
+        call assertFalse(y > x, "not y > x")
+        call assertFalse(x > x, "not x > x")
+        call assertTrue(x < 1.4_dp, "x < 1.4")
+        call assertFalse(x < 1.3_dp, "not x < 1.3")
+        call assertTrue(x > 1.3_dp, "x > 1.3")
+        call assertFalse(x > 1.4_dp, "not x > 1.4")
     end subroutine comparisons_see_the_value
 
     subroutine second_derivative_of_the_lagrangian()

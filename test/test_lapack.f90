@@ -45,7 +45,7 @@ contains
         kept = matrix
         rhs = [-9.0_dp, 57.0_dp, -38.0_dp]
         call solve_linear(matrix, rhs, x, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: solves an unsymmetric system")
         call assertEqual([4.0_dp, 7.0_dp, -6.0_dp], x, tolerance=7.0_dp*loss)
         call assertEqual(kept, matrix)
         call assertEqual([-9.0_dp, 57.0_dp, -38.0_dp], rhs)
@@ -59,7 +59,7 @@ contains
 
         call solve_linear(reshape([m1, 0.0_dp, 1.0_dp, 0.0_dp, m2, 1.0_dp, 1.0_dp, 1.0_dp, &
                                    0.0_dp], [3, 3]), [m1*g, m2*g, 0.0_dp], x, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: solves a saddle point")
         call assertEqual([1.962_dp, -1.962_dp, 23.544_dp], x, tolerance=24.0_dp*loss)
     end subroutine solves_a_saddle_point
 
@@ -71,7 +71,7 @@ contains
 
         call solve_linear(reshape([2.0_dp*d**2, 1.0_dp, 1.0_dp, 3.0_dp/d**2], [2, 2]), &
                           [3.0_dp*d, -16.0_dp/d], x, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: masses may differ by 1e48")
         call assertRelativelyEqual(5.0_dp/d, x(1), loss)
         call assertRelativelyEqual(-7.0_dp*d, x(2), loss)
     end subroutine masses_may_differ_by_1e48
@@ -85,7 +85,7 @@ contains
         none = 0.0_dp
         matrix = 0.0_dp
         call solve_linear(matrix, none, x, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: nothing to solve")
     end subroutine nothing_to_solve
 
     subroutine refuses_a_singular_matrix()

@@ -44,7 +44,7 @@ contains
         end do
         truth = [2.0_dp, -1.0_dp, 3.0_dp, 5.0_dp, -4.0_dp]
         call solve_band(band, matmul(matrix, truth), x, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: solves two diagonals each side")
         call assertEqual(truth, x, 1e-12_dp)
     end subroutine solves_two_diagonals_each_side
 
@@ -115,7 +115,7 @@ contains
             shift = 2.0_dp - 2.0_dp*cos((k + 0.5_dp)*pi/(n + 1))
             diagonal = 2.0_dp - shift
             call count_negative(diagonal, off, negative, error)
-            call assertFalse(allocated(error))
+            call assertFalse(allocated(error), "no error: counts negative eigenvalues")
             call assertEqual(count([(j < k + 0.5_dp, j=1, n)]), negative)
         end do
         first = -1e-300_dp
@@ -127,7 +127,7 @@ contains
         call assertEqual(0, negative)
         call count_negative(none, none, negative, error)
         call assertEqual(0, negative)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: counts negative eigenvalues")
     end subroutine counts_negative_eigenvalues
 
     subroutine refuses_bad_tridiagonals()
@@ -136,11 +136,11 @@ contains
         integer :: negative
 
         call count_negative([1.0_dp, 2.0_dp], [1.0_dp, 1.0_dp], negative, error)
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: refuses bad tridiagonals")
         if (anyExceptions()) return
         call assertEqual("tridiagonal matrix: shapes do not match", error%message)
         call count_negative([1.0_dp, ieee_value(1.0_dp, ieee_quiet_nan)], [1.0_dp], negative, error)
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: refuses bad tridiagonals")
         if (anyExceptions()) return
         call assertEqual("tridiagonal matrix: not every element is finite", error%message)
     end subroutine refuses_bad_tridiagonals
@@ -152,7 +152,8 @@ contains
         h = [0.8_dp, 0.4_dp, 0.2_dp, 0.1_dp]
         values = 3.0_dp - 2.0_dp*h**2 + 5.0_dp*h**4 - h**6
         call assertEqual(3.0_dp, extrapolated(values), 1e-14_dp)
-        call assertTrue(abs(extrapolated(values(:3)) - 3.0_dp) > 1e-6_dp)
+        call assertTrue(abs(extrapolated(values(:3)) - 3.0_dp) > 1e-6_dp, &
+                        "abs(extrapolated(values(:3)) - 3.0) > 1e-6")
         call assertEqual(values(1), extrapolated(values(:1)), 0.0_dp)
     end subroutine extrapolates_even_powers
 end module test_lapack_band

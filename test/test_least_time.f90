@@ -41,7 +41,7 @@ contains
             flat = flat_mirror_t(a=uniform(0.2_dp, 3.0_dp), b=uniform(0.2_dp, 3.0_dp), &
                                  d=uniform(0.2_dp, 3.0_dp))
             call stationary_point(flat, -1.0_dp, flat%d + 1.0_dp, x, error)
-            call assertFalse(allocated(error))
+            call assertFalse(allocated(error), "no error: mirrors")
             call assertEqual(flat%a*flat%d/(flat%a + flat%b), x, 2e-14_dp)
             call assertRelativelyEqual(hypot(flat%d, flat%a + flat%b), flat%at(x), 1e-15_dp)
             call assertGreaterThan(second_derivative(flat, x), 0.0_dp)
@@ -79,11 +79,11 @@ contains
                           d=uniform(0.2_dp, 2.0_dp), n1=uniform(1.0_dp, 2.0_dp), &
                           n2=uniform(1.0_dp, 2.0_dp))
             call stationary_point(s, 0.0_dp, s%d, x, error)
-            call assertFalse(allocated(error))
+            call assertFalse(allocated(error), "no error: refraction")
             call assertEqual(s%n1*x/hypot(s%a, x), s%n2*(s%d - x)/hypot(s%b, s%d - x), 1e-14_dp)
             quartic%surface = s
             call brent_root(quartic, 0.0_dp, s%d, root, error)
-            call assertFalse(allocated(error))
+            call assertFalse(allocated(error), "no error: refraction")
             call assertEqual(x, root, 1e-13_dp)
         end do
     end subroutine refraction
@@ -101,7 +101,7 @@ contains
             call draw_state(medium, t, q, v)
             call medium%accelerations(t, q, v, a)
             call accelerations_from_lagrangian(medium, t, q, v, expected, none, error)
-            call assertFalse(allocated(error))
+            call assertFalse(allocated(error), "no error: graded medium follows its lagrangian")
             call assertEqual(expected, a, 1e-12_dp)
             call assertEqual(energy_from_lagrangian(medium, t, q, v), medium%energy(t, q, v), &
                              1e-12_dp)

@@ -81,10 +81,10 @@ contains
         call assertEqual("energy_drift", columns(3))
         call get_real(tree, "cart_pendulum", "m2", m2, error)
         call assertEqual(3.0_dp, m2)
-        call assertTrue(has_group(tree, "cart_pendulum"))
-        call assertFalse(has_group(tree, "pendulum"))
-        call assertTrue(has_key(tree, "cart_pendulum", "l"))
-        call assertFalse(has_key(tree, "scene", "l"))
+        call assertTrue(has_group(tree, "cart_pendulum"), "has_group(tree, 'cart_pendulum')")
+        call assertFalse(has_group(tree, "pendulum"), "not has_group(tree, 'pendulum')")
+        call assertTrue(has_key(tree, "cart_pendulum", "l"), "has_key(tree, 'cart_pendulum', 'l')")
+        call assertFalse(has_key(tree, "scene", "l"), "not has_key(tree, 'scene', 'l')")
         call assertFalse(has_key(tree, "scene", "tolerance"), message="commented out")
     end subroutine a_scene_is_read
 
@@ -130,8 +130,8 @@ contains
         call assertEqual(5.0_dp, x)
         call get_string(tree, "a", "s", s, error)
         call assertEqual("wow! so", s)
-        call assertFalse(has_group(tree, "b"))
-        call assertFalse(has_group(tree, "c"))
+        call assertFalse(has_group(tree, "b"), "not has_group(tree, 'b')")
+        call assertFalse(has_group(tree, "c"), "not has_group(tree, 'c')")
     end subroutine comments_hold_any_bytes
 
     subroutine words_before_equals_are_keys()
@@ -146,7 +146,7 @@ contains
         if (anyExceptions()) return
         x = .false.
         call get_logical(tree, "a", "x", x, error)
-        call assertTrue(x)
+        call assertTrue(x, "x")
         call get_real(tree, "a", "t", t, error)
         call assertEqual(3.0_dp, t)
         call get_reals(tree, "a", "f", 1, 1, f, error)
@@ -178,7 +178,7 @@ contains
         call check(error)
         call assertEqual("rk4", short)
         call get_string(tree, "a", "d", short, error)
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: strings come whole")
         call assertEqual("rk4", short, message="a refused value changes nothing")
     end subroutine strings_come_whole
 
@@ -217,7 +217,7 @@ contains
         call assertEqual(w(1)//w(2), our_w(1)//our_w(2))
         our_flag = .not. flag
         call get_logical(tree, "a", "flag", our_flag, error)
-        call assertTrue(flag .eqv. our_flag)
+        call assertTrue(flag .eqv. our_flag, "flag .eqv. our_flag")
         call get_integer(tree, "a", "n", our_n, error)
         call assertEqual(n, our_n)
     end subroutine gfortran_reads_the_same
@@ -236,18 +236,18 @@ contains
         s = "rk4"
         call get_real(tree, "a", "x", x, error, found=found)
         call check(error)
-        call assertFalse(found)
+        call assertFalse(found, "not found")
         call assertEqual(9.81_dp, x)
         call get_string(tree, "b", "s", s, error, found=found)
         call check(error)
-        call assertFalse(found)
+        call assertFalse(found, "not found")
         call assertEqual("rk4", s)
         call get_reals(tree, "a", "q", 2, 2, q, error)
         call check(error)
-        call assertFalse(allocated(q))
+        call assertFalse(allocated(q), "not allocated(q)")
         call get_real(tree, "a", "y", x, error, required=.true., found=found)
         call check(error)
-        call assertTrue(found)
+        call assertTrue(found, "found")
     end subroutine absent_keys_leave_defaults
 
     subroutine overrides_replace_and_add()
@@ -295,6 +295,6 @@ contains
         call assertEqual(3.0_dp, x)
         flag = .false.
         call get_logical(tree, "scene", "flag", flag, error)
-        call assertTrue(flag)
+        call assertTrue(flag, "flag")
     end subroutine overrides_replace_and_add
 end module test_namelist

@@ -68,7 +68,7 @@ contains
         type(error_t), allocatable, intent(in) :: error
         integer :: i
 
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: plain")
         if (.not. allocated(error)) return
         call assertLessThanOrEqual(len("lagrangia: "//error%message), 300)
         do i = 1, len(error%message)
@@ -140,11 +140,12 @@ contains
         call plain(error)
         call parse_namelist("&"//name//" "//name//" = '"//bytes(128:255)//"' /", &
                             repeat("/path", 60)//lf//"/a.nml", tree, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: messages are bounded")
         call get_real(tree, name, name, x, error)
         call plain(error)
         call assertEqual("...", error%message(:3), message="the end of a long path is kept")
-        call assertTrue(index(error%message, "/a.nml:1:") > 0)
+        call assertTrue(index(error%message, "/a.nml:1:") > 0, &
+                        "index(error%message, '/a.nml:1:') > 0")
         call refuse_value(tree, name, name, repeat("too long, ", 40), error)
         call plain(error)
         call assertTrue(index(error%message(4:), "...") > 0, &

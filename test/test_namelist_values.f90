@@ -203,7 +203,7 @@ contains
         call failed(error, "a.nml:1:1: &a: m is missing; write m = value")
         call get_reals(tree, "b", "m", 1, 2, q, error, required=.true.)
         call failed(error, "a.nml: group &b is missing; it must give m")
-        call assertFalse(allocated(q))
+        call assertFalse(allocated(q), "not allocated(q)")
     end subroutine counts
 
     subroutine integers()
@@ -253,13 +253,13 @@ contains
         call failed(error, "--set a%zzz=4: &a: unknown key 'zzz'; allowed: length, mass, tolerance")
         call get_real(tree, "a", "zzz", x, error)
         call refuse_unknown_keys(tree, "a", allowed, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: unknown names")
         call get_real(tree, "b", "mass", x, error)
         call refuse_unknown_groups(tree, [character(8) :: "a", "b", "pendulum"], error)
         call failed(error, "a.nml:4:1: unknown group 'pendlum'; did you mean 'pendulum'?")
         call get_real(tree, "pendlum", "mass", x, error)
         call refuse_unknown_groups(tree, ["a"], error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: unknown names")
     end subroutine unknown_names
 
     subroutine values_the_caller_refuses()

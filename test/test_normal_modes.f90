@@ -67,7 +67,7 @@ contains
         real(dp), parameter :: mass = 0.25_dp, root = sqrt(2.0_dp)
 
         call normal_modes(chain(3, .true.), diagonal([mass, mass, mass]), modes, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: three masses between walls")
         if (anyExceptions()) return
         call assertEqual([2.0_dp - root, 2.0_dp, 2.0_dp + root]/mass, modes%omega2, 1e-14_dp/mass)
         call assertEqual(sqrt(modes%omega2), modes%omega, 1e-15_dp)
@@ -85,7 +85,7 @@ contains
 
         do n = 3, 40, 37
             call normal_modes(chain(n, .false.), diagonal([(2.0_dp, j=1, n)]), modes, error)
-            call assertFalse(allocated(error))
+            call assertFalse(allocated(error), "no error: free chain has a zero mode")
             if (anyExceptions()) return
             call assertEqual(is_zero_mode, modes%label(1))
             call assertTrue(all(modes%label(2:) == is_oscillation), "the others")
@@ -101,7 +101,7 @@ contains
         type(error_t), allocatable :: error
 
         call normal_modes(diagonal([-8.0_dp, 18.0_dp]), diagonal([2.0_dp, 2.0_dp]), modes, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: negative springs are unstable")
         if (anyExceptions()) return
         call assertEqual([-4.0_dp, 9.0_dp], modes%omega2, 1e-14_dp)
         call assertEqual([is_unstable, is_oscillation], modes%label)
@@ -131,7 +131,7 @@ contains
 
             call normal_modes(reshape([k(1), k(2), k(2), k(3)], [2, 2]), diagonal(one), modes, &
                               error)
-            call assertFalse(allocated(error))
+            call assertFalse(allocated(error), "no error: check")
             if (anyExceptions()) return
             call assertEqual(label, modes%label(1), "label of the slow one")
             call assertEqual(omega2(1), modes%omega2(1), 4.0_dp*spacing(omega2(1)), "slow")
@@ -159,7 +159,7 @@ contains
                 call draw_graded(n, decades(j), mod(i, 3) == 0, k, m)
                 call quad_frequencies(k, m, omega2)
                 call normal_modes(k, m, modes, error)
-                call assertFalse(allocated(error))
+                call assertFalse(allocated(error), "no error: graded matrices keep their digits")
                 if (anyExceptions()) return
                 worst = max(worst, maxval(abs(modes%omega2/omega2 - 1.0_dp)))
             end do

@@ -34,12 +34,12 @@ contains
         if (iachar(low) /= 1) return
         path = new_folder("npy")//"/a.npy"
         call begin(file, path, [character(9) :: "t", "theta_dot"], error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: the header is numpys")
         do row = 1, 12
             call file%row([1.0_dp, 2.0_dp])
         end do
         call file%finish("", error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: the header is numpys")
         bytes = contents(path)
         call assertEqual(147, ichar(bytes(1:1)))
         call assertEqual("NUMPY", bytes(2:6))
@@ -53,7 +53,7 @@ contains
         if (anyExceptions()) return
         call assertEqual(text, trim(bytes(11:9 + length)))
         call assertEqual(new_line("a"), bytes(10 + length:10 + length))
-        call assertTrue(remove_file(path))
+        call assertTrue(remove_file(path), "it was there: "//path)
     end subroutine the_header_is_numpys
 
     subroutine the_rows_follow()
@@ -72,18 +72,20 @@ contains
             do row = 1, count
                 call file%row(rows(:, row))
             end do
-            call assertFalse(file%file%failed())
+            call assertFalse(file%file%failed(), "not file%file%failed()")
             call file%finish("", error)
             bytes = contents(path)
             call assertEqual(0, modulo(len(bytes) - 24*count, 64))
             if (count > 0) then
                 back = transfer(bytes(len(bytes) - 47:), back)
-                call assertTrue(all(transfer(back, [1]) == transfer(rows, [1])))
+                call assertTrue(all(transfer(back, [1]) == transfer(rows, [1])), &
+                                "all(transfer(back, [1]) == transfer(rows, [1]))")
             else
-                call assertTrue(index(bytes, "'shape': (0,)") > 0)
+                call assertTrue(index(bytes, "'shape': (0,)") > 0, &
+                                "index(bytes, ''shape': (0,)') > 0")
             end if
         end do
-        call assertTrue(remove_file(path))
+        call assertTrue(remove_file(path), "it was there: "//path)
     end subroutine the_rows_follow
 
     subroutine begin(file, path, names, error)
@@ -108,7 +110,7 @@ contains
             write (names(i), "(a, i0)") "column_", i
         end do
         call begin(file, new_folder("npy")//"/no.npy", names, error)
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: too many columns are refused")
         if (anyExceptions()) return
         call assertEqual("600 columns are too many for numpy; --format text has no limit", &
                          error%message)

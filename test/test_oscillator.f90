@@ -42,7 +42,7 @@ contains
         call assertEqual(1.0_dp, system%quantity(2, 0.0_dp, [3.0_dp], [0.5_dp]), message="p_x")
         call assertEqual(36.25_dp, system%energy(0.0_dp, [3.0_dp], [0.5_dp]), message="energy")
         call new_oscillator_reference(reference, system, 0.5_dp, [3.0_dp], [0.0_dp], found)
-        call assertTrue(found)
+        call assertTrue(found, "found")
         call assertRelativelyEqual(acos(-1.0_dp), reference%period, 1e-15_dp, "period")
         call check_state(reference, 0.5_dp + 0.25_dp*reference%period, [0.0_dp], [-6.0_dp], &
                          2e-15_dp, "quarter")
@@ -59,7 +59,7 @@ contains
         call system%configure([2.0_dp, 0.0_dp], error)
         call assertEqual(1, system%cyclic)
         call system%describe(d)
-        call assertTrue(d%quantities(2)%conserved)
+        call assertTrue(d%quantities(2)%conserved, "d%quantities(2)%conserved")
         call new_oscillator_reference(reference, system, 0.0_dp, [3.0_dp], [0.5_dp], found)
         call check_state(reference, 4.0_dp, [5.0_dp], [0.5_dp], 0.0_dp, "uniform")
         call assertEqual(0.0_dp, reference%period)

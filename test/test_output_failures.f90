@@ -38,7 +38,8 @@ contains
 
         folder = new_folder("refused")
         call write_file(folder//"/file", "old")
-        call assertTrue(c_symlink("nowhere"//c_null_char, folder//"/link"//c_null_char) == 0)
+        call assertTrue(c_symlink("nowhere"//c_null_char, folder//"/link"//c_null_char) == 0, &
+                        "c_symlink('nowhere', folder//'/link') == 0")
         call refused("", "not a file name")
         call refused("a"//c_null_char, "not a file name")
         call refused(folder, "it is a folder")
@@ -50,10 +51,11 @@ contains
         call refused(folder//"/file/x/a.dat", "'"//folder//"/file' is not a folder")
         call refused(folder//"/"//repeat("n", 300), "File name too long")
         call assertEqual("old", contents(folder//"/file"))
-        call assertTrue(remove_file(folder//"/file"))
-        call assertTrue(remove_file(folder//"/link"))
-        call assertTrue(remove_file(folder//"/ends with a blank "))
-        call assertTrue(remove_file(folder))
+        call assertTrue(remove_file(folder//"/file"), "it was there: "//folder//"/file")
+        call assertTrue(remove_file(folder//"/link"), "it was there: "//folder//"/link")
+        call assertTrue(remove_file(folder//"/ends with a blank "), &
+                        "it was there: "//folder//"/ends with a blank ")
+        call assertTrue(remove_file(folder), "it was there: "//folder)
     end subroutine what_cannot_be_written_is_refused
 
     subroutine refused(path, why)
@@ -79,10 +81,11 @@ contains
 
         path = new_folder("protected")//"/a.dat"
         call write_file(path, "old")
-        call assertTrue(c_chmod(path//c_null_char, int(o"444", c_int)) == 0)
+        call assertTrue(c_chmod(path//c_null_char, int(o"444", c_int)) == 0, &
+                        "c_chmod(path, int(o'444', c_int)) == 0")
         if (c_access(path//c_null_char, 2_c_int) /= 0) call refused(path, "Permission denied")
         call assertEqual("old", contents(path))
-        call assertTrue(remove_file(path))
+        call assertTrue(remove_file(path), "it was there: "//path)
     end subroutine a_protected_file_is_refused
 
     subroutine rewrite_stays_inside()
@@ -98,9 +101,9 @@ contains
             call file%write("abc")
             call file%rewrite(offset, "de")
             call file%commit(error)
-            call assertTrue(allocated(error))
+            call assertTrue(allocated(error), "an error: rewrite stays inside")
         end do
-        call assertTrue(remove_file(folder))
+        call assertTrue(remove_file(folder), "it was there: "//folder)
     end subroutine rewrite_stays_inside
 
     subroutine a_closed_file_cannot_be_written()
@@ -109,9 +112,9 @@ contains
         type(error_t), allocatable :: error
 
         call file%write("text")
-        call assertTrue(file%failed())
+        call assertTrue(file%failed(), "file%failed()")
         call file%commit(error)
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: a closed file cannot be written")
         if (anyExceptions()) return
         call assertEqual("cannot write '': it is not open", error%message)
     end subroutine a_closed_file_cannot_be_written
@@ -127,10 +130,10 @@ contains
         call file%write("text")
         blocker = new_folder("rename/a.dat")
         call file%commit(error)
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: a failed rename is reported")
         if (anyExceptions()) return
         call assertEqual("cannot write '"//folder//"/a.dat': Is a directory", error%message)
-        call assertTrue(remove_file(blocker))
+        call assertTrue(remove_file(blocker), "it was there: "//blocker)
         call assertTrue(remove_file(folder), "a temporary was left")
     end subroutine a_failed_rename_is_reported
 
@@ -143,7 +146,7 @@ contains
         call assertEqual(status_file, exit_status(write_little))
         call assertEqual(status_file, exit_status(write_much))
         call assertEqual("old", contents(folder//"/a.dat"))
-        call assertTrue(remove_file(folder//"/a.dat"))
+        call assertTrue(remove_file(folder//"/a.dat"), "it was there: "//folder//"/a.dat")
         call assertTrue(remove_file(folder), "a temporary was left")
     end subroutine a_full_disk_is_reported
 

@@ -43,15 +43,15 @@ contains
         folder = new_folder("commit")
         call write_file(folder//"/a.dat", "old")
         call file%open(folder//"/a.dat", error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: commit gives the file its name")
         call file%write("new")
         call file%write(new_line("a")//"text")
         call assertEqual(8, int(file%position()))
         call assertEqual("old", contents(folder//"/a.dat"))
         call file%commit(error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: commit gives the file its name")
         call assertEqual("new"//new_line("a")//"text", contents(folder//"/a.dat"))
-        call assertTrue(remove_file(folder//"/a.dat"))
+        call assertTrue(remove_file(folder//"/a.dat"), "it was there: "//folder//"/a.dat")
         call assertTrue(remove_file(folder), "something else was left in the folder")
     end subroutine commit_gives_the_file_its_name
 
@@ -66,19 +66,21 @@ contains
 
         folder = new_folder("folders")
         call file%open(folder//"/x//"//odd_name//"/"//odd_name, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: missing folders are made")
         call file%commit(error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: missing folders are made")
         call write_file(folder//"/plain", "")
         facts = look_at(folder//"/plain")
         permissions = facts%permissions
         facts = look_at(folder//"/x/"//odd_name//"/"//odd_name)
         call assertEqual(permissions, facts%permissions)
-        call assertTrue(remove_file(folder//"/plain"))
-        call assertTrue(remove_file(folder//"/x/"//odd_name//"/"//odd_name))
-        call assertTrue(remove_file(folder//"/x/"//odd_name))
-        call assertTrue(remove_file(folder//"/x"))
-        call assertTrue(remove_file(folder))
+        call assertTrue(remove_file(folder//"/plain"), "it was there: "//folder//"/plain")
+        call assertTrue(remove_file(folder//"/x/"//odd_name//"/"//odd_name), &
+                        "it was there: "//folder//"/x/"//odd_name//"/"//odd_name)
+        call assertTrue(remove_file(folder//"/x/"//odd_name), &
+                        "it was there: "//folder//"/x/"//odd_name)
+        call assertTrue(remove_file(folder//"/x"), "it was there: "//folder//"/x")
+        call assertTrue(remove_file(folder), "it was there: "//folder)
     end subroutine missing_folders_are_made
 
     subroutine abandon_leaves_no_trace()
@@ -111,9 +113,9 @@ contains
         call file%rewrite(0_i8, "R")
         call file%rewrite(12_i8, "!")
         call file%commit(error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: rewrite replaces in place")
         call assertEqual("Rows: 42 end!", contents(path))
-        call assertTrue(remove_file(path))
+        call assertTrue(remove_file(path), "it was there: "//path)
     end subroutine rewrite_replaces_in_place
 
     subroutine reals_are_written_as_in_memory()
@@ -130,8 +132,8 @@ contains
         call assertEqual(24, int(file%position()))
         call file%commit(error)
         bytes = transfer(values, bytes)
-        call assertTrue(contents(path) == bytes)
-        call assertTrue(remove_file(path))
+        call assertTrue(contents(path) == bytes, "contents(path) == bytes")
+        call assertTrue(remove_file(path), "it was there: "//path)
     end subroutine reals_are_written_as_in_memory
 
     subroutine links_and_permissions_stay()
@@ -143,20 +145,22 @@ contains
 
         folder = new_folder("links")
         call write_file(folder//"/file", "old")
-        call assertTrue(c_chmod(folder//"/file"//c_null_char, int(o"640", c_int)) == 0)
-        call assertTrue(c_symlink("file"//c_null_char, folder//"/link"//c_null_char) == 0)
+        call assertTrue(c_chmod(folder//"/file"//c_null_char, int(o"640", c_int)) == 0, &
+                        "c_chmod(folder//'/file', int(o'640', c_int)) == 0")
+        call assertTrue(c_symlink("file"//c_null_char, folder//"/link"//c_null_char) == 0, &
+                        "c_symlink('file', folder//'/link') == 0")
         call file%open(folder//"/link", error)
         call file%write("new")
         call file%commit(error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: links and permissions stay")
         facts = look_at(folder//"/link", follow=.false.)
-        call assertTrue(facts%link)
+        call assertTrue(facts%link, "facts%link")
         call assertEqual("new", contents(folder//"/file"))
         facts = look_at(folder//"/file")
         call assertEqual(int(o"640"), facts%permissions)
-        call assertTrue(remove_file(folder//"/link"))
-        call assertTrue(remove_file(folder//"/file"))
-        call assertTrue(remove_file(folder))
+        call assertTrue(remove_file(folder//"/link"), "it was there: "//folder//"/link")
+        call assertTrue(remove_file(folder//"/file"), "it was there: "//folder//"/file")
+        call assertTrue(remove_file(folder), "it was there: "//folder)
     end subroutine links_and_permissions_stay
 
     subroutine two_writers_do_not_mix()
@@ -168,7 +172,7 @@ contains
         folder = new_folder("two")
         call one%open(folder//"/a.dat", error)
         call two%open(folder//"/a.dat", error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: two writers do not mix")
         call one%write("one")
         call two%write("two two")
         call one%write(" one")
@@ -176,8 +180,8 @@ contains
         call assertEqual("two two", contents(folder//"/a.dat"))
         call one%commit(error)
         call assertEqual("one one", contents(folder//"/a.dat"))
-        call assertTrue(remove_file(folder//"/a.dat"))
-        call assertTrue(remove_file(folder))
+        call assertTrue(remove_file(folder//"/a.dat"), "it was there: "//folder//"/a.dat")
+        call assertTrue(remove_file(folder), "it was there: "//folder)
     end subroutine two_writers_do_not_mix
 
     subroutine same_file_sees_through_names()
@@ -187,18 +191,26 @@ contains
         folder = new_folder("same")
         call write_file(folder//"/a", "text")
         call write_file(folder//"/b", "text")
-        call assertTrue(c_link(folder//"/a"//c_null_char, folder//"/hard"//c_null_char) == 0)
-        call assertTrue(c_symlink("a"//c_null_char, folder//"/soft"//c_null_char) == 0)
-        call assertTrue(same_file(folder//"/a", folder//"/hard"))
-        call assertTrue(same_file(folder//"/a", folder//"/soft"))
-        call assertTrue(same_file(folder//"/a", folder//"/../same/./a"))
-        call assertFalse(same_file(folder//"/a", folder//"/b"))
-        call assertFalse(same_file(folder//"/a", folder//"/none"))
-        call assertFalse(same_file(folder//"/none", folder//"/none"))
-        call assertTrue(remove_file(folder//"/a"))
-        call assertTrue(remove_file(folder//"/b"))
-        call assertTrue(remove_file(folder//"/hard"))
-        call assertTrue(remove_file(folder//"/soft"))
-        call assertTrue(remove_file(folder))
+        call assertTrue(c_link(folder//"/a"//c_null_char, folder//"/hard"//c_null_char) == 0, &
+                        "c_link(folder//'/a', folder//'/hard') == 0")
+        call assertTrue(c_symlink("a"//c_null_char, folder//"/soft"//c_null_char) == 0, &
+                        "c_symlink('a', folder//'/soft') == 0")
+        call assertTrue(same_file(folder//"/a", folder//"/hard"), &
+                        "same_file(folder//'/a', folder//'/hard')")
+        call assertTrue(same_file(folder//"/a", folder//"/soft"), &
+                        "same_file(folder//'/a', folder//'/soft')")
+        call assertTrue(same_file(folder//"/a", folder//"/../same/./a"), &
+                        "same_file(folder//'/a', folder//'/../same/./a')")
+        call assertFalse(same_file(folder//"/a", folder//"/b"), &
+                         "not same_file(folder//'/a', folder//'/b')")
+        call assertFalse(same_file(folder//"/a", folder//"/none"), &
+                         "not same_file(folder//'/a', folder//'/none')")
+        call assertFalse(same_file(folder//"/none", folder//"/none"), &
+                         "not same_file(folder//'/none', folder//'/none')")
+        call assertTrue(remove_file(folder//"/a"), "it was there: "//folder//"/a")
+        call assertTrue(remove_file(folder//"/b"), "it was there: "//folder//"/b")
+        call assertTrue(remove_file(folder//"/hard"), "it was there: "//folder//"/hard")
+        call assertTrue(remove_file(folder//"/soft"), "it was there: "//folder//"/soft")
+        call assertTrue(remove_file(folder), "it was there: "//folder)
     end subroutine same_file_sees_through_names
 end module test_output_file

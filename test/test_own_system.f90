@@ -116,7 +116,8 @@ contains
 
         call pendulum%configure([0.5_dp, 1.2_dp, 9.81_dp], error)
         call assertEqual(0, pendulum%cyclic)
-        call assertFalse(pendulum%velocity_forces .or. pendulum%time_dependent)
+        call assertFalse(pendulum%velocity_forces .or. pendulum%time_dependent, &
+                         "not pendulum%velocity_forces .or. pendulum%time_dependent")
         call pendulum%configure([0.5_dp, 1.2_dp, 0.0_dp], error)
         call assertEqual(1, pendulum%cyclic)
         call pivot%configure([0.3_dp], error)
@@ -229,7 +230,7 @@ contains
 
         call pendulum%configure([0.5_dp, 1.2_dp, 9.81_dp], error)
         call find_modes(pendulum, [0.0_dp], .true., modes, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: modes are found")
         if (allocated(error)) return
         call assertEqual(9.81_dp/1.2_dp, modes%omega2(1), 1e-14_dp)
     end subroutine modes_are_found

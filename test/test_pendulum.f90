@@ -49,7 +49,7 @@ contains
 
         call system%configure([1.3_dp, l, g], error)
         call new_pendulum_reference(reference, system, 0.0_dp, [theta], [v], found)
-        call assertTrue(found)
+        call assertTrue(found, "found")
     end subroutine start
 
     subroutine lagrangian_and_tension_of_a_bob()

@@ -33,17 +33,19 @@ contains
         call assertEqual(3.0_dp, median([9.0_dp, 1.0_dp, 3.0_dp]))
         call assertEqual(2.5_dp, median([4.0_dp, 1.0_dp, 3.0_dp, 2.0_dp]))
         call assertEqual(7.0_dp, median([7.0_dp, 7.0_dp, 1.0_dp, 7.0_dp, 8.0_dp]))
-        call assertTrue(ieee_is_nan(median([real(dp) ::])))
+        call assertTrue(ieee_is_nan(median([real(dp) ::])), "ieee_is_nan(median([real(dp) ::]))")
     end subroutine medians
 
     subroutine ratios()
         !! What is not known stays so.
         call assertEqual(0.25_dp, ratio(2.0_dp, 8.0_dp))
-        call assertTrue(ieee_is_nan(ratio(2.0_dp, 0.0_dp)))
-        call assertTrue(ieee_is_nan(ratio(not_known(), 2.0_dp)))
-        call assertTrue(ieee_is_nan(ratio(2.0_dp, not_known())))
+        call assertTrue(ieee_is_nan(ratio(2.0_dp, 0.0_dp)), "ieee_is_nan(ratio(2.0, 0.0))")
+        call assertTrue(ieee_is_nan(ratio(not_known(), 2.0_dp)), &
+                        "ieee_is_nan(ratio(not_known(), 2.0))")
+        call assertTrue(ieee_is_nan(ratio(2.0_dp, not_known())), &
+                        "ieee_is_nan(ratio(2.0, not_known()))")
         call assertEqual(2.0_dp, best([not_known(), 5.0_dp, 2.0_dp]))
-        call assertTrue(ieee_is_nan(best([not_known()])))
+        call assertTrue(ieee_is_nan(best([not_known()])), "ieee_is_nan(best([not_known()]))")
     end subroutine ratios
 
     subroutine a_power_law_is_interpolated()
@@ -64,8 +66,10 @@ contains
         !! Beyond the finest point nothing is known; before the coarsest nothing is less.
         real(dp), parameter :: seconds(2) = [1.0_dp, 2.0_dp], errors(2) = [1e-3_dp, 1e-4_dp]
 
-        call assertTrue(ieee_is_nan(time_to_error(errors, seconds, 1e-5_dp)))
-        call assertTrue(ieee_is_nan(time_to_error([real(dp) ::], [real(dp) ::], 1e-5_dp)))
+        call assertTrue(ieee_is_nan(time_to_error(errors, seconds, 1e-5_dp)), &
+                        "ieee_is_nan(time_to_error(errors, seconds, 1e-5))")
+        call assertTrue(ieee_is_nan(time_to_error([real(dp) ::], [real(dp) ::], 1e-5_dp)), &
+                        "ieee_is_nan(time_to_error([real(dp) ::], [real(dp) ::], 1e-5))")
         call assertEqual(1.0_dp, time_to_error(errors, seconds, 1e-2_dp))
         call assertEqual(3.0_dp, time_to_error([0.0_dp], [3.0_dp], 1e-12_dp))
     end subroutine what_is_not_reached
@@ -76,7 +80,8 @@ contains
         real(dp), parameter :: errors(4) = [1e-3_dp, 1e-9_dp, 1e-4_dp, 1e-5_dp]
 
         call assertEqual([1e-3_dp, 1e-4_dp, 1e-4_dp, 1e-5_dp], confirmed(errors))
-        call assertTrue(ieee_is_nan(time_to_error(errors, seconds, 1e-6_dp)))
+        call assertTrue(ieee_is_nan(time_to_error(errors, seconds, 1e-6_dp)), &
+                        "ieee_is_nan(time_to_error(errors, seconds, 1e-6))")
         call assertEqual(2.0_dp, time_to_error(errors, seconds, 1e-4_dp), tolerance=100.0_dp*eps)
     end subroutine a_lucky_hit_does_not_count
 
@@ -95,6 +100,7 @@ contains
         !! Until they take long enough, but not for ever.
         call assertEqual(1, repetitions(1.0_dp, 5e-3_dp))
         call assertEqual(6, repetitions(1e-3_dp, 5e-3_dp))
-        call assertTrue(repetitions(0.0_dp, 5e-3_dp) >= 1000000)
+        call assertTrue(repetitions(0.0_dp, 5e-3_dp) >= 1000000, &
+                        "repetitions(0.0, 5e-3) >= 1000000")
     end subroutine short_runs_are_repeated
 end module test_precision_curve

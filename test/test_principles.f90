@@ -140,8 +140,10 @@ contains
         call assertFalse(allocated(error), "gauge")
         if (anyExceptions()) return
         call assertEqual(1, count(report%rows%name == "F = m l^2 theta theta_dot: see below"))
-        call assertTrue(index(report%notes(2), "dF/dt then has q_ddot, which no L has.") > 0)
-        call assertTrue(index(report%notes(3), "is replaced by -(g/l) sin(theta)") > 0)
+        call assertTrue(index(report%notes(2), "dF/dt then has q_ddot, which no L has.") > 0, &
+                        "index(report%notes(2), 'dF/dt then has q_ddot, which no L has.') > 0")
+        call assertTrue(index(report%notes(3), "is replaced by -(g/l) sin(theta)") > 0, &
+                        "index(report%notes(3), 'is replaced by -(g/l) sin(theta)') > 0")
     end subroutine what_is_replaced_is_said
 
     subroutine pages_are_whole()
@@ -201,14 +203,18 @@ contains
         call report%at_least("less", 1.0_dp, 2.0_dp, 0.5_dp)
         call assertTrue(all(report%rows%as_it_must() .eqv. [.true., .false., .false., .false., &
                                                              .false., .true., .true., .true., &
-                                                             .false.]))
+                                                             .false.]), "verdicts")
         call assertEqual(5, report%misses())
         differences = report%rows(7:)%difference
         call assertEqual([0.0_dp, 0.25_dp, 1.0_dp], differences, 1e-15_dp)
-        call assertTrue(index(statement_line(report%rows(1)), "  holds") > 0)
-        call assertTrue(index(statement_line(report%rows(6)), "  fails") > 0)
-        call assertTrue(index(statement_line(report%rows(2)), "FAILS !") > 0)
-        call assertTrue(index(statement_line(report%rows(5)), "HOLDS !") > 0)
+        call assertTrue(index(statement_line(report%rows(1)), "  holds") > 0, &
+                        "index(statement_line(report%rows(1)), '  holds') > 0")
+        call assertTrue(index(statement_line(report%rows(6)), "  fails") > 0, &
+                        "index(statement_line(report%rows(6)), '  fails') > 0")
+        call assertTrue(index(statement_line(report%rows(2)), "FAILS !") > 0, &
+                        "index(statement_line(report%rows(2)), 'FAILS !') > 0")
+        call assertTrue(index(statement_line(report%rows(5)), "HOLDS !") > 0, &
+                        "index(statement_line(report%rows(5)), 'HOLDS !') > 0")
     end subroutine rows_are_judged
 
     subroutine refuses_unknown_names()
@@ -217,7 +223,7 @@ contains
         type(error_t), allocatable :: error
 
         call principle_report("acton", report, error)
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: refuses unknown names")
         if (anyExceptions()) return
         call assertEqual("unknown principle 'acton'; did you mean 'action'?", error%message)
     end subroutine refuses_unknown_names

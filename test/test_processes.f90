@@ -78,7 +78,7 @@ contains
             call assertEqual(128 + int(chosen), exit_status(catch_chosen), message="seen")
             call assertEqual(128 + int(chosen), exit_status(raise_twice), message="the second")
             call assertEqual("lagrangia: interrupted"//new_line("a"), contents(folder//"/err"))
-            call assertTrue(remove_file(folder//"/err"))
+            call assertTrue(remove_file(folder//"/err"), "it was there: "//folder//"/err")
         end do
         call assertTrue(remove_file(folder), "a temporary was left")
     end subroutine every_ending_has_its_status
@@ -140,7 +140,7 @@ contains
         folder = new_folder("never")
         call assertEqual(status_terminated, exit_status(never_look))
         call assertEqual("lagrangia: interrupted"//new_line("a"), contents(folder//"/err"))
-        call assertTrue(remove_file(folder//"/err"))
+        call assertTrue(remove_file(folder//"/err"), "it was there: "//folder//"/err")
         call assertTrue(remove_file(folder), "a temporary was left")
     end subroutine who_does_not_look_is_ended
 
@@ -183,10 +183,10 @@ contains
         integer :: status
 
         call run_program([word_t("sh"), word_t("-c"), word_t("exit 7")], status, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: programs return their status")
         call assertEqual(7, status)
         call run_program([word_t("sh"), word_t("-c"), word_t("kill -9 $$")], status, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: programs return their status")
         call assertEqual(137, status)
         call run_program([word_t("true")], status, error)
         call assertEqual(0, status)
@@ -215,7 +215,7 @@ contains
         integer :: status
 
         call run_program([word_t("/no/gnuplot"), word_t("-d")], status, error)
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: a missing program is an error")
         if (anyExceptions()) return
         call assertEqual("cannot run '/no/gnuplot': no such program", error%message)
         call assertEqual(status_file, error%status)
@@ -229,7 +229,7 @@ contains
         call assertEqual(0, exit_status(put_run_put))
         call assertEqual("one"//new_line("a")//"two"//new_line("a")//"three"//new_line("a"), &
                          contents(path))
-        call assertTrue(remove_file(path))
+        call assertTrue(remove_file(path), "it was there: "//path)
     end subroutine what_was_put_comes_first
 
     function put_run_put() result(status)

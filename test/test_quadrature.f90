@@ -62,10 +62,10 @@ contains
         type(error_t), allocatable :: error
 
         call integrate_period(bessel_t(2.5_dp, 0.3_dp), 7.1_dp, 0.3_dp, integral, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: bessel integral")
         call assertRelativelyEqual(0.3_dp*3.289839144050123_dp, integral, 64.0_dp*eps)
         call integrate_period(bessel_t(40.0_dp, 0.3_dp), -0.02_dp, 0.3_dp, integral, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: bessel integral")
         call assertRelativelyEqual(0.3_dp*14894774793419900.0_dp, integral, 64.0_dp*eps)
     end subroutine bessel_integral
 
@@ -82,7 +82,7 @@ contains
         do i = 1, size(start)
             call integrate_period(swing_t(1.0_dp/3.0_dp, start(i), 1e-20_dp), 0.0_dp, pi, &
                                   integral, error)
-            call assertFalse(allocated(error))
+            call assertFalse(allocated(error), "no error: cart pendulum periods")
             call assertRelativelyEqual(expected(i), 2e20_dp*integral/sqrt(9.81_dp), 64.0_dp*eps)
         end do
     end subroutine cart_pendulum_periods
@@ -93,10 +93,10 @@ contains
         type(error_t), allocatable :: error
 
         call integrate_period(power_t(3), 0.4_dp, 2.0_dp*pi, integral, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: trigonometric polynomials")
         call assertEqual(0.0_dp, integral, tolerance=16.0_dp*eps)
         call integrate_period(power_t(6), 0.4_dp, 2.0_dp*pi, integral, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: trigonometric polynomials")
         call assertRelativelyEqual(5.0_dp*pi/8.0_dp, integral, 16.0_dp*eps)
     end subroutine trigonometric_polynomials
 
@@ -106,7 +106,7 @@ contains
         type(error_t), allocatable :: error
 
         call integrate_period(ramp_t(50.0_dp, 1.0_dp), 0.0_dp, 1.0_dp, integral, error)
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: refuses a jump")
         if (anyExceptions()) return
         call assertEqual("quadrature: no convergence; the integrand must be smooth and periodic", &
                          error%message)
@@ -120,7 +120,7 @@ contains
         type(error_t), allocatable :: error
 
         call integrate_period(ramp_t(0.3_dp, -1.0_dp), 0.0_dp, 1.0_dp, integral, error)
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: refuses a pole")
         if (anyExceptions()) return
         call assertEqual("quadrature: the integrand is not finite", error%message)
         call assertEqual(status_numbers, error%status)

@@ -33,21 +33,17 @@ contains
 
         suite = TestSuite("reduced_motion")
         call suite%addTest(TestMethod("rouths_function_gives_its_equations", &
-                                      rouths_function_gives_its_equations, setUp=restart_random))
+                                      rouths_function_gives_its_equations))
         call suite%addTest(TestMethod("states_leave_and_come_back", states_leave_and_come_back, &
                                       setUp=restart_random))
         call suite%addTest(TestMethod("the_whole_motion_is_the_same", &
-                                      the_whole_motion_is_the_same, setUp=restart_random))
+                                      the_whole_motion_is_the_same))
         call suite%addTest(TestMethod("between_steps_and_after_a_push", &
-                                      between_steps_and_after_a_push, setUp=restart_random))
-        call suite%addTest(TestMethod("cuts_leave_no_trace", cuts_leave_no_trace, &
-                                      setUp=restart_random))
-        call suite%addTest(TestMethod("late_is_as_good_as_early", late_is_as_good_as_early, &
-                                      setUp=restart_random))
-        call suite%addTest(TestMethod("only_where_it_pays", only_where_it_pays, &
-                                      setUp=restart_random))
-        call suite%addTest(TestMethod("scenes_use_it_and_say_so", scenes_use_it_and_say_so, &
-                                      setUp=restart_random))
+                                      between_steps_and_after_a_push))
+        call suite%addTest(TestMethod("cuts_leave_no_trace", cuts_leave_no_trace))
+        call suite%addTest(TestMethod("late_is_as_good_as_early", late_is_as_good_as_early))
+        call suite%addTest(TestMethod("only_where_it_pays", only_where_it_pays))
+        call suite%addTest(TestMethod("scenes_use_it_and_say_so", scenes_use_it_and_say_so))
     end function reduced_motion_suite
 
     subroutine rouths_function_gives_its_equations()

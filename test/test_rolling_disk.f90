@@ -100,7 +100,7 @@ contains
         call build_uniform(disk, 1.7_dp, 0.6_dp, 0.2_dp)
         call disk%complete_velocities(0.0_dp, [0.0_dp, 0.0_dp, 0.0_dp, pi/6.0_dp], &
                                       [2.0_dp, 3.0_dp], v, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: two velocities are completed")
         call assertEqual([0.6_dp, -0.6_dp*sqrt(3.0_dp), 2.0_dp, 3.0_dp], v, 1e-15_dp)
         call restart_random()
         do i = 1, 200
@@ -222,7 +222,8 @@ contains
                        uniform(0.0_dp, 9.0_dp), 0.0_dp)
             call draw_state(disk, t, q, v)
             call disk%describe(d)
-            call assertTrue(d%quantities(2)%name == "p_phi" .and. d%quantities(2)%conserved)
+            call assertTrue(d%quantities(2)%name == "p_phi" .and. d%quantities(2)%conserved, &
+                            "d%quantities(2)%name == 'p_phi' .and. d%quantities(2)%conserved")
             do k = 1, size(d%quantities)
                 if (.not. d%quantities(k)%conserved) cycle
                 call flow_derivative(disk, k, t, q, v, rate, scale)

@@ -94,7 +94,7 @@ contains
         q = [0.0_dp, 0.0_dp, 0.0_dp, 0.7_dp]
         call disk%complete_velocities(5.0_dp, q, [4.0_dp, 1.1_dp], v, error)
         call new_rolling_disk_reference(reference, disk, 5.0_dp, q, v, found)
-        call assertTrue(found)
+        call assertTrue(found, "found")
         call reference%state_at(7.0_dp, q, v)
         call assertEqual([1.89360038447354067_dp, 0.441783663298591337_dp, 8.0_dp, 2.9_dp], q, &
                          4e-15_dp)
@@ -152,7 +152,7 @@ contains
             call draw_state(disk, t, q, v)
             call disk%complete_velocities(t, q, [v(3), steering(1 + mod(i, 4))], v, error)
             call new_rolling_disk_reference(reference, disk, t, q, v, found)
-            call assertTrue(found)
+            call assertTrue(found, "found")
             call check_reference(reference, disk, t, q, v, "disk")
             if (anyExceptions()) return
         end do
@@ -229,6 +229,6 @@ contains
         call build_uniform(disk, 1.7_dp, 0.3_dp, 0.0_dp)
         call new_rolling_disk_reference(reference, disk, 0.0_dp, [0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], &
                                         [0.1_dp, -0.3_dp, 1.0_dp, 2.0_dp], found)
-        call assertFalse(found)
+        call assertFalse(found, "not found")
     end subroutine slipping_start_has_no_reference
 end module test_rolling_disk_reference

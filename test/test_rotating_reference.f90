@@ -61,7 +61,7 @@ contains
         do i = -1, 1, 2
             call set(wire, [1.3_dp, 1.5_dp*i])
             call new_rotating_wire_reference(reference, wire, 7.0_dp, [0.5_dp], [0.0_dp], found)
-            call assertTrue(found)
+            call assertTrue(found, "found")
             call reference%state_at(9.0_dp, q, v)
             call assertEqual(5.03383099788888292_dp, q(1), 4e-15_dp)
         end do

@@ -88,7 +88,8 @@ contains
         call perform("&scene system='double_pendulum' dt=1e-2 duration=1 q=1,2 expect_error=1 /", &
                      outcome, error)
         call assertEqual(from_half_step, outcome%error_from)
-        call assertTrue(outcome%error() > 1e-9_dp .and. outcome%error() < 1e-4_dp)
+        call assertTrue(outcome%error() > 1e-9_dp .and. outcome%error() < 1e-4_dp, &
+                        "outcome%error() > 1e-9 .and. outcome%error() < 1e-4")
     end subroutine an_estimate_says_so
 
     subroutine what_is_not_asked_is_not_computed()
@@ -117,12 +118,13 @@ contains
 
         call perform("&scene system='oscillator' method='verlet' dt=10 duration=10000 every=1 "// &
                      "q=1 columns='t','x' /", outcome, error)
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: a blow up keeps what was good")
         if (.not. allocated(error)) return
         call assertEqual(status_numbers, error%status)
         call assertTrue(index(error%message, "not finite at t = ") > 0, message=error%message)
-        call assertTrue(outcome%t > 0.0_dp .and. outcome%t < 10000.0_dp)
-        call assertTrue(abs(outcome%q(1)) < huge(1.0_dp))
+        call assertTrue(outcome%t > 0.0_dp .and. outcome%t < 10000.0_dp, &
+                        "outcome%t > 0.0 .and. outcome%t < 10000.0")
+        call assertTrue(abs(outcome%q(1)) < huge(1.0_dp), "abs(outcome%q(1)) < huge(1.0)")
         call assertEqual("failed", outcome%verdict())
     end subroutine a_blow_up_keeps_what_was_good
 

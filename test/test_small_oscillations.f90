@@ -172,7 +172,7 @@ contains
         m = reshape([2.0_dp, 0.3_dp, 0.1_dp, 0.3_dp, 1.0_dp, 0.2_dp, 0.1_dp, 0.2_dp, 0.6_dp], &
                     [3, 3])
         call normal_modes(k, m, omega2, u, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: modes are normalised")
         if (allocated(error)) return
         unit = 0.0_dp
         do j = 1, 3
@@ -184,7 +184,8 @@ contains
             unit(j, j) = omega2(j)
         end do
         call assertEqual(unit, matmul(transpose(u), matmul(k, u)), 1e-14_dp)
-        call assertTrue(omega2(1) < omega2(2) .and. omega2(2) < omega2(3))
+        call assertTrue(omega2(1) < omega2(2) .and. omega2(2) < omega2(3), &
+                        "omega2(1) < omega2(2) .and. omega2(2) < omega2(3)")
         call assertLessThan(residual_ratio(k, m, omega2, u), 30.0_dp)
         do i = 1, 3  ! with each coordinate turned round in its turn
             k(i, :) = -k(i, :)
@@ -215,7 +216,7 @@ contains
             k(modulo(i, n) + 1, i) = -0.5_dp
         end do
         call normal_modes(k, m, omega2, u, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: hilbert like is well solved")
         if (allocated(error)) return
         do i = 1, n
             call assertEqual(4.0_dp*sin(pi*(i/2)/n)**2, omega2(i), 1e-14_dp)

@@ -41,10 +41,10 @@ contains
         call files(4)%open(folder//"/again", error)
         call remove_unfinished()
         call assertEqual("", contents(folder//"/c"))
-        call assertTrue(remove_file(folder//"/c"))
+        call assertTrue(remove_file(folder//"/c"), "it was there: "//folder//"/c")
         call assertTrue(remove_file(folder), "a temporary was left")
         call files(1)%commit(error)
-        call assertTrue(allocated(error))
+        call assertTrue(allocated(error), "an error: unfinished files can be removed")
         do i = 1, size(files)
             call files(i)%abandon()
         end do
@@ -64,10 +64,10 @@ contains
         end do
         do i = size(files), 1, -1
             call files(i)%commit(error)
-            call assertFalse(allocated(error))
+            call assertFalse(allocated(error), "no error: many writers do not mix")
             call assertEqual(repeat("x", i), contents(folder//"/a.dat"))
         end do
-        call assertTrue(remove_file(folder//"/a.dat"))
+        call assertTrue(remove_file(folder//"/a.dat"), "it was there: "//folder//"/a.dat")
         call assertTrue(remove_file(folder), "a temporary was left")
     end subroutine many_writers_do_not_mix
 
@@ -96,8 +96,8 @@ contains
         call assertEqual("running", contents(folder//"/a.dat"))
         call file%open(folder//"/"//long, error)
         call file%commit(error)
-        call assertTrue(remove_file(folder//"/a.dat"))
-        call assertTrue(remove_file(folder//"/"//long))
+        call assertTrue(remove_file(folder//"/a.dat"), "it was there: "//folder//"/a.dat")
+        call assertTrue(remove_file(folder//"/"//long), "it was there: "//folder//"/"//long)
         call assertTrue(remove_file(folder//"/.lagrangia-b.dat-1.tmp"), "another name's was taken")
         call assertTrue(remove_file(folder), "a temporary was left")
     end subroutine abandoned_temporaries_are_removed
@@ -112,13 +112,13 @@ contains
         temporary = folder//"/.lagrangia-a.dat-1.tmp"
         call file%open(folder//"/a.dat", error)
         call file%commit(error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: nobody elses file is removed")
         call write_file(temporary, "another's")
         call file%abandon()
         call remove_unfinished()
         call assertEqual("another's", contents(temporary))
-        call assertTrue(remove_file(temporary))
-        call assertTrue(remove_file(folder//"/a.dat"))
-        call assertTrue(remove_file(folder))
+        call assertTrue(remove_file(temporary), "it was there: "//temporary)
+        call assertTrue(remove_file(folder//"/a.dat"), "it was there: "//folder//"/a.dat")
+        call assertTrue(remove_file(folder), "it was there: "//folder)
     end subroutine nobody_elses_file_is_removed
 end module test_unfinished

@@ -72,10 +72,10 @@ contains
         type(error_t), allocatable :: error
 
         call driven%configure([0.5_dp, 0.8_dp, 9.81_dp, 0.1_dp, 5.0_dp], error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: points move as differences say")
         call try(driven)
         call hoop%configure([0.6_dp, 0.7_dp, 2.5_dp, 9.81_dp], error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: points move as differences say")
         call try(hoop)
     contains
         subroutine try(system)
@@ -144,7 +144,7 @@ contains
             call draw_state(charge, t, q, v)
             call charge%accelerations(t, q, v, a)
             call accelerations_from_lagrangian(charge, t, q, v, expected, none, error)
-            call assertFalse(allocated(error))
+            call assertFalse(allocated(error), "no error: test charge is consistent")
             call assertEqual(0.0_dp, maxval(abs(expected - a))/maxval(abs(a)), 1e-12_dp)
             call assertEqual(energy_from_lagrangian(charge, t, q, v), charge%energy(t, q, v), &
                              1e-10_dp)
@@ -160,7 +160,7 @@ contains
         real(dp) :: slope(3), induced(3), b(3)
 
         call charge%configure([1.3_dp, -0.8_dp], error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error: fields are differences")
         call charge%fields(t, [x, y, z], slope, induced, b)
         call assertEqual([-y*exp(-t) - z**2*cos(x), -x*exp(-t), -2.0_dp*z*sin(x)], slope, 1e-14_dp)
         call assertEqual([-y*z, x**2*sin(t), -z], induced, 1e-14_dp)
