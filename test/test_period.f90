@@ -2,12 +2,18 @@ module test_period
     !! The period read off sampled motions whose period is known.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertLessThan, assertTrue
     use lagrangia_catalogue, only: new_reference
+    use lagrangia_dense_run, only: run_dense
     use lagrangia_errors, only: error_t
-    use lagrangia_kinds, only: dp
+    use lagrangia_events, only: event_box_t
+    use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_observer, only: observer_box_t
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_pendulum, only: pendulum_t
     use lagrangia_period, only: period_t
     use lagrangia_reference, only: reference_t
+    use lagrangia_rk4, only: new_rk4, rk4_t
+    use lagrangia_run, only: new_plan, new_sampled_plan, plan_t, run
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -26,6 +32,7 @@ contains
         call suite%addTest(TestMethod("the_coordinate_that_is_asked_for", &
                                       the_coordinate_that_is_asked_for))
         call suite%addTest(TestMethod("one_turn_is_no_period", one_turn_is_no_period))
+        call suite%addTest(TestMethod("rows_have_no_part_in_it", rows_have_no_part_in_it))
         call suite%addTest(TestMethod("coarse_samples_give_none", coarse_samples_give_none))
     end function period_suite
 
@@ -36,13 +43,12 @@ contains
         real(dp), intent(in) :: first, h
         integer, intent(in) :: count
         type(period_t), intent(inout) :: period
-        type(error_t), allocatable :: error
         real(dp) :: q(system%ndof), v(system%ndof)
         integer :: k
 
         do k = 0, count - 1
             call reference%state_at(first + k*h, q, v)
-            call period%observe(system, first + k*h, q, v, error)
+            call period%follow(system, first + k*h, q, v)
         end do
     end subroutine sample
 
@@ -116,6 +122,47 @@ contains
         call sample(system, reference, 7.0_dp, 0.1_dp, 60, period)
         call assertEqual(2.0_dp*acos(-1.0_dp), period%period(), 1e-9_dp, "now there is one")
     end subroutine one_turn_is_no_period
+
+    subroutine rows_have_no_part_in_it()
+        !! To the last bit, whatever `every` and `samples`: of steps, and of dense output, which
+        !! has the period of the closed form to its tolerance.
+        integer(i8), parameter :: rows(3) = [1_i8, 7_i8, 1500_i8]
+        type(pendulum_t) :: system
+        type(rk4_t) :: rk4
+        type(gauss_adaptive_t) :: gauss16
+        type(plan_t) :: plan
+        type(period_t), target :: periods(size(rows), 2)
+        type(observer_box_t) :: observers(1)
+        type(event_box_t) :: events(0)
+        type(error_t), allocatable :: error
+        class(reference_t), allocatable :: reference
+        real(dp) :: q(1), v(1), ended
+        integer :: i, k
+
+        call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
+        call new_reference(system, 0.0_dp, [2.0_dp], [0.0_dp], reference)
+        call new_rk4(rk4)
+        call new_gauss16_adaptive(gauss16)
+        do k = 1, 2
+            do i = 1, size(rows)
+                periods(i, k)%follows = .true.
+                observers(1)%item => periods(i, k)
+                q = 2.0_dp
+                v = 0.0_dp
+                if (k == 1) then
+                    call new_plan(plan, 0.0_dp, 0.01_dp, 15.003_dp, rows(i), error)
+                    call run(system, rk4, plan, observers, q, v, error)
+                else
+                    call new_sampled_plan(plan, 0.0_dp, 15.003_dp, rows(i), error)
+                    call run_dense(system, gauss16, plan, events, observers, q, v, ended, error)
+                end if
+                call assertFalse(allocated(error), "it runs")
+                call assertEqual(periods(1, k)%period(), periods(i, k)%period(), message="period")
+            end do
+        end do
+        call assertEqual(1.0_dp, periods(1, 1)%period()/reference%period, 1e-6_dp, "rk4")
+        call assertEqual(1.0_dp, periods(1, 2)%period()/reference%period, 1e-9_dp, "gauss16")
+    end subroutine rows_have_no_part_in_it
 
     subroutine coarse_samples_give_none()
         !! 1.7 samples a period see turns, but not the motion's.

@@ -1,6 +1,7 @@
 module lagrangia_observer
     !! The contract of whoever wants to see the states of a run.
     use lagrangia_errors, only: error_t
+    use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: system_t
     implicit none (type, external)
@@ -8,10 +9,13 @@ module lagrangia_observer
     public :: observer_t, observer_box_t
 
     type, abstract :: observer_t
+        logical :: follows = .false.  !! wants to see every step, not only the samples
     contains
         procedure(observe_i), deferred :: observe
         procedure :: tick => no_tick
         procedure :: meet => no_meet
+        procedure :: follow => no_follow
+        procedure :: follow_inside => no_follow_inside
     end type observer_t
 
     type :: observer_box_t
@@ -47,4 +51,20 @@ contains
         real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
         type(error_t), allocatable, intent(out) :: error
     end subroutine no_meet
+
+    subroutine no_follow(self, system, t, q, v)
+        !! See the state after each step of a method of fixed step; only who `follows`.
+        class(observer_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t              !! s
+        real(dp), intent(in) :: q(system%ndof) !! coordinates
+        real(dp), intent(in) :: v(system%ndof) !! velocities
+    end subroutine no_follow
+
+    subroutine no_follow_inside(self, method, t)
+        !! See the motion up to `t` inside the latest step of `method`; only who `follows`.
+        class(observer_t), intent(inout) :: self
+        class(dense_integrator_t), intent(in) :: method
+        real(dp), intent(in) :: t              !! s
+    end subroutine no_follow_inside
 end module lagrangia_observer

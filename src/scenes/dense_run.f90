@@ -86,7 +86,10 @@ contains
                 call meet()
             end do
             if (allocated(error)) exit
-            if (.not. (stopped .or. restarted)) call show_samples(method%t_new)
+            if (.not. (stopped .or. restarted)) then
+                call follow(method%t_new)
+                call show_samples(method%t_new)
+            end if
             if (.not. allocated(error)) call look_around()
         end do
         if (allocated(error)) return
@@ -99,6 +102,7 @@ contains
             integer :: i
 
             associate (event => events(watch%which)%item)
+                call follow(watch%t)
                 before = [watch%q, watch%v]
                 call event%impact(system, watch%t, watch%q, watch%v)
                 restarted = event%one_sided .or. any(abs(before - [watch%q, watch%v]) > 0.0_dp)
@@ -122,6 +126,16 @@ contains
                 call watch%start(events, system, watch%t, watch%q, watch%v)
             end if
         end subroutine meet
+
+        subroutine follow(t)
+            !! Show the motion inside the step, up to `t`, to who wants to see it.
+            real(dp), intent(in) :: t
+            integer :: i
+
+            do i = 1, size(observers)
+                if (observers(i)%item%follows) call observers(i)%item%follow_inside(method, t)
+            end do
+        end subroutine follow
 
         subroutine show_samples(t)
             !! All that are due up to `t`.

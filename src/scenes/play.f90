@@ -122,6 +122,7 @@ contains
         if (size(p%record%columns%items) > 0) call join(p%record)
         if (scene%period_of /= "") then
             call find_coordinate(system, scene%period_of, p%period%coordinate)
+            p%period%follows = .true.
             call join(p%period)
         end if
         if (size(p%events) > 0) call join(p%event_record)

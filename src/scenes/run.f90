@@ -143,6 +143,8 @@ contains
         type(error_t), allocatable, intent(out) :: error
         real(dp) :: q_start(system%ndof), v_start(system%ndof)
         integer(i8) :: done, block_end
+        integer :: i
+        logical :: followed
 
         if (system%contacts > 0) then
             call fail(error, "unilateral constraints need a run that looks for impacts: run_dense")
@@ -159,11 +161,14 @@ contains
         done = 0
         q_start = q
         v_start = v
+        followed = any([(observers(i)%item%follows, i=1, size(observers))])
         call show(plan%t0)
         do while (done < plan%steps .and. .not. allocated(error))
-            block_end = min(plan%steps, done + longest_block, (done/plan%every + 1)*plan%every)
+            block_end = min(plan%steps, done + merge(1_i8, longest_block, followed), &
+                            (done/plan%every + 1)*plan%every)
             call integrator%advance(system, plan%t0, plan%dt, done, block_end - done, q, v)
             done = block_end
+            if (followed) call follow(time_of(done))
             if (mod(done, plan%every) == 0 .or. (done == plan%steps .and. plan%rest <= 0.0_dp)) then
                 call show(time_of(done))
             else
@@ -172,6 +177,7 @@ contains
         end do
         if (plan%rest > 0.0_dp .and. .not. allocated(error)) then
             call integrator%advance(system, time_of(done), plan%rest, 0_i8, 1_i8, q, v)
+            if (followed) call follow(plan%t0 + plan%duration)
             call show(plan%t0 + plan%duration)
         end if
         if (.not. allocated(error)) return
@@ -185,6 +191,15 @@ contains
             t = plan%t0 + k*plan%dt
             if (k == plan%steps .and. plan%rest <= 0.0_dp) t = plan%t0 + plan%duration
         end function time_of
+
+        subroutine follow(t)
+            real(dp), intent(in) :: t
+            integer :: j
+
+            do j = 1, size(observers)
+                if (observers(j)%item%follows) call observers(j)%item%follow(system, t, q, v)
+            end do
+        end subroutine follow
 
         subroutine show(t)
             real(dp), intent(in) :: t
