@@ -98,6 +98,7 @@ module suites
     use test_scene_files, only: scene_files_suite
     use test_scene_steps, only: scene_steps_suite
     use test_scenes, only: scenes_suite
+    use test_second_opinion, only: second_opinion_suite
     use test_shadow, only: shadow_suite
     use test_sinc, only: sinc_suite
     use test_small_oscillations, only: small_oscillations_suite
@@ -219,6 +220,7 @@ contains
         call suite%addTest(scene_files_suite())
         call suite%addTest(scene_steps_suite())
         call suite%addTest(scenes_suite())
+        call suite%addTest(second_opinion_suite())
         call suite%addTest(shadow_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(small_oscillations_suite())

@@ -12,17 +12,25 @@ module lagrangia_concise
 contains
 
     pure function concise(value, error) result(text)
-        !! The digits of `value` that an error of `error` leaves: the error is rounded up to one
-        !! digit, which stands in brackets and counts in units of the last digit before it. All
-        !! digits where the error is 0. Both are finite.
+        !! The digits of `value` that an error of `error` leaves: the error, and what the rounding
+        !! of `value` to these digits adds, is rounded up to one digit, which stands in brackets
+        !! and counts in units of the last digit before it. All digits where the error is 0. Both
+        !! are finite.
         real(dp), intent(in) :: value, error
         character(:), allocatable :: text
         character(1) :: digit
-        integer :: place, top
+        real(dp) :: doubt
+        integer :: place, top, k
 
         text = to_text(value + 0.0_dp)  ! zero has no sign
         if (error <= 0.0_dp) return
         call round_up(error, digit, place)
+        do k = 1, 3  ! a coarser digit may round the value more, twice at most
+            doubt = error + abs(value - rounded(value, place))
+            if (doubt <= (iachar(digit) - iachar("0"))*10.0_dp**place) exit
+            if (doubt > huge(doubt)) exit  ! rounded up, the largest number is none
+            call round_up(doubt, digit, place)
+        end do
         top = place
         if (abs(value) > 0.0_dp) top = max(place, power_of(value, 6))
         if (place <= 0 .and. top >= -4 .and. top <= 6) then
@@ -48,6 +56,26 @@ contains
         digit = "1"
         place = place + 1
     end subroutine round_up
+
+    pure function rounded(number, place)
+        !! To a multiple of ten to `place`, as it is printed.
+        real(dp), intent(in) :: number
+        integer, intent(in) :: place
+        real(dp) :: rounded
+        character(wide) :: buffer, layout
+        integer :: top
+
+        rounded = number
+        if (abs(number) <= 0.0_dp) return
+        top = power_of(number, 16)
+        if (top < place) then
+            rounded = nint(number/10.0_dp**place)*10.0_dp**place
+            return
+        end if
+        write (layout, "(a, i0, a)") "(es64.", top - place, "e4)"
+        write (buffer, layout) number
+        read (buffer, *) rounded
+    end function rounded
 
     pure function power_of(number, digits) result(power)
         !! Of ten, in `number` rounded to so many digits behind the first.

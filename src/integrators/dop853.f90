@@ -136,6 +136,7 @@ contains
             h = min(self%h, self%longest)
             last = self%t_old + 1.01_dp*h >= self%t_end
             if (last) h = self%t_end - self%t_old
+            h = (self%t_old + h) - self%t_old  ! what the clock will say
             if (.not. self%t_old + 0.1_dp*h > self%t_old) exit
             call stages(system, system%ndof, self%t_old, h, self%y0, self%k, self%y)
             self%evaluations = self%evaluations + 11

@@ -1,11 +1,15 @@
 module lagrangia_accuracy
-    !! The error of a run's final state: the same scene twice more, finer and finer still.
+    !! The error of a run's final state: the same scene twice more, finer and finer still, and once
+    !! by other means.
     !!
     !! With steps of \(h, h/2, h/4\) and a method of order p the changes from one run to the next
     !! shrink by \(2^{-p}\). The error of the first run is its distance to the third, and that one's
     !! own, which is \(1/(2^p - 1)\) of the latest change. Where changes shrink less, by rounding,
     !! chaos or too long a step, no number of the state is trusted more, beside its largest
-    !! magnitude, than the worst of all.
+    !! magnitude, than the worst of all; and none more than its changes, where these do not shrink
+    !! at all. The second run starts a last digit away: where the motion lingers at a saddle, three
+    !! runs from one state would linger alike. Nor is an error less than the distance to the closed
+    !! form, or to the end by another method.
     !! Source: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.,
     !! sec. II.4.
     use lagrangia_adaptive_methods, only: new_adaptive
@@ -18,8 +22,10 @@ module lagrangia_accuracy
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_box_t, observer_t
+    use lagrangia_reference, only: reference_t
     use lagrangia_run, only: plan_t
     use lagrangia_scene, only: scene_t
+    use lagrangia_second_opinion, only: by_closed_form, by_other_method, event_slope
     use lagrangia_staging, only: stage_events, stage_method
     use lagrangia_statement, only: stated_t
     use lagrangia_system, only: system_t
@@ -30,6 +36,7 @@ module lagrangia_accuracy
 
     character(*), parameter :: context = "the run that estimates the error"
     real(dp), parameter :: vouched = 2.0_dp       !! stated error over estimate
+    real(dp), parameter :: margin = 4.0_dp        !! error of the other end over its distance
     real(dp), parameter :: caution = 5.0_dp       !! where the changes don't shrink as they should
 
 contains
@@ -46,24 +53,29 @@ contains
         if (allocated(error)) call error%add_context(context)
     end subroutine rehearse_finer
 
-    subroutine state_accuracy(scene, system, seen, steps, watcher, state, error)
+    subroutine state_accuracy(scene, system, closed_form, seen, steps, watcher, state, error)
         !! Every number of the final state of `scene`, with its error; the time first if an event
         !! ended the run. Fails where a finer run fails.
         type(scene_t), intent(in) :: scene
         class(system_t), intent(in) :: system
+        class(reference_t), allocatable, intent(in) :: closed_form  !! absent: none is known
         type(witness_t), intent(in) :: seen                !! of the run itself,
         integer(i8), intent(in) :: steps                   !! and how many it took
         class(observer_t), pointer, intent(in) :: watcher  !! hears the runs go on; may be null
         type(stated_t), allocatable, intent(out) :: state(:)
         type(error_t), allocatable, intent(out) :: error
         type(witness_t) :: half, quarter
-        real(dp), allocatable :: first(:), second(:), third(:), most(:)
+        type(event_box_t), allocatable :: events(:)
+        real(dp), allocatable :: first(:), second(:), third(:), most(:), other(:), rounding(:)
         real(dp) :: shrinking, step
+        logical :: known
 
         step = (seen%t - scene%t0)/max(steps, 1_i8)
-        call run_finer(finer(scene, 1), system, 0.5_dp*step, watcher, half, shrinking, error)
-        if (.not. allocated(error)) call run_finer(finer(scene, 2), system, 0.25_dp*step, watcher, &
-                                                   quarter, shrinking, error)
+        call run_finer(nudged(finer(scene, 1), system, 1), system, 0.5_dp*step, watcher, half, &
+                       shrinking, events, error)
+        if (.not. allocated(error)) call run_finer(nudged(finer(scene, 2), system, -1), system, &
+                                                   0.25_dp*step, watcher, quarter, &
+                                                   shrinking, events, error)
         if (allocated(error)) then
             call error%add_context(context)
             return
@@ -73,12 +85,49 @@ contains
         allocate (third, source=[quarter%t, quarter%q, quarter%v])
         allocate (most, source=[max(abs(scene%t0), abs(seen%t)), max(seen%q_most, half%q_most), &
                                 max(seen%v_most, half%v_most)])
+        allocate (other, mold=first)
         call name_state(system, state)
         state%value = first
         state%most = most
-        state%error = vouched*estimate(first, second, third, most, shrinking)
+        rounding = 2.0_dp*epsilon(most)*most
+        if (seen%t < scene%t0 + scene%duration) then
+            step = 1e-4_dp*(seen%t - scene%t0)
+            rounding(1) = rounding(1) + rounding_of_event(system, seen, step, events, rounding)
+        end if
+        state%error = vouched*max(estimate(first, second, third, most, shrinking), rounding)
+        call by_other_method(scene, system, seen, events, 100_i8*steps + 100000_i8, other, known)
+        if (known) state%error = agreement(first, third, other, most) + rounding
+        call by_closed_form(scene, system, seen, closed_form, other, known)
+        if (known) state%error = max(state%error, abs(first - other))
         if (seen%t >= scene%t0 + scene%duration) state = state(2:)
     end subroutine state_accuracy
+
+    function rounding_of_event(system, seen, h, events, rounding) result(dt)
+        !! Of its time: that of its function, over how fast this changes.
+        class(system_t), intent(in) :: system
+        type(witness_t), intent(in) :: seen
+        real(dp), intent(in) :: h            !! over which the change is taken, s
+        type(event_box_t), intent(inout) :: events(:)
+        real(dp), intent(in) :: rounding(:)  !! of time and state
+        real(dp) :: dt
+        real(dp) :: value, slope, there, q(system%ndof), v(system%ndof)
+        integer :: i
+
+        call event_slope(system, seen%t, h, seen%q, seen%v, events, value, slope)
+        dt = 0.0_dp
+        do i = 1, system%ndof
+            q = seen%q
+            v = seen%v
+            q(i) = q(i) + rounding(1 + i)*2.0_dp**20
+            call event_slope(system, seen%t, h, q, v, events, there, slope)
+            dt = dt + abs((there - value)/slope)
+            q(i) = seen%q(i)
+            v(i) = v(i) + rounding(1 + system%ndof + i)*2.0_dp**20
+            call event_slope(system, seen%t, h, q, v, events, there, slope)
+            dt = dt + abs((there - value)/slope)
+        end do
+        dt = dt*2.0_dp**(-20)
+    end function rounding_of_event
 
     pure subroutine name_state(system, state)
         !! Time, coordinates, velocities.
@@ -114,9 +163,34 @@ contains
         d2 = abs(second - third)
         unit = max(most, tiny(most))
         error = abs(first - third) + d2/(shrinking - 1.0_dp)
+        where (2.0_dp*d2 > d1) error = max(error, d1, d2)
         odd = abs(shrinking*maxval(d2/unit) - maxval(d1/unit))/max(maxval(d1/unit), tiny(odd))
         error = max(error, min(caution, odd)*most*maxval(error/unit), 2.0_dp*epsilon(most)*most)
     end function estimate
+
+    function nudged(scene, system, way) result(near)
+        !! The scene from a state, and where that matters a time, a last digit away.
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: way  !! 1 or -1
+        type(scene_t) :: near
+
+        near = scene
+        near%q = scene%q*(1.0_dp + way*epsilon(1.0_dp))
+        near%v = scene%v*(1.0_dp - way*epsilon(1.0_dp))
+        if (system%time_dependent) near%t0 = scene%t0*(1.0_dp + way*epsilon(1.0_dp))
+    end function nudged
+
+    pure function agreement(first, third, other, most) result(error)
+        !! Of the first run, each number by itself: its distance to the other end, and that one's
+        !! error, which is taken to be `margin` times its distance to the third run, the worst of
+        !! all numbers.
+        real(dp), intent(in) :: first(:), third(:), other(:), most(:)
+        real(dp) :: error(size(first))
+
+        error = abs(first - other) &
+                + margin*most*maxval(abs(third - other)/max(most, tiny(most)))
+    end function agreement
 
     function finer(scene, k) result(fine)
         !! The scene at \(2^{-k}\) of its step or \(100^{-k}\) of its tolerance, if that can be had.
@@ -145,7 +219,7 @@ contains
         steps = 2.0_dp**k*(anint(scene%duration/scene%dt) + 1.0_dp) - 1.0_dp
     end function steps_of
 
-    subroutine run_finer(scene, system, longest, watcher, seen, shrinking, error)
+    subroutine run_finer(scene, system, longest, watcher, seen, shrinking, events, error)
         !! From the start to the end, or to the event that ends it. A method that chooses its steps
         !! may find no reason in the tolerance to shorten them: hence the bound.
         type(scene_t), intent(in) :: scene
@@ -154,10 +228,10 @@ contains
         class(observer_t), pointer, intent(in) :: watcher
         type(witness_t), target, intent(inout) :: seen
         real(dp), intent(out) :: shrinking  !! of the error at half the step, a tenth of tolerance
+        type(event_box_t), allocatable, intent(out) :: events(:)
         type(error_t), allocatable, intent(out) :: error
         class(integrator_t), allocatable :: integrator
         type(plan_t) :: plan
-        type(event_box_t), allocatable :: events(:)
         type(event_record_t) :: record
         type(panel_t), allocatable :: panels(:)
         type(observer_box_t) :: observers(2)

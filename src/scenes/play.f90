@@ -129,7 +129,7 @@ contains
         if (associated(watcher)) call join(watcher)
         call timed_run(system, p, observers(:n), outcome, error)
         if (scene%error_estimate .and. .not. allocated(error)) call state_accuracy(p%scene, &
-            system, p%witness, outcome%steps, watcher, outcome%state, error)
+            system, p%reference, p%witness, outcome%steps, watcher, outcome%state, error)
         if (allocated(error)) then
             outcome%t = scene%t0
             if (allocated(p%witness%q)) then

@@ -11,16 +11,17 @@ module lagrangia_statement
     public :: statement_json, statement_legend, statement_line
 
     character(*), parameter :: statement_legend = &
-        "0.48312(2): 0.48312 give or take 0.00002, twice Richardson's estimate from the "// &
-        "same run at"//new_line("a")//"a half and a quarter of the step, or at 1e-2 and "// &
-        "1e-4 of the tolerance and shorter steps"
+        "0.48312(2): 0.48312 give or take 0.00002, by the same run at a half and a quarter of "// &
+        "the"//new_line("a")//"step, or at 1e-2 and 1e-4 of the tolerance and shorter steps, "// &
+        "from starts a last digit away;"//new_line("a")//"by another method at its least "// &
+        "tolerance; and by the closed form where there is one"
 
     type :: stated_t
         !! One number of the final state.
         character(name_length) :: name = ""
         character(16) :: unit = ""
         real(dp) :: value = 0.0_dp
-        real(dp) :: error = 0.0_dp  !! vouched for: twice the estimate
+        real(dp) :: error = 0.0_dp  !! vouched for
         real(dp) :: most = 0.0_dp   !! the largest magnitude in the run
     contains
         procedure :: resolved

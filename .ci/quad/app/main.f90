@@ -3,10 +3,12 @@ program quad
     !!
     !!     quad bench FILE     integrate the problems of the bench; compare with the ends in FILE
     !!     quad swings         print double pendulums, with their ends, as a namelist file
+    !!     quad judge FILE     what .ci/digits has drawn: is a stated digit wrong?
     !!
     !! Each motion is integrated twice, with steps of one length and of half that: what is left of
     !! the error is 2**-16 of the change. Parameters and starts are doubles.
     use, intrinsic :: iso_fortran_env, only: error_unit, output_unit, real64
+    use digits_judge, only: judge
     use lagrangia_cart_pendulum, only: cart_pendulum_t
     use lagrangia_charged_particle, only: charged_particle_t
     use lagrangia_description, only: description_t
@@ -32,6 +34,7 @@ program quad
     end type problem_t
 
     character(1024) :: mode, path
+    logical :: good
 
     call get_command_argument(1, mode)
     call get_command_argument(2, path)
@@ -39,7 +42,10 @@ program quad
     select case (mode)
     case ("bench"); call check_bench(trim(path))
     case ("swings"); call print_swings()
-    case default; call give_up("usage: quad bench FILE | quad swings")
+    case ("judge")
+        call judge(trim(path), good)
+        if (.not. good) call give_up("a digit is wrong, or none was stated")
+    case default; call give_up("usage: quad bench FILE | quad swings | quad judge FILE")
     end select
 
 contains

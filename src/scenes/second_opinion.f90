@@ -1,0 +1,137 @@
+module lagrangia_second_opinion
+    !! The end of a run by other means: a closed form, or another method at its least tolerance.
+    !!
+    !! Finer runs of one method share what is wrong with all of them: steps too small to move a
+    !! coordinate, a sum that always rounds the same way, a clock that has lost the last digits of
+    !! the steps. Here none of that is shared: the steps are few and long, and the clock starts at
+    !! 0 where the equations do not look at it.
+    use lagrangia_adaptive_methods, only: new_adaptive
+    use lagrangia_errors, only: error_t
+    use lagrangia_events, only: event_box_t
+    use lagrangia_integrator, only: dense_integrator_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_reference, only: reference_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_system, only: system_t
+    use lagrangia_witness, only: witness_t
+    implicit none (type, external)
+    private
+    public :: by_closed_form, by_other_method, event_slope
+
+contains
+
+    subroutine by_closed_form(scene, system, seen, closed_form, state, known)
+        !! Time, coordinates and velocities at the end of a run that no event ended.
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        type(witness_t), intent(in) :: seen                          !! of the run
+        class(reference_t), allocatable, intent(in) :: closed_form   !! of its start
+        real(dp), intent(out) :: state(1 + 2*system%ndof)
+        logical, intent(out) :: known
+        real(dp) :: q(system%ndof), v(system%ndof)
+
+        state = 0.0_dp
+        known = allocated(closed_form) .and. seen%t >= scene%t0 + scene%duration
+        if (known) known = closed_form%has_state
+        if (.not. known) return
+        call closed_form%state_at(seen%t, q, v)
+        call go_on(system, seen%t, lost_by_clock(scene%t0, scene%duration), q, v)
+        state = [seen%t, q, v]
+    end subroutine by_closed_form
+
+    subroutine by_other_method(scene, system, seen, events, allowed, state, known)
+        !! Time, coordinates and velocities where the run ended, or where in truth the event is that
+        !! ended it. Not known across impacts, or where that would take too long.
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        type(witness_t), intent(in) :: seen              !! of the run
+        type(event_box_t), intent(inout) :: events(:)    !! of the run
+        integer(i8), intent(in) :: allowed               !! evaluations
+        real(dp), intent(out) :: state(1 + 2*system%ndof)
+        logical, intent(out) :: known
+        class(dense_integrator_t), allocatable :: method
+        type(error_t), allocatable :: error
+        real(dp) :: q(system%ndof), v(system%ndof), start, elapsed, late, slope, value
+        logical :: stopped
+
+        state = 0.0_dp
+        known = system%contacts == 0
+        if (.not. known) return
+        stopped = seen%t < scene%t0 + scene%duration
+        elapsed = merge(seen%t - scene%t0, scene%duration, stopped)
+        start = merge(scene%t0, 0.0_dp, system%time_dependent)
+        if (scene%method == "dop853") then
+            call new_adaptive("gauss16", method)
+        else
+            call new_adaptive("dop853", method)
+        end if
+        method%tolerance = method%least_tolerance
+        method%dense = .false.
+        call method%prepare(system, error)
+        if (.not. allocated(error)) call method%start(system, start, scene%q, scene%v, &
+                                                      start + elapsed)
+        do while (method%t_new < method%t_end .and. .not. allocated(error))
+            call method%step(system, error)
+            if (method%evaluations > allowed) exit
+        end do
+        known = method%t_new >= method%t_end .and. .not. allocated(error)
+        if (.not. known) return
+        call method%state_at(method%t_end, q, v)
+        call go_on(system, method%t_end, lost_by_clock(start, elapsed), q, v)
+        late = 0.0_dp
+        if (stopped) then
+            call event_slope(system, seen%t, 1e-4_dp*elapsed, q, v, events, value, slope)
+            late = value/slope
+            call go_on(system, seen%t, -late, q, v)
+        end if
+        state = [seen%t - late, q, v]
+    end subroutine by_other_method
+
+    pure function lost_by_clock(start, elapsed) result(lost)
+        !! What the end on the clock, `start + elapsed` rounded, leaves of `elapsed`, s.
+        real(dp), intent(in) :: start, elapsed
+        real(dp) :: lost
+
+        lost = elapsed - ((start + elapsed) - start)
+    end function lost_by_clock
+
+    pure subroutine go_on(system, t, dt, q, v)
+        !! For so short a time that a straight line will do.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, dt
+        real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+        real(dp) :: a(system%ndof)
+
+        if (abs(dt) <= 0.0_dp) return
+        call system%accelerations(t, q, v, a)
+        q = q + dt*v
+        v = v + dt*a
+    end subroutine go_on
+
+    subroutine event_slope(system, t, h, q, v, events, value, slope)
+        !! Of the final event that is nearest to a state: its function and how fast that changes.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        real(dp), intent(in) :: h            !! over which the change is taken, s
+        type(event_box_t), intent(inout) :: events(:)
+        real(dp), intent(out) :: value, slope
+        real(dp) :: this, rate, later, q_later(system%ndof), v_later(system%ndof)
+        integer :: i
+
+        value = huge(value)
+        slope = 1.0_dp
+        q_later = q
+        v_later = v
+        call go_on(system, t, h, q_later, v_later)
+        do i = 1, size(events)
+            if (.not. events(i)%item%terminal) cycle
+            this = events(i)%item%value(system, t, q, v)
+            later = events(i)%item%value(system, t + h, q_later, v_later)
+            rate = (later - this)/h
+            if (.not. abs(rate) > 0.0_dp) rate = tiny(rate)
+            if (abs(this*slope) > abs(value*rate)) cycle
+            value = this
+            slope = rate
+        end do
+    end subroutine event_slope
+end module lagrangia_second_opinion
