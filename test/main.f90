@@ -77,8 +77,10 @@ module suites
     use test_output_failures, only: output_failures_suite
     use test_output_file, only: output_file_suite
     use test_own_system, only: own_system_suite
+    use test_partial_files, only: partial_files_suite
     use test_pendulum, only: pendulum_suite
     use test_period, only: period_suite
+    use test_places, only: places_suite
     use test_plan, only: plan_suite
     use test_precision_curve, only: precision_curve_suite
     use test_principles, only: principles_suite
@@ -95,6 +97,7 @@ module suites
     use test_roots, only: roots_suite
     use test_rotating_reference, only: rotating_reference_suite
     use test_run, only: run_suite
+    use test_run_disks, only: run_disks_suite
     use test_scene_files, only: scene_files_suite
     use test_scene_steps, only: scene_steps_suite
     use test_scenes, only: scenes_suite
@@ -200,8 +203,10 @@ contains
         call suite%addTest(output_failures_suite())
         call suite%addTest(output_file_suite())
         call suite%addTest(own_system_suite())
+        call suite%addTest(partial_files_suite())
         call suite%addTest(pendulum_suite())
         call suite%addTest(period_suite())
+        call suite%addTest(places_suite())
         call suite%addTest(plan_suite())
         call suite%addTest(precision_curve_suite())
         call suite%addTest(principles_suite())
@@ -217,6 +222,7 @@ contains
         call suite%addTest(roots_suite())
         call suite%addTest(rotating_reference_suite())
         call suite%addTest(run_suite())
+        call suite%addTest(run_disks_suite())
         call suite%addTest(scene_files_suite())
         call suite%addTest(scene_steps_suite())
         call suite%addTest(scenes_suite())

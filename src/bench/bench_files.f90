@@ -8,14 +8,17 @@ module lagrangia_bench_files
     use lagrangia_kinds, only: dp
     use lagrangia_machine, only: processor
     use lagrangia_output_file, only: output_file_t
-    use lagrangia_scene_files, only: script_path
+    use lagrangia_output_trials, only: refuse_unwritable
+    use lagrangia_places, only: places_t
+    use lagrangia_scene_claims, only: claim_table
+    use lagrangia_scene_files, only: data_path, script_path
     use lagrangia_text, only: to_text
     use lagrangia_text_table, only: text_table_t
     use lagrangia_version, only: build_text, version
     use lagrangia_work_precision, only: curve_t
     implicit none (type, external)
     private
-    public :: write_bench_files
+    public :: check_bench_files, write_bench_files
 
     character(*), parameter :: file_name = "bench.dat"
     integer, parameter :: header_length = 200
@@ -26,6 +29,19 @@ module lagrangia_bench_files
         "#6b8e23", "#00a087", "#b8860b", "#8b008b"]
 
 contains
+
+    subroutine check_bench_files(folder, error)
+        !! Fails where the files could not be written now: before hours are spent on what they hold.
+        character(*), intent(in) :: folder
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: path
+        type(places_t) :: places
+
+        path = data_path(folder, file_name, "text")
+        call claim_table(path, "data", "", places, error)
+        if (.not. allocated(error)) call refuse_unwritable(path, error)
+        if (.not. allocated(error)) call refuse_unwritable(script_path(path), error)
+    end subroutine check_bench_files
 
     subroutine write_bench_files(folder, problems, curves, path, error)
         !! `folder/bench.dat` and `folder/bench.gp`; a block of the data file, two blank lines
@@ -44,8 +60,7 @@ contains
         integer :: i, k
 
         call find_methods(curves, methods)
-        path = folder//"/"//file_name
-        if (folder(len(folder):) == "/") path = folder//file_name
+        path = data_path(folder, file_name, "text")
         call table%file%open(path, error)
         if (allocated(error)) return
         call table%begin(header(problems, methods), names, units, error)

@@ -1,11 +1,11 @@
 module lagrangia_bench
     !! `lagrangia bench [PART...]`: what the methods cost, beside GSL's, in one run.
     use lagrangia_bench_choice, only: bench_choice_t, parts, read_choice
-    use lagrangia_bench_files, only: write_bench_files
+    use lagrangia_bench_files, only: check_bench_files, write_bench_files
     use lagrangia_bench_problems, only: bench_problem_t, read_problems
     use lagrangia_bench_table, only: bench_table_t
     use lagrangia_command_line, only: command_line_t
-    use lagrangia_console, only: put_line
+    use lagrangia_console, only: console_failed, flush_console, put_line
     use lagrangia_contestant, only: contestant_box_t
     use lagrangia_contestants, only: new_contestants
     use lagrangia_energy_bench, only: measure_energy
@@ -52,6 +52,8 @@ contains
         if (allocated(error)) return
         call read_choice(line, choice, error)
         if (allocated(error)) return
+        if (any(choice%parts == "precision")) call check_bench_files(choice%folder, error)
+        if (allocated(error)) return
         watcher => progress
         output%json = line%has("json")
         output%quiet = line%has("quiet")
@@ -88,10 +90,10 @@ contains
                 call output%show(table, progress)
                 call goals_of_output(table, goals)
             end select
-            if (allocated(error)) exit
+            if (allocated(error) .or. console_failed()) exit
         end do
         call progress%clear()
-        if (allocated(error)) return
+        if (allocated(error) .or. console_failed()) return
         if (goals%rows > 0) call output%show(goals, progress)
         if (output%json) call put_line("]")
     contains
@@ -165,6 +167,7 @@ contains
                 call put_line("  "//table%line(i))
             end do
         end if
+        call flush_console()
     end subroutine show
 
     subroutine say(self, text)

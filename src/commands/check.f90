@@ -4,7 +4,7 @@ module lagrangia_check
     use lagrangia_audited, only: audited_t, read_audited
     use lagrangia_catalogue, only: refuse_name, system_names
     use lagrangia_command_line, only: command_line_t
-    use lagrangia_console, only: note, put_line
+    use lagrangia_console, only: console_failed, flush_console, note, put_line
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_findings, only: audit_t, claim_length, finding_t
@@ -33,6 +33,9 @@ contains
 
         call choose(line, audited, methods, error)
         if (allocated(error)) return
+        if (line%has("json")) call put_line("[")
+        call flush_console()
+        if (console_failed()) return
         do i = 1, size(audited)
             call announce(audited(i)%system, audited(i)%given)
             call audit_system(audited(i)%system, audit, audited(i)%fixed, audited(i)%given)
@@ -166,11 +169,10 @@ contains
     end function to_wide
 
     subroutine put_json(audit)
-        !! The rows as an array of objects.
+        !! The rows as objects of the array that was begun, and its end.
         type(audit_t), intent(in) :: audit
         integer :: i
 
-        call put_line("[")
         do i = 1, size(audit%findings)
             call put_line(json_row(audit%findings(i))// &
                           trim(merge(",", " ", i < size(audit%findings))))

@@ -1,13 +1,13 @@
 module lagrangia_modes_command
     !! `lagrangia modes SYSTEM`: small oscillations, LAPACK's answer beside the page's.
     use lagrangia_command_line, only: command_line_t
-    use lagrangia_console, only: put_line
+    use lagrangia_console, only: note, put_line
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_json, only: json_list, json_number, json_string
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_modes_files, only: write_mode
+    use lagrangia_modes_files, only: prepare_modes, write_mode
     use lagrangia_number_list, only: read_numbers
     use lagrangia_number_text, only: scientific
     use lagrangia_progress, only: progress_t
@@ -35,7 +35,7 @@ contains
         type(modes_t) :: modes, others
         type(progress_t) :: progress
         real(dp), allocatable :: at(:)
-        character(:), allocatable :: json
+        character(:), allocatable :: json, warning
         logical :: elsewhere
         integer :: j
 
@@ -51,6 +51,11 @@ contains
         allocate (at(system%ndof), source=0.0_dp)
         if (line%has("at")) call read_numbers("--at", line%value_of("at", ""), at, error)
         if (allocated(error)) return
+        if (line%has("output")) then
+            call prepare_modes(system, line%value_of("output", ""), warning, error)
+            if (allocated(error)) return
+            if (warning /= "" .and. .not. line%has("quiet")) call note(warning)
+        end if
         call find_modes(system, at, line%has("at"), modes, error)
         if (allocated(error)) return
         elsewhere = allocated(modes%page%elsewhere) .and. .not. line%has("at")

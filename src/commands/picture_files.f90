@@ -3,7 +3,9 @@ module lagrangia_picture_files
     use lagrangia_errors, only: error_t
     use lagrangia_gnuplot, only: gnuplot_script, new_panels, panel_t
     use lagrangia_output_file, only: output_file_t
+    use lagrangia_places, only: places_t
     use lagrangia_report, only: heading_length, picture_t
+    use lagrangia_scene_claims, only: claim_table
     use lagrangia_scene_files, only: script_path
     use lagrangia_text, only: to_text
     use lagrangia_text_table, only: text_table_t
@@ -20,6 +22,7 @@ contains
         character(*), intent(in) :: folder
         character(:), allocatable, intent(out) :: path
         type(error_t), allocatable, intent(out) :: error
+        type(places_t) :: places
         type(text_table_t) :: table
         type(output_file_t) :: script
         type(panel_t), allocatable :: panels(:)
@@ -32,6 +35,8 @@ contains
         if (allocated(error)) return
         path = folder//"/"//trim(picture%file)//".dat"
         if (folder(len(folder):) == "/") path = folder//trim(picture%file)//".dat"
+        call claim_table(path, "data", "", places, error)
+        if (allocated(error)) return
         header(1) = "lagrangia "//version//": "//picture%title
         header(2) = "build: "//build_text()
         call table%file%open(path, error)

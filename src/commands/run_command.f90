@@ -6,10 +6,12 @@ module lagrangia_run_command
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_json, outcome_t, scorecard_head, scorecard_legend, &
                                  scorecard_row
+    use lagrangia_places, only: places_t
     use lagrangia_play, only: play
     use lagrangia_progress, only: progress_t
     use lagrangia_scene, only: scene_t
-    use lagrangia_scene_files, only: check_format, draw, script_path
+    use lagrangia_scene_claims, only: claim_files, claim_scene, size_warning
+    use lagrangia_scene_files, only: check_format, draw
     use lagrangia_scene_reader, only: read_scene
     use lagrangia_shipped, only: find_scene, shipped_scenes
     use lagrangia_statement, only: statement_legend, statement_line
@@ -50,7 +52,7 @@ contains
         if (kind /= "png" .and. kind /= "svg") call fail(error, "unknown picture format "// &
             quoted(kind)//"; there are png, svg")
         if (allocated(error)) return
-        call choose_scenes(line, paths, error)
+        call choose_scenes(line, folder, format, paths, error)
         if (allocated(error)) return
         if (.not. (is_optimised() .or. quiet)) call note("this build is not optimised; "// &
             "'fpm run --profile release' is several times faster")
@@ -117,6 +119,8 @@ contains
             if (allocated(error)) return
             warning = step_warning(scene, system)
             if (warning /= "" .and. .not. quiet) call note(path//": "//warning)
+            warning = size_warning(scene, folder, format)
+            if (warning /= "" .and. .not. quiet) call note(path//": "//warning)
             scene%error_estimate = scene%error_estimate .or. line%has("error-estimate")
             call progress%restart(trim(scene%name), quiet)
             call play(scene, system, folder, format, watcher, outcome, error)
@@ -128,15 +132,17 @@ contains
         end subroutine run_one
     end subroutine run_command
 
-    subroutine choose_scenes(line, paths, error)
-        !! The named scenes or all; every one is read, so that nothing runs if one is wrong.
+    subroutine choose_scenes(line, folder, format, paths, error)
+        !! The named scenes or all; every one is read, and all files of the run are compared, so
+        !! that nothing runs if one is wrong or a file would be lost.
         type(command_line_t), intent(in) :: line
+        character(*), intent(in) :: folder, format
         type(word_t), allocatable, intent(out) :: paths(:)
         type(error_t), allocatable, intent(out) :: error
         class(system_t), allocatable :: system
+        type(places_t) :: places
         type(scene_t) :: scene
-        character(len(scene%output)), allocatable :: outputs(:)
-        integer :: i
+        integer :: i, turn
 
         if (line%command == "") then
             call shipped_scenes(paths, error)
@@ -151,16 +157,21 @@ contains
             end do
         end if
         if (allocated(error)) return
-        allocate (outputs(size(paths)))
-        do i = 1, size(paths)
-            call read_scene(paths(i)%text, line%values_of("set"), scene, system, error)
-            if (allocated(error)) return
-            outputs(i) = script_path(trim(scene%output))
-            if (any(outputs(:i - 1) == outputs(i))) then
-                call fail(error, paths(i)%text//": another scene of this run writes the output "// &
-                          quoted(trim(scene%output))//" too")
-                return
-            end if
+        do turn = 1, 2  ! what is read comes before what is written
+            do i = 1, size(paths)
+                call read_scene(paths(i)%text, line%values_of("set"), scene, system, error)
+                if (allocated(error)) return
+                if (turn == 1) then
+                    call claim_scene(scene, places, error)
+                    if (allocated(error)) call fail(error, "this scene is given twice")
+                else
+                    call claim_files(scene, system, folder, format, places, error)
+                end if
+                if (allocated(error)) then
+                    call error%add_context(paths(i)%text)
+                    return
+                end if
+            end do
         end do
     end subroutine choose_scenes
 end module lagrangia_run_command

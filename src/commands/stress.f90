@@ -3,7 +3,7 @@ module lagrangia_stress
     use lagrangia_bench_table, only: short
     use lagrangia_catalogue, only: refuse_name
     use lagrangia_command_line, only: command_line_t
-    use lagrangia_console, only: put_line
+    use lagrangia_console, only: console_failed, flush_console, put_line
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_observer, only: observer_t
     use lagrangia_progress, only: progress_t
@@ -51,6 +51,8 @@ contains
                 call put_table(rows(i), verdicts%list(last + 1:))
             end if
             last = size(verdicts%list)
+            call flush_console()
+            if (console_failed()) return  ! whoever counts on the rest would wait for nothing
         end do
         if (json) then
             call put_line("]")

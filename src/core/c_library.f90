@@ -8,8 +8,8 @@ module lagrangia_c_library
     public :: c_access, c_alarm, c_chmod, c_close, c_dlsym, c_dup, c_errno, c_execvp, c_exit, &
               c_fclose, c_fdopen, c_fflush, c_fileno, c_flock, c_fopen, c_fork, c_free, c_fseek, &
               c_fwrite, c_fwrite_reals, c_getpid, c_getrlimit, c_isatty, c_kill, c_lstat, &
-              c_malloc, c_mkdir, c_realpath, c_remove, c_rename, c_signal, c_stat, c_strerror, c_strlen, c_waitpid, &
-              c_write
+              c_malloc, c_mkdir, c_realpath, c_remove, c_rename, c_signal, c_stat, c_statvfs, &
+              c_strerror, c_strlen, c_waitpid, c_write
 
     ! allow(assumed-size): C takes the address of the first element
     interface
@@ -167,6 +167,16 @@ module lagrangia_c_library
             type(c_ptr), value :: buffer
             type(c_ptr) :: text
         end function c_realpath
+
+        function c_statvfs(path, values) bind(c, name="statvfs") result(status)
+            !! Of a file system, on Linux with 64 bits: the second value is the size of its blocks,
+            !! the fifth how many of them users may still fill.
+            import :: c_char, c_int, c_long
+            implicit none (type, external)
+            character(kind=c_char), intent(in) :: path(*)
+            integer(c_long), intent(out) :: values(*)
+            integer(c_int) :: status
+        end function c_statvfs
 
         function c_getpid() bind(c, name="getpid") result(pid)
             import :: c_int

@@ -14,7 +14,9 @@ module lagrangia_output_file
     use lagrangia_unfinished, only: create, forget, remove_abandoned
     implicit none (type, external)
     private
-    public :: output_file_t
+    public :: output_file_t, partial_ending
+
+    character(*), parameter :: partial_ending = ".partial"  !! of what a run wrote that failed
 
     type :: output_file_t
         !! `open`, any number of `write`, then `commit` or `abandon`. Writing never fails aloud:
@@ -27,13 +29,17 @@ module lagrangia_output_file
         integer(i8) :: bytes = 0                !! written so far
         integer :: failure = 0                  !! the system's number of the first failure
         integer :: permissions = -1             !! of the file to be replaced, if there is one
+        logical, public :: partial = .false.    !! `commit` is to call it `NAME.partial`
     contains
         procedure :: open => open_file
         procedure :: write => write_text
         procedure :: write_reals
         procedure :: rewrite
+        procedure :: flush => flush_file
         procedure :: failed
+        procedure :: report
         procedure :: position
+        procedure :: name => final_name
         procedure :: temporary_name
         procedure :: commit
         procedure :: abandon
@@ -59,6 +65,7 @@ contains
         self%bytes = 0
         self%failure = 0
         self%permissions = -1
+        self%partial = .false.
         if (path == "" .or. index(path, c_null_char) > 0) then
             call refuse(error, path, "not a file name")
             return
@@ -167,6 +174,18 @@ contains
         end if
     end subroutine rewrite
 
+    subroutine flush_file(self)
+        !! Send what is held back to the disk, and look whether the file still has a name: a folder
+        !! may be removed during a long run.
+        class(output_file_t), intent(inout) :: self
+        type(facts_t) :: facts
+
+        if (.not. writable(self)) return
+        if (c_fflush(self%stream) /= 0) self%failure = last_error()
+        facts = look_at(self%temporary)
+        if (self%failure == 0 .and. .not. facts%found) self%failure = facts%status
+    end subroutine flush_file
+
     pure function failed(self)
         !! Whether something could not be written: a long run may stop early.
         class(output_file_t), intent(in) :: self
@@ -175,6 +194,15 @@ contains
         failed = self%failure /= 0
     end function failed
 
+    subroutine report(self, error)
+        !! Fails with the reason if something could not be written.
+        class(output_file_t), intent(in) :: self
+        type(error_t), allocatable, intent(out) :: error
+
+        if (.not. self%failed()) return
+        call refuse(error, self%path, reason(self%failure))
+    end subroutine report
+
     pure function position(self)
         !! How many bytes have been written: the offset of what comes next.
         class(output_file_t), intent(in) :: self
@@ -182,6 +210,14 @@ contains
 
         position = self%bytes
     end function position
+
+    pure function final_name(self) result(name)
+        !! What the file is called once it is committed.
+        class(output_file_t), intent(in) :: self
+        character(:), allocatable :: name
+
+        name = self%path
+    end function final_name
 
     function temporary_name(self) result(name)
         !! The absolute name, or one that begins with `./`, under which another program may fill
@@ -204,6 +240,8 @@ contains
             call refuse(error, self%path, "it is not open")
             return
         end if
+        if (self%partial) self%place = self%place//partial_ending
+        if (self%partial) self%path = self%place
         if (c_fflush(self%stream) /= 0 .and. self%failure == 0) self%failure = last_error()
         ! what only a close reports (NFS, quotas); a copy's, as our own would end the lock
         status = int(c_close(c_dup(c_fileno(self%stream))))
@@ -244,6 +282,7 @@ contains
         logical :: writable
 
         if (.not. c_associated(self%stream) .and. self%failure == 0) self%failure = e_bad_unit
+        if (.not. allocated(self%path)) self%path = ""
         writable = self%failure == 0
     end function writable
 

@@ -51,7 +51,8 @@ contains
         self%row(n + 1) = event
         self%low = min(self%low, self%row)
         self%high = max(self%high, self%row)
-        if (allocated(self%table)) call self%table%row(self%row)
+        if (allocated(self%table)) call self%table%add_row(self%row, error)
+        if (allocated(error)) return
         self%time = t
         self%rows = self%rows + 1
     end subroutine meet

@@ -62,7 +62,8 @@ contains
         end if
         self%low = min(self%low, self%row)
         self%high = max(self%high, self%row)
-        if (allocated(self%table)) call self%table%row(self%row(:self%shown))
+        if (allocated(self%table)) call self%table%add_row(self%row(:self%shown), error)
+        if (allocated(error)) return
         self%rows = self%rows + 1
     end subroutine observe
 

@@ -1,7 +1,7 @@
 module lagrangia_table
     !! The contract of a data file's format: a header, rows of numbers, an end.
     use lagrangia_errors, only: error_t
-    use lagrangia_kinds, only: dp
+    use lagrangia_kinds, only: dp, i8
     use lagrangia_output_file, only: output_file_t
     implicit none (type, external)
     private
@@ -9,7 +9,9 @@ module lagrangia_table
 
     type, abstract :: table_t
         type(output_file_t) :: file
+        integer(i8), private :: sent = 0       !! reading of the clock when rows last went to disk
     contains
+        procedure :: add_row
         procedure(begin_i), deferred :: begin  !! the header; `names` and `units` a column
         procedure(row_i), deferred :: row      !! one sample; failures are seen by `finish`
         procedure(finish_i), deferred :: finish
@@ -49,4 +51,23 @@ module lagrangia_table
             character(:), allocatable :: words
         end function reading_i
     end interface
+
+contains
+
+    subroutine add_row(self, values, error)
+        !! One sample of a long run, which must not compute for hours what cannot be written: fails
+        !! where a row could not be. After a second without, a row is sent to the disk at once.
+        class(table_t), intent(inout) :: self
+        real(dp), intent(in), contiguous :: values(:)
+        type(error_t), allocatable, intent(out) :: error
+        integer(i8) :: now, rate
+
+        call self%row(values)
+        call system_clock(now, rate)
+        if (abs(now - self%sent) > rate) then
+            call self%file%flush()
+            self%sent = now
+        end if
+        call self%file%report(error)
+    end subroutine add_row
 end module lagrangia_table

@@ -1,7 +1,7 @@
 module lagrangia_witness
     !! The observer that keeps the latest sample, and how large each number of the state has been.
     use lagrangia_errors, only: error_t
-    use lagrangia_kinds, only: dp
+    use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_t
     use lagrangia_system, only: system_t
     implicit none (type, external)
@@ -9,6 +9,7 @@ module lagrangia_witness
     public :: witness_t
 
     type, extends(observer_t) :: witness_t
+        integer(i8) :: samples = 0                 !! seen so far
         real(dp) :: t = 0.0_dp                     !! of the latest sample, s
         real(dp), allocatable :: q(:), v(:)        !! that sample; absent: there was none
         real(dp), allocatable :: q_most(:), v_most(:)  !! the largest magnitudes so far
@@ -27,6 +28,7 @@ contains
 
         if (.not. allocated(self%q)) allocate (self%q_most, source=abs(q))
         if (.not. allocated(self%q)) allocate (self%v_most, source=abs(v))
+        self%samples = self%samples + 1
         self%t = t
         self%q = q
         self%v = v

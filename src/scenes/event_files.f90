@@ -6,14 +6,15 @@ module lagrangia_event_files
     use lagrangia_events, only: event_box_t
     use lagrangia_gnuplot, only: dots, gnuplot_script, panel_t
     use lagrangia_output_file, only: output_file_t
+    use lagrangia_output_trials, only: remove_partial
     use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
-    use lagrangia_scene_files, only: data_path, new_table, script_path
+    use lagrangia_scene_files, only: data_path, new_table, script_path, send_header
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     use lagrangia_version, only: build_text, version
     implicit none (type, external)
     private
-    public :: open_event_file, finish_event_file
+    public :: event_path, open_event_file, finish_event_file
 
 contains
 
@@ -55,7 +56,7 @@ contains
         call record%table%begin(header, [character(name_length) :: record%columns%names(n), &
                                          "event"], &
                                 [character(16) :: record%columns%units(n), "1"], error)
-        if (allocated(error)) call record%table%file%abandon()
+        call send_header(record%table, error)
     end subroutine open_event_file
 
     subroutine finish_event_file(scene, folder, format, record, panels, drawn, error)
@@ -73,8 +74,10 @@ contains
         drawn = ""
         if (.not. allocated(record%table)) return
         call record%table%finish("events: "//to_text(record%rows), error)
-        if (allocated(error) .or. record%rows < 2 .or. size(panels) == 0) return
+        if (allocated(error)) return
         path = event_path(scene, folder, format)
+        call remove_partial(path)
+        if (record%rows < 2 .or. size(panels) == 0) return
         n = size(record%columns%items)
         call script%open(script_path(path), error)
         if (allocated(error)) return

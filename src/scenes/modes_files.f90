@@ -1,21 +1,65 @@
 module lagrangia_modes_files
     !! One period of a mode as a data file with its gnuplot script, ready to animate.
     use lagrangia_description, only: description_t, name_length
+    use lagrangia_disk_space, only: space_warning
     use lagrangia_errors, only: error_t
     use lagrangia_gnuplot, only: gnuplot_script, new_panels, panel_t
     use lagrangia_kinds, only: dp
+    use lagrangia_number_text, only: field_width
     use lagrangia_output_file, only: output_file_t
+    use lagrangia_output_trials, only: refuse_unwritable
+    use lagrangia_places, only: places_t
+    use lagrangia_scene_claims, only: claim_table
+    use lagrangia_scene_files, only: data_path, script_path
     use lagrangia_small_oscillations, only: is_oscillation, is_unstable, modes_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     use lagrangia_text_table, only: text_table_t
     implicit none (type, external)
     private
-    public :: write_mode
+    public :: prepare_modes, write_mode
 
     integer, parameter :: samples = 200
 
 contains
+
+    subroutine prepare_modes(system, folder, warning, error)
+        !! Fails where two of the files are one, or the first could not be written now; says how
+        !! much all will hold, if that is very much. To be called before modes are looked for.
+        class(system_t), intent(in) :: system
+        character(*), intent(in) :: folder
+        character(:), allocatable, intent(out) :: warning  !! a line for the user, or nothing
+        type(error_t), allocatable, intent(out) :: error
+        type(places_t) :: places
+        integer :: j
+
+        warning = space_warning(size_of_modes(system), folder)
+        do j = 1, system%ndof
+            call claim_table(mode_path(system, j, folder), "data", "", places, error)
+            if (allocated(error)) return
+        end do
+        call refuse_unwritable(mode_path(system, 1, folder), error)
+    end subroutine prepare_modes
+
+    pure function size_of_modes(system) result(bytes)
+        !! Of all data files together, without their headers.
+        class(system_t), intent(in) :: system
+        real(dp) :: bytes
+
+        bytes = real(system%ndof, dp)*(samples + 1)*(1 + system%ndof)*(field_width + 1)
+    end function size_of_modes
+
+    pure function mode_path(system, j, folder) result(path)
+        !! `folder/SYSTEM_mode_J.dat`.
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: j
+        character(*), intent(in) :: folder
+        character(:), allocatable :: path
+        type(description_t) :: d
+
+        call system%describe(d)
+        path = data_path(folder, trim(d%name)//"_mode_"//to_text(j), "text")
+    end function mode_path
 
     subroutine write_mode(system, modes, j, folder, error)
         !! `SYSTEM_mode_J.dat`: the equilibrium plus a tenth of the shape times \(\cos\omega t\)
@@ -44,10 +88,10 @@ contains
         names(2:) = d%coordinates%name
         units(1) = "s"
         units(2:) = d%coordinates%unit
-        path = folder//"/"//trim(d%name)//"_mode_"//to_text(j)
+        path = mode_path(system, j, folder)
         header(1) = trim(d%name)//", mode "//to_text(j)//": omega^2 = "// &
                     to_text(modes%omega2(j) + 0.0_dp)  ! no sign of a zero
-        call table%file%open(path//".dat", error)
+        call table%file%open(path, error)
         if (allocated(error)) return
         call table%begin(header, names, units, error)
         if (allocated(error)) return
@@ -76,7 +120,7 @@ contains
         if (allocated(error)) return
         call new_panels([character(1) ::], names, units, panels, error)
         if (allocated(error)) return
-        call script%open(path//".gp", error)
+        call script%open(script_path(path), error)
         if (allocated(error)) return
         call script%write(gnuplot_script(trim(d%name)//"_mode_"//to_text(j)//".dat", "", &
                                          trim(header(1)), names, units, low, high, panels))

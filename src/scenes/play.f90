@@ -17,12 +17,14 @@ module lagrangia_play
     use lagrangia_observer, only: observer_box_t, observer_t
     use lagrangia_outcome, only: from_closed_form, from_half_step, from_steps, &
                                  measure_t, outcome_t
+    use lagrangia_partial_runs, only: keep_parts, planned
     use lagrangia_period, only: period_t
     use lagrangia_record, only: record_t
     use lagrangia_reduced_motion, only: reduced_motion_t
     use lagrangia_reference, only: reference_t
     use lagrangia_run, only: plan_t
     use lagrangia_scene, only: scene_t
+    use lagrangia_scene_claims, only: claim_alone
     use lagrangia_scene_files, only: abandon_files, finish_files, open_files
     use lagrangia_staging, only: stage_events, stage_method, stage_shadow
     use lagrangia_system, only: system_t
@@ -75,8 +77,8 @@ contains
     subroutine play(scene, system, folder, format, watcher, outcome, error)
         !! Run `scene` and write its files below `folder` (`""`: write none).
         !!
-        !! A run that fails on its numbers (status 3) keeps the rows that were good; any other
-        !! failure leaves no file, and an existing one as it was.
+        !! A run that fails on its numbers (status 3) keeps the rows that were good, as files called
+        !! `NAME.partial`; any other failure leaves none. Existing files stay as they were.
         type(scene_t), intent(in) :: scene
         class(system_t), intent(in) :: system
         character(*), intent(in) :: folder, format
@@ -100,13 +102,17 @@ contains
         type(error_t), allocatable, intent(out) :: error
         type(performance_t), target :: p
         type(observer_box_t) :: observers(5)
+        type(description_t) :: d
         type(error_t), allocatable :: file_error
+        logical :: complete
         integer :: n
 
         call rehearse(scene, system, p, error)
         outcome = p%outcome
         if (allocated(error)) return
         if (folder /= "") then
+            call claim_alone(scene, system, folder, format, error)
+            if (allocated(error)) return
             call open_files(scene, system, outcome%choice, folder, format, p%record, &
                             outcome%file, error)
             if (allocated(error)) return
@@ -121,14 +127,16 @@ contains
         call join(p%witness)
         if (size(p%record%columns%items) > 0) call join(p%record)
         if (scene%period_of /= "") then
-            call find_coordinate(system, scene%period_of, p%period%coordinate)
+            call system%describe(d)
+            p%period%coordinate = findloc(d%coordinates%name == scene%period_of, .true., 1)
             p%period%follows = .true.
             call join(p%period)
         end if
         if (size(p%events) > 0) call join(p%event_record)
         if (associated(watcher)) call join(watcher)
         call timed_run(system, p, observers(:n), outcome, error)
-        if (scene%error_estimate .and. .not. allocated(error)) call state_accuracy(p%scene, &
+        complete = .not. allocated(error)
+        if (scene%error_estimate .and. complete) call state_accuracy(p%scene, &
             system, p%reference, p%witness, outcome%steps, watcher, outcome%state, error)
         if (allocated(error)) then
             outcome%t = scene%t0
@@ -145,6 +153,10 @@ contains
         end if
         call take_measures(scene, p%record, p%period, p%reference, outcome)
         call take_modes(scene, system, outcome)
+        if (.not. complete) then
+            call keep_parts(p%plan, p%record, p%event_record, outcome, error)
+            return
+        end if
         if (allocated(p%event_record%table)) then
             call finish_event_file(scene, folder, format, p%event_record, p%event_panels, &
                                    outcome%events, file_error)
@@ -176,10 +188,12 @@ contains
             " (the last one shortened to "// &
             to_text(p%plan%rest)//" s)"
         call system_clock(start, rate)
-        outcome%steps = p%plan%steps + merge(1, 0, p%plan%rest > 0.0_dp)
+        outcome%steps = planned(p%plan)
         call drive(system, p%integrator, p%plan, p%events, observers, outcome%q, outcome%v, &
                    outcome%t, error)
         call system_clock(finish)
+        if (allocated(error)) outcome%steps = min(outcome%steps, &
+            p%plan%every*max(0_i8, p%witness%samples - 1))
         if (p%plan%equal > 0 .or. size(p%events) > 0 .or. p%scene%method == exact) then
             select type (method => p%integrator)
             class is (dense_integrator_t)
@@ -284,15 +298,4 @@ contains
             if (allocated(error)) return
         end do
     end subroutine check_period
-
-    pure subroutine find_coordinate(system, name, index)
-        !! The number of the coordinate called `name`.
-        class(system_t), intent(in) :: system
-        character(*), intent(in) :: name
-        integer, intent(out) :: index
-        type(description_t) :: d
-
-        call system%describe(d)
-        index = findloc(d%coordinates%name == name, .true., 1)
-    end subroutine find_coordinate
 end module lagrangia_play

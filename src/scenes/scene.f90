@@ -7,7 +7,7 @@ module lagrangia_scene
     private
     public :: scene_t, expectation_t, scene_lines, scene_line_length
 
-    integer, parameter :: scene_line_length = 512  !! what a single value may need
+    integer, parameter :: scene_line_length = 600  !! what a single value may need
     integer, parameter :: short_line = 100         !! a list goes on in the next line
 
     type :: expectation_t
@@ -18,12 +18,12 @@ module lagrangia_scene
 
     type :: scene_t
         character(:), allocatable :: source        !! the file it was read from
-        character(name_length) :: name = ""        !! file name without folder and ending
+        character(255) :: name = ""                !! file name without folder and ending
         character(200) :: title = ""
         character(name_length) :: system = ""
         character(name_length) :: method = "rk4"
         logical :: compensated = .false.           !! sums that keep what rounding drops
-        character(200) :: output = ""              !! below the output folder
+        character(255) :: output = ""              !! below the output folder
         real(dp) :: t0 = 0.0_dp, dt = 0.0_dp, duration = 0.0_dp  !! s
         integer(i8) :: every = 1
         real(dp) :: tolerance = 0.0_dp             !! above 0: the method chooses its steps,

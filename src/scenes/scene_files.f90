@@ -3,12 +3,13 @@ module lagrangia_scene_files
     use lagrangia_csv_table, only: csv_table_t
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail, status_file
-    use lagrangia_files, only: plain_path, same_file
+    use lagrangia_files, only: plain_path
     use lagrangia_gnuplot, only: gnuplot_script, panel_t
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_npy, only: npy_table_t
     use lagrangia_outcome, only: outcome_t
     use lagrangia_output_file, only: output_file_t
+    use lagrangia_output_trials, only: remove_partial
     use lagrangia_processes, only: run_program
     use lagrangia_record, only: record_t
     use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
@@ -20,7 +21,7 @@ module lagrangia_scene_files
     implicit none (type, external)
     private
     public :: check_format, open_files, finish_files, abandon_files, draw, &
-              script_path, data_path, new_table
+              send_header, script_path, data_path, new_table
 
     character(4), parameter :: formats(3) = ["text", "csv ", "npy "]
     character(4), parameter :: endings(3) = [".dat", ".csv", ".npy"]
@@ -134,16 +135,9 @@ contains
         type(error_t), allocatable, intent(out) :: error
         character(scene_line_length) :: first, last(2)
         type(description_t) :: d
-        logical :: itself
 
         call new_table(format, record%table)
         path = data_path(folder, trim(scene%output), format)
-        itself = same_file(path, scene%source)
-        if (.not. itself) itself = same_file(script_path(path), scene%source)
-        if (itself) then
-            call fail(error, "the output '"//path//"' is the scene itself", key="output")
-            return
-        end if
         call record%table%file%open(path, error)
         if (allocated(error)) return
         call system%describe(d)
@@ -153,8 +147,20 @@ contains
         call record%table%begin([first, scene_lines(scene, d), pack(last, last /= "")], &
                                 record%columns%names(record%shown), &
                                 record%columns%units(record%shown), error)
-        if (allocated(error)) call record%table%file%abandon()
+        call send_header(record%table, error)
     end subroutine open_files
+
+    subroutine send_header(table, error)
+        !! To the disk, before anything is computed: it may be full. `error` may be `begin`'s.
+        class(table_t), intent(inout) :: table
+        type(error_t), allocatable, intent(inout) :: error
+
+        if (.not. allocated(error)) then
+            call table%file%flush()
+            call table%file%report(error)
+        end if
+        if (allocated(error)) call table%file%abandon()
+    end subroutine send_header
 
     subroutine finish_files(scene, folder, format, record, panels, outcome, error)
         !! Complete the data file under its name, and write the script beside it.
@@ -177,6 +183,7 @@ contains
                                  ", rows: "//to_text(outcome%rows), error)
         if (allocated(error)) return
         path = data_path(folder, trim(scene%output), format)
+        call remove_partial(path)
         call script%open(script_path(path), error)
         if (allocated(error)) return
         call script%write(gnuplot_script( &

@@ -185,7 +185,8 @@ contains
         if (allocated(error)) return
         if (bad_output(trim(scene%output))) call refuse_value(tree, "scene", "output", &
             "a file name below the output folder is needed: letters, digits, . _ - / and "// &
-            "blanks, not absolute, without '..', not ending in .gp", error)
+            "blanks, not absolute, without '..', not ending in .gp, .nml, .png, .svg or .partial", &
+            error)
     end subroutine read_columns
 
     subroutine read_events(tree, system, scene, error)
@@ -267,12 +268,14 @@ contains
         character(*), intent(in) :: name
         logical :: bad
 
+        character(8), parameter :: others(*) = [character(8) :: ".gp", ".nml", ".png", ".svg", &
+                                                ".partial"]  ! scripts, scenes, pictures
         character(*), parameter :: letters = "abcdefghijklmnopqrstuvwxyz"// &
                                              "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-/ "
 
         bad = len(name) == 0 .or. index("/"//name//"/", "/../") > 0 .or. index(name, "//") > 0
         if (bad) return
-        bad = index(name//"|", ".gp|") > 0  ! the script's name
+        bad = any(name(max(1, index(name, ".", back=.true.)):) == others)
         if (bad) return
         bad = scan(name(1:1), " /-") == 1 .or. scan(name(len(name):), "/") == 1 .or. &
               index("/"//name//"|", "/.|") > 0 .or. verify(name, letters) > 0

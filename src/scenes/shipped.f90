@@ -3,7 +3,6 @@ module lagrangia_shipped
     use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_funptr, c_int, &
                                            c_null_char, c_null_funptr, c_ptr, c_size_t
     use lagrangia_command_line, only: has_outer_blanks, is_same, word_t
-    use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, fail, status_file, status_usage
     use lagrangia_files, only: facts_t, look_at
     use lagrangia_namelist_tree, only: short_source
@@ -83,7 +82,7 @@ contains
         character(:), allocatable, intent(out) :: path
         type(error_t), allocatable, intent(out) :: error
         type(word_t), allocatable :: paths(:)
-        character(name_length), allocatable :: names(:)
+        character(255), allocatable :: names(:)  !! no file's name is longer
         character(:), allocatable :: near
         type(facts_t) :: facts
         logical :: is_path

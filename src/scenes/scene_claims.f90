@@ -1,0 +1,89 @@
+module lagrangia_scene_claims
+    !! All files of a scene, so that those of a run can be compared before any of them is written.
+    use lagrangia_disk_space, only: space_warning
+    use lagrangia_errors, only: error_t
+    use lagrangia_event_files, only: event_path
+    use lagrangia_kinds, only: dp
+    use lagrangia_number_text, only: field_width
+    use lagrangia_output_file, only: partial_ending
+    use lagrangia_places, only: places_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_scene_files, only: data_path, script_path
+    use lagrangia_system, only: system_t
+    implicit none (type, external)
+    private
+    public :: claim_alone, claim_files, claim_scene, claim_table, size_warning
+
+contains
+
+    subroutine claim_alone(scene, system, folder, format, error)
+        !! Of a run of this scene only: see `claim_files`.
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        character(*), intent(in) :: folder, format
+        type(error_t), allocatable, intent(out) :: error
+        type(places_t) :: places
+
+        call claim_scene(scene, places, error)
+        if (.not. allocated(error)) call claim_files(scene, system, folder, format, places, error)
+    end subroutine claim_alone
+
+    subroutine claim_scene(scene, places, error)
+        !! The file that the scene was read from; fails where it was claimed before.
+        type(scene_t), intent(in) :: scene
+        type(places_t), intent(inout) :: places
+        type(error_t), allocatable, intent(out) :: error
+
+        if (allocated(scene%source)) call places%add(scene%source, "scene", "", error)
+    end subroutine claim_scene
+
+    subroutine claim_files(scene, system, folder, format, places, error)
+        !! What a run of the scene may write, or its scripts draw; fails (status 2) where a file of
+        !! it is one that was claimed before. Claim all scenes of a run first.
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        character(*), intent(in) :: folder, format
+        type(places_t), intent(inout) :: places
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: owner
+
+        owner = trim(scene%name)
+        call claim_table(data_path(folder, trim(scene%output), format), "data", owner, places, &
+                         error)
+        if (allocated(error)) return
+        if (.not. (allocated(scene%events) .or. system%contacts > 0)) return
+        call claim_table(event_path(scene, folder, format), "event", owner, places, error)
+    end subroutine claim_files
+
+    subroutine claim_table(path, kind, owner, places, error)
+        !! The table at `path`, what remains of it where its run fails, its script and pictures.
+        character(*), intent(in) :: path, kind, owner
+        type(places_t), intent(inout) :: places
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: stem
+
+        stem = script_path(path)
+        stem = stem(:len(stem) - 2)
+        call places%add(path, kind//" file", owner, error)
+        if (.not. allocated(error)) call places%add(stem//"gp", kind//" script", owner, error)
+        if (.not. allocated(error)) call places%add(stem//"png", kind//" picture", owner, error)
+        if (.not. allocated(error)) call places%add(stem//"svg", kind//" picture", owner, error)
+        if (.not. allocated(error)) call places%add(path//partial_ending, "partial "//kind// &
+                                                    " file", owner, error)
+    end subroutine claim_table
+
+    function size_warning(scene, folder, format) result(text)
+        !! A line for the user where a run of the scene would write very much, or more than there is
+        !! room for; else nothing.
+        type(scene_t), intent(in) :: scene
+        character(*), intent(in) :: folder, format
+        character(:), allocatable :: text
+        real(dp) :: rows
+        integer :: width
+
+        rows = real(scene%samples, dp)
+        if (scene%tolerance <= 0.0_dp) rows = scene%duration/scene%dt/scene%every
+        width = merge(8, field_width + 1, format == "npy")
+        text = space_warning((rows + 1.0_dp)*width*size(scene%columns), folder)
+    end function size_warning
+end module lagrangia_scene_claims
