@@ -72,7 +72,7 @@ for signal in $endings; do
             *) begin_command $writer ;;
         esac
         ended "${signal%:*}"
-        check "$writer: SIG${signal%:*} ends it, status ${signal#*:}" eval '[ $status -eq ${signal#*:} ] && one_line && { [ ! -e "$folder" ] || leftovers "$folder"; }'
+        check "$writer: SIG${signal%:*} ends it, status ${signal#*:}" eval '[ $status -eq ${signal#*:} ] && only_ours && { [ ! -e "$folder" ] || leftovers "$folder"; }'
     done
     folder=$work/many${signal%:*}
     begin_command modes hanging_chain --set hanging_chain%n=200 --output "$folder"

@@ -42,6 +42,10 @@ one_line() { # ours, short, and no backtrace
         [ "$(wc -c <"$work/err")" -le 301 ] && ! grep -qi 'backtrace\|#0 ' "$work/err"
 }
 
+only_ours() { # one line or, after a warning, more: all ours
+    [ -s "$work/err" ] && ! grep -qv '^lagrangia: ' "$work/err"
+}
+
 leftovers() { # no temporary in the folder
     [ -z "$(find "$1" -name '.lagrangia-*')" ]
 }

@@ -137,8 +137,9 @@ contains
         call assertTrue(free > 0.0_dp, "the disk of the tests is full")
         call assertEqual(free, free_space("./none/of/these"), 0.5_dp*free, "a folder to come")
         call assertTrue(free_space("/proc") <= 0.0_dp, "no room for anything in /proc")
-        call assertEqual("up to 1.0 kB are to be written, but only 0.0 kB are free in "// &
-                         "'/proc/none'", space_warning(1e3_dp, "/proc/none"))
+        call assertEqual("", space_warning(1e3_dp, "/proc/none"), "no room at all is an error")
+        call assertTrue(index(space_warning(2.0_dp*free, "."), " are to be written, but only ") &
+                        > 0, "twice as much as there is room for")
         if (free > 2e9_dp) call assertEqual(1, index(space_warning(1.25e9_dp, "."), &
             "up to 1.2 GB are to be written in '.', where "), space_warning(1.25e9_dp, "."))
     end subroutine much_is_announced

@@ -63,6 +63,8 @@ contains
         call new_goals(goals)
         do i = 1, size(parts)
             if (.not. any(choice%parts == parts(i))) cycle
+            call flush_console()
+            if (console_failed()) return  ! nobody would see the rest
             call progress%restart("bench "//trim(parts(i)), line%has("quiet"))
             select case (parts(i))
             case ("precision")
@@ -90,10 +92,10 @@ contains
                 call output%show(table, progress)
                 call goals_of_output(table, goals)
             end select
-            if (allocated(error) .or. console_failed()) exit
+            if (allocated(error)) exit
         end do
         call progress%clear()
-        if (allocated(error) .or. console_failed()) return
+        if (allocated(error)) return
         if (goals%rows > 0) call output%show(goals, progress)
         if (output%json) call put_line("]")
     contains

@@ -41,6 +41,8 @@ contains
         last = 0
         do i = 1, size(rows)
             if (.not. chosen(i)) cycle
+            call flush_console()
+            if (console_failed()) return  ! nobody would see the rest
             call progress%restart("stress "//trim(rows(i)%name))
             call measure_row(trim(rows(i)%name), line%has("long"), watcher, verdicts, error)
             call progress%clear()
@@ -51,8 +53,6 @@ contains
                 call put_table(rows(i), verdicts%list(last + 1:))
             end if
             last = size(verdicts%list)
-            call flush_console()
-            if (console_failed()) return  ! whoever counts on the rest would wait for nothing
         end do
         if (json) then
             call put_line("]")

@@ -44,7 +44,7 @@ contains
 
         text = ""
         free = free_space(folder)
-        if (free >= 0.0_dp .and. bytes > free) then
+        if (free > 0.0_dp .and. bytes > free) then  ! of no room at all the files speak themselves
             text = "up to "//short(bytes)//" are to be written, but only "//short(free)// &
                    " are free in '"//folder//"'"
         else if (bytes >= much) then
