@@ -6,7 +6,7 @@
 #   level only oscillations may use another: principles. src/lagrangia.f90 uses what it likes; nobody uses it.
 # - integrators and observers name no concrete system, observers no concrete integrator.
 # - only app/ and src/commands/ print or stop; lagrangia_console, which knows how, is theirs.
-# - src/ROOM/NAME.f90 holds one module, lagrangia_NAME, in at most 300 lines; app/main.f90 in 100.
+# - src/ROOM/NAME.f90 holds one module, lagrangia_NAME, in at most 450 lines; app/main.f90 in 100.
 #
 #   check_layers.sh [DIRECTORY]        the project, by default the one this script lies in
 set -u
@@ -159,7 +159,7 @@ END {
     for (i = 2; ARGV[i] != "pass=2"; i++) {
         name = ARGV[i]
         room = room_of(name)
-        limit = name == "app/main.f90" ? 100 : 300
+        limit = name == "app/main.f90" ? 100 : 450
         if (lines[name] > limit && name !~ /^test\/funit\//) complain("more than " limit " lines")
         if (room != "test" && room != "app" && !modules[name]) complain("no module here")
     }

@@ -230,7 +230,8 @@ contains
         call refused("--output=", "option '--output' needs the name of a folder")
         call refused("--tolerances=0", "tolerance 0.0 is not allowed: a number from 1e-16 to "// &
                      "below 1 is needed")
-        call refused("--tolerances=1e-3,nan", "--tolerances '1e-3,nan': 'nan': is not finite; a finite "// &
+        call refused("--tolerances=1e-3,nan", &
+                     "--tolerances '1e-3,nan': 'nan': is not finite; a finite "// &
                      "number is needed")
         call refused("--tolerances=1-3", "--tolerances '1-3': '1-3': lacks the letter of its "// &
                      "exponent (1.5e-3, not 1.5-3); sums are not computed")

@@ -216,7 +216,8 @@ contains
         call refused("&a x=1e-400 /", &
                      "1:6: &a: x: '1e-400' is too small for a double (at least 4.94066e-324, or 0)")
         call refused("&a x=-2.4e-324 /", &
-                     "1:6: &a: x: '-2.4e-324' is too small for a double (at least 4.94066e-324, "// &
+                     "1:6: &a: x: '-2.4e-324' is too small for a double "// &
+                     "(at least 4.94066e-324, "// &
                      "or 0)")
         call refused("&a x=-inf /", "1:6: &a: x: '-inf' is not finite; a finite number is needed")
         call refused("&a x=0x1F /", &

@@ -1,5 +1,5 @@
 module lagrangia_progress
-    !! How far a long run is, on a terminal's stderr; elsewhere one line that says how long it takes.
+    !! How far a long run is, on a terminal's stderr; elsewhere one line with the time it takes.
     use, intrinsic :: iso_fortran_env, only: error_unit
     use lagrangia_console, only: is_terminal, note, show_progress
     use lagrangia_errors, only: error_t

@@ -35,9 +35,9 @@ contains
         !! From now on a signal that asks the program to end (SIGHUP, SIGINT, SIGQUIT, SIGTERM,
         !! SIGXCPU) changes what `interrupt_status` returns; where nobody looks at that for a
         !! second, `give_up` is to end the program. The second of a kind ends it at once: by
-        !! `give_up` too, without one as if it was never caught. A signal that our parent had us ignore (`nohup`, a job in the background of a
-        !! script) stays ignored. A broken pipe or a file beyond `ulimit -f` no longer ends the
-        !! program: the write fails, and is reported.
+        !! `give_up` too, without one as if it was never caught. A signal that our parent had us
+        !! ignore (`nohup`, a job in the background of a script) stays ignored. A broken pipe or a
+        !! file beyond `ulimit -f` no longer ends the program: the write fails, and is reported.
         type(c_funptr), intent(in), optional :: give_up  !! a handler of signals
         integer :: i
 
