@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The rules of the house that no compiler knows:
 #
-# - arrows point left: core < numerics < systems < references, integrators, principles, oscillations
+# - arrows point left: core < namelist < numerics < systems < references, integrators, principles, oscillations
 #   < observers < scenes < ensembles < bench < stress < commands < app. Of the four rooms on one
 #   level only oscillations may use another: principles. src/lagrangia.f90 uses what it likes; nobody uses it.
 # - integrators and observers name no concrete system, observers no concrete integrator.
@@ -114,7 +114,7 @@ function examine(statement, head, word, used) {
 }
 
 BEGIN {
-    rooms = split("core numerics systems middle observers scenes ensembles bench stress commands app", order, " ")
+    rooms = split("core namelist numerics systems middle observers scenes ensembles bench stress commands app", order, " ")
     for (i = 1; i <= rooms; i++) {
         level[order[i]] = i
         prints_not[order[i]] = order[i] != "commands" && order[i] != "app"

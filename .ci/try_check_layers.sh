@@ -21,8 +21,9 @@ build_house() {
     mkdir -p "$house/app" "$house/test"
     module core kinds "use, intrinsic :: iso_fortran_env, only: real64"
     module core console "use, intrinsic :: iso_fortran_env, only: output_unit"
+    module namelist number_reader "use lagrangia_kinds, only: dp"
     module numerics roots "use lagrangia_kinds, only: dp"
-    module systems system "use lagrangia_roots, only: root"
+    module systems system "use lagrangia_roots, only: root" "use lagrangia_number_reader"
     module systems pendulum "use lagrangia_system, only: system_t" \
         "type, extends(system_t) :: pendulum_t"
     module references swing "use lagrangia_pendulum, only: pendulum_t"
@@ -57,6 +58,8 @@ if ! answer=$(bash "$check" "$house"); then
 fi
 
 module core kinds "use lagrangia_roots";                            refuses "core may not use numerics"
+module core kinds "use lagrangia_number_reader";                    refuses "core may not use namelist"
+module namelist number_reader "use lagrangia_roots";                refuses "namelist may not use numerics"
 module numerics roots "USE,non_intrinsic::Lagrangia_Pendulum";      refuses "numerics may not use systems"
 module systems system "integer :: i; use &" "    & lagrangia_rk4";  refuses "systems may not use integrators"
 module integrators rk4 "use lagrangia_swing";                       refuses "integrators may not use references"
