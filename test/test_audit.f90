@@ -126,7 +126,8 @@ contains
         !! No claim that the audit makes of any system is without one, up to whose it is.
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
-        character(:), allocatable :: names(:), claim
+        character(:), allocatable :: claim
+        character(32), allocatable :: names(:)
         type(audit_t) :: audit
         integer :: i, k, row
         logical :: covered
@@ -186,7 +187,7 @@ contains
 
     subroutine no_false_alarm_over_twelve_decades()
         !! `.ci/extremes` draws more of them.
-        character(:), allocatable :: names(:)
+        character(32), allocatable :: names(:)
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
         type(random_t) :: random

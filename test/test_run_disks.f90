@@ -56,8 +56,8 @@ contains
         status = 3
         if (outcome%steps > 1000 .or. outcome%steps < 1) return
         status = 4
-        if (error%status == status_file .and. outcome%file == "" .and. &
-            remove_file(new_folder("small"))) status = status_ok
+        if (error%status /= status_file .or. outcome%file /= "") return
+        if (remove_file(new_folder("small"))) status = status_ok
     end function run_on_a_small_disk
 
     subroutine a_full_disk_is_known_before()
@@ -79,8 +79,8 @@ contains
         status = 1
         if (allocated(error) .neqv. .true.) return
         status = 2
-        if (error%status == status_file .and. outcome%evaluations == 0 .and. &
-            remove_file(new_folder("none left"))) status = status_ok
+        if (error%status /= status_file .or. outcome%evaluations /= 0) return
+        if (remove_file(new_folder("none left"))) status = status_ok
     end function run_on_a_full_disk
 
     function ask_a_full_disk() result(status)
@@ -99,8 +99,8 @@ contains
         status = 2
         if (.not. allocated(error)) return
         status = 3
-        if (error%message == "cannot write '"//folder//"/a.dat': File too large" .and. &
-            remove_file(folder)) status = status_ok
+        if (error%message /= "cannot write '"//folder//"/a.dat': File too large") return
+        if (remove_file(folder)) status = status_ok
     end function ask_a_full_disk
 
     subroutine a_folder_that_went_is_missed()

@@ -4,6 +4,7 @@ module lagrangia_disk_space
     use lagrangia_c_library, only: c_statvfs
     use lagrangia_files, only: facts_t, folder_of, look_at
     use lagrangia_kinds, only: dp
+    use lagrangia_number_text, only: fixed
     implicit none (type, external)
     private
     public :: free_space, space_warning
@@ -58,15 +59,12 @@ contains
         real(dp), intent(in) :: bytes
         character(:), allocatable :: text
         character(2), parameter :: units(*) = ["kB", "MB", "GB", "TB", "PB"]
-        character(24) :: buffer
         integer :: k
 
         k = 1
         do while (k < size(units) .and. bytes >= 999.95_dp*1e3_dp**k)
             k = k + 1
         end do
-        write (buffer, "(f0.1)") bytes/1e3_dp**k
-        if (buffer(1:1) == ".") buffer = "0"//buffer
-        text = trim(buffer)//" "//units(k)
+        text = fixed(bytes/1e3_dp**k, 1)//" "//units(k)
     end function short
 end module lagrangia_disk_space

@@ -72,6 +72,8 @@ contains
 
         h = 0.1_dp/(1.0_dp + maxval(abs(v)) + sqrt(maxval(abs(a))))*0.25_dp**steps
         next = h
+        rate = 0.0_dp
+        noise = huge(noise)
         do k = 0, steps
             call slope(system, i, t, q, v, 1.0_dp, v, a, next, order6, other)
             call slope(system, i, t, q, v, 1.0_dp, v, a, next, order8, now, largest)
