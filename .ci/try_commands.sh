@@ -32,7 +32,7 @@ check() { # check CLAIM COMMAND...: the claim holds if the command succeeds
 }
 
 run() { # run WORDS...: the program; its status, its stdout in $work/out, its stderr in $work/err
-    timeout 20 "$program" "$@" >"$work/out" 2>"$work/err" </dev/null
+    timeout 120 "$program" "$@" >"$work/out" 2>"$work/err" </dev/null
     status=$?
 }
 
