@@ -49,6 +49,7 @@ module suites
     use test_gnuplot, only: gnuplot_suite
     use test_gsl, only: gsl_suite
     use test_gsl_odeiv, only: gsl_odeiv_suite
+    use test_gyroscopic, only: gyroscopic_suite
     use test_hanging_chain, only: hanging_chain_suite
     use test_harness, only: harness_suite
     use test_harness_fixtures, only: harness_fixtures_suite
@@ -178,6 +179,7 @@ contains
         call suite%addTest(gnuplot_suite())
         call suite%addTest(gsl_suite())
         call suite%addTest(gsl_odeiv_suite())
+        call suite%addTest(gyroscopic_suite())
         call suite%addTest(hanging_chain_suite())
         call suite%addTest(hyperdual_suite())
         call suite%addTest(integrator_orders_suite())

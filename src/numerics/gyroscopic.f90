@@ -4,7 +4,7 @@ module lagrangia_gyroscopic
     use lagrangia_eigen, only: normal_modes
     use lagrangia_errors, only: error_t, fail, status_library
     use lagrangia_kinds, only: dp
-    use lagrangia_lapack_eigen, only: dggev
+    use lagrangia_lapack_eigen, only: dgeev
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -19,12 +19,16 @@ contains
         !! one of each pair \(\pm\lambda\), \(-\mathrm{Re}\,\lambda^2\) ascending; of each mode the
         !! component that is largest in magnitude is real and positive.
         !!
-        !! The first-order form is solved in units in which its blocks are of size one. Where
-        !! \(\lambda = i\omega\), \(\omega\) is then the root of \(\omega^2 - (iu^\dagger Gu)\omega
-        !! - u^\dagger Ku = 0\): stationary in \(u\), it has the square of \(u\)'s error, and a slow
-        !! mode beside a fast one keeps its digits.
+        !! In the normal modes without \(G\), scaled by their \(\rho_i = |\omega_i|\), the
+        !! first-order form is a skew matrix where K is positive definite, and its inverse is
+        !! known element by element: the fast modes are solved from the one, the slow ones from
+        !! the other, each with an error of \(\epsilon\) times the ratio of its own frequency to
+        !! the outermost. Where \(\lambda = i\omega\), \(\omega\) is then the root of \(\omega^2 -
+        !! (iu^\dagger Gu)\omega - u^\dagger Ku = 0\), stationary in \(u\). A singular K has no
+        !! inverse: beside its zero modes the slow ones have an error of \(\epsilon\) times the
+        !! fastest.
         !!
-        !! Source: Tisseur & Meerbergen, SIAM Review 43 (2001) 235, sec. 3; LAPACK `dggev`.
+        !! Source: Tisseur & Meerbergen, SIAM Review 43 (2001) 235, sec. 3; LAPACK `dgeev`.
         real(dp), intent(in) :: stiffness(:, :)    !! \(K\), symmetric, (n, n)
         real(dp), intent(in) :: gyroscopic(:, :)   !! \(G\), antisymmetric, (n, n)
         real(dp), intent(in) :: inertia(:, :)      !! \(M\), positive definite, (n, n)
@@ -32,26 +36,38 @@ contains
         complex(dp), allocatable, intent(out) :: modes(:, :)  !! column j belongs to `lambda(j)`
         type(error_t), allocatable, intent(out) :: error      !! what is wrong with K, G or M
         real(dp), allocatable :: omega2(:), shapes(:, :)
-        complex(dp), dimension(2*size(stiffness, 1)) :: all_lambda
-        complex(dp), dimension(size(stiffness, 1), 2*size(stiffness, 1)) :: all_modes
-        integer :: chosen(size(stiffness, 1))
-        integer :: n, k
+        complex(dp), dimension(size(stiffness, 1)) :: other
+        complex(dp), dimension(size(stiffness, 1), size(stiffness, 1)) :: other_modes
+        real(dp), dimension(size(stiffness, 1), size(stiffness, 1)) :: coupling
+        real(dp) :: scale
+        integer :: n, k, fast
 
         call normal_modes(stiffness, inertia, omega2, shapes, error)
         if (allocated(error)) return
-        call check_antisymmetric(gyroscopic, size(omega2), error)
-        if (allocated(error)) return
-        call solve_first_order(stiffness, gyroscopic, inertia, all_lambda, all_modes, error)
-        if (allocated(error)) return
         n = size(omega2)
-        call one_of_each_pair(all_lambda, chosen)
-        lambda = all_lambda(chosen)
-        modes = all_modes(:, chosen)
+        call check_antisymmetric(gyroscopic, n, error)
+        if (allocated(error)) return
+        coupling = matmul(transpose(shapes), matmul(gyroscopic, shapes))
+        coupling = 0.5_dp*(coupling - transpose(coupling))
+        allocate (lambda(n), modes(n, n))
+        fast = n
+        call solve_first_order(omega2, coupling, .false., lambda, modes, error)
+        if (.not. allocated(error) .and. all(abs(omega2) > 0.0_dp)) then
+            call solve_first_order(omega2, coupling, .true., other, other_modes, error)
+            if (.not. allocated(error)) fast = fast_modes(abs(lambda))
+            lambda(fast + 1:) = other(fast + 1:)
+            modes(:, fast + 1:) = other_modes(:, fast + 1:)
+        end if
+        if (allocated(error)) then
+            deallocate (lambda, modes)
+            return
+        end if
         do k = 1, n
+            scale = merge(abs(lambda(1)), abs(lambda(k))/abs(lambda(n))*abs(lambda(k)), k <= fast)
+            if (abs(real(lambda(k))) <= blur*scale) call refine(omega2, coupling, modes(:, k), &
+                                                                lambda(k))
+            modes(:, k) = matmul(shapes, modes(:, k))
             call normalise(inertia, modes(:, k))
-            if (abs(real(lambda(k))) > blur*maxval(abs(lambda))) cycle
-            lambda(k) = cmplx(0.0_dp, stationary(stiffness, gyroscopic, modes(:, k), &
-                                                 aimag(lambda(k))), dp)
         end do
         call sort(lambda, modes)
     end subroutine gyroscopic_modes
@@ -80,49 +96,77 @@ contains
         end if
     end subroutine check_antisymmetric
 
-    pure subroutine solve_first_order(stiffness, gyroscopic, inertia, lambda, modes, error)
-        !! All 2n eigenvalues of \((0, 1; -K, -G)\) against \((1, 0; 0, M)\).
-        real(dp), intent(in) :: stiffness(:, :), gyroscopic(:, :), inertia(:, :)
-        complex(dp), intent(out) :: lambda(:), modes(:, :)  !! (2 n), (n, 2 n)
+    pure subroutine solve_first_order(omega2, coupling, inverse, lambda, modes, error)
+        !! Of \(\ddot q_i + \sum_j\Gamma_{ij}\dot q_j + \omega_i^2q_i = 0\) as \(p_i = \rho_iq_i\),
+        !! \(r = \dot q\), one of each pair \(\pm\lambda\), the fastest first.
+        real(dp), intent(in) :: omega2(:), coupling(:, :)  !! \(\omega_i^2\), \(\Gamma\)
+        logical, intent(in) :: inverse  !! whether to solve for \(1/\lambda\); no \(\rho_i\) is 0
+        complex(dp), intent(out) :: lambda(:), modes(:, :)  !! (n), \(q\) in columns, (n, n)
         type(error_t), allocatable, intent(out) :: error
-        real(dp), dimension(2*size(stiffness, 1), 2*size(stiffness, 1)) :: a, b, vectors
-        real(dp), dimension(2*size(stiffness, 1)) :: re, im, beta
-        real(dp) :: left(1, 1), work(40*size(stiffness, 1) + 100), mass, rate
-        integer :: n, i, j, info
+        real(dp), dimension(2*size(omega2), 2*size(omega2)) :: a, vectors
+        real(dp), dimension(2*size(omega2)) :: re, im
+        real(dp) :: left(1, 1), work(40*size(omega2) + 100), rho(size(omega2))
+        complex(dp) :: all_lambda(2*size(omega2)), z(2*size(omega2))
+        integer :: chosen(size(omega2)), n, i, j, k, info
 
         lambda = 0.0_dp
         modes = 0.0_dp
-        n = size(stiffness, 1)
-        mass = maxval(abs(inertia))
-        rate = max(sqrt(maxval(abs(stiffness))/mass), maxval(abs(gyroscopic))/mass)
-        if (rate <= 0.0_dp) rate = 1.0_dp
+        n = size(omega2)
+        rho = sqrt(abs(omega2))
+        where (rho <= 0.0_dp) rho = max(maxval(rho), maxval(abs(coupling)), tiny(rho))
         a = 0.0_dp
-        b = 0.0_dp
         do i = 1, n
-            a(i, n + i) = 1.0_dp
-            b(i, i) = 1.0_dp
-        end do
-        a(n + 1:, :n) = -stiffness/mass/rate/rate
-        a(n + 1:, n + 1:) = -gyroscopic/mass/rate
-        b(n + 1:, n + 1:) = inertia/mass
-        call dggev("N", "V", 2*n, a, 2*n, b, 2*n, re, im, beta, left, 1, vectors, 2*n, work, &
-                   size(work), info)
-        if (info /= 0 .or. any(abs(beta) <= 0.0_dp)) then
-            call fail(error, "LAPACK found no frequencies (info = "//to_text(info)//"): M is "// &
-                      "singular?", status_library)
-            return
-        end if
-        lambda = rate*cmplx(re/beta, im/beta, dp)
-        do j = 1, 2*n
-            if (im(j) > 0.0_dp) then
-                modes(:, j) = cmplx(vectors(:n, j), vectors(:n, j + 1), dp)
-            else if (im(j) < 0.0_dp) then
-                modes(:, j) = conjg(modes(:, j - 1))
+            if (inverse) then
+                a(n + i, i) = 1.0_dp/rho(i)
+                a(i, n + i) = -sign(1.0_dp/rho(i), omega2(i))
+                a(i, :n) = -sign(1.0_dp/rho(i), omega2(i))*coupling(i, :)/rho
             else
-                modes(:, j) = cmplx(vectors(:n, j), 0.0_dp, dp)
+                a(i, n + i) = rho(i)
+                a(n + i, i) = -omega2(i)/rho(i)
+                a(n + i, n + 1:) = -coupling(i, :)
             end if
         end do
+        call dgeev("N", "V", 2*n, a, 2*n, re, im, left, 1, vectors, 2*n, work, size(work), info)
+        if (info /= 0) then
+            call fail(error, "LAPACK found no frequencies (info = "//to_text(info)//")", &
+                      status_library)
+            return
+        end if
+        all_lambda = cmplx(re, im, dp)
+        if (inverse) all_lambda = 1.0_dp/all_lambda
+        call one_of_each_pair(all_lambda, chosen)
+        do k = 1, n
+            j = chosen(k)
+            lambda(k) = all_lambda(j)
+            z = vectors(:, j)
+            if (im(j) > 0.0_dp) z = cmplx(vectors(:, j), vectors(:, j + 1), dp)
+            if (im(j) < 0.0_dp) z = cmplx(vectors(:, j - 1), -vectors(:, j), dp)
+            where (rho >= abs(lambda(k)))
+                modes(:, k) = z(:n)/rho
+            else where
+                modes(:, k) = z(n + 1:)/lambda(k)
+            end where
+        end do
     end subroutine solve_first_order
+
+    pure function fast_modes(size_of) result(fast)
+        !! How many are solved from the matrix itself: the largest ratio of a frequency to the
+        !! outermost of its half is least, and no two that are alike are torn apart.
+        real(dp), intent(in) :: size_of(:)  !! \(|\lambda|\), descending
+        integer :: fast, k, n
+        real(dp) :: worst, least
+
+        n = size(size_of)
+        fast = n
+        least = size_of(1)/max(size_of(n), tiny(1.0_dp))
+        do k = 1, n - 1
+            if (.not. size_of(k) > 2.0_dp*size_of(k + 1)) cycle
+            worst = max(size_of(1)/size_of(k), size_of(k + 1)/max(size_of(n), tiny(1.0_dp)))
+            if (worst >= least) cycle
+            least = worst
+            fast = k
+        end do
+    end function fast_modes
 
     pure subroutine one_of_each_pair(lambda, chosen)
         !! The spectrum is symmetric, \(\pm\lambda\): from the largest down, take the one with
@@ -158,20 +202,23 @@ contains
         u = u/sqrt(bilinear(inertia, real(u), real(u)) + bilinear(inertia, aimag(u), aimag(u)))
     end subroutine normalise
 
-    pure function stationary(stiffness, gyroscopic, u, near) result(omega)
-        !! The root of \(\omega^2 - c\,\omega - k = 0\) next to `near`, without cancellation.
-        real(dp), intent(in) :: stiffness(:, :), gyroscopic(:, :)
-        complex(dp), intent(in) :: u(:)
-        real(dp), intent(in) :: near
-        real(dp) :: omega, c, k, large, other
+    pure subroutine refine(omega2, coupling, q, lambda)
+        !! \(\lambda = i\omega\), \(\omega\) the root next to it of \(\omega^2 - c\,\omega - k
+        !! = 0\), without cancellation.
+        real(dp), intent(in) :: omega2(:), coupling(:, :)
+        complex(dp), intent(in) :: q(:)
+        complex(dp), intent(inout) :: lambda
+        real(dp) :: c, k, m, large, other
 
-        c = bilinear(gyroscopic, aimag(u), real(u)) - bilinear(gyroscopic, real(u), aimag(u))
-        k = bilinear(stiffness, real(u), real(u)) + bilinear(stiffness, aimag(u), aimag(u))
+        m = sum(real(q)**2 + aimag(q)**2)
+        c = 2.0_dp*bilinear(coupling, aimag(q), real(q))/m
+        k = sum(omega2*(real(q)**2 + aimag(q)**2))/m
         large = 0.5_dp*(c + sign(sqrt(max(0.0_dp, c**2 + 4.0_dp*k)), c))
         other = 0.0_dp
         if (abs(large) > 0.0_dp) other = -k/large
-        omega = abs(merge(large, other, abs(large - near) <= abs(other - near)))
-    end function stationary
+        if (abs(other - aimag(lambda)) < abs(large - aimag(lambda))) large = other
+        lambda = cmplx(0.0_dp, abs(large), dp)
+    end subroutine refine
 
     pure function bilinear(a, x, y) result(value)
         !! \(x^\top A y\).

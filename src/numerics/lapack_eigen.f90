@@ -3,7 +3,7 @@ module lagrangia_lapack_eigen
     use lagrangia_kinds, only: dp, this_part_needs_real64
     implicit none (type, external)
     private
-    public :: dgejsv, dggev, dsygv, dsygvd
+    public :: dgeev, dgejsv, dsygv, dsygvd
 
     interface
         pure subroutine dsygv(itype, jobz, uplo, n, a, lda, b, ldb, w, work, lwork, info)
@@ -41,17 +41,16 @@ module lagrangia_lapack_eigen
             integer, intent(out) :: iwork(*), info
         end subroutine dgejsv
 
-        pure subroutine dggev(jobvl, jobvr, n, a, lda, b, ldb, alphar, alphai, beta, vl, ldvl, vr, &
-                              ldvr, work, lwork, info)
-            !! \(Az = \lambda Bz\) for any real matrices; \(\lambda\) = alpha/beta.
+        pure subroutine dgeev(jobvl, jobvr, n, a, lda, wr, wi, vl, ldvl, vr, ldvr, work, lwork, &
+                              info)
+            !! \(Az = \lambda z\) for any real matrix, balanced; \(\lambda\) = wr + i wi.
             import :: dp
             implicit none (type, external)
             character(1), intent(in) :: jobvl, jobvr
-            integer, intent(in) :: n, lda, ldb, ldvl, ldvr, lwork
-            real(dp), intent(inout) :: a(lda, *), b(ldb, *)
-            real(dp), intent(out) :: alphar(*), alphai(*), beta(*), vl(ldvl, *), vr(ldvr, *), &
-                                     work(*)
+            integer, intent(in) :: n, lda, ldvl, ldvr, lwork
+            real(dp), intent(inout) :: a(lda, *)
+            real(dp), intent(out) :: wr(*), wi(*), vl(ldvl, *), vr(ldvr, *), work(*)
             integer, intent(out) :: info
-        end subroutine dggev
+        end subroutine dgeev
     end interface
 end module lagrangia_lapack_eigen

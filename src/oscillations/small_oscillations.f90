@@ -255,7 +255,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
         complex(dp), allocatable :: lambda(:), shapes(:, :)
 
-        modes%method = "dggev in first-order form"
+        modes%method = "dgeev in first-order form"
         call gyroscopic_modes(modes%stiffness, modes%gyroscopic, modes%mass, lambda, shapes, error)
         if (allocated(error)) return
         modes%ratio = gyroscopic_ratio(modes%stiffness, modes%gyroscopic, modes%mass, lambda, &
