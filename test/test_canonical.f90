@@ -28,10 +28,9 @@ contains
         call suite%addTest(TestMethod("momenta_and_forces_follow_from_the_lagrangian", &
                                       momenta_and_forces_follow_from_the_lagrangian, &
                                       setUp=restart_random))
-        call suite%addTest(TestMethod("failed_iterations_are_told", failed_iterations_are_told, &
-                                      setUp=restart_random))
+        call suite%addTest(TestMethod("failed_iterations_are_told", failed_iterations_are_told))
         call suite%addTest(TestMethod("slow_iterations_are_no_solutions", &
-                                      slow_iterations_are_no_solutions, setUp=restart_random))
+                                      slow_iterations_are_no_solutions))
     end function canonical_suite
 
     subroutine momenta_and_forces_follow_from_the_lagrangian()

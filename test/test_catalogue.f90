@@ -24,15 +24,14 @@ contains
 
         suite = TestSuite("catalogue")
         call suite%addTest(TestMethod("every_system_is_found_by_its_name", &
-                                      every_system_is_found_by_its_name, setUp=restart_random))
+                                      every_system_is_found_by_its_name))
         call suite%addTest(TestMethod("every_column_is_a_number", every_column_is_a_number, &
                                       setUp=restart_random))
         call suite%addTest(TestMethod("every_description_names_columns", &
-                                      every_description_names_columns, setUp=restart_random))
+                                      every_description_names_columns))
         call suite%addTest(TestMethod("every_method_is_found_by_its_name", &
-                                      every_method_is_found_by_its_name, setUp=restart_random))
-        call suite%addTest(TestMethod("other_names_are_refused", other_names_are_refused, &
-                                      setUp=restart_random))
+                                      every_method_is_found_by_its_name))
+        call suite%addTest(TestMethod("other_names_are_refused", other_names_are_refused))
     end function catalogue_suite
 
     subroutine every_system_is_found_by_its_name()

@@ -23,17 +23,15 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("charged_particle")
-        call suite%addTest(TestMethod("force_is_lorentz", force_is_lorentz, setUp=restart_random))
+        call suite%addTest(TestMethod("force_is_lorentz", force_is_lorentz))
         call suite%addTest(TestMethod("invariants_follow_the_fields", &
                                       invariants_follow_the_fields, setUp=restart_random))
-        call suite%addTest(TestMethod("declared_invariants_hold", declared_invariants_hold, &
-                                      setUp=restart_random))
+        call suite%addTest(TestMethod("declared_invariants_hold", declared_invariants_hold))
         call suite%addTest(TestMethod("p_is_the_canonical_momentum", p_is_the_canonical_momentum, &
                                       setUp=restart_random))
         call suite%addTest(TestMethod("undeclared_quantities_change", &
                                       undeclared_quantities_change, setUp=restart_random))
-        call suite%addTest(TestMethod("flags_follow_the_fields", flags_follow_the_fields, &
-                                      setUp=restart_random))
+        call suite%addTest(TestMethod("flags_follow_the_fields", flags_follow_the_fields))
     end function charged_particle_suite
 
     subroutine build(particle, m, charge, electric, magnetic, trap)

@@ -17,11 +17,10 @@ contains
 
         suite = TestSuite("concise")
         call suite%addTest(TestMethod("the_error_counts_in_last_digits", &
-                                      the_error_counts_in_last_digits, setUp=restart_random))
-        call suite%addTest(TestMethod("the_error_is_rounded_up", the_error_is_rounded_up, &
-                                      setUp=restart_random))
+                                      the_error_counts_in_last_digits))
+        call suite%addTest(TestMethod("the_error_is_rounded_up", the_error_is_rounded_up))
         call suite%addTest(TestMethod("very_large_and_small_ones_have_a_power", &
-                                      very_large_and_small_ones_have_a_power, setUp=restart_random))
+                                      very_large_and_small_ones_have_a_power))
         call suite%addTest(TestMethod("text_lies_within_its_error", text_lies_within_its_error, &
                                       setUp=restart_random))
     end function concise_suite

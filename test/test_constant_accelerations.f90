@@ -23,22 +23,21 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("constant_accelerations")
-        call suite%addTest(TestMethod("atwood_numbers", atwood_numbers, setUp=restart_random))
+        call suite%addTest(TestMethod("atwood_numbers", atwood_numbers))
         call suite%addTest(TestMethod("atwood_lagrangian_is_inertial", &
                                       atwood_lagrangian_is_inertial, setUp=restart_random))
         call suite%addTest(TestMethod("atwood_tensions_move_masses_and_pulley", &
                                       atwood_tensions_move_masses_and_pulley, setUp=restart_random))
-        call suite%addTest(TestMethod("atwood_limits", atwood_limits, setUp=restart_random))
+        call suite%addTest(TestMethod("atwood_limits", atwood_limits))
         call suite%addTest(TestMethod("atwood_reference_solves_it", atwood_reference_solves_it, &
                                       setUp=restart_random))
-        call suite%addTest(TestMethod("wedge_numbers", wedge_numbers, setUp=restart_random))
+        call suite%addTest(TestMethod("wedge_numbers", wedge_numbers))
         call suite%addTest(TestMethod("wedge_lagrangian_is_that_of_two_masses", &
                                       wedge_lagrangian_is_that_of_two_masses, setUp=restart_random))
         call suite%addTest(TestMethod("wedge_normal_force_moves_both", &
                                       wedge_normal_force_moves_both, setUp=restart_random))
-        call suite%addTest(TestMethod("wedge_limits", wedge_limits, setUp=restart_random))
-        call suite%addTest(TestMethod("wedge_angle_is_bounded", wedge_angle_is_bounded, &
-                                      setUp=restart_random))
+        call suite%addTest(TestMethod("wedge_limits", wedge_limits))
+        call suite%addTest(TestMethod("wedge_angle_is_bounded", wedge_angle_is_bounded))
         call suite%addTest(TestMethod("wedge_reference_solves_it", wedge_reference_solves_it, &
                                       setUp=restart_random))
     end function constant_accelerations_suite

@@ -26,13 +26,13 @@ contains
         call suite%addTest(TestMethod("tensions_move_the_bobs", tensions_move_the_bobs, &
                                       setUp=restart_random))
         call suite%addTest(TestMethod("small_oscillations_as_in_closed_form", &
-                                      small_oscillations_as_in_closed_form, setUp=restart_random))
+                                      small_oscillations_as_in_closed_form))
         call suite%addTest(TestMethod("released_at_right_angles_as_mpmath", &
-                                      released_at_right_angles_as_mpmath, setUp=restart_random))
+                                      released_at_right_angles_as_mpmath))
         call suite%addTest(TestMethod("a_light_bob_falls_by_its_weight", &
-                                      a_light_bob_falls_by_its_weight, setUp=restart_random))
+                                      a_light_bob_falls_by_its_weight))
         call suite%addTest(TestMethod("angular_momentum_needs_no_gravity", &
-                                      angular_momentum_needs_no_gravity, setUp=restart_random))
+                                      angular_momentum_needs_no_gravity))
     end function double_pendulum_suite
 
     subroutine lagrangian_is_that_of_two_bobs()

@@ -28,11 +28,9 @@ contains
         call suite%addTest(TestMethod("driven_pendulum_stands_up_and_down", &
                                       driven_pendulum_stands_up_and_down, setUp=restart_random))
         call suite%addTest(TestMethod("pivot_starts_high_and_moves_down", &
-                                      pivot_starts_high_and_moves_down, setUp=restart_random))
-        call suite%addTest(TestMethod("resting_pivot_is_a_pendulum", resting_pivot_is_a_pendulum, &
-                                      setUp=restart_random))
-        call suite%addTest(TestMethod("fast_drive_keeps_it_upright", fast_drive_keeps_it_upright, &
-                                      setUp=restart_random))
+                                      pivot_starts_high_and_moves_down))
+        call suite%addTest(TestMethod("resting_pivot_is_a_pendulum", resting_pivot_is_a_pendulum))
+        call suite%addTest(TestMethod("fast_drive_keeps_it_upright", fast_drive_keeps_it_upright))
     end function driven_pendulum_suite
 
     subroutine set(system, values)

@@ -26,11 +26,9 @@ contains
         suite = TestSuite("gauge")
         call suite%addTest(TestMethod("rates_are_derivatives", rates_are_derivatives, &
                                       setUp=restart_random))
-        call suite%addTest(TestMethod("energy_shifts", energy_shifts, setUp=restart_random))
-        call suite%addTest(TestMethod("chi_leads_to_landau", chi_leads_to_landau, &
-                                      setUp=restart_random))
-        call suite%addTest(TestMethod("forbidden_terms_in_numbers", forbidden_terms_in_numbers, &
-                                      setUp=restart_random))
+        call suite%addTest(TestMethod("energy_shifts", energy_shifts))
+        call suite%addTest(TestMethod("chi_leads_to_landau", chi_leads_to_landau))
+        call suite%addTest(TestMethod("forbidden_terms_in_numbers", forbidden_terms_in_numbers))
     end function gauge_suite
 
     subroutine rates_are_derivatives()

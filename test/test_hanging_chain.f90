@@ -30,17 +30,12 @@ contains
                                       setUp=restart_random))
         call suite%addTest(TestMethod("two_are_the_double_pendulum", two_are_the_double_pendulum, &
                                       setUp=restart_random))
-        call suite%addTest(TestMethod("zeros_of_laguerre", zeros_of_laguerre, setUp=restart_random))
-        call suite%addTest(TestMethod("frequencies_are_laguerres", frequencies_are_laguerres, &
-                                      setUp=restart_random))
-        call suite%addTest(TestMethod("many_bobs_go_to_bessel", many_bobs_go_to_bessel, &
-                                      setUp=restart_random))
-        call suite%addTest(TestMethod("divide_and_conquer_agrees", divide_and_conquer_agrees, &
-                                      setUp=restart_random))
-        call suite%addTest(TestMethod("chain_standing_on_its_head", chain_standing_on_its_head, &
-                                      setUp=restart_random))
-        call suite%addTest(TestMethod("half_a_bob_is_refused", half_a_bob_is_refused, &
-                                      setUp=restart_random))
+        call suite%addTest(TestMethod("zeros_of_laguerre", zeros_of_laguerre))
+        call suite%addTest(TestMethod("frequencies_are_laguerres", frequencies_are_laguerres))
+        call suite%addTest(TestMethod("many_bobs_go_to_bessel", many_bobs_go_to_bessel))
+        call suite%addTest(TestMethod("divide_and_conquer_agrees", divide_and_conquer_agrees))
+        call suite%addTest(TestMethod("chain_standing_on_its_head", chain_standing_on_its_head))
+        call suite%addTest(TestMethod("half_a_bob_is_refused", half_a_bob_is_refused))
     end function hanging_chain_suite
 
     subroutine new_chain(chain, n)

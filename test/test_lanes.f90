@@ -20,8 +20,7 @@ contains
         suite = TestSuite("lanes")
         call suite%addTest(TestMethod("lanes_are_single_states", lanes_are_single_states, &
                                       setUp=restart_random))
-        call suite%addTest(TestMethod("a_system_needs_no_kernel", a_system_needs_no_kernel, &
-                                      setUp=restart_random))
+        call suite%addTest(TestMethod("a_system_needs_no_kernel", a_system_needs_no_kernel))
     end function lanes_suite
 
     subroutine lanes_are_single_states()

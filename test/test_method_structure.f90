@@ -28,8 +28,7 @@ contains
                                       setUp=restart_random))
         call suite%addTest(TestMethod("reversible_as_declared", reversible_as_declared, &
                                       setUp=restart_random))
-        call suite%addTest(TestMethod("speed_is_kept_as_declared", speed_is_kept_as_declared, &
-                                      setUp=restart_random))
+        call suite%addTest(TestMethod("speed_is_kept_as_declared", speed_is_kept_as_declared))
     end function method_structure_suite
 
     subroutine symplectic_as_declared()

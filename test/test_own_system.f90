@@ -30,18 +30,14 @@ contains
                                       setUp=restart_random))
         call suite%addTest(TestMethod("double_pendulum_moves_as_by_hand", &
                                       double_pendulum_moves_as_by_hand, setUp=restart_random))
-        call suite%addTest(TestMethod("structure_is_found", structure_is_found, &
-                                      setUp=restart_random))
+        call suite%addTest(TestMethod("structure_is_found", structure_is_found))
         call suite%addTest(TestMethod("structure_where_l_is_a_number", &
-                                      structure_where_l_is_a_number, setUp=restart_random))
-        call suite%addTest(TestMethod("constraints_are_kept", constraints_are_kept, &
-                                      setUp=restart_random))
-        call suite%addTest(TestMethod("no_inertia_is_not_a_number", no_inertia_is_not_a_number, &
-                                      setUp=restart_random))
-        call suite%addTest(TestMethod("descriptions_are_complete", descriptions_are_complete, &
-                                      setUp=restart_random))
-        call suite%addTest(TestMethod("audits_hold", audits_hold, setUp=restart_random))
-        call suite%addTest(TestMethod("modes_are_found", modes_are_found, setUp=restart_random))
+                                      structure_where_l_is_a_number))
+        call suite%addTest(TestMethod("constraints_are_kept", constraints_are_kept))
+        call suite%addTest(TestMethod("no_inertia_is_not_a_number", no_inertia_is_not_a_number))
+        call suite%addTest(TestMethod("descriptions_are_complete", descriptions_are_complete))
+        call suite%addTest(TestMethod("audits_hold", audits_hold))
+        call suite%addTest(TestMethod("modes_are_found", modes_are_found))
     end function own_system_suite
 
     subroutine pendulum_moves_as_by_hand()

@@ -24,13 +24,11 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("printed_formulae")
-        call suite%addTest(TestMethod("formulae_are_read", formulae_are_read, setUp=restart_random))
+        call suite%addTest(TestMethod("formulae_are_read", formulae_are_read))
         call suite%addTest(TestMethod("every_description_is_the_code", &
                                       every_description_is_the_code, setUp=restart_random))
-        call suite%addTest(TestMethod("the_ball_does_what_it_says", the_ball_does_what_it_says, &
-                                      setUp=restart_random))
-        call suite%addTest(TestMethod("wrong_formulae_are_seen", wrong_formulae_are_seen, &
-                                      setUp=restart_random))
+        call suite%addTest(TestMethod("the_ball_does_what_it_says", the_ball_does_what_it_says))
+        call suite%addTest(TestMethod("wrong_formulae_are_seen", wrong_formulae_are_seen))
     end function printed_formulae_suite
 
     subroutine formulae_are_read()

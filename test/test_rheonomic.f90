@@ -33,7 +33,7 @@ contains
         call suite%addTest(TestMethod("energy_is_fed_by_the_drive", energy_is_fed_by_the_drive, &
                                       setUp=restart_random))
         call suite%addTest(TestMethod("without_motion_energy_is_conserved", &
-                                      without_motion_energy_is_conserved, setUp=restart_random))
+                                      without_motion_energy_is_conserved))
     end function rheonomic_suite
 
     subroutine set(system, values)

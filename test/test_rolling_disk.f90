@@ -28,18 +28,16 @@ contains
 
         suite = TestSuite("rolling_disk")
         call suite%addTest(TestMethod("moments_of_inertia_have_defaults", &
-                                      moments_of_inertia_have_defaults, setUp=restart_random))
+                                      moments_of_inertia_have_defaults))
         call suite%addTest(TestMethod("two_velocities_are_completed", &
                                       two_velocities_are_completed, setUp=restart_random))
         call suite%addTest(TestMethod("velocities_that_slip_are_refused", &
-                                      velocities_that_slip_are_refused, setUp=restart_random))
-        call suite%addTest(TestMethod("constraint_is_not_integrable", &
-                                      constraint_is_not_integrable, setUp=restart_random))
+                                      velocities_that_slip_are_refused))
+        call suite%addTest(TestMethod("constraint_is_not_integrable", constraint_is_not_integrable))
         call suite%addTest(TestMethod("friction_is_the_multiplier", friction_is_the_multiplier, &
                                       setUp=restart_random))
         call suite%addTest(TestMethod("level_friction_is_the_centripetal_force", &
-                                      level_friction_is_the_centripetal_force, &
-                                      setUp=restart_random))
+                                      level_friction_is_the_centripetal_force))
         call suite%addTest(TestMethod("level_conserves_p_phi_not_p_x", &
                                       level_conserves_p_phi_not_p_x, setUp=restart_random))
         call suite%addTest(TestMethod("incline_does_not_conserve_p_phi", &

@@ -24,19 +24,18 @@ contains
 
         suite = TestSuite("rolling_disk_reference")
         call suite%addTest(TestMethod("orbit_is_the_centre_of_the_circle", &
-                                      orbit_is_the_centre_of_the_circle, setUp=restart_random))
+                                      orbit_is_the_centre_of_the_circle))
         call suite%addTest(TestMethod("reference_gives_the_notes_circle", &
-                                      reference_gives_the_notes_circle, setUp=restart_random))
+                                      reference_gives_the_notes_circle))
         call suite%addTest(TestMethod("reference_is_the_textbook_form", &
                                       reference_is_the_textbook_form, setUp=restart_random))
         call suite%addTest(TestMethod("reference_obeys_the_equations", &
                                       reference_obeys_the_equations, setUp=restart_random))
-        call suite%addTest(TestMethod("incline_drifts_sideways", incline_drifts_sideways, &
-                                      setUp=restart_random))
+        call suite%addTest(TestMethod("incline_drifts_sideways", incline_drifts_sideways))
         call suite%addTest(TestMethod("slow_steering_loses_no_digits", &
-                                      slow_steering_loses_no_digits, setUp=restart_random))
+                                      slow_steering_loses_no_digits))
         call suite%addTest(TestMethod("slipping_start_has_no_reference", &
-                                      slipping_start_has_no_reference, setUp=restart_random))
+                                      slipping_start_has_no_reference))
     end function rolling_disk_reference_suite
 
     subroutine build(disk, m, r, i_roll, i_yaw, g, incline)

@@ -29,13 +29,12 @@ contains
 
         suite = TestSuite("rotating_reference")
         call suite%addTest(TestMethod("wire_reference_gives_the_oracle", &
-                                      wire_reference_gives_the_oracle, setUp=restart_random))
+                                      wire_reference_gives_the_oracle))
         call suite%addTest(TestMethod("wire_reference_obeys_the_equations", &
                                       wire_reference_obeys_the_equations, setUp=restart_random))
         call suite%addTest(TestMethod("wire_reference_keeps_its_digits", &
-                                      wire_reference_keeps_its_digits, setUp=restart_random))
-        call suite%addTest(TestMethod("hoop_has_tilted_equilibria", hoop_has_tilted_equilibria, &
-                                      setUp=restart_random))
+                                      wire_reference_keeps_its_digits))
+        call suite%addTest(TestMethod("hoop_has_tilted_equilibria", hoop_has_tilted_equilibria))
         call suite%addTest(TestMethod("hoop_stands_in_equilibria_only", &
                                       hoop_stands_in_equilibria_only, setUp=restart_random))
     end function rotating_reference_suite

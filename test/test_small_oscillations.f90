@@ -24,21 +24,15 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("small_oscillations")
-        call suite%addTest(TestMethod("cart_pendulum_has_two", cart_pendulum_has_two, &
-                                      setUp=restart_random))
-        call suite%addTest(TestMethod("graded_double_pendulums", graded_double_pendulums, &
-                                      setUp=restart_random))
+        call suite%addTest(TestMethod("cart_pendulum_has_two", cart_pendulum_has_two))
+        call suite%addTest(TestMethod("graded_double_pendulums", graded_double_pendulums))
         call suite%addTest(TestMethod("page_agrees_with_lagrangian", page_agrees_with_lagrangian, &
                                       setUp=restart_random))
-        call suite%addTest(TestMethod("other_equilibria", other_equilibria, setUp=restart_random))
-        call suite%addTest(TestMethod("modes_are_normalised", modes_are_normalised, &
-                                      setUp=restart_random))
-        call suite%addTest(TestMethod("hilbert_like_is_well_solved", hilbert_like_is_well_solved, &
-                                      setUp=restart_random))
-        call suite%addTest(TestMethod("bad_matrices_are_refused", bad_matrices_are_refused, &
-                                      setUp=restart_random))
-        call suite%addTest(TestMethod("bad_points_are_refused", bad_points_are_refused, &
-                                      setUp=restart_random))
+        call suite%addTest(TestMethod("other_equilibria", other_equilibria))
+        call suite%addTest(TestMethod("modes_are_normalised", modes_are_normalised))
+        call suite%addTest(TestMethod("hilbert_like_is_well_solved", hilbert_like_is_well_solved))
+        call suite%addTest(TestMethod("bad_matrices_are_refused", bad_matrices_are_refused))
+        call suite%addTest(TestMethod("bad_points_are_refused", bad_points_are_refused))
     end function small_oscillations_suite
 
     subroutine solve(name, values, at, modes)

@@ -18,22 +18,16 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("text")
-        call suite%addTest(TestMethod("lower_leaves_other_bytes", lower_leaves_other_bytes, &
-                                      setUp=restart_random))
-        call suite%addTest(TestMethod("join_trims_and_separates", join_trims_and_separates, &
-                                      setUp=restart_random))
+        call suite%addTest(TestMethod("lower_leaves_other_bytes", lower_leaves_other_bytes))
+        call suite%addTest(TestMethod("join_trims_and_separates", join_trims_and_separates))
         call suite%addTest(TestMethod("shown_text_is_plain_and_bounded", &
-                                      shown_text_is_plain_and_bounded, setUp=restart_random))
-        call suite%addTest(TestMethod("long_words_lose_their_middle", &
-                                      long_words_lose_their_middle, setUp=restart_random))
-        call suite%addTest(TestMethod("nearest_name_mends_slips", nearest_name_mends_slips, &
-                                      setUp=restart_random))
-        call suite%addTest(TestMethod("nearest_name_gives_up", nearest_name_gives_up, &
-                                      setUp=restart_random))
-        call suite%addTest(TestMethod("reals_look_short", reals_look_short, setUp=restart_random))
+                                      shown_text_is_plain_and_bounded))
+        call suite%addTest(TestMethod("long_words_lose_their_middle", long_words_lose_their_middle))
+        call suite%addTest(TestMethod("nearest_name_mends_slips", nearest_name_mends_slips))
+        call suite%addTest(TestMethod("nearest_name_gives_up", nearest_name_gives_up))
+        call suite%addTest(TestMethod("reals_look_short", reals_look_short))
         call suite%addTest(TestMethod("reals_read_back", reals_read_back, setUp=restart_random))
-        call suite%addTest(TestMethod("integers_in_decimal", integers_in_decimal, &
-                                      setUp=restart_random))
+        call suite%addTest(TestMethod("integers_in_decimal", integers_in_decimal))
     end function text_suite
 
     subroutine lower_leaves_other_bytes()

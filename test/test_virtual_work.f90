@@ -32,8 +32,7 @@ contains
                                       points_move_as_differences_say, setUp=restart_random))
         call suite%addTest(TestMethod("test_charge_is_consistent", test_charge_is_consistent, &
                                       setUp=restart_random))
-        call suite%addTest(TestMethod("fields_are_differences", fields_are_differences, &
-                                      setUp=restart_random))
+        call suite%addTest(TestMethod("fields_are_differences", fields_are_differences))
     end function virtual_work_suite
 
     subroutine every_system_obeys_dalembert()

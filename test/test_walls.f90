@@ -22,7 +22,7 @@ contains
                                       setUp=restart_random))
         call suite%addTest(TestMethod("a_kink_is_not_stepped_over", a_kink_is_not_stepped_over, &
                                       setUp=restart_random))
-        call suite%addTest(TestMethod("noise_is_no_kink", noise_is_no_kink, setUp=restart_random))
+        call suite%addTest(TestMethod("noise_is_no_kink", noise_is_no_kink))
         call suite%addTest(TestMethod("no_step_ends_in_a_wall_unseen", &
                                       no_step_ends_in_a_wall_unseen, setUp=restart_random))
     end function walls_suite
