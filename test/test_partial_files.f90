@@ -48,7 +48,8 @@ contains
         folder = new_folder("own")
         inner = new_folder("own/inner")
         call write_file(inner//"/a.dat", "old")
-        call assertTrue(c_symlink("inner/a.dat"//c_null_char, folder//"/a.dat"//c_null_char) == 0)
+        call assertTrue(c_symlink("inner/a.dat"//c_null_char, folder//"/a.dat"//c_null_char) == 0, &
+                        "linked")
         call file%open(folder//"/a.dat", error)
         call file%write("part")
         file%partial = .true.
@@ -67,9 +68,9 @@ contains
         call assertEqual(inner//"/a.dat.partial", new_folder("own/inner/a.dat.partial"))
         call remove_partial(folder//"/a.dat")
         call assertTrue(remove_file(inner//"/a.dat.partial"), "a folder was removed")
-        call assertTrue(remove_file(inner//"/a.dat"))
-        call assertTrue(remove_file(inner))
-        call assertTrue(remove_file(folder//"/a.dat"))
+        call assertTrue(remove_file(inner//"/a.dat"), "removed: "//inner//"/a.dat")
+        call assertTrue(remove_file(inner), "removed: "//inner)
+        call assertTrue(remove_file(folder//"/a.dat"), "removed: "//folder//"/a.dat")
         call assertTrue(remove_file(folder), "something was left")
     end subroutine a_partial_file_has_its_own_name
 
@@ -96,10 +97,10 @@ contains
             call assertEqual(path//".partial", outcome%file)
             call assertTrue(index(error%message, "'"//outcome%file//"'") > 0, error%message)
             call assertTrue(len(contents(outcome%file)) > 100, "what was good is there")
-            call assertTrue(remove_file(path))
-            call assertTrue(remove_file(path//".partial"))
+            call assertTrue(remove_file(path), "removed: "//path)
+            call assertTrue(remove_file(path//".partial"), "removed: "//path//".partial")
         end do
-        call assertTrue(remove_file(folder//"/s.gp"))
+        call assertTrue(remove_file(folder//"/s.gp"), "removed: "//folder//"/s.gp")
         call assertTrue(remove_file(folder), "something was left")
     end subroutine a_bad_run_leaves_the_good_file
 
@@ -140,7 +141,8 @@ contains
             if (text(i:i) == newline) rows = rows - 1
         end do
         call assertEqual(1, rows, "so many rows are there")
-        call assertTrue(remove_file(folder//"/s.dat.partial"))
+        call assertTrue(remove_file(folder//"/s.dat.partial"), &
+                        "removed: "//folder//"/s.dat.partial")
         call assertTrue(remove_file(folder), "something was left")
     end subroutine a_partial_file_says_where_and_why
 
@@ -159,11 +161,13 @@ contains
         call assertEqual("(no file)", contents(folder//"/s.dat.partial"))
         call assertEqual("(no file)", contents(folder//"/s_events.dat.partial"))
         call assertEqual("another's", contents(folder//"/s.csv.partial"))
-        call assertTrue(remove_file(folder//"/s.csv.partial"))
-        call assertTrue(remove_file(folder//"/s.dat"))
-        call assertTrue(remove_file(folder//"/s.gp"))
-        call assertTrue(remove_file(folder//"/s_events.dat"))
-        if (outcome%events /= "") call assertTrue(remove_file(folder//"/s_events.gp"))
+        call assertTrue(remove_file(folder//"/s.csv.partial"), &
+                        "removed: "//folder//"/s.csv.partial")
+        call assertTrue(remove_file(folder//"/s.dat"), "removed: "//folder//"/s.dat")
+        call assertTrue(remove_file(folder//"/s.gp"), "removed: "//folder//"/s.gp")
+        call assertTrue(remove_file(folder//"/s_events.dat"), "removed: "//folder//"/s_events.dat")
+        if (outcome%events /= "") call assertTrue(remove_file(folder//"/s_events.gp"), &
+                        "removed: "//folder//"/s_events.gp")
         call assertTrue(remove_file(folder), "something was left")
     end subroutine a_good_run_removes_what_is_stale
 
@@ -183,7 +187,7 @@ contains
         call assertEqual(status_numbers, error%status)
         call assertEqual("", outcome%file)
         call assertEqual("old", contents(folder//"/s.dat"))
-        call assertTrue(remove_file(folder//"/s.dat"))
+        call assertTrue(remove_file(folder//"/s.dat"), "removed: "//folder//"/s.dat")
         call assertTrue(remove_file(folder), "something was left")
     end subroutine no_row_no_file
 
@@ -201,9 +205,11 @@ contains
         text = contents(folder//"/s_events.dat.partial")
         call assertTrue(index(text, newline//"# PARTIAL, rows: ") > 0, text(:min(len(text), 2000)))
         call assertEqual("", outcome%events, "there is nothing to draw")
-        call assertTrue(remove_file(folder//"/s_events.dat"))
-        call assertTrue(remove_file(folder//"/s_events.dat.partial"))
-        call assertTrue(remove_file(folder//"/s.dat.partial"))
+        call assertTrue(remove_file(folder//"/s_events.dat"), "removed: "//folder//"/s_events.dat")
+        call assertTrue(remove_file(folder//"/s_events.dat.partial"), &
+                        "removed: "//folder//"/s_events.dat.partial")
+        call assertTrue(remove_file(folder//"/s.dat.partial"), &
+                        "removed: "//folder//"/s.dat.partial")
         call assertTrue(remove_file(folder), "something was left")
     end subroutine events_are_kept_too
 end module test_partial_files

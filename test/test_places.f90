@@ -35,9 +35,10 @@ contains
         folder = new_folder("one")
         inner = new_folder("one/inner")
         call write_file(folder//"/old", "old")
-        call assertTrue(c_link(folder//"/old"//c_null_char, folder//"/hard"//c_null_char) == 0)
-        call assertTrue(c_symlink("old"//c_null_char, folder//"/soft"//c_null_char) == 0)
-        call assertTrue(c_symlink("inner"//c_null_char, folder//"/way"//c_null_char) == 0)
+        call assertTrue(c_link(folder//"/old"//c_null_char, folder//"/hard"//c_null_char) == 0, &
+                        "linked")
+        call assertTrue(c_symlink("old"//c_null_char, folder//"/soft"//c_null_char) == 0, "linked")
+        call assertTrue(c_symlink("inner"//c_null_char, folder//"/way"//c_null_char) == 0, "linked")
         call assertTrue(collide(folder//"/old", folder//"/old"), "the same")
         call assertTrue(collide(folder//"/old", folder//"/hard"), "a hard link")
         call assertTrue(collide(folder//"/soft", folder//"/old"), "a symbolic link")
@@ -51,11 +52,11 @@ contains
         call assertTrue(collide(inner//"/a/new", folder//"/way/a/new"), "a folder below it")
         call assertTrue(collide("new", "./new"), "here")
         call assertTrue(collide("/new", "//new"), "the root")
-        call assertTrue(remove_file(folder//"/old"))
-        call assertTrue(remove_file(folder//"/hard"))
-        call assertTrue(remove_file(folder//"/soft"))
-        call assertTrue(remove_file(folder//"/way"))
-        call assertTrue(remove_file(inner))
+        call assertTrue(remove_file(folder//"/old"), "removed: "//folder//"/old")
+        call assertTrue(remove_file(folder//"/hard"), "removed: "//folder//"/hard")
+        call assertTrue(remove_file(folder//"/soft"), "removed: "//folder//"/soft")
+        call assertTrue(remove_file(folder//"/way"), "removed: "//folder//"/way")
+        call assertTrue(remove_file(inner), "removed: "//inner)
         call assertTrue(remove_file(folder), "asking makes nothing")
     end subroutine names_of_one_file_collide
 
@@ -75,9 +76,9 @@ contains
         call assertFalse(collide(folder//"/a/new", folder//"/b/new"), "two new folders")
         call assertFalse(collide(folder//"/a/new", folder//"/a/../new"), "up")
         call assertFalse(collide(long//"1", long//"2"), "long names")
-        call assertTrue(remove_file(folder//"/old"))
-        call assertTrue(remove_file(folder//"/other"))
-        call assertTrue(remove_file(folder))
+        call assertTrue(remove_file(folder//"/old"), "removed: "//folder//"/old")
+        call assertTrue(remove_file(folder//"/other"), "removed: "//folder//"/other")
+        call assertTrue(remove_file(folder), "removed: "//folder)
     end subroutine names_of_two_files_do_not
 
     function collide(first, second)

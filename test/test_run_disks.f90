@@ -115,8 +115,8 @@ contains
         call file%flush()
         call assertFalse(file%failed(), "it is there")
         temporary = file%temporary_name()
-        call assertTrue(remove_file(temporary))
-        call assertTrue(remove_file(folder))
+        call assertTrue(remove_file(temporary), "removed: "//temporary)
+        call assertTrue(remove_file(folder), "removed: "//folder)
         call file%write("text")
         call file%flush()
         call file%report(error)
@@ -151,7 +151,7 @@ contains
             call assertTrue(index(error%message, "the scene '"//path//"' are one file") > 0, &
                             error%message)
             call assertEqual(scene, contents(path))
-            call assertTrue(remove_file(path))
+            call assertTrue(remove_file(path), "removed: "//path)
         end do
         call assertTrue(remove_file(folder), "something was written")
     end subroutine the_scene_is_not_written_over
