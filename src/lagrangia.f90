@@ -21,7 +21,7 @@ module lagrangia
     !!     call new_integrator("rk4", integrator, error)
     !!     call new_plan(plan, 0.0_dp, 1e-3_dp, 20.0_dp, 10_i8, error)
     !!     call run(system, integrator, plan, nobody, q, v, error)
-    use lagrangia_catalogue, only: new_reference, new_system, register_system, system_names
+    use lagrangia_catalogue, only: new_system, register_system, system_names
     use lagrangia_description, only: between, conserved, coordinate, count_of, description_t, &
                                      line_length, nonnegative, number, parameter_t, point, &
                                      point_t, positive, quantity, quantity_t, vector

@@ -5,6 +5,7 @@ module careless_systems
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_pendulum, only: pendulum_t
+    use lagrangia_reference, only: reference_t
     use lagrangia_system, only: lanes
     use lagrangia_wedge, only: wedge_t
     implicit none (type, external)
@@ -16,6 +17,7 @@ module careless_systems
     contains
         procedure :: accelerations => careless_pendulum
         procedure :: accelerations_lanes => careless_pendulum_lanes
+        procedure :: closed_form => no_closed_form
     end type careless_pendulum_t
 
     type, extends(double_pendulum_t) :: careless_double_t
@@ -37,6 +39,13 @@ module careless_systems
     end type careless_ball_t
 
 contains
+
+    subroutine no_closed_form(self, t0, q0, v0, reference)
+        !! The pendulum's is not that of this one.
+        class(careless_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t0, q0(:), v0(:)
+        class(reference_t), allocatable, intent(out) :: reference
+    end subroutine no_closed_form
 
     pure subroutine careless_pendulum(self, t, q, v, a)
         !! See the type.

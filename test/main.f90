@@ -77,6 +77,7 @@ module suites
     use test_outcome, only: outcome_suite
     use test_output_failures, only: output_failures_suite
     use test_output_file, only: output_file_suite
+    use test_own_closed_form, only: own_closed_form_suite
     use test_own_system, only: own_system_suite
     use test_partial_files, only: partial_files_suite
     use test_pendulum, only: pendulum_suite
@@ -243,7 +244,8 @@ contains
         call suite%addTest(unfinished_suite())
         call suite%addTest(virtual_work_suite())
         call suite%addTest(walls_suite())
-        call suite%addTest(register_suite())  ! the last: its system stays in the catalogue
+        call suite%addTest(own_closed_form_suite())  ! the last two: their systems stay in the
+        call suite%addTest(register_suite())         ! catalogue
     end function load_tests
 end module suites
 

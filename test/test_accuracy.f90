@@ -4,7 +4,7 @@ module test_accuracy
                      assertLessThan, assertLessThanOrEqual
     use lagrangia_accuracy, only: estimate
     use lagrangia_adaptive_methods, only: adaptive_names
-    use lagrangia_catalogue, only: new_reference, new_system
+    use lagrangia_catalogue, only: new_system
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
@@ -196,7 +196,7 @@ contains
         end if
         call play(scene, system, "", "text", nobody, outcome, error)
         if (allocated(error)) return
-        call new_reference(system, scene%t0, scene%q, scene%v, reference)
+        call system%closed_form(scene%t0, scene%q, scene%v, reference)
         if (.not. allocated(reference)) return
         known = reference%has_state
         if (.not. known) return

@@ -4,7 +4,7 @@ module test_auto
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
                      assertGreaterThan, assertLessThan, assertTrue
     use lagrangia_adaptive_methods, only: new_adaptive
-    use lagrangia_catalogue, only: new_reference, nth_system
+    use lagrangia_catalogue, only: nth_system
     use lagrangia_choice, only: auto, settle_method, workhorse
     use lagrangia_command_line, only: word_t
     use lagrangia_description, only: description_t
@@ -106,7 +106,7 @@ contains
         call assertEqual("exact", outcome%method)
         call assertEqual([0, 0, rows], int([outcome%steps, outcome%evaluations, outcome%rows]))
         call assertEqual("", outcome%remark)
-        call new_reference(system, scene%t0, scene%q, scene%v, closed_form)
+        call system%closed_form(scene%t0, scene%q, scene%v, closed_form)
         allocate (q, v, mold=scene%q)
         call closed_form%state_at(scene%t0 + scene%duration, q, v)
         call assertEqual([q, v], [outcome%q, outcome%v], 1e-14_dp, text)
@@ -167,7 +167,7 @@ contains
         closed_form%ndof = 1
         call settle_method(scene, system, closed_form, settled, choice)
         call assertEqual(workhorse, settled%method, "no numbers")
-        call new_reference(system, 0.0_dp, scene%q, scene%v, closed_form)
+        call system%closed_form(0.0_dp, scene%q, scene%v, closed_form)
         closed_form%has_state = .false.
         call settle_method(scene, system, closed_form, settled, choice)
         call assertEqual(workhorse, settled%method, "no states")

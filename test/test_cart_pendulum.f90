@@ -3,14 +3,12 @@ module test_cart_pendulum
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
                      assertRelativelyEqual, assertTrue
     use lagrangia_cart_pendulum, only: cart_pendulum_t
-    use lagrangia_cart_pendulum_reference, only: cart_pendulum_reference_t, &
-                                                 new_cart_pendulum_reference
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_pendulum, only: pendulum_t
-    use lagrangia_pendulum_reference, only: new_pendulum_reference, pendulum_reference_t
     use lagrangia_quadrature, only: integrand_t, integrate_period
+    use lagrangia_reference, only: reference_t
     use motion, only: newton_lagrangian, point_accelerations
     use random_states, only: draw_parameters, draw_state, restart_random, uniform
     use reference_checks, only: check_reference, check_state
@@ -65,13 +63,14 @@ contains
     subroutine start(values, q, v, reference)
         !! The closed form from `(q, v)` at t = 0, with the parameters m1, m2, l, g.
         real(dp), intent(in) :: values(4), q(2), v(2)
-        type(cart_pendulum_reference_t), intent(out) :: reference
+        class(reference_t), allocatable, intent(out) :: reference
         type(cart_pendulum_t) :: system
         type(error_t), allocatable :: error
         logical :: found
 
         call system%configure(values, error)
-        call new_cart_pendulum_reference(reference, system, 0.0_dp, q, v, found)
+        call system%closed_form(0.0_dp, q, v, reference)
+        found = allocated(reference)
         call assertTrue(found, "closed form found")
     end subroutine start
 
@@ -130,7 +129,7 @@ contains
         real(dp), parameter :: period(5) = [ &
             1.6379772969159153746_dp, 1.7118591856112341094_dp, 1.9074330624194057881_dp, &
             2.5328177353089396884_dp, 4.540468197839614604_dp]
-        type(cart_pendulum_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         real(dp), parameter :: mu = 1.0_dp/3.0_dp
         real(dp) :: series
         integer :: i
@@ -152,7 +151,7 @@ contains
 
     subroutine period_is_the_integral()
         !! By the quadrature room, for other parameters.
-        type(cart_pendulum_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         type(period_t) :: f
         type(error_t), allocatable :: error
         real(dp) :: integral
@@ -172,7 +171,7 @@ contains
 
     subroutine state_from_rest()
         !! m1 = 1, m2 = 0.5, l = 1, theta0 = 1, t = 2.
-        type(cart_pendulum_reference_t) :: reference
+        class(reference_t), allocatable :: reference
 
         call start([1.0_dp, 0.5_dp, 1.0_dp, 9.81_dp], [0.0_dp, 1.0_dp], [0.0_dp, 0.0_dp], reference)
         call check_state(reference, 2.0_dp, [0.00727097400054403887_dp, 0.960813861543320187_dp], &
@@ -182,7 +181,7 @@ contains
     subroutine bob_moves_on_an_ellipse()
         !! With p_x = 0, semi-axes m1 l/(m1 + m2) and l about a fixed centre.
         type(cart_pendulum_t) :: system
-        type(cart_pendulum_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         type(error_t), allocatable :: error
         real(dp) :: q(2), v(2), centre, x, y
         real(dp), parameter :: m1 = 0.6_dp, m2 = 1.7_dp, l = 0.8_dp
@@ -190,8 +189,8 @@ contains
         integer :: i
 
         call system%configure([m1, m2, l, 9.81_dp], error)
-        call new_cart_pendulum_reference(reference, system, 0.0_dp, [0.3_dp, 2.5_dp], &
-                                         [0.0_dp, 0.0_dp], found)
+        call system%closed_form(0.0_dp, [0.3_dp, 2.5_dp], [0.0_dp, 0.0_dp], reference)
+        found = allocated(reference)
         centre = 0.3_dp + m2/(m1 + m2)*l*sin(2.5_dp)
         do i = 1, 40
             call reference%state_at(0.31_dp*i, q, v)
@@ -203,8 +202,8 @@ contains
 
     subroutine heavy_cart_is_a_pendulum()
         !! m1 = 1e20: Fourier's series and Jacobi's functions meet, in libration and rotation.
-        type(cart_pendulum_reference_t) :: cart
-        type(pendulum_reference_t) :: pendulum
+        class(reference_t), allocatable :: cart
+        class(reference_t), allocatable :: pendulum
         type(pendulum_t) :: system
         type(error_t), allocatable :: error
         real(dp), parameter :: theta(5) = [0.3_dp, -3.0_dp, 8.0_dp, 0.5_dp, -2.0_dp]
@@ -215,7 +214,8 @@ contains
 
         call system%configure([0.7_dp, 0.8_dp, 9.81_dp], error)
         do i = 1, size(theta)
-            call new_pendulum_reference(pendulum, system, 0.0_dp, theta(i:i), speed(i:i), found)
+            call system%closed_form(0.0_dp, theta(i:i), speed(i:i), pendulum)
+            found = allocated(pendulum)
             call start([1e20_dp, 0.7_dp, 0.8_dp, 9.81_dp], [0.2_dp, theta(i)], &
                        [0.0_dp, speed(i)], cart)
             call assertRelativelyEqual(pendulum%period, cart%period, 2e-14_dp, "period")
@@ -232,7 +232,7 @@ contains
     subroutine reference_solves_it()
         !! From random states, the whole moving along, in libration and rotation.
         type(cart_pendulum_t) :: system
-        type(cart_pendulum_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         real(dp), allocatable :: q(:), v(:)
         real(dp) :: t
         logical :: found
@@ -241,7 +241,8 @@ contains
         do i = 1, 20
             call draw_parameters(system, edges=mod(i, 2) == 0)
             call draw_state(system, t, q, v)
-            call new_cart_pendulum_reference(reference, system, t, q, v, found)
+            call system%closed_form(t, q, v, reference)
+            found = allocated(reference)
             call assertTrue(found, "found")
             call check_reference(reference, system, t, q, v, "cart-pendulum")
             if (anyExceptions()) return
@@ -251,24 +252,24 @@ contains
     subroutine what_the_reference_leaves_out()
         !! The immediate neighbourhood of the separatrix, and carts of nearly no mass.
         type(cart_pendulum_t) :: system
-        type(cart_pendulum_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         type(error_t), allocatable :: error
         logical :: found
 
         call system%configure([1.0_dp, 0.5_dp, 1.0_dp, 9.81_dp], error)
-        call new_cart_pendulum_reference(reference, system, 0.0_dp, [0.0_dp, pi], &
-                                         [0.0_dp, 0.0_dp], found)
+        call system%closed_form(0.0_dp, [0.0_dp, pi], [0.0_dp, 0.0_dp], reference)
+        found = allocated(reference)
         call assertFalse(found, "at the top")
-        call new_cart_pendulum_reference(reference, system, 0.0_dp, [0.0_dp, 3.13_dp], &
-                                         [0.0_dp, 0.0_dp], found)
+        call system%closed_form(0.0_dp, [0.0_dp, 3.13_dp], [0.0_dp, 0.0_dp], reference)
+        found = allocated(reference)
         call assertTrue(found, "0.0116 rad from the top")
-        call new_cart_pendulum_reference(reference, system, 0.0_dp, [0.3_dp, 0.0_dp], &
-                                         [0.5_dp, 0.0_dp], found)
+        call system%closed_form(0.0_dp, [0.3_dp, 0.0_dp], [0.5_dp, 0.0_dp], reference)
+        found = allocated(reference)
         call assertTrue(found, "hanging still")
         call check_state(reference, 4.0_dp, [2.3_dp, 0.0_dp], [0.5_dp, 0.0_dp], 1e-15_dp, "still")
         call system%configure([1e-9_dp, 0.5_dp, 1.0_dp, 9.81_dp], error)
-        call new_cart_pendulum_reference(reference, system, 0.0_dp, [0.0_dp, 1.0_dp], &
-                                         [0.0_dp, 0.0_dp], found)
+        call system%closed_form(0.0_dp, [0.0_dp, 1.0_dp], [0.0_dp, 0.0_dp], reference)
+        found = allocated(reference)
         call assertFalse(found, "light cart")
     end subroutine what_the_reference_leaves_out
 end module test_cart_pendulum

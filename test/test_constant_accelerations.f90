@@ -2,13 +2,12 @@ module test_constant_accelerations
     !! Atwood's machine and the block on the wedge: forces, limits, closed forms.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_atwood, only: atwood_t
-    use lagrangia_atwood_reference, only: atwood_reference_t, new_atwood_reference
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
+    use lagrangia_reference, only: reference_t
     use lagrangia_wedge, only: wedge_t
-    use lagrangia_wedge_reference, only: new_wedge_reference, wedge_reference_t
     use motion, only: newton_lagrangian, point_accelerations
     use random_states, only: draw_parameters, draw_state, restart_random
     use reference_checks, only: check_reference
@@ -130,7 +129,7 @@ contains
     subroutine atwood_reference_solves_it()
         !! From random states, the support accelerating.
         type(atwood_t) :: system
-        type(atwood_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         real(dp), allocatable :: q(:), v(:)
         real(dp) :: t
         logical :: found
@@ -139,7 +138,8 @@ contains
         do i = 1, 5
             call draw_parameters(system, edges=.false.)
             call draw_state(system, t, q, v)
-            call new_atwood_reference(reference, system, t, q, v, found)
+            call system%closed_form(t, q, v, reference)
+            found = allocated(reference)
             call assertTrue(found, "found")
             call check_reference(reference, system, t, q, v, "atwood")
             if (anyExceptions()) return
@@ -234,7 +234,7 @@ contains
     subroutine wedge_reference_solves_it()
         !! From random states.
         type(wedge_t) :: system
-        type(wedge_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         real(dp), allocatable :: q(:), v(:)
         real(dp) :: t
         logical :: found
@@ -243,7 +243,8 @@ contains
         do i = 1, 5
             call draw_parameters(system, edges=.false.)
             call draw_state(system, t, q, v)
-            call new_wedge_reference(reference, system, t, q, v, found)
+            call system%closed_form(t, q, v, reference)
+            found = allocated(reference)
             call assertTrue(found, "found")
             call check_reference(reference, system, t, q, v, "wedge")
             if (anyExceptions()) return

@@ -11,7 +11,7 @@ module test_dense_run
     use lagrangia_observer, only: observer_box_t
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_pendulum, only: pendulum_t
-    use lagrangia_pendulum_reference, only: new_pendulum_reference, pendulum_reference_t
+    use lagrangia_reference, only: reference_t
     use lagrangia_rk4, only: new_rk4, rk4_t
     use lagrangia_run, only: new_plan, new_sampled_plan, plan_t, run
     use lagrangia_stepwise, only: new_stepwise, stepwise_t
@@ -145,7 +145,7 @@ contains
     subroutine interpolation_order()
         !! Two steps of `dop853`, which is as good as exact here, and the quintic in the second.
         type(pendulum_t) :: system
-        type(pendulum_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         type(dop853_t) :: exact
         type(stepwise_t) :: method
         type(error_t), allocatable :: error
@@ -154,7 +154,8 @@ contains
         logical :: found
 
         call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
-        call new_pendulum_reference(reference, system, 0.0_dp, [1.0_dp], [0.5_dp], found)
+        call system%closed_form(0.0_dp, [1.0_dp], [0.5_dp], reference)
+        found = allocated(reference)
         call new_dop853(exact)
         errors = 0.0_dp
         do i = 1, 2

@@ -9,7 +9,7 @@ module test_dop853
     use lagrangia_kinds, only: dp, i8
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_pendulum, only: pendulum_t
-    use lagrangia_pendulum_reference, only: new_pendulum_reference, pendulum_reference_t
+    use lagrangia_reference, only: reference_t
     use lagrangia_rotating_wire, only: rotating_wire_t
     implicit none (type, external)
     private
@@ -32,13 +32,14 @@ contains
 
     subroutine set_up(system, reference, method)
         type(pendulum_t), intent(out) :: system
-        type(pendulum_reference_t), intent(out) :: reference
+        class(reference_t), allocatable, intent(out) :: reference
         type(dop853_t), intent(out) :: method
         type(error_t), allocatable :: error
         logical :: found
 
         call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
-        call new_pendulum_reference(reference, system, 0.0_dp, q0, v0, found)
+        call system%closed_form(0.0_dp, q0, v0, reference)
+        found = allocated(reference)
         call new_dop853(method)
         call method%prepare(system, error)
         call assertFalse(allocated(error), "prepare")
@@ -48,7 +49,7 @@ contains
         !! Halving the step divides the error by 2**8. Between 7.7 and 8.3: the next term of the
         !! error is some tenth of the first at these steps; rounding is below 1e-4 of both.
         type(pendulum_t) :: system
-        type(pendulum_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         type(dop853_t) :: method
         real(dp) :: q(1), v(1), q_true(1), v_true(1), errors(2)
         integer :: i
@@ -70,7 +71,7 @@ contains
         real(dp), intent(in) :: h
         real(dp), intent(out) :: errors(2)
         type(pendulum_t) :: system
-        type(pendulum_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         type(dop853_t) :: method
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1), q_true(1), v_true(1), t
@@ -126,7 +127,7 @@ contains
         !! 100 tolerances and above a thousandth of one: shorter steps would be a waste. The
         !! number of steps grows as the eighth root.
         type(pendulum_t) :: system
-        type(pendulum_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         type(dop853_t) :: method
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1), q_true(1), v_true(1), miss
@@ -157,7 +158,7 @@ contains
     subroutine evaluations_are_counted()
         !! Two to start, eleven an attempt, four for what an accepted step needs besides.
         type(pendulum_t) :: system
-        type(pendulum_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         type(dop853_t) :: method
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1)

@@ -3,11 +3,10 @@ module test_driven_pendulum
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertGreaterThan, &
                      assertLessThan, assertTrue
     use lagrangia_driven_pendulum, only: driven_pendulum_t
-    use lagrangia_driven_pendulum_reference, only: driven_pendulum_reference_t, &
-                                                   new_driven_pendulum_reference
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_pendulum, only: pendulum_t
+    use lagrangia_reference, only: reference_t
     use lagrangia_rk4, only: new_rk4, rk4_t
     use lagrangia_system, only: system_t
     use random_states, only: restart_random
@@ -46,21 +45,21 @@ contains
     subroutine driven_pendulum_stands_up_and_down()
         !! Whatever the drive; nowhere else, and not in motion.
         type(driven_pendulum_t) :: pendulum
-        type(driven_pendulum_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         real(dp), parameter :: angles(4) = [0.0_dp, pi, -3.0_dp*pi, 0.5_dp*pi]
         logical :: found
         integer :: i
 
         call set(pendulum, [1.3_dp, 0.7_dp, 9.81_dp, 0.2_dp, 3.0_dp])
         do i = 1, 4
-            call new_driven_pendulum_reference(reference, pendulum, 1.0_dp, angles(i:i), &
-                                               [0.0_dp], found)
+            call pendulum%closed_form(1.0_dp, angles(i:i), [0.0_dp], reference)
+            found = allocated(reference)
             call assertTrue(found .eqv. i < 4, "equilibrium?")
             if (.not. found) cycle
             call check_state(reference, -9.0_dp, angles(i:i), [0.0_dp], 0.0_dp, "stands")
             call check_reference(reference, pendulum, 1.0_dp, angles(i:i), [0.0_dp], "stands")
-            call new_driven_pendulum_reference(reference, pendulum, 1.0_dp, angles(i:i), &
-                                               [1e-9_dp], found)
+            call pendulum%closed_form(1.0_dp, angles(i:i), [1e-9_dp], reference)
+            found = allocated(reference)
             call assertFalse(found, "it moves")
         end do
     end subroutine driven_pendulum_stands_up_and_down

@@ -9,7 +9,7 @@ module test_events
     use lagrangia_observer, only: observer_box_t
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_pendulum, only: pendulum_t
-    use lagrangia_pendulum_reference, only: new_pendulum_reference, pendulum_reference_t
+    use lagrangia_reference, only: reference_t
     use lagrangia_rk4, only: new_rk4, rk4_t
     use lagrangia_run, only: new_plan, plan_t
     use lagrangia_stepwise, only: new_stepwise, stepwise_t
@@ -57,7 +57,7 @@ contains
     subroutine turning_points()
         !! Every half period. The run's error grows linearly to some 1e-12 at this tolerance.
         type(pendulum_t) :: system
-        type(pendulum_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         type(recorder_t) :: record
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1), ended
@@ -67,7 +67,8 @@ contains
         call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
         q = 2.0_dp
         v = 0.0_dp
-        call new_pendulum_reference(reference, system, 0.0_dp, q, v, found)
+        call system%closed_form(0.0_dp, q, v, reference)
+        found = allocated(reference)
         call find(system, ["theta_dot"], q, v, 30.0_dp, 1e-14_dp, record, ended)
         call assertEqual(int(30.0_dp/(0.5_dp*reference%period)), record%events, message="number")
         if (anyExceptions()) return

@@ -3,7 +3,6 @@ module test_gauss
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertGreaterThan, &
                      assertLessThan, assertTrue
-    use lagrangia_catalogue, only: new_reference
     use lagrangia_errors, only: error_t
     use lagrangia_gauss, only: gauss_t, new_gauss16
     use lagrangia_kinds, only: dp, i8
@@ -64,7 +63,7 @@ contains
         do k = 1, 10
             q = 0.2_dp + 0.04_dp*k
             v = 0.3_dp
-            call new_reference(system, 0.0_dp, q, v, reference)
+            call system%closed_form(0.0_dp, q, v, reference)
             call reference%state_at(duration, q_true, v_true)
             call go(system, 0.0_dp, duration/steps, steps, q, v)
             error = error + max(abs(q(1) - q_true(1)), abs(v(1) - v_true(1)))
@@ -237,7 +236,7 @@ contains
         call system%configure([1.3_dp, 0.3_dp, 0.05_dp, 0.03_dp, 9.81_dp, 0.4_dp], error)
         q = [0.1_dp, -0.2_dp, 0.3_dp, 0.7_dp]
         call system%complete_velocities(0.0_dp, q, [4.0_dp, 1.1_dp], v, error)
-        call new_reference(system, 0.0_dp, q, v, reference)
+        call system%closed_form(0.0_dp, q, v, reference)
         call reference%state_at(8.0_dp, q_true, v_true)
         call go(system, 0.0_dp, 0.2_dp, 40_i8, q, v)
         call assertEqual([q_true, v_true], [q, v], 1e-12_dp, "rolling on an incline")

@@ -3,7 +3,6 @@ module test_gauss_adaptive
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
                      assertGreaterThan, assertLessThan, assertLessThanOrEqual, assertTrue
-    use lagrangia_catalogue, only: new_reference
     use lagrangia_errors, only: error_t, status_numbers
     use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
     use lagrangia_kinds, only: dp, i8
@@ -63,7 +62,7 @@ contains
         integer :: k
 
         call system%configure([1.3_dp, 0.7_dp, 9.81_dp], error)
-        call new_reference(system, 0.0_dp, [2.5_dp], [0.3_dp], reference)
+        call system%closed_form(0.0_dp, [2.5_dp], [0.3_dp], reference)
         call reference%state_at(10.0_dp, q_true, v_true)
         before = 0
         do k = 4, 13

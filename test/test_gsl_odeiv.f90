@@ -2,7 +2,7 @@ module test_gsl_odeiv
     !! GSL's integrators behind our door: right against closed forms, refusals in words.
     use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int, c_loc, c_null_ptr, c_ptr
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
-    use lagrangia_catalogue, only: new_reference, new_system
+    use lagrangia_catalogue, only: new_system
     use lagrangia_errors, only: error_t, status_library, status_numbers, status_usage
     use lagrangia_gsl_mechanics, only: gsl_context_t, gsl_jacobian, gsl_rates
     use lagrangia_gsl_odeiv, only: gsl_driver_t, gsl_methods
@@ -46,7 +46,7 @@ contains
         worst = huge(worst)
         evaluations = 0
         call new_system(name, system, error)
-        call new_reference(system, 0.0_dp, q, v, truth)
+        call system%closed_form(0.0_dp, q, v, truth)
         call truth%state_at(t_end, q_end, v_end)
         context%system => system
         call driver%start(method, size(y), c_funloc(gsl_rates), c_funloc(gsl_jacobian), &

@@ -3,7 +3,6 @@ module test_integrator_orders
     !! tells of two methods. Motions without either: see `test_methods`.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertGreaterThan, &
                      assertTrue
-    use lagrangia_catalogue, only: new_reference
     use lagrangia_driven_pendulum, only: driven_pendulum_t
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: integrator_t
@@ -67,7 +66,7 @@ contains
 
         call system%configure([0.7_dp, 0.4_dp, 0.05_dp, 0.03_dp, 9.81_dp, 0.3_dp], error)
         call system%complete_velocities(start, q0, [2.0_dp, 1.7_dp], v0, error)
-        call new_reference(system, start, q0, v0, reference)
+        call system%closed_form(start, q0, v0, reference)
         call assertTrue(allocated(reference), "a closed form")
         if (.not. allocated(reference)) return
         call reference%state_at(start + duration, q, v)

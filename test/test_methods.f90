@@ -3,7 +3,7 @@ module test_methods
     !! listed, on every problem below that it takes.
     use funit, only: TestMethod, TestSuite, assertEqual, assertGreaterThan, assertLessThan, &
                      assertTrue
-    use lagrangia_catalogue, only: new_reference, new_system
+    use lagrangia_catalogue, only: new_system
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
     use lagrangia_findings, only: audit_t

@@ -1,7 +1,6 @@
 module test_period
     !! The period read off sampled motions whose period is known.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertLessThan, assertTrue
-    use lagrangia_catalogue, only: new_reference
     use lagrangia_dense_run, only: run_dense
     use lagrangia_errors, only: error_t
     use lagrangia_events, only: event_box_t
@@ -65,7 +64,7 @@ contains
         integer :: i
 
         call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
-        call new_reference(system, 0.0_dp, [2.0_dp], [0.0_dp], reference)
+        call system%closed_form(0.0_dp, [2.0_dp], [0.0_dp], reference)
         h = reference%period/16
         do i = 1, 2
             period = period_t()
@@ -86,7 +85,7 @@ contains
         type(period_t) :: period
 
         call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
-        call new_reference(system, 0.0_dp, [2.0_dp], [0.0_dp], reference)
+        call system%closed_form(0.0_dp, [2.0_dp], [0.0_dp], reference)
         call sample(system, reference, 0.0_dp, reference%period/199.7_dp, 2000, period)
         call assertEqual(10, period%turns, "turns")
         call assertEqual(1.0_dp, period%period()/reference%period, 1e-10_dp, "mean period")
@@ -100,7 +99,7 @@ contains
         type(period_t) :: period
 
         call system%configure([2.0_dp, 8.0_dp], error)
-        call new_reference(system, 0.0_dp, [0.5_dp], [-0.3_dp], reference)
+        call system%closed_form(0.0_dp, [0.5_dp], [-0.3_dp], reference)
         call sample(system, reference, -1.0_dp, 0.01_dp, 1500, period)
         call assertEqual(acos(-1.0_dp), period%period(), 1e-11_dp, "pi")
     end subroutine the_coordinate_that_is_asked_for
@@ -113,7 +112,7 @@ contains
         type(period_t) :: period
 
         call system%configure([1.0_dp, 1.0_dp], error)
-        call new_reference(system, 0.0_dp, [-1.0_dp], [0.0_dp], reference)
+        call system%closed_form(0.0_dp, [-1.0_dp], [0.0_dp], reference)
         call sample(system, reference, 0.0_dp, 0.1_dp, 10, period)
         call assertEqual(0, period%turns, "turns")
         call sample(system, reference, 1.0_dp, 0.1_dp, 60, period)
@@ -140,7 +139,7 @@ contains
         integer :: i, k
 
         call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
-        call new_reference(system, 0.0_dp, [2.0_dp], [0.0_dp], reference)
+        call system%closed_form(0.0_dp, [2.0_dp], [0.0_dp], reference)
         call new_rk4(rk4)
         call new_gauss16_adaptive(gauss16)
         do k = 1, 2
@@ -172,7 +171,7 @@ contains
         type(period_t) :: period
 
         call system%configure([1.0_dp, 1.0_dp], error)
-        call new_reference(system, 0.0_dp, [1.0_dp], [0.0_dp], reference)
+        call system%closed_form(0.0_dp, [1.0_dp], [0.0_dp], reference)
         call sample(system, reference, 0.0_dp, 3.7_dp, 100, period)
         call assertTrue(period%turns > 1, "there seem to be turns")
         call assertFalse(period%resolved, "too coarse")

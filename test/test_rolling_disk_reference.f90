@@ -5,8 +5,8 @@ module test_rolling_disk_reference
                      assertLessThanOrEqual, assertTrue
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
+    use lagrangia_reference, only: reference_t
     use lagrangia_rolling_disk, only: rolling_disk_t
-    use lagrangia_rolling_disk_reference, only: new_rolling_disk_reference, rolling_disk_reference_t
     use random_states, only: draw_parameters, draw_state, restart_random, uniform
     use reference_checks, only: check_reference
     use rk4_checks, only: check_against_rk4
@@ -62,7 +62,7 @@ contains
         !! (orbit_x, orbit_y)/theta_dot^2 = (x0 + rho cos(theta0), y0 + rho sin(theta0)), and
         !! the disk stays at the distance rho = R phi_dot/theta_dot from there.
         type(rolling_disk_t) :: disk
-        type(rolling_disk_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         type(error_t), allocatable :: error
         real(dp) :: q(4), v(4), centre(2), rho
         logical :: found
@@ -74,7 +74,8 @@ contains
         call disk%complete_velocities(0.0_dp, q, [4.0_dp, 1.1_dp], v, error)
         centre = [disk%quantity(4, 3.0_dp, q, v), disk%quantity(5, 3.0_dp, q, v)]/1.1_dp**2
         call assertEqual(q(1:2) + rho*[cos(0.7_dp), sin(0.7_dp)], centre, 1e-14_dp)
-        call new_rolling_disk_reference(reference, disk, 0.0_dp, q, v, found)
+        call disk%closed_form(0.0_dp, q, v, reference)
+        found = allocated(reference)
         do i = 1, 10
             call reference%state_at(i*0.7_dp, q, v)
             call assertEqual(rho, norm2(q(1:2) - centre), 1e-14_dp)
@@ -84,7 +85,7 @@ contains
     subroutine reference_gives_the_notes_circle()
         !! Oracle of 22-digit arithmetic: R = 0.3, Omega = 4, omega = 1.1, theta0 = 0.7, t = 2.
         type(rolling_disk_t) :: disk
-        type(rolling_disk_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         type(error_t), allocatable :: error
         real(dp) :: q(4), v(4)
         logical :: found
@@ -92,7 +93,8 @@ contains
         call build_uniform(disk, 1.7_dp, 0.3_dp, 0.0_dp)
         q = [0.0_dp, 0.0_dp, 0.0_dp, 0.7_dp]
         call disk%complete_velocities(5.0_dp, q, [4.0_dp, 1.1_dp], v, error)
-        call new_rolling_disk_reference(reference, disk, 5.0_dp, q, v, found)
+        call disk%closed_form(5.0_dp, q, v, reference)
+        found = allocated(reference)
         call assertTrue(found, "found")
         call reference%state_at(7.0_dp, q, v)
         call assertEqual([1.89360038447354067_dp, 0.441783663298591337_dp, 8.0_dp, 2.9_dp], q, &
@@ -102,7 +104,7 @@ contains
     subroutine reference_is_the_textbook_form()
         !! The form that divides by omega, on inclines, where omega is not small.
         type(rolling_disk_t) :: disk
-        type(rolling_disk_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         real(dp), allocatable :: q0(:), v0(:)
         real(dp) :: t0, t, q(4), v(4), roll1, kappa, theta
         logical :: found
@@ -112,7 +114,8 @@ contains
             call draw_parameters(disk, edges=.false.)
             call draw_state(disk, t0, q0, v0)
             v0(4) = sign(1.0_dp + abs(v0(4)), v0(4))
-            call new_rolling_disk_reference(reference, disk, t0, q0, v0, found)
+            call disk%closed_form(t0, q0, v0, reference)
+            found = allocated(reference)
             t = uniform(-5.0_dp, 5.0_dp)
             call reference%state_at(t0 + t, q, v)
             kappa = disk%m*disk%g*sin(disk%incline)*disk%r/(disk%i_roll + disk%m*disk%r**2)
@@ -137,7 +140,7 @@ contains
     subroutine reference_obeys_the_equations()
         !! Level, inclined, vertical; steering fast, slowly and not at all.
         type(rolling_disk_t) :: disk
-        type(rolling_disk_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         type(error_t), allocatable :: error
         real(dp), allocatable :: q(:), v(:)
         real(dp), parameter :: steering(4) = [2.3_dp, -0.4_dp, 1e-7_dp, 0.0_dp]
@@ -150,7 +153,8 @@ contains
             if (mod(i, 3) == 0) disk%incline = 0.0_dp
             call draw_state(disk, t, q, v)
             call disk%complete_velocities(t, q, [v(3), steering(1 + mod(i, 4))], v, error)
-            call new_rolling_disk_reference(reference, disk, t, q, v, found)
+            call disk%closed_form(t, q, v, reference)
+            found = allocated(reference)
             call assertTrue(found, "found")
             call check_reference(reference, disk, t, q, v, "disk")
             if (anyExceptions()) return
@@ -160,7 +164,7 @@ contains
     subroutine incline_drifts_sideways()
         !! After n turns the disk is as high as it was, and n times pi R kappa/omega^2 aside.
         type(rolling_disk_t) :: disk
-        type(rolling_disk_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         type(error_t), allocatable :: error
         real(dp) :: q0(4), v0(4), q(4), v(4), drift, lowest
         logical :: found
@@ -169,7 +173,8 @@ contains
         call build_uniform(disk, 1.7_dp, 0.3_dp, 0.4_dp)
         q0 = [0.2_dp, -0.6_dp, 0.1_dp, 0.7_dp]
         call disk%complete_velocities(0.0_dp, q0, [0.9_dp, 1.3_dp], v0, error)
-        call new_rolling_disk_reference(reference, disk, 0.0_dp, q0, v0, found)
+        call disk%closed_form(0.0_dp, q0, v0, reference)
+        found = allocated(reference)
         associate (kappa => 9.81_dp*sin(0.4_dp)/(1.5_dp*0.3_dp))
             drift = pi*0.3_dp*kappa/1.3_dp**2
             lowest = 0.0_dp
@@ -190,7 +195,7 @@ contains
         !! omega from 1e-300 to 1e-3 against rk4, which knows no limit, and against omega = 0:
         !! the state's derivative with respect to omega is below 100 here.
         type(rolling_disk_t) :: disk
-        type(rolling_disk_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         type(error_t), allocatable :: error
         real(dp) :: q0(4), v0(4), q(4), v(4), straight(4), omega
         logical :: found
@@ -200,7 +205,8 @@ contains
         do i = 0, 1
             call build_uniform(disk, 1.7_dp, 0.3_dp, 0.4_dp*i)
             call disk%complete_velocities(0.0_dp, q0, [0.9_dp, 0.0_dp], v0, error)
-            call new_rolling_disk_reference(reference, disk, 0.0_dp, q0, v0, found)
+            call disk%closed_form(0.0_dp, q0, v0, reference)
+            found = allocated(reference)
             call reference%state_at(2.0_dp, straight, v)
             associate (path => 0.9_dp*2.0_dp + i*2.0_dp*9.81_dp*sin(0.4_dp)/0.45_dp*sin(0.7_dp))
                 call assertEqual(q0 + path*[0.3_dp*sin(0.7_dp), -0.3_dp*cos(0.7_dp), 1.0_dp, &
@@ -210,7 +216,8 @@ contains
                 omega = 10.0_dp**(-k)
                 if (k == 13) omega = 1e-300_dp
                 call disk%complete_velocities(0.0_dp, q0, [0.9_dp, omega], v0, error)
-                call new_rolling_disk_reference(reference, disk, 0.0_dp, q0, v0, found)
+                call disk%closed_form(0.0_dp, q0, v0, reference)
+                found = allocated(reference)
                 call check_against_rk4(reference, disk, q0, v0, 2.0_dp, "omega -> 0")
                 call reference%state_at(2.0_dp, q, v)
                 call assertLessThanOrEqual(maxval(abs(q - straight)), 100.0_dp*omega + 1e-14_dp, &
@@ -222,12 +229,13 @@ contains
     subroutine slipping_start_has_no_reference()
         !! The closed form is that of rolling.
         type(rolling_disk_t) :: disk
-        type(rolling_disk_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         logical :: found
 
         call build_uniform(disk, 1.7_dp, 0.3_dp, 0.0_dp)
-        call new_rolling_disk_reference(reference, disk, 0.0_dp, [0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], &
-                                        [0.1_dp, -0.3_dp, 1.0_dp, 2.0_dp], found)
+        call disk%closed_form(0.0_dp, [0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], &
+                              [0.1_dp, -0.3_dp, 1.0_dp, 2.0_dp], reference)
+        found = allocated(reference)
         call assertFalse(found, "not found")
     end subroutine slipping_start_has_no_reference
 end module test_rolling_disk_reference

@@ -5,12 +5,9 @@ module test_rotating_reference
                      assertLessThanOrEqual, assertTrue
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
+    use lagrangia_reference, only: reference_t
     use lagrangia_rotating_hoop, only: rotating_hoop_t
-    use lagrangia_rotating_hoop_reference, only: new_rotating_hoop_reference, &
-                                                 rotating_hoop_reference_t
     use lagrangia_rotating_wire, only: rotating_wire_t
-    use lagrangia_rotating_wire_reference, only: new_rotating_wire_reference, &
-                                                 rotating_wire_reference_t
     use lagrangia_system, only: system_t
     use random_states, only: draw_parameters, draw_state, restart_random, uniform
     use reference_checks, only: check_reference, check_state
@@ -52,14 +49,15 @@ contains
     subroutine wire_reference_gives_the_oracle()
         !! 22-digit arithmetic: r0 = 0.5, omega = 1.5, t = 2. The sense of turning is no matter.
         type(rotating_wire_t) :: wire
-        type(rotating_wire_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         real(dp) :: q(1), v(1)
         logical :: found
         integer :: i
 
         do i = -1, 1, 2
             call set(wire, [1.3_dp, 1.5_dp*i])
-            call new_rotating_wire_reference(reference, wire, 7.0_dp, [0.5_dp], [0.0_dp], found)
+            call wire%closed_form(7.0_dp, [0.5_dp], [0.0_dp], reference)
+            found = allocated(reference)
             call assertTrue(found, "found")
             call reference%state_at(9.0_dp, q, v)
             call assertEqual(5.03383099788888292_dp, q(1), 4e-15_dp)
@@ -69,7 +67,7 @@ contains
     subroutine wire_reference_obeys_the_equations()
         !! At any rate of turning.
         type(rotating_wire_t) :: wire
-        type(rotating_wire_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         real(dp), allocatable :: q(:), v(:)
         real(dp) :: t
         logical :: found
@@ -78,7 +76,8 @@ contains
         do i = 1, 20
             call draw_parameters(wire, edges=mod(i, 2) == 0)
             call draw_state(wire, t, q, v)
-            call new_rotating_wire_reference(reference, wire, t, q, v, found)
+            call wire%closed_form(t, q, v, reference)
+            found = allocated(reference)
             call check_reference(reference, wire, t, q, v, "wire")
             if (anyExceptions()) return
         end do
@@ -88,7 +87,7 @@ contains
         !! Slow turning goes over into uniform motion. A bead that creeps towards the axis,
         !! r0 exp(-omega t), does so to the last digit, forwards and, flying away, backwards.
         type(rotating_wire_t) :: wire
-        type(rotating_wire_reference_t) :: reference
+        class(reference_t), allocatable :: reference
         real(dp) :: q(1), v(1), omega
         logical :: found
         integer :: k
@@ -96,7 +95,8 @@ contains
         do k = 1, 14
             omega = merge(0.0_dp, 10.0_dp**(-k), k == 14)
             call set(wire, [1.3_dp, omega])
-            call new_rotating_wire_reference(reference, wire, 0.0_dp, [0.4_dp], [0.7_dp], found)
+            call wire%closed_form(0.0_dp, [0.4_dp], [0.7_dp], reference)
+            found = allocated(reference)
             call check_against_rk4(reference, wire, [0.4_dp], [0.7_dp], 2.0_dp, "slow")
             call reference%state_at(2.0_dp, q, v)
             call assertLessThanOrEqual(abs(q(1) - 1.8_dp), 4.0_dp*omega**2 + 4e-16_dp, &
@@ -104,7 +104,8 @@ contains
         end do
         call set(wire, [1.3_dp, 1.5_dp])
         do k = -1, 1, 2
-            call new_rotating_wire_reference(reference, wire, 0.0_dp, [0.5_dp], [-0.75_dp*k], found)
+            call wire%closed_form(0.0_dp, [0.5_dp], [-0.75_dp*k], reference)
+            found = allocated(reference)
             call reference%state_at(k*20.0_dp, q, v)
             associate (exact => 0.5_dp*exp(-30.0_dp))
                 call assertEqual(exact, q(1), 1e-15_dp*exact, "creeping")
@@ -174,19 +175,19 @@ contains
         subroutine stands(angles, expected)
             real(dp), intent(in) :: angles(:)
             logical, intent(in) :: expected
-            type(rotating_hoop_reference_t) :: reference
+            class(reference_t), allocatable :: reference
             logical :: found
             integer :: i
 
             do i = 1, size(angles)
-                call new_rotating_hoop_reference(reference, hoop, 1.0_dp, angles(i:i), [0.0_dp], &
-                                                 found)
+                call hoop%closed_form(1.0_dp, angles(i:i), [0.0_dp], reference)
+                found = allocated(reference)
                 call assertTrue(found .eqv. expected, "equilibrium?")
                 if (.not. found) cycle
                 call check_state(reference, 9.0_dp, angles(i:i), [0.0_dp], 0.0_dp, "stands")
                 call check_reference(reference, hoop, 1.0_dp, angles(i:i), [0.0_dp], "stands")
-                call new_rotating_hoop_reference(reference, hoop, 1.0_dp, angles(i:i), &
-                                                 [1e-9_dp], found)
+                call hoop%closed_form(1.0_dp, angles(i:i), [1e-9_dp], reference)
+                found = allocated(reference)
                 call assertFalse(found, "it moves")
             end do
         end subroutine stands

@@ -1,7 +1,6 @@
 module test_shadow
     !! The run at half the step, which estimates the error where no closed form is known.
     use funit, only: TestMethod, TestSuite, assertEqual, assertGreaterThan, assertLessThan
-    use lagrangia_catalogue, only: new_reference
     use lagrangia_errors, only: error_t
     use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
     use lagrangia_integrator, only: integrator_t
@@ -74,7 +73,7 @@ contains
         call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
         q = 0.9_dp
         v = 0.5_dp
-        call new_reference(system, 0.3_dp, q, v, reference)
+        call system%closed_form(0.3_dp, q, v, reference)
         call new_integrator(name, method, error)
         call shadow%start(method, system, 0.3_dp, dt, q, v, error)
         call method%prepare(system, error)
@@ -123,7 +122,7 @@ contains
             call random%uniform(0.5_dp, 4.0_dp, duration)
             call random%uniform(-10.0_dp, -3.0_dp, method%tolerance)
             method%tolerance = 10.0_dp**method%tolerance
-            call new_reference(system, t, q, v, reference)
+            call system%closed_form(t, q, v, reference)
             if (allocated(shadow)) deallocate (shadow)
             allocate (shadow)
             call shadow%start_adaptive(method, system, t, t + duration, q, v, error)

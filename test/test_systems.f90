@@ -1,7 +1,7 @@
 module test_systems
     !! Walks over the catalogue: a new system is tested the day it is listed.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertGreaterThan
-    use lagrangia_catalogue, only: new_reference, nth_system, system_names
+    use lagrangia_catalogue, only: nth_system, system_names
     use lagrangia_description, only: description_t
     use lagrangia_kinds, only: dp
     use lagrangia_reference, only: reference_t
@@ -60,7 +60,7 @@ contains
             do k = 1, 5
                 call draw_parameters(system, edges=.false.)
                 call draw_state(system, t, q, v)
-                call new_reference(system, t, q, v, reference)
+                call system%closed_form(t, q, v, reference)
                 if (.not. allocated(reference)) cycle
                 if (.not. reference%has_state) cycle
                 found = found + 1

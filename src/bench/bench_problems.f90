@@ -1,6 +1,6 @@
 module lagrangia_bench_problems
     !! The problems that every method is given, with their solutions: `data/reference/bench.nml`.
-    use lagrangia_catalogue, only: new_reference, new_system
+    use lagrangia_catalogue, only: new_system
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
@@ -90,7 +90,7 @@ contains
         end block read_group
         if (allocated(error)) return
         problem%name = name
-        call new_reference(problem%system, 0.0_dp, problem%q, problem%v, problem%closed_form)
+        call problem%system%closed_form(0.0_dp, problem%q, problem%v, problem%closed_form)
         if (allocated(problem%closed_form)) then
             if (.not. problem%closed_form%has_state) deallocate (problem%closed_form)
         end if

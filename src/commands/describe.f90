@@ -1,6 +1,6 @@
 module lagrangia_describe
     !! `lagrangia describe SYSTEM`: what a lecturer would write on the blackboard.
-    use lagrangia_catalogue, only: new_reference, new_system
+    use lagrangia_catalogue, only: new_system
     use lagrangia_choice, only: auto, workhorse
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
@@ -108,9 +108,9 @@ contains
             call random%parameters(drawn, mod(i, 2) == 0, values, error)
             if (.not. allocated(error)) call random%state(drawn, t, q, v, error)
             if (allocated(error)) cycle
-            call new_reference(drawn, t, q, v, reference)
+            call drawn%closed_form(t, q, v, reference)
             if (allocated(reference)) return
-            call new_reference(drawn, t, q, 0.0_dp*v, reference)
+            call drawn%closed_form(t, q, 0.0_dp*v, reference)
             if (allocated(reference)) return
         end do
         yes = .false.

@@ -1,18 +1,14 @@
-module lagrangia_bouncing_ball_reference
+submodule (lagrangia_bouncing_ball) lagrangia_bouncing_ball_reference
     !! The bouncing ball in closed form: flights between impacts at
     !! $$ t_n = t_1 + \frac{2 e v_1}{g}\,\frac{1 - e^{n-1}}{1 - e} $$
     !! where \(v_1\) is the speed of the first impact, at \(t_1\); each flight starts with
     !! \(e^n v_1\). At \(t_\infty\) the ball comes to rest. At an impact the velocity is that after
     !! it.
-    use lagrangia_bouncing_ball, only: bouncing_ball_t
     use lagrangia_kinds, only: dp
     use lagrangia_reference, only: reference_t
     implicit none (type, external)
-    private
-    public :: bouncing_ball_reference_t, new_bouncing_ball_reference
 
     type, extends(reference_t) :: bouncing_ball_reference_t
-        private
         real(dp) :: t0 = 0.0_dp, y0 = 0.0_dp, v0 = 0.0_dp
         real(dp) :: g = 0.0_dp
         real(dp) :: e = 0.0_dp             !! restitution
@@ -27,10 +23,22 @@ module lagrangia_bouncing_ball_reference
 
 contains
 
-    pure subroutine new_bouncing_ball_reference(self, system, t0, q0, v0, found)
+    module subroutine closed_form(self, t0, q0, v0, reference)
+        !! See `system_t` and `set_motion`.
+        class(bouncing_ball_t), intent(in) :: self
+        real(dp), intent(in) :: t0, q0(:), v0(:)
+        class(reference_t), allocatable, intent(out) :: reference
+        type(bouncing_ball_reference_t) :: motion
+        logical :: found
+
+        call set_motion(motion, self, t0, q0, v0, found)
+        if (found) allocate (reference, source=motion)
+    end subroutine closed_form
+
+    pure subroutine set_motion(self, system, t0, q0, v0, found)
         !! Covers every initial state at or above the floor.
         type(bouncing_ball_reference_t), intent(out) :: self
-        type(bouncing_ball_t), intent(in) :: system
+        class(bouncing_ball_t), intent(in) :: system
         real(dp), intent(in) :: t0, q0(:), v0(:)
         logical, intent(out) :: found
 
@@ -51,7 +59,7 @@ contains
         else
             self%t1 = (self%v0 + self%v1)/self%g
         end if
-    end subroutine new_bouncing_ball_reference
+    end subroutine set_motion
 
     elemental function impact_time(self, n) result(t)
         !! Time of impact `n`, s.
@@ -123,4 +131,4 @@ contains
         q = max(0.0_dp, s*(v - 0.5_dp*s*self%g))
         v = v - s*self%g
     end subroutine state_at
-end module lagrangia_bouncing_ball_reference
+end submodule lagrangia_bouncing_ball_reference

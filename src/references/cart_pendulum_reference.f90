@@ -1,4 +1,4 @@
-module lagrangia_cart_pendulum_reference
+submodule (lagrangia_cart_pendulum) lagrangia_cart_pendulum_reference
     !! The cart-pendulum's motion by one quadrature, exact to rounding.
     !!
     !! The momentum \(p_x\) gives the cart; the energy leaves
@@ -13,18 +13,14 @@ module lagrangia_cart_pendulum_reference
     !! \(\varphi\) and is inverted by Newton's method inside a bracket.
     !!
     !! Derived here from \(L\); the rule: Trefethen & Weideman, SIAM Review 56, 385 (2014).
-    use lagrangia_cart_pendulum, only: cart_pendulum_t
     use lagrangia_kinds, only: dp
     use lagrangia_reference, only: reference_t
     implicit none (type, external)
-    private
-    public :: cart_pendulum_reference_t, new_cart_pendulum_reference
 
     real(dp), parameter :: pi = acos(-1.0_dp)
     integer, parameter :: most_points = 8192  !! of the trapezoid rule, for a period of `pi`
 
     type, extends(reference_t) :: cart_pendulum_reference_t
-        private
         type(cart_pendulum_t) :: system
         real(dp) :: t0 = 0.0_dp, q0(2) = 0.0_dp
         real(dp) :: drift = 0.0_dp       !! velocity of the centre of mass, m/s
@@ -45,12 +41,24 @@ module lagrangia_cart_pendulum_reference
 
 contains
 
-    pure subroutine new_cart_pendulum_reference(self, system, t0, q0, v0, found)
+    module subroutine closed_form(self, t0, q0, v0, reference)
+        !! See `system_t` and `set_motion`.
+        class(cart_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t0, q0(:), v0(:)
+        class(reference_t), allocatable, intent(out) :: reference
+        type(cart_pendulum_reference_t) :: motion
+        logical :: found
+
+        call set_motion(motion, self, t0, q0, v0, found)
+        if (found) allocate (reference, source=motion)
+    end subroutine closed_form
+
+    pure subroutine set_motion(self, system, t0, q0, v0, found)
         !! Covers every initial state, but for those so near the separatrix (closer than 0.01 rad
         !! to the top where the angle turns back), or with so light a cart (`m1` below 1e-4 `m2`),
         !! that the series gets too long. The period is that of the angle.
         type(cart_pendulum_reference_t), intent(out) :: self
-        type(cart_pendulum_t), intent(in) :: system
+        class(cart_pendulum_t), intent(in) :: system
         real(dp), intent(in) :: t0, q0(:), v0(:)
         logical, intent(out) :: found
         real(dp) :: s, c, w
@@ -88,7 +96,7 @@ contains
         if (.not. found) return
         self%clock = clock_at(self, self%phase)
         self%period = merge(pi, 2.0_dp*pi, self%rotates)*self%mean
-    end subroutine new_cart_pendulum_reference
+    end subroutine set_motion
 
     pure function share(system)
         !! \(\mu = m_2/(m_1+m_2)\).
@@ -237,4 +245,4 @@ contains
         q(1) = self%q0(1) + self%drift*(t - self%t0) - arm*(2.0_dp*s*c - sin(self%q0(2)))
         v(1) = self%drift - arm*v(2)*(1.0_dp - 2.0_dp*s**2)
     end subroutine state_at
-end module lagrangia_cart_pendulum_reference
+end submodule lagrangia_cart_pendulum_reference

@@ -1,18 +1,13 @@
-module lagrangia_charged_particle_reference
+submodule (lagrangia_charged_particle) lagrangia_charged_particle_reference
     !! A charge in uniform fields, free or in an isotropic trap, in closed form.
-    use lagrangia_charged_particle, only: charged_particle_t
     use lagrangia_kinds, only: dp
     use lagrangia_reference, only: reference_t
     use lagrangia_sinc, only: sinc
-    use lagrangia_vectors, only: cross, length
     implicit none (type, external)
-    private
-    public :: charged_particle_reference_t, new_charged_particle_reference
 
     real(dp), parameter :: pi = acos(-1.0_dp)
 
     type, extends(reference_t) :: charged_particle_reference_t
-        private
         real(dp) :: axis(3) = 0.0_dp              !! along e B
         real(dp) :: alpha = 0.0_dp                !! half the cyclotron frequency, rad/s
         real(dp) :: omega0 = 0.0_dp               !! of the trap, rad/s
@@ -26,34 +21,34 @@ module lagrangia_charged_particle_reference
 
 contains
 
-    pure subroutine new_charged_particle_reference(self, system, t0, q0, v0, found)
+    module subroutine closed_form(self, t0, q0, v0, reference)
         !! Covers every initial state and all fields, with a trap and without.
-        type(charged_particle_reference_t), intent(out) :: self
-        type(charged_particle_t), intent(in) :: system
+        class(charged_particle_t), intent(in) :: self
         real(dp), intent(in) :: t0, q0(:), v0(:)
-        logical, intent(out) :: found
+        class(reference_t), allocatable, intent(out) :: reference
+        type(charged_particle_reference_t) :: motion
         real(dp) :: push(3)
 
-        found = .true.
-        self%title = "drift, cyclotron turn and trap: rotation by omega_c/2 about B times "// &
+        motion%title = "drift, cyclotron turn and trap: rotation by omega_c/2 about B times "// &
                      "oscillation (Larmor)"
-        self%ndof = 3
-        self%axis = sign(1.0_dp, system%charge)*system%axis()
-        self%alpha = 0.5_dp*abs(system%charge)*length(system%magnetic)/system%m
-        self%omega0 = sqrt(system%trap/system%m)
-        self%t0 = t0
-        self%r0 = q0
-        push = (system%charge*system%electric - system%trap*q0)/system%m
-        self%push_along = dot_product(self%axis, push)*self%axis
-        self%push_across = push - self%push_along
-        self%along = dot_product(self%axis, v0)*self%axis
-        self%across = v0 - self%along
-        if (self%omega0 > 0.0_dp) then
-            if (self%alpha <= 0.0_dp) self%period = 2.0_dp*pi/self%omega0
-        else if (self%alpha > 0.0_dp .and. length(self%along) + length(push) <= 0.0_dp) then
-            self%period = pi/self%alpha
+        motion%ndof = 3
+        motion%axis = sign(1.0_dp, self%charge)*self%axis()
+        motion%alpha = 0.5_dp*abs(self%charge)*length(self%magnetic)/self%m
+        motion%omega0 = sqrt(self%trap/self%m)
+        motion%t0 = t0
+        motion%r0 = q0
+        push = (self%charge*self%electric - self%trap*q0)/self%m
+        motion%push_along = dot_product(motion%axis, push)*motion%axis
+        motion%push_across = push - motion%push_along
+        motion%along = dot_product(motion%axis, v0)*motion%axis
+        motion%across = v0 - motion%along
+        if (motion%omega0 > 0.0_dp) then
+            if (motion%alpha <= 0.0_dp) motion%period = 2.0_dp*pi/motion%omega0
+        else if (motion%alpha > 0.0_dp .and. length(motion%along) + length(push) <= 0.0_dp) then
+            motion%period = pi/motion%alpha
         end if
-    end subroutine new_charged_particle_reference
+        allocate (reference, source=motion)
+    end subroutine closed_form
 
     pure subroutine state_at(self, t, q, v)
         !! About the start, \(r = r_0 + h(\tau)\,v_0 + H(\tau)\,a_0\), where \(a_0\) is the
@@ -130,4 +125,4 @@ contains
 
         f = t*sinc(0.5_dp*omega*t)*exp(cmplx(0.0_dp, 0.5_dp*omega*t, dp))
     end function integral
-end module lagrangia_charged_particle_reference
+end submodule lagrangia_charged_particle_reference

@@ -1,16 +1,12 @@
-module lagrangia_oscillator_reference
+submodule (lagrangia_oscillator) lagrangia_oscillator_reference
     !! The oscillator's motion in closed form.
     use lagrangia_kinds, only: dp
-    use lagrangia_oscillator, only: oscillator_t
     use lagrangia_reference, only: reference_t
     implicit none (type, external)
-    private
-    public :: oscillator_reference_t, new_oscillator_reference
 
     real(dp), parameter :: pi = acos(-1.0_dp)
 
     type, extends(reference_t) :: oscillator_reference_t
-        private
         real(dp) :: omega = 0.0_dp  !! rad/s; 0 without a spring
         real(dp) :: t0 = 0.0_dp, x0 = 0.0_dp, v0 = 0.0_dp
     contains
@@ -19,23 +15,23 @@ module lagrangia_oscillator_reference
 
 contains
 
-    pure subroutine new_oscillator_reference(self, system, t0, q0, v0, found)
+    module subroutine closed_form(self, t0, q0, v0, reference)
         !! Covers every initial state; without a spring the motion is uniform.
-        type(oscillator_reference_t), intent(out) :: self
-        type(oscillator_t), intent(in) :: system
+        class(oscillator_t), intent(in) :: self
         real(dp), intent(in) :: t0, q0(:), v0(:)
-        logical, intent(out) :: found
+        class(reference_t), allocatable, intent(out) :: reference
+        type(oscillator_reference_t) :: motion
 
-        found = .true.
-        self%title = "x0 cos(omega t) + v0/omega sin(omega t), omega^2 = k/m"
-        self%ndof = 1
-        self%omega = sqrt(system%k/system%m)
-        if (self%omega > 0.0_dp) self%period = 2.0_dp*pi/self%omega
-        self%small_period = self%period
-        self%t0 = t0
-        self%x0 = q0(1)
-        self%v0 = v0(1)
-    end subroutine new_oscillator_reference
+        motion%title = "x0 cos(omega t) + v0/omega sin(omega t), omega^2 = k/m"
+        motion%ndof = 1
+        motion%omega = sqrt(self%k/self%m)
+        if (motion%omega > 0.0_dp) motion%period = 2.0_dp*pi/motion%omega
+        motion%small_period = motion%period
+        motion%t0 = t0
+        motion%x0 = q0(1)
+        motion%v0 = v0(1)
+        allocate (reference, source=motion)
+    end subroutine closed_form
 
     pure subroutine state_at(self, t, q, v)
         !! $$ x = x_0\cos\omega t + \frac{v_0}{\omega}\sin\omega t,\quad
@@ -56,4 +52,4 @@ contains
             v(1) = v0*c - omega*x0*s
         end associate
     end subroutine state_at
-end module lagrangia_oscillator_reference
+end submodule lagrangia_oscillator_reference

@@ -1,4 +1,4 @@
-module lagrangia_pendulum_reference
+submodule (lagrangia_pendulum) lagrangia_pendulum_reference
     !! The pendulum's motion in closed form, at any energy and from any initial state.
     !!
     !! With \(S = \sin\tfrac\theta2\), \(C = \cos\tfrac\theta2\), \(W = \dot\theta/2\omega\),
@@ -15,16 +15,12 @@ module lagrangia_pendulum_reference
     !! Source: DLMF 22.8 (addition theorems), 22.17 (modulus above 1), 22.19(i) (pendulum).
     use lagrangia_elliptic, only: elliptic_k, jacobi
     use lagrangia_kinds, only: dp
-    use lagrangia_pendulum, only: pendulum_t
     use lagrangia_reference, only: reference_t
     implicit none (type, external)
-    private
-    public :: pendulum_reference_t, new_pendulum_reference
 
     real(dp), parameter :: pi = acos(-1.0_dp)
 
     type, extends(reference_t) :: pendulum_reference_t
-        private
         real(dp) :: t0 = 0.0_dp, theta0 = 0.0_dp, v0 = 0.0_dp
         real(dp) :: omega = 0.0_dp                     !! \(\sqrt{g/\ell}\), rad/s
         real(dp) :: s = 0.0_dp, c = 1.0_dp, w = 0.0_dp !! \(S_0, C_0, W_0\)
@@ -36,10 +32,22 @@ module lagrangia_pendulum_reference
 
 contains
 
-    pure subroutine new_pendulum_reference(self, system, t0, q0, v0, found)
+    module subroutine closed_form(self, t0, q0, v0, reference)
+        !! See `system_t` and `set_motion`.
+        class(pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: t0, q0(:), v0(:)
+        class(reference_t), allocatable, intent(out) :: reference
+        type(pendulum_reference_t) :: motion
+        logical :: found
+
+        call set_motion(motion, self, t0, q0, v0, found)
+        if (found) allocate (reference, source=motion)
+    end subroutine closed_form
+
+    pure subroutine set_motion(self, system, t0, q0, v0, found)
         !! Covers every initial state; without gravity the rotation is uniform.
         type(pendulum_reference_t), intent(out) :: self
-        type(pendulum_t), intent(in) :: system
+        class(pendulum_t), intent(in) :: system
         real(dp), intent(in) :: t0, q0(:), v0(:)
         logical, intent(out) :: found
         real(dp) :: k2, kc2
@@ -74,7 +82,7 @@ contains
             self%title = "separatrix: hyperbolic functions"
             self%kc = 0.0_dp
         end if
-    end subroutine new_pendulum_reference
+    end subroutine set_motion
 
     pure subroutine state_at(self, t, q, v)
         !! The angle goes on growing where the pendulum rotates: half of it has turned by less than
@@ -112,4 +120,4 @@ contains
         q(1) = self%theta0 + 2.0_dp*half
         v(1) = 2.0_dp*self%omega*w
     end subroutine state_at
-end module lagrangia_pendulum_reference
+end submodule lagrangia_pendulum_reference

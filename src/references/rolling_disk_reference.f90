@@ -1,16 +1,12 @@
-module lagrangia_rolling_disk_reference
+submodule (lagrangia_rolling_disk) lagrangia_rolling_disk_reference
     !! The rolling disk in closed form: a circle on the level, a sideways drift on an incline.
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_reference, only: reference_t
-    use lagrangia_rolling_disk, only: rolling_disk_t
     use lagrangia_sinc, only: sinc, sinc_lag
     implicit none (type, external)
-    private
-    public :: rolling_disk_reference_t, new_rolling_disk_reference
 
     type, extends(reference_t) :: rolling_disk_reference_t
-        private
         real(dp) :: r = 0.0_dp, kappa = 0.0_dp  !! radius, m; roll acceleration, rad/s^2
         real(dp) :: t0 = 0.0_dp, q0(4) = 0.0_dp, v0(4) = 0.0_dp
     contains
@@ -19,24 +15,24 @@ module lagrangia_rolling_disk_reference
 
 contains
 
-    pure subroutine new_rolling_disk_reference(self, system, t0, q0, v0, found)
+    module subroutine closed_form(self, t0, q0, v0, reference)
         !! Covers every initial state that rolls.
-        type(rolling_disk_reference_t), intent(out) :: self
-        type(rolling_disk_t), intent(in) :: system
+        class(rolling_disk_t), intent(in) :: self
         real(dp), intent(in) :: t0, q0(:), v0(:)
-        logical, intent(out) :: found
+        class(reference_t), allocatable, intent(out) :: reference
+        type(rolling_disk_reference_t) :: motion
         type(error_t), allocatable :: slips
 
-        self%title = "circle of radius r phi_dot/theta_dot; on an incline, drift r kappa/(2 "// &
+        motion%title = "circle of radius r phi_dot/theta_dot; on an incline, drift r kappa/(2 "// &
                      "theta_dot) (Lagrange-d'Alembert)"
-        self%ndof = 4
-        self%r = system%r
-        self%kappa = system%roll_acceleration()
-        self%t0 = t0
-        self%q0 = q0
-        call system%complete_velocities(t0, q0, v0, self%v0, slips)
-        found = .not. allocated(slips)
-    end subroutine new_rolling_disk_reference
+        motion%ndof = 4
+        motion%r = self%r
+        motion%kappa = self%roll_acceleration()
+        motion%t0 = t0
+        motion%q0 = q0
+        call self%complete_velocities(t0, q0, v0, motion%v0, slips)
+        if (.not. allocated(slips)) allocate (reference, source=motion)
+    end subroutine closed_form
 
     pure subroutine state_at(self, t, q, v)
         !! With \(\tau = t - t_0\), \(\vartheta = \theta_0 + \omega\tau/2\) and
@@ -71,4 +67,4 @@ contains
             v(2) = -r*v(3)*cos(q(4))
         end associate
     end subroutine state_at
-end module lagrangia_rolling_disk_reference
+end submodule lagrangia_rolling_disk_reference

@@ -1,15 +1,11 @@
-module lagrangia_rotating_wire_reference
+submodule (lagrangia_rotating_wire) lagrangia_rotating_wire_reference
     !! The bead on the rotating wire in closed form.
     use lagrangia_kinds, only: dp
     use lagrangia_reference, only: reference_t
-    use lagrangia_rotating_wire, only: rotating_wire_t
     use lagrangia_sinc, only: sinhc
     implicit none (type, external)
-    private
-    public :: rotating_wire_reference_t, new_rotating_wire_reference
 
     type, extends(reference_t) :: rotating_wire_reference_t
-        private
         real(dp) :: omega = 0.0_dp  !! rad/s
         real(dp) :: t0 = 0.0_dp, r0 = 0.0_dp, v0 = 0.0_dp
     contains
@@ -18,21 +14,21 @@ module lagrangia_rotating_wire_reference
 
 contains
 
-    pure subroutine new_rotating_wire_reference(self, system, t0, q0, v0, found)
+    module subroutine closed_form(self, t0, q0, v0, reference)
         !! Covers every initial state; without rotation the motion is uniform.
-        type(rotating_wire_reference_t), intent(out) :: self
-        type(rotating_wire_t), intent(in) :: system
+        class(rotating_wire_t), intent(in) :: self
         real(dp), intent(in) :: t0, q0(:), v0(:)
-        logical, intent(out) :: found
+        class(reference_t), allocatable, intent(out) :: reference
+        type(rotating_wire_reference_t) :: motion
 
-        found = .true.
-        self%title = "r0 cosh(omega t) + v0/omega sinh(omega t)"
-        self%ndof = 1
-        self%omega = system%omega
-        self%t0 = t0
-        self%r0 = q0(1)
-        self%v0 = v0(1)
-    end subroutine new_rotating_wire_reference
+        motion%title = "r0 cosh(omega t) + v0/omega sinh(omega t)"
+        motion%ndof = 1
+        motion%omega = self%omega
+        motion%t0 = t0
+        motion%r0 = q0(1)
+        motion%v0 = v0(1)
+        allocate (reference, source=motion)
+    end subroutine closed_form
 
     pure subroutine state_at(self, t, q, v)
         !! $$ r = r_0\cosh\omega t + \frac{v_0}\omega\sinh\omega t
@@ -50,4 +46,4 @@ contains
         q(1) = self%r0*exp(-w*tau) + (self%v0 + w*self%r0)*tau*sinhc(w*tau)
         v(1) = -w*self%r0*exp(-w*tau) + (self%v0 + w*self%r0)*cosh(w*tau)
     end subroutine state_at
-end module lagrangia_rotating_wire_reference
+end submodule lagrangia_rotating_wire_reference

@@ -8,7 +8,7 @@ module lagrangia_standing
 
     real(dp), parameter :: pi = acos(-1.0_dp)
 
-    type, abstract, extends(reference_t) :: standing_t
+    type, extends(reference_t) :: standing_t
         private
         real(dp), allocatable :: q0(:)
     contains
@@ -19,7 +19,7 @@ contains
 
     pure subroutine start_standing(self, title, q0)
         !! Stand at `q0`.
-        class(standing_t), intent(inout) :: self
+        type(standing_t), intent(out) :: self
         character(*), intent(in) :: title
         real(dp), intent(in) :: q0(:)
 

@@ -18,7 +18,7 @@ contains
 
     pure subroutine start_uniform_acceleration(self, title, t0, q0, v0, a)
         !! Through `(q0, v0)` at `t0` with the accelerations `a`.
-        class(uniform_acceleration_t), intent(inout) :: self
+        type(uniform_acceleration_t), intent(out) :: self
         character(*), intent(in) :: title
         real(dp), intent(in) :: t0, q0(:), v0(:), a(:)
 

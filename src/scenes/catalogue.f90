@@ -1,49 +1,27 @@
 module lagrangia_catalogue
-    !! Names and types: the only module that knows every system, method and closed form.
+    !! Names and types: the only module that knows every system of the lectures.
     use lagrangia_atwood, only: atwood_t
-    use lagrangia_atwood_reference, only: atwood_reference_t, new_atwood_reference
     use lagrangia_bouncing_ball, only: bouncing_ball_t
-    use lagrangia_bouncing_ball_reference, only: bouncing_ball_reference_t, &
-        new_bouncing_ball_reference
     use lagrangia_cart_pendulum, only: cart_pendulum_t
-    use lagrangia_cart_pendulum_reference, only: cart_pendulum_reference_t, &
-        new_cart_pendulum_reference
     use lagrangia_charged_particle, only: charged_particle_t
-    use lagrangia_charged_particle_reference, only: charged_particle_reference_t, &
-        new_charged_particle_reference
     use lagrangia_description, only: description_t, name_length
     use lagrangia_double_pendulum, only: double_pendulum_t
     use lagrangia_driven_pendulum, only: driven_pendulum_t
-    use lagrangia_driven_pendulum_reference, only: driven_pendulum_reference_t, &
-        new_driven_pendulum_reference
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hanging_chain, only: hanging_chain_t
-    use lagrangia_kinds, only: dp
     use lagrangia_names, only: advice
     use lagrangia_newcomer, only: check_newcomer
     use lagrangia_oscillator, only: oscillator_t
-    use lagrangia_oscillator_reference, only: oscillator_reference_t, &
-        new_oscillator_reference
     use lagrangia_pendulum, only: pendulum_t
-    use lagrangia_pendulum_reference, only: pendulum_reference_t, new_pendulum_reference
-    use lagrangia_reference, only: reference_t
     use lagrangia_rolling_disk, only: rolling_disk_t
-    use lagrangia_rolling_disk_reference, only: rolling_disk_reference_t, &
-        new_rolling_disk_reference
     use lagrangia_rotating_hoop, only: rotating_hoop_t
-    use lagrangia_rotating_hoop_reference, only: rotating_hoop_reference_t, &
-        new_rotating_hoop_reference
     use lagrangia_rotating_wire, only: rotating_wire_t
-    use lagrangia_rotating_wire_reference, only: rotating_wire_reference_t, &
-        new_rotating_wire_reference
     use lagrangia_system, only: default_values, system_box_t, system_t
     use lagrangia_text, only: quoted
     use lagrangia_wedge, only: wedge_t
-    use lagrangia_wedge_reference, only: wedge_reference_t, new_wedge_reference
     implicit none (type, external)
     private
     public :: new_system, nth_system, register_system, system_names
-    public :: new_reference
     public :: refuse_name
     public :: built_in
 
@@ -54,7 +32,7 @@ contains
 
     subroutine register_system(system, error)
         !! Add a system of your own, behind the others. Fails, and adds nothing, where its name is
-        !! taken or cannot be typed, or its description has gaps.
+        !! taken or cannot be typed, its description has gaps, or its closed form is of another motion.
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
         type(system_box_t), allocatable :: longer(:)
@@ -103,94 +81,6 @@ contains
         call system%describe(d)
         call system%configure(default_values(d), error)
     end subroutine nth_system
-
-    subroutine new_reference(system, t0, q0, v0, reference)
-        !! The closed form of the motion that starts at `(q0, v0)`; not allocated if none is known.
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t0, q0(:), v0(:)
-        class(reference_t), allocatable, intent(out) :: reference
-        logical :: found
-
-        select type (system)
-        type is (oscillator_t)
-            block
-                type(oscillator_reference_t) :: closed_form
-
-                call new_oscillator_reference(closed_form, system, t0, q0, v0, found)
-                if (found) allocate (reference, source=closed_form)
-            end block
-        type is (pendulum_t)
-            block
-                type(pendulum_reference_t) :: closed_form
-
-                call new_pendulum_reference(closed_form, system, t0, q0, v0, found)
-                if (found) allocate (reference, source=closed_form)
-            end block
-        type is (cart_pendulum_t)
-            block
-                type(cart_pendulum_reference_t) :: closed_form
-
-                call new_cart_pendulum_reference(closed_form, system, t0, q0, v0, found)
-                if (found) allocate (reference, source=closed_form)
-            end block
-        type is (atwood_t)
-            block
-                type(atwood_reference_t) :: closed_form
-
-                call new_atwood_reference(closed_form, system, t0, q0, v0, found)
-                if (found) allocate (reference, source=closed_form)
-            end block
-        type is (wedge_t)
-            block
-                type(wedge_reference_t) :: closed_form
-
-                call new_wedge_reference(closed_form, system, t0, q0, v0, found)
-                if (found) allocate (reference, source=closed_form)
-            end block
-        type is (rolling_disk_t)
-            block
-                type(rolling_disk_reference_t) :: closed_form
-
-                call new_rolling_disk_reference(closed_form, system, t0, q0, v0, found)
-                if (found) allocate (reference, source=closed_form)
-            end block
-        type is (charged_particle_t)
-            block
-                type(charged_particle_reference_t) :: closed_form
-
-                call new_charged_particle_reference(closed_form, system, t0, q0, v0, found)
-                if (found) allocate (reference, source=closed_form)
-            end block
-        type is (rotating_wire_t)
-            block
-                type(rotating_wire_reference_t) :: closed_form
-
-                call new_rotating_wire_reference(closed_form, system, t0, q0, v0, found)
-                if (found) allocate (reference, source=closed_form)
-            end block
-        type is (rotating_hoop_t)
-            block
-                type(rotating_hoop_reference_t) :: closed_form
-
-                call new_rotating_hoop_reference(closed_form, system, t0, q0, v0, found)
-                if (found) allocate (reference, source=closed_form)
-            end block
-        type is (driven_pendulum_t)
-            block
-                type(driven_pendulum_reference_t) :: closed_form
-
-                call new_driven_pendulum_reference(closed_form, system, t0, q0, v0, found)
-                if (found) allocate (reference, source=closed_form)
-            end block
-        type is (bouncing_ball_t)
-            block
-                type(bouncing_ball_reference_t) :: closed_form
-
-                call new_bouncing_ball_reference(closed_form, system, t0, q0, v0, found)
-                if (found) allocate (reference, source=closed_form)
-            end block
-        end select
-    end subroutine new_reference
 
     subroutine new_system(name, system, error)
         !! The system called `name`, with its default parameters.

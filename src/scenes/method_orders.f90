@@ -1,6 +1,5 @@
 module lagrangia_method_orders
     !! The order of each method, measured on nonlinear motions that are known in closed form.
-    use lagrangia_catalogue, only: new_reference
     use lagrangia_errors, only: error_t
     use lagrangia_findings, only: audit_t
     use lagrangia_integrator, only: integrator_t
@@ -140,7 +139,7 @@ contains
             call method%advance(system, 0.0_dp, duration/steps, k, 1_i8, q, v)
             swing = max(swing, abs(system%energy(0.0_dp, q, v)/e0 - 1.0_dp))
         end do
-        call new_reference(system, 0.0_dp, q0, v0, reference)
+        call system%closed_form(0.0_dp, q0, v0, reference)
         call reference%state_at(duration, q_true, v_true)
         error = max(maxval(abs(q - q_true)), maxval(abs(v - v_true)))
     end subroutine method_run

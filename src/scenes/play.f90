@@ -1,7 +1,6 @@
 module lagrangia_play
     !! One scene from its data to its data file, picture and row of the scorecard.
     use lagrangia_accuracy, only: rehearse_finer, state_accuracy
-    use lagrangia_catalogue, only: new_reference
     use lagrangia_choice, only: exact, settle_method
     use lagrangia_columns, only: new_columns
     use lagrangia_dense_run, only: drive
@@ -59,7 +58,7 @@ contains
         type(performance_t), intent(inout) :: p
         type(error_t), allocatable, intent(out) :: error
 
-        call new_reference(system, scene%t0, scene%q, scene%v, p%reference)
+        call system%closed_form(scene%t0, scene%q, scene%v, p%reference)
         call settle_method(scene, system, p%reference, p%scene, p%outcome%choice)
         call begin_outcome(p%scene, p%outcome)
         call stage_method(p%scene, system, p%plan, p%integrator, error, p%reference)

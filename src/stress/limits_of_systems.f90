@@ -1,7 +1,6 @@
 module lagrangia_limits_of_systems
     !! Where formulas of the lectures become 0/0: angles of a wedge, slow rotation, weak fields.
     use lagrangia_bench_table, only: short
-    use lagrangia_catalogue, only: new_reference
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, qp
     use lagrangia_reference, only: reference_t
@@ -121,7 +120,7 @@ contains
         v = q
         call system%configure(parameters, error)
         if (allocated(error)) return
-        call new_reference(system, 0.0_dp, q0, v0, reference)
+        call system%closed_form(0.0_dp, q0, v0, reference)
         if (allocated(reference)) call reference%state_at(t, q, v)
     end subroutine state_of
 

@@ -1,7 +1,6 @@
 module lagrangia_pendulum_extremes
     !! The pendulum where digits are lost: near the separatrix, and at angles of many turns.
     use lagrangia_bench_table, only: short
-    use lagrangia_catalogue, only: new_reference
     use lagrangia_dense_motion, only: move, time_of_zero
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
@@ -36,7 +35,7 @@ contains
             of = "pi - 1e-"//to_text(powers(i))
             theta0 = real(pi, dp) - 10.0_dp**(-powers(i))
             period = exact_period(system, theta0)
-            call new_reference(system, 0.0_dp, [theta0], [0.0_dp], reference)
+            call system%closed_form(0.0_dp, [theta0], [0.0_dp], reference)
             closed = 0.0_dp
             if (allocated(reference)) closed = reference%period
             call verdicts%judge(of, "period, closed form: relative error", &

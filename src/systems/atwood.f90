@@ -10,6 +10,7 @@ module lagrangia_atwood
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(+), operator(-)
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
+    use lagrangia_reference, only: reference_t
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
@@ -35,7 +36,18 @@ module lagrangia_atwood
         procedure :: positions
         procedure :: newton
         procedure :: angles
+        procedure :: closed_form
     end type atwood_t
+
+    interface
+        module subroutine closed_form(self, t0, q0, v0, reference)
+            !! See `system_t`; in `atwood_reference`.
+            implicit none (type, external)
+            class(atwood_t), intent(in) :: self
+            real(dp), intent(in) :: t0, q0(:), v0(:)
+            class(reference_t), allocatable, intent(out) :: reference
+        end subroutine closed_form
+    end interface
 
 contains
 

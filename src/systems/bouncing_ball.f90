@@ -11,6 +11,7 @@ module lagrangia_bouncing_ball
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(-)
     use lagrangia_kinds, only: dp
+    use lagrangia_reference, only: reference_t
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
@@ -33,7 +34,18 @@ module lagrangia_bouncing_ball
         procedure :: newton
         procedure :: gap
         procedure :: impact
+        procedure :: closed_form
     end type bouncing_ball_t
+
+    interface
+        module subroutine closed_form(self, t0, q0, v0, reference)
+            !! See `system_t`; in `bouncing_ball_reference`.
+            implicit none (type, external)
+            class(bouncing_ball_t), intent(in) :: self
+            real(dp), intent(in) :: t0, q0(:), v0(:)
+            class(reference_t), allocatable, intent(out) :: reference
+        end subroutine closed_form
+    end interface
 
 contains
 

@@ -12,6 +12,7 @@ module lagrangia_cart_pendulum
                                    operator(+), operator(-), sin
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
+    use lagrangia_reference, only: reference_t
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
@@ -38,7 +39,18 @@ module lagrangia_cart_pendulum
         procedure :: positions
         procedure :: newton
         procedure :: reduce
+        procedure :: closed_form
     end type cart_pendulum_t
+
+    interface
+        module subroutine closed_form(self, t0, q0, v0, reference)
+            !! See `system_t`; in `cart_pendulum_reference`.
+            implicit none (type, external)
+            class(cart_pendulum_t), intent(in) :: self
+            real(dp), intent(in) :: t0, q0(:), v0(:)
+            class(reference_t), allocatable, intent(out) :: reference
+        end subroutine closed_form
+    end interface
 
 contains
 

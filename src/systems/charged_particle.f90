@@ -11,6 +11,7 @@ module lagrangia_charged_particle
     use lagrangia_hyperdual, only: dot_product, hyperdual_t, operator(*), operator(+), operator(-)
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
+    use lagrangia_reference, only: reference_t
     use lagrangia_system, only: check_parameters, lanes
     use lagrangia_vectors, only: cross, length
     implicit none (type, external)
@@ -40,6 +41,7 @@ module lagrangia_charged_particle
         procedure :: centre
         procedure :: is_cyclic
         procedure :: parallel
+        procedure :: closed_form
     end type charged_particle_t
 
     interface
@@ -49,6 +51,14 @@ module lagrangia_charged_particle
             class(charged_particle_t), intent(in) :: self
             type(description_t), intent(out) :: d
         end subroutine describe
+
+        module subroutine closed_form(self, t0, q0, v0, reference)
+            !! See `system_t`; in `charged_particle_reference`.
+            implicit none (type, external)
+            class(charged_particle_t), intent(in) :: self
+            real(dp), intent(in) :: t0, q0(:), v0(:)
+            class(reference_t), allocatable, intent(out) :: reference
+        end subroutine closed_form
     end interface
 
 contains

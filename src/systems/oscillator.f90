@@ -9,6 +9,7 @@ module lagrangia_oscillator
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(-)
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
+    use lagrangia_reference, only: reference_t
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
@@ -29,7 +30,18 @@ module lagrangia_oscillator
         procedure :: quantity => force_or_momentum
         procedure :: positions
         procedure :: newton
+        procedure :: closed_form
     end type oscillator_t
+
+    interface
+        module subroutine closed_form(self, t0, q0, v0, reference)
+            !! See `system_t`; in `oscillator_reference`.
+            implicit none (type, external)
+            class(oscillator_t), intent(in) :: self
+            real(dp), intent(in) :: t0, q0(:), v0(:)
+            class(reference_t), allocatable, intent(out) :: reference
+        end subroutine closed_form
+    end interface
 
 contains
 

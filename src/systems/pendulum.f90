@@ -10,6 +10,7 @@ module lagrangia_pendulum
                                    operator(+), operator(-), sin
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
+    use lagrangia_reference, only: reference_t
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
@@ -34,7 +35,18 @@ module lagrangia_pendulum
         procedure :: quantity => momentum_or_tension
         procedure :: positions
         procedure :: newton
+        procedure :: closed_form
     end type pendulum_t
+
+    interface
+        module subroutine closed_form(self, t0, q0, v0, reference)
+            !! See `system_t`; in `pendulum_reference`.
+            implicit none (type, external)
+            class(pendulum_t), intent(in) :: self
+            real(dp), intent(in) :: t0, q0(:), v0(:)
+            class(reference_t), allocatable, intent(out) :: reference
+        end subroutine closed_form
+    end interface
 
 contains
 

@@ -13,6 +13,7 @@ module lagrangia_rolling_disk
     use lagrangia_hyperdual, only: assignment(=), cos, hyperdual_t, operator(*), operator(**), &
                                    operator(+), operator(-), sin
     use lagrangia_kinds, only: dp
+    use lagrangia_reference, only: reference_t
     use lagrangia_system, only: check_parameters, lanes, system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -44,6 +45,7 @@ module lagrangia_rolling_disk
         procedure :: complete_velocities
         procedure :: pull
         procedure :: roll_acceleration
+        procedure :: closed_form
     end type rolling_disk_t
 
     interface
@@ -53,6 +55,14 @@ module lagrangia_rolling_disk
             class(rolling_disk_t), intent(in) :: self
             type(description_t), intent(out) :: d
         end subroutine describe
+
+        module subroutine closed_form(self, t0, q0, v0, reference)
+            !! See `system_t`; in `rolling_disk_reference`.
+            implicit none (type, external)
+            class(rolling_disk_t), intent(in) :: self
+            real(dp), intent(in) :: t0, q0(:), v0(:)
+            class(reference_t), allocatable, intent(out) :: reference
+        end subroutine closed_form
     end interface
 
 contains

@@ -11,6 +11,7 @@ module lagrangia_rotating_hoop
                                    operator(+), operator(-), sin
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
+    use lagrangia_reference, only: reference_t
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
@@ -33,7 +34,18 @@ module lagrangia_rotating_hoop
         procedure :: quantity => energy_or_torque
         procedure :: positions
         procedure :: newton
+        procedure :: closed_form
     end type rotating_hoop_t
+
+    interface
+        module subroutine closed_form(self, t0, q0, v0, reference)
+            !! See `system_t`; in `rotating_hoop_reference`.
+            implicit none (type, external)
+            class(rotating_hoop_t), intent(in) :: self
+            real(dp), intent(in) :: t0, q0(:), v0(:)
+            class(reference_t), allocatable, intent(out) :: reference
+        end subroutine closed_form
+    end interface
 
 contains
 

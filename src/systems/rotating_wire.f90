@@ -11,6 +11,7 @@ module lagrangia_rotating_wire
                                    operator(-), sin
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
+    use lagrangia_reference, only: reference_t
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
@@ -31,7 +32,18 @@ module lagrangia_rotating_wire
         procedure :: quantity => energy_or_force
         procedure :: positions
         procedure :: newton
+        procedure :: closed_form
     end type rotating_wire_t
+
+    interface
+        module subroutine closed_form(self, t0, q0, v0, reference)
+            !! See `system_t`; in `rotating_wire_reference`.
+            implicit none (type, external)
+            class(rotating_wire_t), intent(in) :: self
+            real(dp), intent(in) :: t0, q0(:), v0(:)
+            class(reference_t), allocatable, intent(out) :: reference
+        end subroutine closed_form
+    end interface
 
 contains
 

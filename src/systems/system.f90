@@ -11,6 +11,7 @@ module lagrangia_system
     use lagrangia_linearised, only: linearised_t
     use lagrangia_newtonian, only: newtonian_t
     use lagrangia_parameters, only: check_parameter, default_values
+    use lagrangia_reference, only: reference_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -43,6 +44,7 @@ module lagrangia_system
         procedure :: gap => no_gap
         procedure :: impact => no_impact
         procedure :: reduce => not_reduced
+        procedure :: closed_form => no_closed_form
     end type system_t
 
     type :: system_box_t
@@ -272,6 +274,16 @@ contains
         class(system_t), intent(in) :: self
         class(system_t), allocatable, intent(out) :: reduced
     end subroutine not_reduced
+
+    subroutine no_closed_form(self, t0, q0, v0, reference)
+        !! The closed form of the motion through a state; not allocated where none is known. With
+        !! it come the column `error`, the method `exact`, and `auto` takes it. An extension that
+        !! changes the equations of motion must give its own, or leave `reference` unallocated.
+        class(system_t), intent(in) :: self
+        real(dp), intent(in) :: t0              !! s
+        real(dp), intent(in) :: q0(:), v0(:)    !! coordinates and velocities at `t0`, `(ndof)`
+        class(reference_t), allocatable, intent(out) :: reference  !! goes through that state
+    end subroutine no_closed_form
 
     pure subroutine check_parameters(self, values, error)
         !! Refuse `values` that are too many, too few or outside their domains.

@@ -1,0 +1,118 @@
+module lagrangia_closed_form_check
+    !! Whether the closed form that a system brings is that of its motion.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_kinds, only: dp
+    use lagrangia_random_draws, only: random_t
+    use lagrangia_reference, only: reference_t
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: check_closed_form
+
+    integer, parameter :: draws = 40   !! of parameters and states, half of them at rest
+    integer, parameter :: halvings = 30
+    real(dp), parameter :: bound = 1e-6_dp
+    !! of a rate beside those of the motion. With the best step h the central difference has
+    !! rounding/h and h**2: together rounding**(2/3), some 4e-11, where times are of order 1
+
+contains
+
+    subroutine check_closed_form(system, error)
+        !! Fails where the closed form of a drawn state has another number of coordinates, does not
+        !! go through that state, or does not obey the equations of motion there.
+        class(system_t), intent(in) :: system             !! with parameters that are allowed
+        type(error_t), allocatable, intent(out) :: error
+        class(system_t), allocatable :: drawn
+        class(reference_t), allocatable :: motion
+        type(random_t) :: random
+        type(error_t), allocatable :: none_drawn
+        real(dp), allocatable :: values(:), q(:), v(:)
+        real(dp) :: t
+        integer :: i
+
+        allocate (drawn, source=system)
+        do i = 1, draws
+            call random%parameters(drawn, mod(i/2, 2) == 0, values, none_drawn)
+            if (.not. allocated(none_drawn)) call random%state(drawn, t, q, v, none_drawn)
+            if (allocated(none_drawn)) cycle
+            if (mod(i, 2) == 0) v = 0.0_dp
+            call drawn%closed_form(t, q, v, motion)
+            if (.not. allocated(motion)) cycle
+            call judge(drawn, motion, t, q, v, error)
+            if (allocated(error)) return
+        end do
+    end subroutine check_closed_form
+
+    subroutine judge(system, motion, t, q, v, error)
+        !! One motion, at the state from which it was made.
+        class(system_t), intent(in) :: system
+        class(reference_t), intent(in) :: motion
+        real(dp), intent(in) :: t, q(:), v(:)
+        type(error_t), allocatable, intent(out) :: error
+        real(dp), dimension(size(q)) :: a, here, rate, rate_q, rate_v
+        real(dp) :: h, size_q, size_rates, off
+        integer :: k
+
+        if (motion%ndof /= system%ndof) then
+            call fail(error, "its closed form has ndof = "//to_text(motion%ndof)//", and not "// &
+                      to_text(system%ndof))
+            return
+        end if
+        if (.not. motion%has_state) return
+        call motion%state_at(t, here, rate)
+        call system%accelerations(t, q, v, a)
+        if (.not. all(ieee_is_finite(a))) return
+        size_q = 1.0_dp + maxval(abs(q))
+        size_rates = maxval(abs(v)) + maxval(abs(a)) + bound*size_q
+        if (.not. (all(abs(here - q) <= bound*size_q) &
+                   .and. all(abs(rate - v) <= bound*size_rates))) then
+            call fail(error, "its closed form of the motion from "//state_text()//" is at "// &
+                      "q = "//list(here)//", v = "//list(rate)//" then")
+            return
+        end if
+        if (system%contacts > 0) return  ! an impact may be near
+        h = 1.0_dp
+        do k = 0, halvings
+            call differences(h, rate_q, rate_v)
+            off = max(maxval(abs(rate_q - v)), maxval(abs(rate_v - a)))
+            if (off <= bound*size_rates) return
+            h = 0.5_dp*h
+        end do
+        call fail(error, "its closed form does not obey the equations of motion at "// &
+                  state_text()//": accelerations are "//list(a)//"; give the system a "// &
+                  "closed_form of its own, or none")
+    contains
+        subroutine differences(step, by_q, by_v)
+            !! Central ones.
+            real(dp), intent(in) :: step
+            real(dp), intent(out) :: by_q(:), by_v(:)
+            real(dp), dimension(size(q)) :: q1, v1, q2, v2
+
+            call motion%state_at(t - step, q1, v1)
+            call motion%state_at(t + step, q2, v2)
+            by_q = (q2 - q1)/(2.0_dp*step)
+            by_v = (v2 - v1)/(2.0_dp*step)
+        end subroutine differences
+
+        function state_text() result(text)
+            character(:), allocatable :: text
+
+            text = "t = "//to_text(t)//", q = "//list(q)//", v = "//list(v)
+        end function state_text
+    end subroutine judge
+
+    function list(x) result(text)
+        !! Numbers and commas.
+        real(dp), intent(in) :: x(:)
+        character(:), allocatable :: text
+        integer :: i
+
+        text = ""
+        do i = 1, size(x)
+            if (i > 1) text = text//", "
+            text = text//to_text(x(i))
+        end do
+    end function list
+end module lagrangia_closed_form_check

@@ -1,0 +1,106 @@
+module own_closed_forms
+    !! An own system with the closed form of its motion, and what may be wrong with it.
+    use lagrangia_description, only: coordinate, description_t, positive
+    use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(-)
+    use lagrangia_kinds, only: dp
+    use lagrangia_lagrangian_system, only: lagrangian_system_t
+    use lagrangia_pendulum, only: pendulum_t
+    use lagrangia_reference, only: reference_t
+    implicit none (type, external)
+    private
+    public :: own_spring_t, own_drag_t, right, wrong_size, wrong_start, wrong_motion, undefined
+
+    enum, bind(c)
+        enumerator :: right, wrong_size, wrong_start, wrong_motion, undefined
+    end enum
+
+    type, extends(lagrangian_system_t) :: own_spring_t
+        !! A mass on a spring.
+        integer :: kind = right  !! of the closed form
+    contains
+        procedure :: outline
+        procedure :: lagrangian
+        procedure :: closed_form
+    end type own_spring_t
+
+    type, extends(reference_t) :: own_turns_t
+        !! Turns by \(\omega(t - t_0)\) in the plane of \(x\) and \(\dot x/\omega\).
+        real(dp) :: omega = 0.0_dp, t0 = 0.0_dp, x0 = 0.0_dp, v0 = 0.0_dp
+    contains
+        procedure :: state_at
+    end type own_turns_t
+
+    type, extends(pendulum_t) :: own_drag_t
+        !! Equations that are not the pendulum's any more, whose closed form it has inherited.
+    contains
+        procedure :: describe
+        procedure :: accelerations
+    end type own_drag_t
+
+contains
+
+    pure subroutine outline(self, d)
+        class(own_spring_t), intent(in) :: self
+        type(description_t), intent(out) :: d
+
+        d%name = "own_spring"
+        d%title = "a spring that a student brought"
+        d%coordinates = [coordinate("x", "m", "from where the spring is relaxed")]
+        d%parameters = [positive("m", "kg", "mass", 2.0_dp), positive("k", "N/m", "spring", 5.0_dp)]
+    end subroutine outline
+
+    pure function lagrangian(self, t, q, v) result(l)
+        class(own_spring_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t) :: l
+
+        l = 0.5_dp*self%p(1)*v(1)**2 - 0.5_dp*self%p(2)*q(1)**2
+    end function lagrangian
+
+    subroutine closed_form(self, t0, q0, v0, reference)
+        class(own_spring_t), intent(in) :: self
+        real(dp), intent(in) :: t0, q0(:), v0(:)
+        class(reference_t), allocatable, intent(out) :: reference
+        type(own_turns_t) :: turns
+
+        if (self%kind == undefined) return
+        turns%title = "own turns"
+        turns%ndof = merge(2, 1, self%kind == wrong_size)
+        turns%omega = sqrt(self%p(2)/self%p(1))
+        if (self%kind == wrong_motion) turns%omega = 1.0001_dp*turns%omega
+        turns%t0 = t0
+        turns%x0 = q0(1)
+        if (self%kind == wrong_start) turns%x0 = 1.001_dp*q0(1)
+        turns%v0 = v0(1)
+        turns%period = 2.0_dp*acos(-1.0_dp)/turns%omega
+        allocate (reference, source=turns)
+    end subroutine closed_form
+
+    pure subroutine state_at(self, t, q, v)
+        class(own_turns_t), intent(in) :: self
+        real(dp), intent(in) :: t
+        real(dp), intent(out) :: q(self%ndof), v(self%ndof)
+
+        associate (angle => self%omega*(t - self%t0))
+            q = self%x0*cos(angle) + self%v0/self%omega*sin(angle)
+            v = self%v0*cos(angle) - self%x0*self%omega*sin(angle)
+        end associate
+    end subroutine state_at
+
+    pure subroutine describe(self, d)
+        class(own_drag_t), intent(in) :: self
+        type(description_t), intent(out) :: d
+
+        call self%pendulum_t%describe(d)
+        d%name = "own_drag"
+    end subroutine describe
+
+    pure subroutine accelerations(self, t, q, v, a)
+        class(own_drag_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: a(self%ndof)
+
+        call self%pendulum_t%accelerations(t, q, v, a)
+        a = a - 1e-3_dp*v
+    end subroutine accelerations
+end module own_closed_forms
