@@ -52,14 +52,12 @@ contains
         !! Oracle of 22-digit arithmetic: m = e = B = 1, E = (.2, .1), v0 = (1, 0).
         type(charged_particle_t) :: particle
         class(reference_t), allocatable :: reference
-        logical :: found
         real(dp) :: q(3), v(3)
 
         call build(particle, 1.0_dp, 1.0_dp, [0.2_dp, 0.1_dp, 0.0_dp], [0.0_dp, 0.0_dp, 1.0_dp], &
                    0.0_dp)
         call particle%closed_form(3.0_dp, nil, [1.0_dp, 0.0_dp, 0.0_dp], reference)
-        found = allocated(reference)
-        call assertTrue(found, "found")
+        call assertTrue(allocated(reference), "found")
         call reference%state_at(4.0_dp, q, v)
         call assertEqual([0.949263425153478913_dp, -0.445433727757094953_dp, 0.0_dp], q, 1e-15_dp)
         call reference%state_at(13.0_dp, q, v)
@@ -71,7 +69,6 @@ contains
         type(charged_particle_t) :: particle
         class(reference_t), allocatable :: reference
         real(dp) :: m, charge, e(3), b, r0(3), v0(3), t, wc, c(2), drift(2), q(3), v(3)
-        logical :: found
         integer :: i
 
         do i = 1, 40
@@ -84,7 +81,6 @@ contains
             t = uniform(-4.0_dp, 4.0_dp)
             call build(particle, m, charge, e, [0.0_dp, 0.0_dp, b], 0.0_dp)
             call particle%closed_form(0.0_dp, r0, v0, reference)
-            found = allocated(reference)
             call reference%state_at(t, q, v)
             wc = charge*b/m
             drift = [e(2)/b, -e(1)/b]
@@ -103,15 +99,13 @@ contains
         class(reference_t), allocatable :: reference
         real(dp), allocatable :: q(:), v(:)
         real(dp) :: t
-        logical :: found
         integer :: i
 
         do i = 1, 60
             call draw_parameters(particle, edges=mod(i, 2) == 0)
             call draw_state(particle, t, q, v)
             call particle%closed_form(t, q, v, reference)
-            found = allocated(reference)
-            call assertTrue(found, "found")
+            call assertTrue(allocated(reference), "found")
             call check_reference(reference, particle, t, q, v, "charge")
             if (anyExceptions()) return
         end do
@@ -123,7 +117,6 @@ contains
         class(reference_t), allocatable :: reference, turned_reference
         real(dp), allocatable :: q0(:), v0(:)
         real(dp) :: rotation(3, 3), q(3), v(3), t0
-        logical :: found
         integer :: i
 
         do i = 1, 30
@@ -132,13 +125,11 @@ contains
                        [0.0_dp, 0.0_dp, uniform(-3.0_dp, 3.0_dp)], 0.7_dp*mod(i, 2))
             call draw_state(particle, t0, q0, v0)
             call particle%closed_form(t0, q0, v0, reference)
-            found = allocated(reference)
             call draw_rotation(rotation)
             call build(turned, 1.3_dp, particle%charge, matmul(rotation, particle%electric), &
                        matmul(rotation, particle%magnetic), particle%trap)
             call turned%closed_form(t0, matmul(rotation, q0), &
                                     matmul(rotation, v0), turned_reference)
-            found = allocated(turned_reference)
             call reference%state_at(t0 + 5.0_dp, q, v)
             call check_state(turned_reference, t0 + 5.0_dp, matmul(rotation, q), &
                              matmul(rotation, v), 1e-13_dp, "turned")
@@ -168,13 +159,11 @@ contains
         real(dp), parameter :: e(3) = [0.3_dp, -0.2_dp, 0.5_dp], b(3) = [1.0_dp, 2.0_dp, 2.0_dp]
         real(dp), parameter :: e_cross_b(3) = [-1.4_dp, -0.1_dp, 0.8_dp]
         real(dp) :: t, q(3), v(3)
-        logical :: found
         integer :: i
 
         do i = -1, 1, 2
             call build(particle, 0.7_dp, 0.3_dp*i, e, b, 0.0_dp)
             call particle%closed_form(0.0_dp, nil, [1.0_dp, -0.5_dp, 0.0_dp], reference)
-            found = allocated(reference)
             t = 8.0_dp*pi*0.7_dp/(0.3_dp*3.0_dp)
             call reference%state_at(t, q, v)
             associate (across => q - dot_product(q, b)*b/9.0_dp)
@@ -190,14 +179,12 @@ contains
         class(reference_t), allocatable :: reference
         real(dp), parameter :: rate(2) = [-1.28077640640441514_dp, 0.780776406404415137_dp]
         real(dp) :: t
-        logical :: found
         integer :: i, k
 
         call build(particle, 1.0_dp, 1.0_dp, nil, [0.0_dp, 0.0_dp, 0.5_dp], 1.0_dp)
         do i = 1, 2
             call particle%closed_form(0.0_dp, [1.0_dp, 0.0_dp, 0.0_dp], &
                                       [0.0_dp, rate(i), 0.0_dp], reference)
-            found = allocated(reference)
             do k = 1, 10
                 t = 0.9_dp*k
                 call check_state(reference, t, [cos(rate(i)*t), sin(rate(i)*t), 0.0_dp], &
@@ -213,28 +200,22 @@ contains
         type(charged_particle_t) :: particle
         class(reference_t), allocatable :: reference
         real(dp), parameter :: b(3) = [0.0_dp, 0.0_dp, 2.0_dp], v0(3) = [1.0_dp, 0.5_dp, 0.0_dp]
-        logical :: found
 
         call build(particle, 0.7_dp, -0.3_dp, nil, b, 0.0_dp)
         call particle%closed_form(0.0_dp, nil, v0, reference)
-        found = allocated(reference)
         call assertEqual(2.0_dp*pi*0.7_dp/0.6_dp, reference%period, 4e-15_dp)
         call check_state(reference, reference%period, nil, v0, 1e-14_dp, "cyclotron")
         call particle%closed_form(0.0_dp, nil, v0 + b, reference)
-        found = allocated(reference)
         call assertEqual(0.0_dp, reference%period)
         call build(particle, 0.7_dp, -0.3_dp, v0, b, 0.0_dp)
         call particle%closed_form(0.0_dp, nil, v0, reference)
-        found = allocated(reference)
         call assertEqual(0.0_dp, reference%period)
         call build(particle, 0.7_dp, -0.3_dp, v0, nil, 2.8_dp)
         call particle%closed_form(0.0_dp, b, v0, reference)
-        found = allocated(reference)
         call assertEqual(pi, reference%period, 1e-15_dp)
         call check_state(reference, reference%period, b, v0, 1e-14_dp, "trap")
         call build(particle, 0.7_dp, -0.3_dp, v0, b, 2.8_dp)
         call particle%closed_form(0.0_dp, b, v0, reference)
-        found = allocated(reference)
         call assertEqual(0.0_dp, reference%period)
     end subroutine period_closes_the_orbit
 
@@ -246,13 +227,11 @@ contains
         real(dp), parameter :: b(3) = [0.2_dp, -1.0_dp, 0.5_dp], e(3) = [0.3_dp, 0.2_dp, -0.5_dp]
         real(dp), parameter :: r0(3) = [1.0_dp, 2.0_dp, -0.5_dp], v0(3) = [0.4_dp, 0.3_dp, -1.1_dp]
         real(dp) :: weak, q(3), v(3), plain(3), t
-        logical :: found
         integer :: k, which
 
         t = 3.0_dp
         call build(particle, 1.3_dp, -0.7_dp, e, nil, 0.0_dp)
         call particle%closed_form(0.0_dp, r0, v0, reference)
-        found = allocated(reference)
         call reference%state_at(t, plain, v)
         call assertEqual(r0 + v0*t - 0.7_dp/1.3_dp*e*t**2/2, plain, 1e-14_dp, "no fields")
         do which = 1, 3
@@ -263,7 +242,6 @@ contains
                            merge(weak*b, nil, spread(mod(which, 2) == 1, 1, 3)), &
                            merge(weak, 0.0_dp, which >= 2))
                 call particle%closed_form(0.0_dp, r0, v0, reference)
-                found = allocated(reference)
                 call check_against_rk4(reference, particle, r0, v0, t, "weak fields")
                 call reference%state_at(t, q, v)
                 call assertLessThanOrEqual(maxval(abs(q - plain)), 100.0_dp*weak + 1e-14_dp, &
@@ -279,12 +257,10 @@ contains
         class(reference_t), allocatable :: reference
         real(dp), parameter :: r0(3) = [1.0_dp, 2.0_dp, -0.5_dp], v0(3) = [0.4_dp, 0.3_dp, -1.1_dp]
         real(dp) :: slow
-        logical :: found
 
         call build(particle, 1.0_dp, 1.0_dp, [0.2_dp, 0.1_dp, 0.0_dp], [0.0_dp, 0.0_dp, 1.0_dp], &
                    0.0_dp)
         call particle%closed_form(0.0_dp, r0, v0, reference)
-        found = allocated(reference)
         associate (t => 2000.0_dp*pi)
             call check_state(reference, t, r0 + [0.1_dp, -0.2_dp, -1.1_dp]*t, v0, 4e-12_dp, "turns")
         end associate
@@ -292,7 +268,6 @@ contains
         slow = 2e-6_dp/(1.0_dp + sqrt(1.0_dp + 4e-6_dp))
         call particle%closed_form(0.0_dp, [1.0_dp, 0.0_dp, 0.0_dp], &
                                   [0.0_dp, slow, 0.0_dp], reference)
-        found = allocated(reference)
         associate (angle => slow*1e9_dp)
             call check_state(reference, 1e9_dp, [cos(angle), sin(angle), 0.0_dp], &
                              slow*[-sin(angle), cos(angle), 0.0_dp], 2e-12_dp, "slow circle")

@@ -132,15 +132,13 @@ contains
         class(reference_t), allocatable :: reference
         real(dp), allocatable :: q(:), v(:)
         real(dp) :: t
-        logical :: found
         integer :: i
 
         do i = 1, 5
             call draw_parameters(system, edges=.false.)
             call draw_state(system, t, q, v)
             call system%closed_form(t, q, v, reference)
-            found = allocated(reference)
-            call assertTrue(found, "found")
+            call assertTrue(allocated(reference), "found")
             call check_reference(reference, system, t, q, v, "atwood")
             if (anyExceptions()) return
         end do
@@ -237,15 +235,13 @@ contains
         class(reference_t), allocatable :: reference
         real(dp), allocatable :: q(:), v(:)
         real(dp) :: t
-        logical :: found
         integer :: i
 
         do i = 1, 5
             call draw_parameters(system, edges=.false.)
             call draw_state(system, t, q, v)
             call system%closed_form(t, q, v, reference)
-            found = allocated(reference)
-            call assertTrue(found, "found")
+            call assertTrue(allocated(reference), "found")
             call check_reference(reference, system, t, q, v, "wedge")
             if (anyExceptions()) return
         end do

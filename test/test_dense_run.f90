@@ -151,11 +151,9 @@ contains
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1), q_true(1), v_true(1), errors(2, 2), h, orders(2)
         integer :: i, k
-        logical :: found
 
         call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
         call system%closed_form(0.0_dp, [1.0_dp], [0.5_dp], reference)
-        found = allocated(reference)
         call new_dop853(exact)
         errors = 0.0_dp
         do i = 1, 2

@@ -35,11 +35,9 @@ contains
         class(reference_t), allocatable, intent(out) :: reference
         type(dop853_t), intent(out) :: method
         type(error_t), allocatable :: error
-        logical :: found
 
         call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
         call system%closed_form(0.0_dp, q0, v0, reference)
-        found = allocated(reference)
         call new_dop853(method)
         call method%prepare(system, error)
         call assertFalse(allocated(error), "prepare")

@@ -38,11 +38,9 @@ contains
         class(reference_t), allocatable, intent(out) :: reference
         type(dop853_t), intent(out) :: method
         type(error_t), allocatable :: error
-        logical :: found
 
         call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
         call system%closed_form(0.0_dp, q0, v0, reference)
-        found = allocated(reference)
         call new_dop853(method)
         call method%prepare(system, error)
         call assertFalse(allocated(error), "prepare")
@@ -165,13 +163,11 @@ contains
         type(dop853_t) :: method
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1), start(1), zero(1), q_true(1), v_true(1)
-        logical :: found
 
         call set_up(system, reference, method)
         start = acos(-1.0_dp) - 1e-6_dp
         zero = 0.0_dp
         call system%closed_form(0.0_dp, start, zero, reference)
-        found = allocated(reference)
         method%tolerance = 1e-12_dp
         call method%start(system, 0.0_dp, start, zero, 10.0_dp)
         do while (method%t_new < 10.0_dp)

@@ -62,13 +62,11 @@ contains
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1), ended
         integer :: i
-        logical :: found
 
         call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
         q = 2.0_dp
         v = 0.0_dp
         call system%closed_form(0.0_dp, q, v, reference)
-        found = allocated(reference)
         call find(system, ["theta_dot"], q, v, 30.0_dp, 1e-14_dp, record, ended)
         call assertEqual(int(30.0_dp/(0.5_dp*reference%period)), record%events, message="number")
         if (anyExceptions()) return

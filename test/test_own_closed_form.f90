@@ -48,14 +48,16 @@ contains
     subroutine wrong_ones_are_refused()
         !! A number of coordinates, a start, a frequency that is 1e-4 too high; and equations with
         !! a drag of 1e-3 that the inherited closed form knows nothing of.
+        character(*), parameter :: disobeys = &
+            "its closed form does not obey the equations of motion at "
+
         call refused(own_spring_t(kind=wrong_size), &
                      "system 'own_spring': its closed form has ndof = 2, and not 1")
         call refused(own_spring_t(kind=wrong_start), &
                      "system 'own_spring': its closed form of the motion from t = ")
         call refused(own_spring_t(kind=wrong_motion), &
-                     "system 'own_spring': its closed form does not obey the equations of motion at ")
-        call refused(own_drag_t(), &
-                     "system 'own_drag': its closed form does not obey the equations of motion at ")
+                     "system 'own_spring': "//disobeys)
+        call refused(own_drag_t(), "system 'own_drag': "//disobeys)
         call assertFalse(any(system_names() == "own_spring"), "nobody joined")
     end subroutine wrong_ones_are_refused
 

@@ -65,7 +65,6 @@ contains
         class(reference_t), allocatable :: reference
         type(error_t), allocatable :: error
         real(dp) :: q(4), v(4), centre(2), rho
-        logical :: found
         integer :: i
 
         call build_uniform(disk, 1.7_dp, 0.3_dp, 0.0_dp)
@@ -75,7 +74,6 @@ contains
         centre = [disk%quantity(4, 3.0_dp, q, v), disk%quantity(5, 3.0_dp, q, v)]/1.1_dp**2
         call assertEqual(q(1:2) + rho*[cos(0.7_dp), sin(0.7_dp)], centre, 1e-14_dp)
         call disk%closed_form(0.0_dp, q, v, reference)
-        found = allocated(reference)
         do i = 1, 10
             call reference%state_at(i*0.7_dp, q, v)
             call assertEqual(rho, norm2(q(1:2) - centre), 1e-14_dp)
@@ -88,14 +86,12 @@ contains
         class(reference_t), allocatable :: reference
         type(error_t), allocatable :: error
         real(dp) :: q(4), v(4)
-        logical :: found
 
         call build_uniform(disk, 1.7_dp, 0.3_dp, 0.0_dp)
         q = [0.0_dp, 0.0_dp, 0.0_dp, 0.7_dp]
         call disk%complete_velocities(5.0_dp, q, [4.0_dp, 1.1_dp], v, error)
         call disk%closed_form(5.0_dp, q, v, reference)
-        found = allocated(reference)
-        call assertTrue(found, "found")
+        call assertTrue(allocated(reference), "found")
         call reference%state_at(7.0_dp, q, v)
         call assertEqual([1.89360038447354067_dp, 0.441783663298591337_dp, 8.0_dp, 2.9_dp], q, &
                          4e-15_dp)
@@ -107,7 +103,6 @@ contains
         class(reference_t), allocatable :: reference
         real(dp), allocatable :: q0(:), v0(:)
         real(dp) :: t0, t, q(4), v(4), roll1, kappa, theta
-        logical :: found
         integer :: i
 
         do i = 1, 40
@@ -115,7 +110,6 @@ contains
             call draw_state(disk, t0, q0, v0)
             v0(4) = sign(1.0_dp + abs(v0(4)), v0(4))
             call disk%closed_form(t0, q0, v0, reference)
-            found = allocated(reference)
             t = uniform(-5.0_dp, 5.0_dp)
             call reference%state_at(t0 + t, q, v)
             kappa = disk%m*disk%g*sin(disk%incline)*disk%r/(disk%i_roll + disk%m*disk%r**2)
@@ -145,7 +139,6 @@ contains
         real(dp), allocatable :: q(:), v(:)
         real(dp), parameter :: steering(4) = [2.3_dp, -0.4_dp, 1e-7_dp, 0.0_dp]
         real(dp) :: t
-        logical :: found
         integer :: i
 
         do i = 1, 40
@@ -154,8 +147,7 @@ contains
             call draw_state(disk, t, q, v)
             call disk%complete_velocities(t, q, [v(3), steering(1 + mod(i, 4))], v, error)
             call disk%closed_form(t, q, v, reference)
-            found = allocated(reference)
-            call assertTrue(found, "found")
+            call assertTrue(allocated(reference), "found")
             call check_reference(reference, disk, t, q, v, "disk")
             if (anyExceptions()) return
         end do
@@ -167,14 +159,12 @@ contains
         class(reference_t), allocatable :: reference
         type(error_t), allocatable :: error
         real(dp) :: q0(4), v0(4), q(4), v(4), drift, lowest
-        logical :: found
         integer :: n
 
         call build_uniform(disk, 1.7_dp, 0.3_dp, 0.4_dp)
         q0 = [0.2_dp, -0.6_dp, 0.1_dp, 0.7_dp]
         call disk%complete_velocities(0.0_dp, q0, [0.9_dp, 1.3_dp], v0, error)
         call disk%closed_form(0.0_dp, q0, v0, reference)
-        found = allocated(reference)
         associate (kappa => 9.81_dp*sin(0.4_dp)/(1.5_dp*0.3_dp))
             drift = pi*0.3_dp*kappa/1.3_dp**2
             lowest = 0.0_dp
@@ -198,7 +188,6 @@ contains
         class(reference_t), allocatable :: reference
         type(error_t), allocatable :: error
         real(dp) :: q0(4), v0(4), q(4), v(4), straight(4), omega
-        logical :: found
         integer :: i, k
 
         q0 = [0.2_dp, -0.6_dp, 0.1_dp, 0.7_dp]
@@ -206,7 +195,6 @@ contains
             call build_uniform(disk, 1.7_dp, 0.3_dp, 0.4_dp*i)
             call disk%complete_velocities(0.0_dp, q0, [0.9_dp, 0.0_dp], v0, error)
             call disk%closed_form(0.0_dp, q0, v0, reference)
-            found = allocated(reference)
             call reference%state_at(2.0_dp, straight, v)
             associate (path => 0.9_dp*2.0_dp + i*2.0_dp*9.81_dp*sin(0.4_dp)/0.45_dp*sin(0.7_dp))
                 call assertEqual(q0 + path*[0.3_dp*sin(0.7_dp), -0.3_dp*cos(0.7_dp), 1.0_dp, &
@@ -217,7 +205,6 @@ contains
                 if (k == 13) omega = 1e-300_dp
                 call disk%complete_velocities(0.0_dp, q0, [0.9_dp, omega], v0, error)
                 call disk%closed_form(0.0_dp, q0, v0, reference)
-                found = allocated(reference)
                 call check_against_rk4(reference, disk, q0, v0, 2.0_dp, "omega -> 0")
                 call reference%state_at(2.0_dp, q, v)
                 call assertLessThanOrEqual(maxval(abs(q - straight)), 100.0_dp*omega + 1e-14_dp, &
@@ -230,12 +217,10 @@ contains
         !! The closed form is that of rolling.
         type(rolling_disk_t) :: disk
         class(reference_t), allocatable :: reference
-        logical :: found
 
         call build_uniform(disk, 1.7_dp, 0.3_dp, 0.0_dp)
         call disk%closed_form(0.0_dp, [0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], &
                               [0.1_dp, -0.3_dp, 1.0_dp, 2.0_dp], reference)
-        found = allocated(reference)
-        call assertFalse(found, "not found")
+        call assertFalse(allocated(reference), "not allocated(reference)")
     end subroutine slipping_start_has_no_reference
 end module test_rolling_disk_reference

@@ -51,14 +51,12 @@ contains
         type(rotating_wire_t) :: wire
         class(reference_t), allocatable :: reference
         real(dp) :: q(1), v(1)
-        logical :: found
         integer :: i
 
         do i = -1, 1, 2
             call set(wire, [1.3_dp, 1.5_dp*i])
             call wire%closed_form(7.0_dp, [0.5_dp], [0.0_dp], reference)
-            found = allocated(reference)
-            call assertTrue(found, "found")
+            call assertTrue(allocated(reference), "found")
             call reference%state_at(9.0_dp, q, v)
             call assertEqual(5.03383099788888292_dp, q(1), 4e-15_dp)
         end do
@@ -70,14 +68,12 @@ contains
         class(reference_t), allocatable :: reference
         real(dp), allocatable :: q(:), v(:)
         real(dp) :: t
-        logical :: found
         integer :: i
 
         do i = 1, 20
             call draw_parameters(wire, edges=mod(i, 2) == 0)
             call draw_state(wire, t, q, v)
             call wire%closed_form(t, q, v, reference)
-            found = allocated(reference)
             call check_reference(reference, wire, t, q, v, "wire")
             if (anyExceptions()) return
         end do
@@ -89,14 +85,12 @@ contains
         type(rotating_wire_t) :: wire
         class(reference_t), allocatable :: reference
         real(dp) :: q(1), v(1), omega
-        logical :: found
         integer :: k
 
         do k = 1, 14
             omega = merge(0.0_dp, 10.0_dp**(-k), k == 14)
             call set(wire, [1.3_dp, omega])
             call wire%closed_form(0.0_dp, [0.4_dp], [0.7_dp], reference)
-            found = allocated(reference)
             call check_against_rk4(reference, wire, [0.4_dp], [0.7_dp], 2.0_dp, "slow")
             call reference%state_at(2.0_dp, q, v)
             call assertLessThanOrEqual(abs(q(1) - 1.8_dp), 4.0_dp*omega**2 + 4e-16_dp, &
@@ -105,7 +99,6 @@ contains
         call set(wire, [1.3_dp, 1.5_dp])
         do k = -1, 1, 2
             call wire%closed_form(0.0_dp, [0.5_dp], [-0.75_dp*k], reference)
-            found = allocated(reference)
             call reference%state_at(k*20.0_dp, q, v)
             associate (exact => 0.5_dp*exp(-30.0_dp))
                 call assertEqual(exact, q(1), 1e-15_dp*exact, "creeping")
@@ -176,19 +169,16 @@ contains
             real(dp), intent(in) :: angles(:)
             logical, intent(in) :: expected
             class(reference_t), allocatable :: reference
-            logical :: found
             integer :: i
 
             do i = 1, size(angles)
                 call hoop%closed_form(1.0_dp, angles(i:i), [0.0_dp], reference)
-                found = allocated(reference)
-                call assertTrue(found .eqv. expected, "equilibrium?")
-                if (.not. found) cycle
+                call assertTrue(allocated(reference) .eqv. expected, "equilibrium?")
+                if (.not. allocated(reference)) cycle
                 call check_state(reference, 9.0_dp, angles(i:i), [0.0_dp], 0.0_dp, "stands")
                 call check_reference(reference, hoop, 1.0_dp, angles(i:i), [0.0_dp], "stands")
                 call hoop%closed_form(1.0_dp, angles(i:i), [1e-9_dp], reference)
-                found = allocated(reference)
-                call assertFalse(found, "it moves")
+                call assertFalse(allocated(reference), "it moves")
             end do
         end subroutine stands
     end subroutine hoop_stands_in_equilibria_only

@@ -32,7 +32,8 @@ contains
 
     subroutine register_system(system, error)
         !! Add a system of your own, behind the others. Fails, and adds nothing, where its name is
-        !! taken or cannot be typed, its description has gaps, or its closed form is of another motion.
+        !! taken or cannot be typed, its description has gaps, or its closed form is of another
+        !! motion.
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
         type(system_box_t), allocatable :: longer(:)

@@ -19,7 +19,8 @@ contains
 
     subroutine check_newcomer(system, taken, error)
         !! Fails on a name that is `taken` or cannot be typed, on a description with gaps, on
-        !! defaults that are not allowed, and on a closed form of another motion. `system` has its default parameters on return.
+        !! defaults that are not allowed, and on a closed form of another motion. `system` has its
+        !! default parameters on return.
         class(system_t), intent(inout) :: system
         character(*), intent(in) :: taken(:)
         type(error_t), allocatable, intent(out) :: error
