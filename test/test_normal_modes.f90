@@ -5,7 +5,8 @@ module test_normal_modes
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
                      assertLessThan, assertTrue
     use lagrangia, only: dp, error_t, is_oscillation, is_unstable, is_zero_mode, normal_modes, &
-                         normal_modes_t
+                         normal_modes_t, residual_ratio
+    use lagrangia_gyroscopic, only: gyroscopic_ratio
     use random_states, only: restart_random, uniform
     implicit none (type, external)
     private
@@ -26,6 +27,8 @@ contains
                                       slow_modes_beside_fast_ones_keep_their_digits))
         call suite%addTest(TestMethod("graded_matrices_keep_their_digits", &
                                       graded_matrices_keep_their_digits))
+        call suite%addTest(TestMethod("residuals_of_wrong_modes_are_their_size", &
+                                      residuals_of_wrong_modes_are_their_size))
         call suite%addTest(TestMethod("bad_matrices_give_nothing", bad_matrices_give_nothing))
     end function normal_modes_suite
 
@@ -241,6 +244,29 @@ contains
             values(minloc(values, 1)) = huge(values)
         end do
     end subroutine quad_frequencies
+
+    subroutine residuals_of_wrong_modes_are_their_size()
+        !! With small whole numbers, worked out by hand. Without G: the columns of the residual are
+        !! (4, 4) and (2, 0), \(\|K\| = \|Z\| = 4\), n = 2. With G: \(\lambda = 2i\), \(u = (1, 0)\)
+        !! leave (-5, 1 - 4i), \(\lambda = i\), \(u = (1, i)\) leave (-1 + i, 1 - i), and
+        !! \(\rho^2\|M\| + \rho\|G\| + \|K\| = 8 + 4 + 4\).
+        real(dp), parameter :: k(2, 2) = reshape([3.0_dp, 1.0_dp, 1.0_dp, 2.0_dp], [2, 2])
+        real(dp), parameter :: m(2, 2) = reshape([2.0_dp, 0.0_dp, 0.0_dp, 1.0_dp], [2, 2])
+        real(dp), parameter :: g(2, 2) = reshape([0.0_dp, -2.0_dp, 2.0_dp, 0.0_dp], [2, 2])
+        real(dp), parameter :: z(2, 2) = reshape([1.0_dp, 3.0_dp, 0.0_dp, 2.0_dp], [2, 2])
+        complex(dp), parameter :: zero = (0.0_dp, 0.0_dp), one = (1.0_dp, 0.0_dp)
+        complex(dp), parameter :: i = (0.0_dp, 1.0_dp)
+
+        call assertEqual(8.0_dp/(4.0_dp*4.0_dp*2.0_dp*epsilon(1.0_dp)), &
+                         residual_ratio(k, m, [1.0_dp, 2.0_dp], z), message="without G")
+        call assertEqual((5.0_dp + sqrt(17.0_dp))/(16.0_dp*2.0_dp), epsilon(1.0_dp)* &
+                         gyroscopic_ratio(k, g, m, [2.0_dp*i, i], reshape([one, zero, one, i], &
+                                                                          [2, 2])), &
+                         4.0_dp*epsilon(1.0_dp), "with G")
+        call assertEqual(0.0_dp, gyroscopic_ratio(0.0_dp*k, 0.0_dp*g, 0.0_dp*m, [i, i], &
+                                                  reshape([one, zero, one, i], [2, 2])), &
+                         message="nothing at all")
+    end subroutine residuals_of_wrong_modes_are_their_size
 
     subroutine bad_matrices_give_nothing()
         !! One line, status 2 for what can be seen, 4 for what LAPACK finds.

@@ -130,6 +130,8 @@ class Limits:
 
     def set(self):
         os.setsid()
+        for number in (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT):  # nohup and & have them ignored
+            signal.signal(number, signal.SIG_DFL)
         resource.setrlimit(resource.RLIMIT_CPU, (self.processor, self.processor))
         resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
         resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 30, 1 << 30))
