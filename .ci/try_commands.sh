@@ -137,6 +137,17 @@ for name in $("$program" list systems 2>/dev/null | awk '{print $1}'); do
         *) check "describe $name: a closed form" grep -q '^  a closed form where one is known' "$work/out" ;;
     esac
 done
+modes_are() { # modes_are WORDS...: the text of `modes` against its --json
+    run modes "$@"
+    cp "$work/out" "$work/text"
+    run modes "$@" --json
+    check "modes $*: the text is the JSON's, and solves the equation" python3 .ci/modes_text.py "$work/text" "$work/out"
+}
+modes_are double_pendulum
+modes_are cart_pendulum --set cart_pendulum%m1=2 --set cart_pendulum%l=1.3
+modes_are hanging_chain --set hanging_chain%n=3
+modes_are rotating_hoop --set rotating_hoop%r=0.5 --set rotating_hoop%omega=7 --at 0
+modes_are charged_particle --set charged_particle%trap=3 --set charged_particle%magnetic=0,0,2
 run modes hanging_chain --set hanging_chain%n=200 --output "$work/modes"
 check "modes: a long chain, a file and a script a mode" eval '[ $status -eq 0 ] && [ "$(ls "$work/modes" | wc -l)" -eq 400 ]'
 refuses 2 "the nearest is --at 0.0" modes pendulum --at 1

@@ -3,12 +3,14 @@ module test_printed_formulae
     !! and quantities of every system, read as text and evaluated at random states.
     use formula, only: formula_value, names_t
     use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
-    use lagrangia_catalogue, only: new_system, nth_system, system_names
+    use lagrangia_catalogue, only: new_reference, new_system, nth_system, system_names
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
+    use lagrangia_reference, only: reference_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
+    use printed_names, only: name_state
     use printed_statements, only: judge_all, tally_t
     use random_states, only: draw_parameters, draw_state, restart_random
     implicit none (type, external)
@@ -28,6 +30,8 @@ contains
         call suite%addTest(TestMethod("every_description_is_the_code", &
                                       every_description_is_the_code, setUp=restart_random))
         call suite%addTest(TestMethod("the_ball_does_what_it_says", the_ball_does_what_it_says))
+        call suite%addTest(TestMethod("closed_forms_are_what_they_say", &
+                                      closed_forms_are_what_they_say, setUp=restart_random))
         call suite%addTest(TestMethod("wrong_formulae_are_seen", wrong_formulae_are_seen))
     end function printed_formulae_suite
 
@@ -141,6 +145,84 @@ contains
         call assertEqual(0.0_dp, a(1), 0.0_dp)
         call assertEqual(m*g, system%quantity(1, 0.0_dp, q, v), 1e-15_dp)
     end subroutine the_ball_does_what_it_says
+
+    subroutine closed_forms_are_what_they_say()
+        !! The titles that are formulae: the motion of the first, what the others define.
+        character(13), parameter :: names(4) = [character(13) :: "atwood", "oscillator", &
+                                                "rotating_wire", "wedge"]
+        integer :: i, k
+
+        do i = 1, size(names)
+            do k = 1, draws
+                call try_closed_form(trim(names(i)))
+            end do
+        end do
+    end subroutine closed_forms_are_what_they_say
+
+    subroutine try_closed_form(name)
+        !! One draw of parameters, a state and a later time. Each coordinate has a few dozen
+        !! operations; angles and exponents of some ten multiply their rounding.
+        character(*), intent(in) :: name
+        real(dp), parameter :: rounding = 1e-11_dp
+        class(system_t), allocatable :: system
+        class(reference_t), allocatable :: reference
+        type(error_t), allocatable :: error
+        type(names_t) :: letters
+        real(dp), allocatable :: q(:), v(:)
+        real(dp) :: t, value, size_of, later(2), rates(2)
+        integer :: i
+        logical :: ok
+
+        call new_system(name, system, error)
+        call assertTrue(.not. allocated(error), name)
+        if (allocated(error)) return
+        call draw_parameters(system, .false.)
+        call draw_state(system, t, q, v)
+        call new_reference(system, 0.0_dp, q, v, reference)
+        call assertTrue(allocated(reference), name//": a closed form")
+        if (.not. allocated(reference)) return
+        t = 0.7_dp
+        call reference%state_at(t, later(:size(q)), rates(:size(q)))
+        call name_state(system, t, q, v, letters)
+        call define(trim(reference%title), letters)
+        do i = 1, size(q)
+            call letters%set("x0", q(i))
+            call letters%set("r0", q(i))
+            call letters%set("q0", q(i))
+            call letters%set("v0", v(i))
+            if (name == "wedge") call letters%set("a", letters%value_of("a"//to_text(i)))
+            call formula_value(reference%title(:index(reference%title//", ", ", ") - 1), letters, &
+                               value, size_of, ok)
+            call assertTrue(ok, name//": "//trim(reference%title))
+            call assertEqual(later(i), value, rounding*size_of, name//": "//trim(reference%title))
+        end do
+    end subroutine try_closed_form
+
+    recursive subroutine define(text, letters)
+        !! `..., letter = formula, omega^2 = formula`, and what a formula calls by a whole name.
+        character(*), intent(in) :: text
+        type(names_t), intent(inout) :: letters
+        real(dp) :: value, size_of
+        integer :: comma, equals
+        logical :: ok
+
+        equals = index(text, " = ")
+        comma = index(text, ", ")
+        if (equals > 0 .and. (comma == 0 .or. equals < comma)) then
+            if (comma == 0) comma = len(text) + 1
+            call formula_value(text(equals + 3:comma - 1), letters, value, size_of, ok)
+            call assertTrue(ok, text)
+            if (text(:equals - 1) == "omega^2") then
+                call letters%set("omega", sqrt(value))
+            else
+                call letters%set(text(:equals - 1), value)
+            end if
+        end if
+        value = letters%value_of("omega")*letters%value_of("t")
+        call letters%set("cosh(omega t)", cosh(value))
+        call letters%set("sinh(omega t)", sinh(value))
+        if (comma > 0 .and. comma < len(text)) call define(text(comma + 2:), letters)
+    end subroutine define
 
     subroutine wrong_formulae_are_seen()
         !! What `describe atwood` once printed: an equation with a_s, an L without it, and a rope
