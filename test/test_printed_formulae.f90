@@ -3,7 +3,7 @@ module test_printed_formulae
     !! and quantities of every system, read as text and evaluated at random states.
     use formula, only: formula_value, names_t
     use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
-    use lagrangia_catalogue, only: new_reference, new_system, nth_system, system_names
+    use lagrangia_catalogue, only: new_system, nth_system, system_names
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
@@ -178,7 +178,7 @@ contains
         if (allocated(error)) return
         call draw_parameters(system, .false.)
         call draw_state(system, t, q, v)
-        call new_reference(system, 0.0_dp, q, v, reference)
+        call system%closed_form(0.0_dp, q, v, reference)
         call assertTrue(allocated(reference), name//": a closed form")
         if (.not. allocated(reference)) return
         t = 0.7_dp
