@@ -107,8 +107,10 @@ contains
     end subroutine symplectic_steps_must_be_small
 
     subroutine a_sum_drops_half_a_unit_at_most()
-        !! What is lost is found exactly (Knuth's two-sum).
-        real(dp) :: a, b, s, lost, worst
+        !! What is lost is found exactly (Knuth's two-sum). The terms are numbers in memory: with
+        !! FMA the product in `b` would go into the sum unrounded, which is then no sum of a and b.
+        real(dp), volatile :: a, b
+        real(dp) :: s, lost, worst
         integer :: k
 
         call says("rounding", "by half a unit in the last place at most")

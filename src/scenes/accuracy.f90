@@ -96,7 +96,8 @@ contains
         end if
         state%error = vouched*max(estimate(first, second, third, most, shrinking), rounding)
         call by_other_method(scene, system, seen, events, 100_i8*steps + 100000_i8, other, known)
-        if (known) state%error = agreement(first, third, other, most) + rounding
+        if (known) state%error = agreement(first, second, third, other, most, &
+                                                 shrinking) + rounding
         call by_closed_form(scene, system, seen, closed_form, other, known)
         if (known) state%error = max(state%error, abs(first - other))
         if (seen%t >= scene%t0 + scene%duration) state = state(2:)
@@ -181,15 +182,23 @@ contains
         if (system%time_dependent) near%t0 = scene%t0*(1.0_dp + way*epsilon(1.0_dp))
     end function nudged
 
-    pure function agreement(first, third, other, most) result(error)
+    pure function agreement(first, second, third, other, most, shrinking) result(error)
         !! Of the first run, each number by itself: its distance to the other end, and that one's
         !! error, which is taken to be `margin` times its distance to the third run, the worst of
-        !! all numbers.
-        real(dp), intent(in) :: first(:), third(:), other(:), most(:)
+        !! all numbers. Two ends may be near by chance: what the change \(d_2\) from the second run
+        !! to the third is more than \(|d_1|/\)`shrinking` is noise, and counts as such a distance.
+        real(dp), intent(in) :: first(:), second(:), third(:)  !! ends of the three runs
+        real(dp), intent(in) :: other(:)                       !! by the other method
+        real(dp), intent(in) :: most(:)                        !! largest magnitudes
+        real(dp), intent(in) :: shrinking  !! of the error from one run to the next, expected
         real(dp) :: error(size(first))
+        real(dp) :: unit(size(first)), d1, d2, apart
 
-        error = abs(first - other) &
-                + margin*most*maxval(abs(third - other)/max(most, tiny(most)))
+        unit = max(most, tiny(most))
+        d1 = maxval(abs(first - second)/unit)
+        d2 = maxval(abs(second - third)/unit)
+        apart = max(maxval(abs(third - other)/unit), d2 - d1/shrinking)
+        error = abs(first - other) + margin*most*apart
     end function agreement
 
     function finer(scene, k) result(fine)
