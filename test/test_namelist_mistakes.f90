@@ -5,7 +5,7 @@ module test_namelist_mistakes
     use lagrangia_errors, only: error_t, status_usage
     use lagrangia_kinds, only: dp
     use lagrangia_namelist, only: apply_override, get_real, get_reals, namelist_t, &
-                                  parse_namelist, refuse_unknown_keys
+                                  parse_namelist, point_advice, refuse_unknown_keys
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene, read_named_system
     use lagrangia_system, only: system_t
@@ -132,7 +132,7 @@ contains
         real(dp) :: x
 
         call parse_namelist("&a g = 9,81 q = -0,5,1,25e-1 n = 1,000 x = 1, 2 y = 1.5,2 "// &
-                            " z = 1,2 T /", "a.nml", tree, error)
+                            " z = 1,2 T h(2) = 1 /", "a.nml", tree, error)
         call get_real(tree, "a", "g", x, error)
         call failed(error, "a.nml:1:4: &a: g has 2 values; one is needed"//point//"9.81")
         call get_reals(tree, "a", "q", 2, 2, q, error)
@@ -148,6 +148,9 @@ contains
         call failed(error, "a.nml:1:60: &a: z has 3 values; one is needed")
         call get_real(tree, "a", "y", x, error)
         call failed(error, "a.nml:1:49: &a: y has 2 values; one is needed")
+        call assertEqual(point//"9.81", point_advice(tree, "a", "g", 1))
+        call assertEqual("", point_advice(tree, "a", "h", 1), "no advice on a hole")
+        call assertEqual("", point_advice(tree, "a", "absent", 1), "no advice on nothing")
     end subroutine decimal_commas
 
     subroutine strays()

@@ -249,6 +249,7 @@ contains
         call override("dt=1", pattern)
         call override("scene", pattern)
         call override("%dt=1", pattern)
+        call override(" %dt=1", pattern)
         call override("", pattern)
         call override("scene%=1", "expected the name of a key, which begins with a letter")
         call override("scene%dt=1/100", "&scene: dt: '1/100'"//computed//"; write 0.01")

@@ -2,8 +2,7 @@ module lagrangia_number_list
     !! Numbers between commas on the command line: read as strictly as those of a scene.
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
-    use lagrangia_namelist_words, only: misread
-    use lagrangia_number_reader, only: read_number
+    use lagrangia_number_reader, only: misread, read_number
     use lagrangia_text, only: quoted
     implicit none (type, external)
     private

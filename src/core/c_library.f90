@@ -6,8 +6,8 @@ module lagrangia_c_library
     implicit none (type, external)
     private
     public :: c_access, c_alarm, c_chmod, c_close, c_dlsym, c_dup, c_errno, c_execvp, c_exit, &
-              c_fclose, c_fdopen, c_fflush, c_fileno, c_flock, c_fopen, c_fork, c_free, c_fseek, &
-              c_fwrite, c_fwrite_reals, c_getpid, c_getrlimit, c_isatty, c_kill, c_lstat, &
+              c_fclose, c_fdopen, c_fflush, c_fileno, c_flock, c_fopen, c_fork, c_fread, c_free, &
+              c_fseek, c_fwrite, c_fwrite_reals, c_getpid, c_getrlimit, c_isatty, c_kill, c_lstat, &
               c_malloc, c_mkdir, c_realpath, c_remove, c_rename, c_signal, c_stat, c_statvfs, &
               c_strerror, c_strlen, c_waitpid, c_write
 
@@ -35,6 +35,16 @@ module lagrangia_c_library
             character(kind=c_char), intent(in) :: mode(*)
             type(c_ptr) :: stream
         end function c_fdopen
+
+        function c_fread(bytes, size, count, stream) bind(c, name="fread") result(got)
+            import :: c_char, c_ptr, c_size_t
+            implicit none (type, external)
+            ! allow(assumed-size-character-intent): C fills it
+            character(kind=c_char), intent(out) :: bytes(*)
+            integer(c_size_t), value :: size, count
+            type(c_ptr), value :: stream
+            integer(c_size_t) :: got
+        end function c_fread
 
         function c_fwrite(bytes, size, count, stream) bind(c, name="fwrite") result(written)
             import :: c_char, c_ptr, c_size_t

@@ -31,6 +31,7 @@ module lagrangia_files
         logical :: regular = .false.  !! it is a regular file
         logical :: link = .false.     !! it is a symbolic link (only if links are not followed)
         integer :: permissions = 0    !! its permission bits
+        integer(i8) :: size = -1      !! in bytes
         integer(i8) :: device = -1    !! with `inode`, which file it is
         integer(i8) :: inode = -1
     end type facts_t
@@ -72,6 +73,7 @@ contains
         if (.not. facts%found) return
         facts%device = values(1)
         facts%inode = values(2)
+        facts%size = values(8)
         facts%permissions = int(iand(values(3), int(o"7777", i8)))
         facts%folder = iand(values(3), type_bits) == folder_bits
         facts%regular = iand(values(3), type_bits) == regular_bits

@@ -2,17 +2,355 @@ module lagrangia_namelist
     !! Strict reading of namelist files: the one module others use.
     !!
     !! `parse_namelist` (and `apply_override`), then `get_...` for every key there may be, then
-    !! `refuse_unknown_keys` and `refuse_unknown_groups`. Group and key names are in lower case.
-    use lagrangia_namelist_access, only: get_integer, get_logical, get_real, get_reals, &
-                                         get_string, get_strings
-    use lagrangia_namelist_lookup, only: point_advice, refuse_value
+    !! `refuse_unknown_keys` and `refuse_unknown_groups`. Each value comes whole, as what it was
+    !! written, or is refused with its place, group, key and value. Names of groups and keys are in
+    !! lower case; `key` is given to these procedures without its group.
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_namelist_diagnostics, only: decimal_points, refuse_missing, refuse_picked, &
+                                              refuse_unknown_groups, refuse_unknown_keys
+    use lagrangia_namelist_lexer, only: stray, truth_of
     use lagrangia_namelist_parser, only: apply_override, parse_namelist
-    use lagrangia_namelist_tree, only: namelist_t
-    use lagrangia_namelist_unknown, only: has_group, has_key, refuse_unknown_groups, &
-                                          refuse_unknown_keys
+    use lagrangia_namelist_tree, only: fail_at, find_entry, find_group, in_override, &
+                                       kind_number, kind_word, label, namelist_t, raw_text, &
+                                       text_of
+    use lagrangia_number_reader, only: misread, read_number, to_integer
+    use lagrangia_text, only: escaped, lower, quoted, to_text
     implicit none (type, external)
     private
     public :: apply_override, get_integer, get_logical, get_real, get_reals, get_string, &
               get_strings, has_group, has_key, namelist_t, parse_namelist, point_advice, &
               refuse_unknown_groups, refuse_unknown_keys, refuse_value
+
+contains
+
+    pure subroutine get_real(tree, group, key, value, error, required, found)
+        !! The number at `key`.
+        type(namelist_t), intent(inout) :: tree    !! its key is marked as used
+        character(*), intent(in) :: group, key
+        real(dp), intent(inout) :: value           !! stays as it was where the key is absent
+        type(error_t), allocatable, intent(out) :: error
+        logical, intent(in), optional :: required  !! fail when the key is absent
+        logical, intent(out), optional :: found    !! was the key there?
+        integer, allocatable :: picked(:)
+
+        call pick(tree, group, key, picked, error, required=required, found=found)
+        if (size(picked) == 1) call convert_real(tree, picked(1), value, error)
+    end subroutine get_real
+
+    pure subroutine get_reals(tree, group, key, least, most, values, error, required, found)
+        !! The numbers at `key`, written in a row, with repeat counts or with indices.
+        type(namelist_t), intent(inout) :: tree    !! its key is marked as used
+        character(*), intent(in) :: group, key
+        integer, intent(in) :: least, most         !! how many there may be
+        real(dp), allocatable, intent(inout) :: values(:)  !! stay where the key is absent
+        type(error_t), allocatable, intent(out) :: error
+        logical, intent(in), optional :: required  !! fail when the key is absent
+        logical, intent(out), optional :: found    !! was the key there?
+        integer, allocatable :: picked(:)
+        real(dp), allocatable :: numbers(:)
+        integer :: i
+
+        call pick(tree, group, key, picked, error, least, most, required, found)
+        if (size(picked) == 0) return
+        allocate (numbers(size(picked)))
+        do i = 1, size(picked)
+            call convert_real(tree, picked(i), numbers(i), error)
+            if (allocated(error)) return
+        end do
+        call move_alloc(numbers, values)
+    end subroutine get_reals
+
+    pure subroutine get_integer(tree, group, key, value, error, required, found)
+        !! The whole number at `key`; `1e6` is one.
+        type(namelist_t), intent(inout) :: tree    !! its key is marked as used
+        character(*), intent(in) :: group, key
+        integer(i8), intent(inout) :: value        !! stays as it was where the key is absent
+        type(error_t), allocatable, intent(out) :: error
+        logical, intent(in), optional :: required  !! fail when the key is absent
+        logical, intent(out), optional :: found    !! was the key there?
+        character(:), allocatable :: problem
+        integer, allocatable :: picked(:)
+        integer(i8) :: number
+
+        call pick(tree, group, key, picked, error, required=required, found=found)
+        if (size(picked) == 0) return
+        problem = "a whole number is needed"
+        if (tree%values(picked(1))%kind == kind_number) then
+            call to_integer(raw_text(tree, tree%values(picked(1))), number, problem)
+        end if
+        if (problem /= "") then
+            call refuse_picked(tree, picked(1), problem, error)
+        else
+            value = number
+        end if
+    end subroutine get_integer
+
+    pure subroutine get_logical(tree, group, key, value, error, required, found)
+        !! The truth at `key`: `.true.`, `.t.`, `true` or `t`, or their opposites.
+        type(namelist_t), intent(inout) :: tree    !! its key is marked as used
+        character(*), intent(in) :: group, key
+        logical, intent(inout) :: value            !! stays as it was where the key is absent
+        type(error_t), allocatable, intent(out) :: error
+        logical, intent(in), optional :: required  !! fail when the key is absent
+        logical, intent(out), optional :: found    !! was the key there?
+        integer, allocatable :: picked(:)
+        integer :: truth
+
+        call pick(tree, group, key, picked, error, required=required, found=found)
+        if (size(picked) == 0) return
+        truth = truth_of(raw_text(tree, tree%values(picked(1))))
+        if (truth < 0) then
+            call refuse_picked(tree, picked(1), ".true. or .false. is needed", error)
+        else
+            value = truth == 1
+        end if
+    end subroutine get_logical
+
+    pure subroutine get_string(tree, group, key, value, error, required, found)
+        !! The text at `key`.
+        type(namelist_t), intent(inout) :: tree    !! its key is marked as used
+        character(*), intent(in) :: group, key
+        ! allow(assumed-size-character-intent): nothing is cut
+        character(*), intent(inout) :: value       !! stays where the key is absent; must hold it
+        type(error_t), allocatable, intent(out) :: error
+        logical, intent(in), optional :: required  !! fail when the key is absent
+        logical, intent(out), optional :: found    !! was the key there?
+        integer, allocatable :: picked(:)
+
+        call pick(tree, group, key, picked, error, required=required, found=found)
+        if (size(picked) == 1) call convert_string(tree, picked(1), value, error)
+    end subroutine get_string
+
+    pure subroutine get_strings(tree, group, key, least, most, values, error, required, found)
+        !! The texts at `key`.
+        type(namelist_t), intent(inout) :: tree    !! its key is marked as used
+        character(*), intent(in) :: group, key
+        integer, intent(in) :: least, most         !! how many there may be
+        ! allow(assumed-size-character-intent): nothing is cut
+        character(*), allocatable, intent(inout) :: values(:)  !! as `value` of `get_string`
+        type(error_t), allocatable, intent(out) :: error
+        logical, intent(in), optional :: required  !! fail when the key is absent
+        logical, intent(out), optional :: found    !! was the key there?
+        integer, allocatable :: picked(:)
+        character(len(values)), allocatable :: texts(:)
+        integer :: i
+
+        call pick(tree, group, key, picked, error, least, most, required, found)
+        if (size(picked) == 0) return
+        allocate (texts(size(picked)))
+        do i = 1, size(picked)
+            call convert_string(tree, picked(i), texts(i), error)
+            if (allocated(error)) return
+        end do
+        call move_alloc(texts, values)
+    end subroutine get_strings
+
+    pure function has_group(tree, group) result(yes)
+        !! Is there such a group?
+        type(namelist_t), intent(in) :: tree
+        character(*), intent(in) :: group
+        logical :: yes
+
+        yes = find_group(tree, group) > 0
+    end function has_group
+
+    pure function has_key(tree, group, key) result(yes)
+        !! Is there such a key in such a group?
+        type(namelist_t), intent(in) :: tree
+        character(*), intent(in) :: group, key
+        logical :: yes
+
+        yes = find_entry(tree, group, key) > 0
+    end function has_key
+
+    pure subroutine pick(tree, group, key, picked, error, least, most, required, found)
+        !! Find the values of `key`, element by element, and mark it as used; none on failure.
+        type(namelist_t), intent(inout) :: tree
+        character(*), intent(in) :: group, key
+        integer, allocatable, intent(out) :: picked(:)       !! positions among the values
+        type(error_t), allocatable, intent(out) :: error
+        integer, intent(in), optional :: least, most         !! absent: one value, no array
+        logical, intent(in), optional :: required
+        logical, intent(out), optional :: found
+        integer :: i, owner, position
+
+        allocate (picked(0))
+        if (present(found)) found = .false.
+        owner = find_group(tree, group)
+        if (owner > 0) tree%groups(owner)%used = .true.
+        position = 0
+        do i = 1, tree%entry_count
+            associate (item => tree%entries(i))
+                if (owner == 0 .or. item%group /= owner .or. item%key /= key) cycle
+                item%used = .true.
+                if (item%replaced) cycle
+                position = item%at
+                if (item%index == 0 .or. present(least)) cycle
+                call fail_at(tree, position, label(group, key)//" is a single value; write "// &
+                             escaped(key, 30)//" = value, without an index", error)
+                return
+            end associate
+        end do
+        if (position > 0) then
+            if (present(found)) found = .true.
+            picked = elements(tree, group, key)
+            call check_elements(tree, picked, position, label(group, key), error, least, most)
+            if (allocated(error)) picked = [integer ::]
+        else if (present(required)) then
+            if (required) call refuse_missing(tree, owner, group, key, error)
+        end if
+    end subroutine pick
+
+    pure function elements(tree, group, key) result(picked)
+        !! The position of the value of each element of `key`, 0 where there is none; later entries
+        !! prevail.
+        type(namelist_t), intent(in) :: tree
+        character(*), intent(in) :: group, key
+        integer, allocatable :: picked(:)
+        integer :: i, k, last, owner
+
+        owner = find_group(tree, group)
+        allocate (picked(0))
+        do i = 1, merge(tree%entry_count, 0, owner > 0)
+            associate (item => tree%entries(i))
+                if (item%group /= owner .or. item%key /= key .or. item%replaced) cycle
+                last = max(1, item%index) - 1
+                if (last + item%count > size(picked)) then
+                    picked = [picked, [(0, k=size(picked) + 1, last + item%count)]]
+                end if
+                do k = item%first_value, item%last_value
+                    picked(last + 1:last + tree%values(k)%repeats) = k
+                    last = last + tree%values(k)%repeats
+                end do
+            end associate
+        end do
+    end function elements
+
+    pure subroutine check_elements(tree, picked, position, name, error, least, most)
+        !! Refuse a hole, a number of values outside `least` to `most`, or then a word among them
+        !! that is none.
+        type(namelist_t), intent(in) :: tree
+        integer, intent(in) :: picked(:), position
+        character(*), intent(in) :: name
+        type(error_t), allocatable, intent(out) :: error
+        integer, intent(in), optional :: least, most
+        character(:), allocatable :: allowed
+        integer :: high, i, length, low
+
+        length = size(picked)
+        low = 1
+        high = 1
+        if (present(least)) low = least
+        if (present(most)) high = most
+        i = findloc(picked, 0, 1)
+        if (i > 0) then
+            call fail_at(tree, position, name//": element "//to_text(i)//" has no value", error)
+        end if
+        if (i > 0 .or. (length >= low .and. length <= high)) return
+        do i = 1, length
+            associate (value => tree%values(picked(i)))
+                if (value%kind /= kind_word .or. in_override(tree, value%first)) cycle
+                if (truth_of(raw_text(tree, value)) >= 0) cycle
+                call refuse_picked(tree, picked(i), stray, error)
+                return
+            end associate
+        end do
+        allowed = to_text(low)
+        if (low == high .and. high == 1) allowed = "one"
+        if (high > low) allowed = "from "//to_text(low)//" to "//to_text(high)
+        call fail_at(tree, position, name//" has "//to_text(length)//" value"// &
+                     trim(merge("s", " ", length /= 1))//"; "//allowed// &
+                     trim(merge(" is ", " are", high == 1))//" needed"// &
+                     decimal_points(tree, picked, low, high)// &
+                     trim(merge("; 3*x means x, x, x", "                   ", &
+                                any(tree%values(picked)%repeats > 1))), error)
+    end subroutine check_elements
+
+    pure function point_advice(tree, group, key, count) result(remedy)
+        !! What a caller who needs `count` values of `key`, and got another number of them, may add
+        !! to its message: `; a decimal point, no comma: 0.01`, or nothing.
+        type(namelist_t), intent(in) :: tree
+        character(*), intent(in) :: group, key
+        integer, intent(in) :: count
+        character(:), allocatable :: remedy
+
+        remedy = decimal_points(tree, elements(tree, group, key), count, count)
+    end function point_advice
+
+    pure subroutine convert_real(tree, position, number, error)
+        !! The value at `position` as a number.
+        type(namelist_t), intent(in) :: tree
+        integer, intent(in) :: position
+        real(dp), intent(inout) :: number
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: phrase, problem, text
+        real(dp) :: meant
+
+        if (tree%values(position)%kind == kind_number) then
+            number = tree%values(position)%number
+            return
+        end if
+        text = text_of(tree, tree%values(position))
+        call read_number(text, meant, problem)
+        select case (lower(raw_text(tree, tree%values(position))))
+        case ("inf", "infinity", "nan")
+            problem = "a finite number is needed"
+        case default
+            if (problem == "") then
+                problem = "a number is needed, without quotes"
+            else
+                call misread(text, phrase, problem)
+                if (problem == "") problem = "a number is needed, such as 0.01"
+            end if
+        end select
+        call refuse_picked(tree, position, problem, error)
+    end subroutine convert_real
+
+    pure subroutine convert_string(tree, position, text, error)
+        !! The value at `position` as a text that fits into `text`.
+        type(namelist_t), intent(in) :: tree
+        integer, intent(in) :: position
+        ! allow(assumed-size-character-intent): nothing is cut
+        character(*), intent(inout) :: text
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: full
+
+        associate (value => tree%values(position))
+            full = text_of(tree, value)
+            if (value%kind == kind_number .or. &
+                (value%kind == kind_word .and. .not. in_override(tree, value%first))) then
+                call refuse_picked(tree, position, "a text is needed, in quotes: "// &
+                                   quoted(full, 20), error)
+            else if (len_trim(full) > len(text)) then
+                call refuse_picked(tree, position, "a text of at most "//to_text(len(text))// &
+                                   " characters is needed", error)
+            else
+                text = full
+            end if
+        end associate
+    end subroutine convert_string
+
+    pure subroutine refuse_value(tree, group, key, problem, error, element)
+        !! For checks that only the caller can make: refuse the value of `key` (or of one
+        !! `element`) with its place, as in `a.nml:3:8: &scene: dt = -1: must be positive`.
+        type(namelist_t), intent(in) :: tree
+        character(*), intent(in) :: group, key
+        character(*), intent(in) :: problem        !! what is wrong with it
+        type(error_t), allocatable, intent(out) :: error
+        integer, intent(in), optional :: element   !! from 1
+        integer, allocatable :: picked(:)
+        integer :: i, position
+
+        picked = elements(tree, group, key)
+        i = 1
+        if (present(element)) i = max(1, element)
+        position = 0
+        if (i <= size(picked)) position = picked(i)
+        if (position > 0) then
+            call refuse_picked(tree, position, problem, error)
+        else
+            call fail_at(tree, 0, label(group, key)//": "//problem, error)
+        end if
+    end subroutine refuse_value
 end module lagrangia_namelist

@@ -1,12 +1,14 @@
 module lagrangia_namelist_parser
-    !! From the text of a namelist file, or of an override, to its groups and entries.
+    !! From the text of a namelist file, or of an override, to its groups, entries and values.
     use lagrangia_errors, only: error_t
-    use lagrangia_namelist_entries, only: read_entry
-    use lagrangia_namelist_scanner, only: begins_name, carriage_return, line_feed, next_byte, &
-                                          place_at, read_name, refuse, refuse_byte, scanner_t, &
-                                          skip_space, tab, token_end
-    use lagrangia_namelist_tree, only: add_group, fail_at, find_group, name_length, namelist_t, &
-                                       new_namelist, place_t, short_source
+    use lagrangia_namelist_lexer, only: check_separation, look_for_key, next_byte, read_name, &
+                                        read_value, refuse, refuse_byte, separators, skip_space, &
+                                        small_number, stray, token_end, truth_of
+    use lagrangia_namelist_tree, only: add_entry, add_group, add_value, entry_t, fail_at, &
+                                       find_group, in_override, kind_number, label, line_of, &
+                                       max_values, name_length, namelist_t, new_namelist, &
+                                       settle_twins, value_t
+    use lagrangia_number_reader, only: after, character_at, digits, letters, starts_number
     use lagrangia_text, only: escaped, lower, quoted, to_text
     implicit none (type, external)
     private
@@ -15,45 +17,41 @@ module lagrangia_namelist_parser
 contains
 
     pure subroutine parse_namelist(text, source, tree, error)
-        !! Read the whole `text` of the file called `source`; nothing doubtful is passed over.
-        character(*), intent(in) :: text, source
-        type(namelist_t), intent(out) :: tree
+        !! Read the whole text of a file; nothing doubtful is passed over.
+        character(*), intent(in) :: text         !! all bytes of the file
+        character(*), intent(in) :: source       !! its name, for messages
+        type(namelist_t), intent(out) :: tree    !! what it says
         type(error_t), allocatable, intent(out) :: error
         character(3), parameter :: byte_order_mark = char(239)//char(187)//char(191)
-        type(scanner_t) :: scanner
-        integer :: ended_on
+        integer :: behind
 
-        call new_namelist(tree, source)
-        tree%text = text
-        scanner%source = tree%source
-        if (index(text(:min(3, len(text))), byte_order_mark) == 1) then
-            scanner%at = 4
-            scanner%line_start = 4
-        end if
-        if (index(text, carriage_return) > 0 .and. index(text, line_feed) == 0) then
-            call fail_at(error, place_t(tree%source), "its lines end in carriage returns "// &
-                         "alone; save it with line feeds")
+        behind = 1
+        if (index(text(:min(3, len(text))), byte_order_mark) == 1) behind = 4
+        call new_namelist(tree, text(behind:), source)
+        if (index(text, achar(13)) > 0 .and. index(text, achar(10)) == 0) then
+            call fail_at(tree, 0, "its lines end in carriage returns alone; save it with line "// &
+                         "feeds", error)
             return
         else if (index(text(:min(4, len(text))), achar(0)) > 0 .and. index(text, "!") /= 1) then
-            call fail_at(error, place_t(tree%source), "is no plain text (UTF-16, perhaps, or "// &
-                         "binary); save it as UTF-8")
+            call fail_at(tree, 0, "is no plain text (UTF-16, perhaps, or binary); save it as "// &
+                         "UTF-8", error)
             return
         end if
-        ended_on = 0
+        behind = 0
         do
-            call skip_space(text, scanner, error)
+            call skip_space(tree, error)
             if (allocated(error)) return
-            if (scanner%at > len(text)) exit
-            if (text(scanner%at:scanner%at) /= "&") then
-                call refuse_outside(text, scanner, tree, ended_on, error)
-                return
+            if (tree%at > len(tree%text)) exit
+            if (next_byte(tree) /= "&") then
+                call refuse_outside(tree, behind, error)
+            else
+                call read_group(tree, error)
             end if
-            call read_group(text, scanner, tree, error)
             if (allocated(error)) return
-            ended_on = scanner%line
+            behind = tree%at
         end do
-        if (tree%group_count == 0) call fail_at(error, place_t(tree%source), &
-            "holds no group; a group is written: &name key = value, ... /")
+        if (tree%group_count == 0) call fail_at(tree, 0, "holds no group; a group is written: "// &
+                                                "&name key = value, ... /", error)
     end subroutine parse_namelist
 
     pure subroutine apply_override(tree, text, error)
@@ -61,162 +59,281 @@ contains
         !!
         !! `GROUP%KEY(2)=VALUE` replaces one element. Texts need no quotes here: one runs to the
         !! next comma. After a failure the tree is good for nothing but the message.
-        type(namelist_t), intent(inout) :: tree
-        character(*), intent(in) :: text
+        type(namelist_t), intent(inout) :: tree  !! of a file, perhaps with earlier overrides
+        character(*), intent(in) :: text         !! the override, in any case
         type(error_t), allocatable, intent(out) :: error
         character(name_length) :: name
-        type(scanner_t) :: scanner
-        integer :: group
+        integer :: first, group
 
-        scanner%overrides = .true.
-        scanner%source = short_source(trim("--set "//escaped(text, 90)))
-        scanner%offset = len(tree%text)
+        first = len(tree%text) + 1
+        tree%starts = [tree%starts, first]
         tree%text = tree%text//text
-        call skip_space(text, scanner, error)
-        if (allocated(error)) return
-        if (begins_name(text, scanner%at)) then
-            call read_name(text, scanner, "group", name, error)
-            if (allocated(error)) return
-            call skip_space(text, scanner, error)
-            if (allocated(error)) return
+        tree%at = first
+        tree%context = ""
+        name = ""
+        call skip_space(tree, error)
+        if (.not. allocated(error) .and. scan(next_byte(tree), letters) == 1) then
+            call read_name(tree, "group", name, error)
+            if (.not. allocated(error)) call skip_space(tree, error)
         end if
-        if (next_byte(text, scanner%at) /= "%" .or. scanner%at == 1) then
-            call refuse(scanner, 1, "expected GROUP%KEY=VALUE, as in scene%dt=1e-3", error)
+        if (allocated(error)) return
+        if (next_byte(tree) /= "%" .or. name == "") then
+            call fail_at(tree, first, "expected GROUP%KEY=VALUE, as in scene%dt=1e-3", error)
             return
         end if
-        scanner%at = scanner%at + 1
+        tree%at = tree%at + 1
         group = find_group(tree, name)
         if (group == 0) then
-            call add_group(tree, name, place_at(scanner, 1), error)
-            if (allocated(error)) return
+            call add_group(tree, name, first, error)
             group = tree%group_count
         end if
-        call skip_space(text, scanner, error)
-        if (allocated(error)) return
-        call read_entry(text, scanner, tree, group, error)
+        if (.not. allocated(error)) call skip_space(tree, error)
+        if (.not. allocated(error)) call read_entry(tree, group, error)
     end subroutine apply_override
 
-    pure subroutine refuse_outside(text, scanner, tree, ended_on, error)
-        !! Refuse text between groups.
-        character(*), intent(in) :: text
-        type(scanner_t), intent(in) :: scanner
+    pure subroutine refuse_outside(tree, behind, error)
+        !! Refuse text between groups, of which the last ended before the byte `behind`.
         type(namelist_t), intent(in) :: tree
-        integer, intent(in) :: ended_on  !! the line where the last group ended
+        integer, intent(in) :: behind
         type(error_t), allocatable, intent(out) :: error
-        integer :: last
+        character(:), allocatable :: group, word
 
-        last = max(scanner%at, token_end(text, scanner%at))
-        associate (word => text(scanner%at:last))
-            if (iachar(word(1:1)) > 126) then
-                call refuse_byte(text, scanner, scanner%at, error)
-            else if (index("#/;", word(1:1)) > 0) then
-                call refuse(scanner, scanner%at, "unexpected "//quoted(word, 20)// &
-                            " outside a group; a comment begins with '!'", error)
-            else if (word(1:1) == "$") then
-                call refuse(scanner, scanner%at, "a group begins with '&', not '$'", error)
-            else if (ended_on == scanner%line) then
-                call refuse(scanner, scanner%at, "text "//quoted(word, 20)// &
-                            " after the end of &"// &
-                            escaped(trim(tree%groups(tree%group_count)%name), 30)// &
-                            "; '/' ends a group, a comment begins with '!'", error)
-            else if (ended_on > 0) then
-                call refuse(scanner, scanner%at, "text "//quoted(word, 20)//" outside a group; "// &
-                            "&"//escaped(trim(tree%groups(tree%group_count)%name), 30)// &
-                            " ended on line "//to_text(ended_on)//", at its '/'", error)
-            else
-                call refuse(scanner, scanner%at, "text "//quoted(word, 20)//" outside a group; "// &
-                            "a group is written: &name key = value, ... /", error)
-            end if
-        end associate
+        word = tree%text(tree%at:max(tree%at, token_end(tree%text, tree%at)))
+        group = ""
+        if (behind > 0) group = "&"//escaped(trim(tree%groups(tree%group_count)%name), 30)
+        if (iachar(word(1:1)) > 126) then
+            call refuse_byte(tree, tree%at, error)
+        else if (index("#/;", word(1:1)) > 0) then
+            call refuse(tree, tree%at, "unexpected "//quoted(word, 20)// &
+                        " outside a group; a comment begins with '!'", error)
+        else if (word(1:1) == "$") then
+            call refuse(tree, tree%at, "a group begins with '&', not '$'", error)
+        else if (behind == 0) then
+            call refuse(tree, tree%at, "text "//quoted(word, 20)//" outside a group; "// &
+                        "a group is written: &name key = value, ... /", error)
+        else if (line_of(tree, behind) == line_of(tree, tree%at)) then
+            call refuse(tree, tree%at, "text "//quoted(word, 20)//" after the end of "//group// &
+                        "; '/' ends a group, a comment begins with '!'", error)
+        else
+            call refuse(tree, tree%at, "text "//quoted(word, 20)//" outside a group; "//group// &
+                        " ended on line "//to_text(line_of(tree, behind))//", at its '/'", error)
+        end if
     end subroutine refuse_outside
 
-    pure subroutine read_group(text, scanner, tree, error)
+    pure subroutine read_group(tree, error)
         !! Read from `&` to the `/` or `&end` of the group.
-        character(*), intent(in) :: text
-        type(scanner_t), intent(inout) :: scanner
         type(namelist_t), intent(inout) :: tree
         type(error_t), allocatable, intent(out) :: error
         character(name_length) :: name
-        type(place_t) :: place
-        integer :: twin
-        logical :: done
+        integer :: first, twin
 
-        place = place_at(scanner, scanner%at)
-        scanner%at = scanner%at + 1
-        call read_name(text, scanner, "group", name, error)
+        first = tree%at
+        tree%at = tree%at + 1
+        call read_name(tree, "group", name, error)
         if (allocated(error)) return
         twin = find_group(tree, name)
         if (twin > 0) then
-            call fail_at(error, place, "group &"//escaped(trim(name))//" is given twice (first "// &
-                         "on line "//to_text(tree%groups(twin)%place%line)//")")
+            call fail_at(tree, first, "group &"//escaped(trim(name))//" is given twice (first "// &
+                         "on line "//to_text(line_of(tree, tree%groups(twin)%at))//")", error)
         else if (name == "end") then
-            call fail_at(error, place, "&end without a group to end")
-        else if (index(" /!&"//tab//line_feed//carriage_return, &
-                       next_byte(text, scanner%at)) == 0) then
-            call refuse_byte(text, scanner, scanner%at, error)
+            call fail_at(tree, first, "&end without a group to end", error)
+        else if (index(separators//"/&", next_byte(tree)) == 0) then
+            call refuse_byte(tree, tree%at, error)
         else
-            call add_group(tree, name, place, error)
+            call add_group(tree, name, first, error)
         end if
-        if (allocated(error)) return
-        done = .false.
-        do while (.not. done)
-            scanner%context = "&"//escaped(trim(name), 30)//":"
-            call skip_space(text, scanner, error)
+        do while (.not. allocated(error))
+            tree%context = "&"//escaped(trim(name), 30)//":"
+            call skip_space(tree, error)
             if (allocated(error)) return
-            select case (next_byte(text, scanner%at))
+            select case (next_byte(tree))
             case ("/")
-                call end_group(text, scanner, error)
-                done = .true.
+                call end_group(tree, error)
+                exit
             case ("&")
-                call end_or_refuse(text, scanner, place, error)
-                done = .true.
+                call end_or_refuse(tree, first, error)
+                exit
             case (" ")
-                call fail_at(error, place, "group &"//escaped(trim(name), 30)//" begins here "// &
-                             "and has no end: its '/' is missing")
+                call fail_at(tree, first, "group &"//escaped(trim(name), 30)//" begins here "// &
+                             "and has no end: its '/' is missing", error)
             case default
-                call read_entry(text, scanner, tree, tree%group_count, error)
+                call read_entry(tree, tree%group_count, error)
             end select
-            if (allocated(error)) return
         end do
-        scanner%context = ""
+        tree%context = ""
     end subroutine read_group
 
-    pure subroutine end_group(text, scanner, error)
+    pure subroutine end_group(tree, error)
         !! Step over a `/` that is followed by nothing that makes it look like something else.
-        character(*), intent(in) :: text
-        type(scanner_t), intent(inout) :: scanner
+        type(namelist_t), intent(inout) :: tree
         type(error_t), allocatable, intent(out) :: error
+        character(1) :: behind
 
-        if (next_byte(text, scanner%at + 1) == "/") then
-            call refuse(scanner, scanner%at, "'//' begins no comment, and '/' ends the group; "// &
+        behind = character_at(tree%text, tree%at + 1)
+        if (behind == "/") then
+            call refuse(tree, tree%at, "'//' begins no comment, and '/' ends the group; "// &
                         "a comment begins with '!'", error)
-        else if (index(" !&"//tab//line_feed//carriage_return, &
-                       next_byte(text, scanner%at + 1)) == 0) then
-            call refuse(scanner, scanner%at, "'/' ends the group, yet text follows; "// &
+        else if (index(separators//"&", behind) == 0) then
+            call refuse(tree, tree%at, "'/' ends the group, yet text follows; "// &
                         "a text with '/' in it needs quotes", error)
         else
-            scanner%at = scanner%at + 1
+            tree%at = tree%at + 1
         end if
     end subroutine end_group
 
-    pure subroutine end_or_refuse(text, scanner, place, error)
-        !! Step over `&end`; any other `&name` means that the group begun at `place` has no `/`.
-        character(*), intent(in) :: text
-        type(scanner_t), intent(inout) :: scanner
-        type(place_t), intent(in) :: place
+    pure subroutine end_or_refuse(tree, first, error)
+        !! Step over `&end`; any other `&name` means that the group begun at `first` has no `/`.
+        type(namelist_t), intent(inout) :: tree
+        integer, intent(in) :: first
         type(error_t), allocatable, intent(out) :: error
         integer :: last
 
-        last = token_end(text, scanner%at + 1)
-        if (lower(text(scanner%at + 1:last)) == "end") then
-            scanner%at = last + 1
-        else if (last == scanner%at) then
-            call refuse(scanner, scanner%at, "a lone '&'; a list goes on in the next line "// &
+        last = token_end(tree%text, tree%at + 1)
+        if (lower(tree%text(tree%at:last)) == "&end") then
+            tree%at = last + 1
+        else if (last == tree%at) then
+            call refuse(tree, tree%at, "a lone '&'; a list goes on in the next line "// &
                         "without it, and '/' ends a group", error)
         else
-            call refuse(scanner, scanner%at, quoted(text(scanner%at:last))//" begins inside "// &
+            call refuse(tree, tree%at, quoted(tree%text(tree%at:last))//" begins inside "// &
                         "the group, whose '/' is missing (it began on line "// &
-                        to_text(place%line)//")", error)
+                        to_text(line_of(tree, first))//")", error)
         end if
     end subroutine end_or_refuse
+
+    pure subroutine read_entry(tree, group, error)
+        !! Read `key = values` or `key(index) = values` of the group at position `group`.
+        type(namelist_t), intent(inout) :: tree
+        integer, intent(in) :: group
+        type(error_t), allocatable, intent(out) :: error
+        type(entry_t) :: item
+
+        item%group = group
+        item%at = tree%at
+        call read_name(tree, "key", item%key, error)
+        if (allocated(error)) return
+        tree%context = label(tree%groups(group)%name, item%key)//":"
+        call skip_space(tree, error)
+        if (.not. allocated(error) .and. next_byte(tree) == "(") then
+            call read_index(tree, item%index, error)
+            if (.not. allocated(error)) call skip_space(tree, error)
+        end if
+        if (allocated(error)) return
+        if (next_byte(tree) == "%") then
+            call refuse(tree, tree%at, "components (a%b) are not read here; "// &
+                        "write key = value inside &group", error)
+        else if (next_byte(tree) /= "=") then
+            call refuse(tree, tree%at, "expected '=' after the key", error)
+        else
+            call add_entry(tree, item, error)
+        end if
+        if (allocated(error)) return
+        tree%at = tree%at + 1
+        if (next_byte(tree) == "=") then
+            call refuse(tree, tree%at, "'==' compares; one '=' gives a value", error)
+        else
+            call read_values(tree, error)
+        end if
+        if (.not. allocated(error)) call settle_twins(tree, error)
+    end subroutine read_entry
+
+    pure subroutine read_index(tree, number, error)
+        !! Read `(2)`.
+        type(namelist_t), intent(inout) :: tree
+        integer, intent(out) :: number
+        type(error_t), allocatable, intent(out) :: error
+        integer :: first
+
+        tree%at = tree%at + 1
+        number = 0
+        call skip_space(tree, error)
+        if (allocated(error)) return
+        first = tree%at
+        tree%at = after(tree%text, first, digits)
+        number = small_number(tree%text(first:tree%at - 1))
+        if (tree%at > first .and. (number < 1 .or. number > max_values)) then
+            call refuse(tree, first, "the index must be from 1 to "//to_text(max_values), error)
+            return
+        end if
+        call skip_space(tree, error)
+        if (allocated(error)) return
+        select case (next_byte(tree))
+        case (":")
+            call refuse(tree, tree%at, "array sections (1:2) are not read here; write all "// &
+                        "values after the key, or one index", error)
+        case (",")
+            call refuse(tree, tree%at, "only one index is read here, as in q(2) = 1.0", error)
+        case (")")
+            if (number == 0) then
+                call refuse(tree, tree%at, "the index is missing, as in q(2) = 1.0", error)
+            end if
+            tree%at = tree%at + 1
+        case default
+            call refuse(tree, tree%at, "expected one index and ')', as in q(2) = 1.0", error)
+        end select
+    end subroutine read_index
+
+    pure subroutine read_values(tree, error)
+        !! Read what stands behind `=` up to the next key or the end of the group.
+        type(namelist_t), intent(inout) :: tree
+        type(error_t), allocatable, intent(out) :: error
+        character(1) :: byte
+        integer :: start
+        logical :: after_comma, key_follows
+        type(value_t) :: value
+
+        start = tree%at
+        after_comma = .true.
+        do
+            call skip_space(tree, error)
+            if (allocated(error)) return
+            byte = next_byte(tree)
+            if (tree%at > len(tree%text)) exit
+            if (.not. in_override(tree, tree%at) .and. scan(byte, "/&") == 1) exit
+            if (byte == ",") then
+                if (after_comma) exit
+                tree%at = tree%at + 1
+                after_comma = .true.
+                cycle
+            end if
+            if (.not. in_override(tree, tree%at)) then
+                call look_for_key(tree, key_follows)
+                if (key_follows) exit
+            end if
+            if (.not. after_comma) call refuse_stray(tree, error)
+            if (.not. allocated(error)) call read_value(tree, value, error)
+            if (.not. allocated(error)) call add_value(tree, value, error)
+            if (.not. allocated(error)) call check_separation(tree, value%kind, error)
+            if (allocated(error)) return
+            after_comma = .false.
+        end do
+        if (tree%entries(tree%entry_count)%count == 0) then
+            call refuse(tree, start, "no value after '='; write one (expressions are "// &
+                        "not computed), or leave the key out", error)
+        else if (byte == "," .and. after_comma) then
+            call refuse(tree, tree%at, "an empty value between commas; write every value", error)
+        end if
+    end subroutine read_values
+
+    pure subroutine refuse_stray(tree, error)
+        !! Refuse a word that follows a value without a comma, unless it is `true` or the like: a
+        !! unit, a key without `=`, a comment without `!`. Numbers and quoted texts may follow.
+        type(namelist_t), intent(in) :: tree
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: word
+
+        if (in_override(tree, tree%at) .or. starts_number(tree%text(tree%at:))) return
+        word = tree%text(tree%at:token_end(tree%text, tree%at))
+        if (word == "" .or. truth_of(word) >= 0) return
+        associate (value => tree%values(tree%value_count))
+            if (value%kind == kind_number .and. scan(word(1:1), "#%:<>*\") == 0 .and. &
+                index(tree%text(value%last:tree%at), achar(10)) == 0) then
+                call refuse(tree, tree%at, "unexpected "//quoted(word)//" behind a number; "// &
+                            "units are not written: all are SI, angles in radians", error)
+            else
+                call refuse(tree, tree%at, "unexpected "//quoted(word)//"; "//stray, error)
+            end if
+        end associate
+    end subroutine refuse_stray
+
 end module lagrangia_namelist_parser

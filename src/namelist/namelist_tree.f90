@@ -1,13 +1,14 @@
 module lagrangia_namelist_tree
-    !! What a namelist file says, as plain data: groups, their entries, the entries' values.
+    !! What a namelist file and its overrides say, as plain data: groups, their entries, the
+    !! entries' values; and where each of them was written.
     use lagrangia_errors, only: error_t, fail, status_usage
     use lagrangia_kinds, only: dp
     use lagrangia_text, only: escaped, to_text
     implicit none (type, external)
     private
-    public :: entry_t, group_t, namelist_t, place_t, value_t
-    public :: add_entry, add_group, add_value, decimal_points, fail_at, find_group, &
-              new_namelist, raw_text, settle_twins, short_source, text_of
+    public :: entry_t, group_t, namelist_t, value_t
+    public :: add_entry, add_group, add_value, fail_at, find_entry, find_group, in_override, &
+              label, line_of, new_namelist, raw_text, settle_twins, short_source, text_of
     public :: kind_number, kind_string, kind_word, max_values, name_length
 
     integer, parameter :: name_length = 63    !! of a group or key, as in Fortran
@@ -21,61 +22,57 @@ module lagrangia_namelist_tree
     integer, parameter :: kind_string = 2  !! text between quotes
     integer, parameter :: kind_word = 3    !! bare text: a logical, or a string of an override
 
-    type :: place_t
-        !! Where something was written.
-        character(source_length) :: source = ""  !! file name or `--set ...`, fit for a message
-        integer :: line = 0    !! from 1; 0 in an override
-        integer :: column = 0  !! in bytes, from 1
-    end type place_t
-
     type :: value_t
         !! One value, or several equal ones (`3*0.0`).
         integer :: kind = kind_word
-        integer :: first = 1, last = 0    !! its bytes in the tree's text, without the quotes
+        integer :: first = 1, last = 0    !! its bytes in the tree's text, with the quotes
         integer :: repeats = 1
-        integer :: line = 0, column = 0
         real(dp) :: number = 0.0_dp       !! for `kind_number`
     end type value_t
 
     type :: entry_t
         !! `key = values` or `key(index) = values`.
         character(name_length) :: key = ""
+        integer :: at = 0                             !! where the tree's text has the key
         integer :: group = 0                          !! position among the groups
         integer :: index = 0                          !! 0 where none was written
         integer :: first_value = 1, last_value = 0    !! positions among the values
         integer :: count = 0                          !! of values, repeats counted
-        type(place_t) :: place
-        logical :: overrides = .false.                !! from the command line
         logical :: replaced = .false.                 !! by a later override
-        logical :: used = .false.
+        logical :: used = .false.                     !! somebody asked for it
     end type entry_t
 
     type :: group_t
         !! `&name ... /`
         character(name_length) :: name = ""
-        type(place_t) :: place
-        logical :: used = .false.
+        integer :: at = 0                             !! where the tree's text has it
+        logical :: used = .false.                     !! somebody asked for a key of it
     end type group_t
 
     type :: namelist_t
         !! A whole file and the overrides applied to it.
-        character(:), allocatable :: text         !! what the values point into
-        character(source_length) :: source = ""
+        character(:), allocatable :: text         !! of the file, then of each override
+        integer, allocatable :: starts(:)         !! where these texts begin
+        character(source_length) :: source = ""   !! the name of the file, fit for a message
         type(group_t), allocatable :: groups(:)   !! the first `group_count` are in use
         type(entry_t), allocatable :: entries(:)  !! the first `entry_count` are in use
         type(value_t), allocatable :: values(:)   !! the first `value_count` are in use
         integer :: group_count = 0, entry_count = 0, value_count = 0
         integer :: repeats_count = 0              !! values with their repeats
+        integer :: at = 1                         !! the byte of the text to be parsed next
+        character(100) :: context = ""            !! what the parser is in: `&scene: dt:`
     end type namelist_t
 
 contains
 
-    pure subroutine new_namelist(tree, source)
-        !! An empty tree for the file called `source`.
+    pure subroutine new_namelist(tree, text, source)
+        !! A tree of nothing yet.
         type(namelist_t), intent(out) :: tree
-        character(*), intent(in) :: source
+        character(*), intent(in) :: text          !! of the file
+        character(*), intent(in) :: source        !! its name
 
-        tree%text = ""
+        tree%text = text
+        tree%starts = [1]
         tree%source = short_source(source)
         allocate (tree%groups(max_groups), tree%entries(few), tree%values(few))
     end subroutine new_namelist
@@ -83,7 +80,7 @@ contains
     pure function short_source(source) result(shown)
         !! `source` fit for a message, a blank at either end as `\x20`; of a long one the end is
         !! kept.
-        character(*), intent(in) :: source
+        character(*), intent(in) :: source        !! a file's name, with any bytes
         character(source_length) :: shown
         character(:), allocatable :: full
         integer :: length
@@ -96,23 +93,64 @@ contains
         shown = full
     end function short_source
 
-    pure subroutine fail_at(error, place, message)
-        !! Fail with `source:line:column: message`.
+    pure subroutine fail_at(tree, position, message, error)
+        !! Fail with `source:line:column: message`, `source: message`, or `--set ...: message`.
+        type(namelist_t), intent(in) :: tree
+        integer, intent(in) :: position           !! in the tree's text; 0: the file as a whole
+        character(*), intent(in) :: message       !! one line
         type(error_t), allocatable, intent(out) :: error
-        type(place_t), intent(in) :: place
-        character(*), intent(in) :: message
-        character(:), allocatable :: full
+        character(:), allocatable :: place
+        integer :: last, part
 
-        full = trim(place%source)
-        if (place%line > 0) full = full//":"//to_text(place%line)//":"//to_text(place%column)
-        full = full//": "//message
-        call fail(error, full, status_usage)
+        place = trim(tree%source)
+        if (in_override(tree, position)) then
+            part = count(tree%starts <= position)
+            last = len(tree%text)
+            if (part < size(tree%starts)) last = tree%starts(part + 1) - 1
+            place = "--set "//escaped(tree%text(tree%starts(part):last), 90)
+            place = trim(short_source(trim(place)))
+        else if (position > 0) then
+            place = place//":"//to_text(line_of(tree, position))//":"// &
+                    to_text(position - index(tree%text(:position - 1), achar(10), back=.true.))
+        end if
+        call fail(error, place//": "//message, status_usage)
     end subroutine fail_at
+
+    pure function in_override(tree, position) result(yes)
+        !! Does what stands there come from the command line?
+        type(namelist_t), intent(in) :: tree
+        integer, intent(in) :: position           !! in the tree's text; 0: the file as a whole
+        logical :: yes
+
+        yes = .false.
+        if (position > 0) yes = count(tree%starts <= position) > 1
+    end function in_override
+
+    pure function line_of(tree, position) result(line)
+        !! The line of the file that holds this byte, from 1.
+        type(namelist_t), intent(in) :: tree
+        integer, intent(in) :: position           !! in the tree's text
+        integer :: line
+        integer :: i
+
+        line = 1
+        do i = 1, position - 1
+            if (tree%text(i:i) == achar(10)) line = line + 1
+        end do
+    end function line_of
+
+    pure function label(group, key) result(text)
+        !! `&group: key`
+        character(*), intent(in) :: group, key    !! their names, with any bytes
+        character(:), allocatable :: text
+
+        text = "&"//escaped(trim(group), 30)//": "//escaped(trim(key), 30)
+    end function label
 
     pure function find_group(tree, name) result(position)
         !! The position of group `name`, 0 when there is none.
         type(namelist_t), intent(in) :: tree
-        character(*), intent(in) :: name
+        character(*), intent(in) :: name          !! in lower case
         integer :: position
 
         do position = tree%group_count, 1, -1
@@ -120,30 +158,43 @@ contains
         end do
     end function find_group
 
-    pure subroutine add_group(tree, name, place, error)
-        !! Begin group `name`.
+    pure function find_entry(tree, group, key) result(position)
+        !! The position of the last entry that gives `key`, 0 when there is none.
+        type(namelist_t), intent(in) :: tree
+        character(*), intent(in) :: group, key    !! in lower case
+        integer :: position
+        integer :: owner
+
+        owner = find_group(tree, group)
+        do position = merge(tree%entry_count, 0, owner > 0), 1, -1
+            if (tree%entries(position)%group == owner .and. tree%entries(position)%key == key) exit
+        end do
+    end function find_entry
+
+    pure subroutine add_group(tree, name, first, error)
+        !! Begin a group.
         type(namelist_t), intent(inout) :: tree
-        character(*), intent(in) :: name
-        type(place_t), intent(in) :: place
+        character(*), intent(in) :: name          !! in lower case
+        integer, intent(in) :: first              !! where it begins in the tree's text
         type(error_t), allocatable, intent(out) :: error
 
         if (tree%group_count == max_groups) then
-            call fail_at(error, place, "more than "//to_text(max_groups)//" groups")
+            call fail_at(tree, first, "more than "//to_text(max_groups)//" groups", error)
             return
         end if
         tree%group_count = tree%group_count + 1
-        tree%groups(tree%group_count) = group_t(name=name, place=place)
+        tree%groups(tree%group_count) = group_t(name=name, at=first)
     end subroutine add_group
 
     pure subroutine add_entry(tree, item, error)
         !! Append an entry, whose values are still to come.
         type(namelist_t), intent(inout) :: tree
-        type(entry_t), intent(in) :: item
+        type(entry_t), intent(in) :: item         !! without values
         type(error_t), allocatable, intent(out) :: error
         type(entry_t), allocatable :: more(:)
 
         if (tree%entry_count == max_entries) then
-            call fail_at(error, item%place, "more than "//to_text(max_entries)//" keys")
+            call fail_at(tree, item%at, "more than "//to_text(max_entries)//" keys", error)
             return
         else if (tree%entry_count == size(tree%entries)) then
             allocate (more(2*tree%entry_count))
@@ -163,20 +214,19 @@ contains
         type(error_t), allocatable, intent(out) :: error
         type(value_t), allocatable :: more(:)
 
-        if (tree%value_count == size(tree%values)) then
+        if (value%repeats > max_values - tree%repeats_count) then
+            call fail_at(tree, value%first, "more than "//to_text(max_values)// &
+                         " values (repeats counted)", error)
+            return
+        else if (tree%value_count == size(tree%values)) then
             allocate (more(2*tree%value_count))
             more(:tree%value_count) = tree%values
             call move_alloc(more, tree%values)
         end if
+        tree%value_count = tree%value_count + 1
+        tree%repeats_count = tree%repeats_count + value%repeats
+        tree%values(tree%value_count) = value
         associate (owner => tree%entries(tree%entry_count))
-            if (value%repeats > max_values - tree%repeats_count) then
-                call fail_at(error, place_t(owner%place%source, value%line, value%column), &
-                             "more than "//to_text(max_values)//" values (repeats counted)")
-                return
-            end if
-            tree%repeats_count = tree%repeats_count + value%repeats
-            tree%value_count = tree%value_count + 1
-            tree%values(tree%value_count) = value
             owner%last_value = tree%value_count
             owner%count = owner%count + value%repeats
         end associate
@@ -193,14 +243,14 @@ contains
             do i = 1, tree%entry_count - 1
                 associate (old => tree%entries(i))
                     if (old%group /= new%group .or. old%key /= new%key) cycle
-                    if (new%overrides) then
+                    if (in_override(tree, new%at)) then
                         if (new%index == 0) old%replaced = .true.
                     else if (max(1, old%index) < max(1, new%index) + new%count .and. &
                              max(1, new%index) < max(1, old%index) + old%count) then
-                        call fail_at(error, new%place, "&"// &
+                        call fail_at(tree, new%at, "&"// &
                                      escaped(trim(tree%groups(new%group)%name), 30)//": "// &
                                      escaped(trim(new%key))//" is given twice (first on line "// &
-                                     to_text(old%place%line)//")")
+                                     to_text(line_of(tree, old%at))//")", error)
                         return
                     end if
                 end associate
@@ -211,78 +261,29 @@ contains
     pure function raw_text(tree, value) result(text)
         !! The value as it was written, with its quotes.
         type(namelist_t), intent(in) :: tree
-        type(value_t), intent(in) :: value
+        type(value_t), intent(in) :: value        !! of this tree
         character(:), allocatable :: text
 
-        if (value%kind == kind_string) then
-            text = tree%text(value%first - 1:value%last + 1)
-        else
-            text = tree%text(value%first:value%last)
-        end if
+        text = tree%text(value%first:value%last)
     end function raw_text
-
-    pure function decimal_points(tree, picked, low, high) result(remedy)
-        !! What to write if the values at the positions `picked` came apart at decimal commas, and
-        !! together would be from `low` to `high`: `; a decimal point, no comma: 0.01`, or nothing.
-        type(namelist_t), intent(in) :: tree
-        integer, intent(in) :: picked(:), low, high
-        character(:), allocatable :: remedy
-        character(:), allocatable :: behind, number
-        integer :: i, n
-
-        remedy = ""
-        if (any(tree%values(picked)%kind /= kind_number)) return
-        n = 0
-        i = 1
-        do while (i <= size(picked))
-            number = raw_text(tree, tree%values(picked(i)))
-            i = i + 1
-            if (i <= size(picked)) then
-                associate (left => tree%values(picked(i - 1)), right => tree%values(picked(i)))
-                    behind = tree%text(left%last + 1:right%first - 1)
-                    if (behind//"|" == ",|" .and. verify(number, "+-0123456789") == 0) then
-                        behind = raw_text(tree, right)
-                        if (verify(behind, "0123456789") == 0 .and. len(behind) == 3 .and. &
-                            scan(number, "123456789") > 0) behind = behind//" (or "// &
-                            number//behind//")"
-                        number = number//"."//behind
-                        i = i + 1
-                    end if
-                end associate
-            end if
-            n = n + 1
-            remedy = remedy//", "//number
-        end do
-        if (n == size(picked) .or. n < low .or. n > high) then
-            remedy = ""
-        else
-            remedy = "; a decimal point, no comma: "//escaped(remedy(3:))
-        end if
-    end function decimal_points
 
     pure function text_of(tree, value) result(text)
         !! The text a value stands for: doubled quotes of a string are one quote.
         type(namelist_t), intent(in) :: tree
-        type(value_t), intent(in) :: value
+        type(value_t), intent(in) :: value        !! of this tree
         character(:), allocatable :: text
-        character(:), allocatable :: buffer
-        character(1) :: mark
         integer :: i, length
 
-        buffer = tree%text(value%first:value%last)
+        text = raw_text(tree, value)
+        if (value%kind /= kind_string) return
         length = 0
-        if (value%kind == kind_string) then
-            mark = tree%text(value%first - 1:value%first - 1)
-            i = value%first
-            do while (i <= value%last)
-                length = length + 1
-                buffer(length:length) = tree%text(i:i)
-                if (tree%text(i:i) == mark) i = i + 1
-                i = i + 1
-            end do
-        else
-            length = len(buffer)
-        end if
-        text = buffer(:length)
+        i = 2
+        do while (i < len(text))
+            length = length + 1
+            text(length:length) = text(i:i)
+            if (text(i:i) == tree%text(value%last:value%last)) i = i + 1
+            i = i + 1
+        end do
+        text = text(:length)
     end function text_of
 end module lagrangia_namelist_tree

@@ -127,7 +127,7 @@ contains
         character(*), parameter :: between = " ,=/&"//new_line("a")
         integer :: first, last
 
-        first = at - 1 + scan(text(at:), between)
+        first = max(1, at - 1 + scan(text(at:), between))
         first = first + max(0, verify(text(first + 1:), between))
         last = first - 2 + scan(text(first:)//" ", between)
         text = text(:first - 1)//word//text(max(first, last + 1):)

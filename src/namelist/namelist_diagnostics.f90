@@ -1,54 +1,75 @@
-module lagrangia_namelist_unknown
-    !! Which keys and groups a namelist has; refusing those that are missing or unknown.
+module lagrangia_namelist_diagnostics
+    !! What to say of a value, a key or a group of a namelist that cannot be taken, and of those
+    !! that are missing: where it is, what is wrong, and what was probably meant.
     use lagrangia_errors, only: error_t
-    use lagrangia_namelist_tree, only: fail_at, find_group, name_length, namelist_t, place_t
+    use lagrangia_namelist_tree, only: fail_at, find_entry, find_group, in_override, kind_number, &
+                                       label, name_length, namelist_t, raw_text
     use lagrangia_names, only: abbreviation, nearest_name
     use lagrangia_text, only: escaped, join, quoted
     implicit none (type, external)
     private
-    public :: has_group, has_key, label, refuse_missing, refuse_unknown_groups, &
+    public :: decimal_points, refuse_missing, refuse_picked, refuse_unknown_groups, &
               refuse_unknown_keys
 
 contains
 
-    pure function has_group(tree, group) result(yes)
-        !! Is there such a group? Names are in lower case.
+    pure subroutine refuse_picked(tree, position, problem, error)
+        !! Fail with the place, group, key and text of the value at `position`, and `problem`.
         type(namelist_t), intent(in) :: tree
-        character(*), intent(in) :: group
-        logical :: yes
+        integer, intent(in) :: position
+        character(*), intent(in) :: problem
+        type(error_t), allocatable, intent(out) :: error
+        integer :: i
 
-        yes = find_group(tree, group) > 0
-    end function has_group
-
-    pure function has_key(tree, group, key) result(yes)
-        !! Is there such a key in such a group? Names are in lower case.
-        type(namelist_t), intent(in) :: tree
-        character(*), intent(in) :: group, key
-        logical :: yes
-
-        yes = last_entry(tree, group, key) > 0
-    end function has_key
-
-    pure function last_entry(tree, group, key) result(position)
-        !! The position of the last entry that gives `key`, 0 when there is none.
-        type(namelist_t), intent(in) :: tree
-        character(*), intent(in) :: group, key
-        integer :: position
-        integer :: owner
-
-        owner = find_group(tree, group)
-        do position = merge(tree%entry_count, 0, owner > 0), 1, -1
-            if (tree%entries(position)%group == owner .and. tree%entries(position)%key == key) exit
+        do i = 1, tree%entry_count - 1
+            if (tree%entries(i)%last_value >= position) exit
         end do
-    end function last_entry
+        associate (item => tree%entries(i), value => tree%values(position))
+            call fail_at(tree, value%first, label(tree%groups(item%group)%name, item%key)// &
+                         " = "//escaped(raw_text(tree, value))//": "//problem, error)
+        end associate
+    end subroutine refuse_picked
 
-    pure function label(group, key) result(text)
-        !! `&group: key`
-        character(*), intent(in) :: group, key
-        character(:), allocatable :: text
+    pure function decimal_points(tree, picked, low, high) result(remedy)
+        !! What to write if the values at the positions `picked` came apart at decimal commas, and
+        !! together would be from `low` to `high`; otherwise nothing.
+        type(namelist_t), intent(in) :: tree
+        integer, intent(in) :: picked(:), low, high
+        character(:), allocatable :: remedy
+        character(:), allocatable :: behind, number
+        integer :: i, n
 
-        text = "&"//escaped(trim(group), 30)//": "//escaped(trim(key), 30)
-    end function label
+        remedy = ""
+        behind = ""
+        if (any(picked == 0)) return
+        if (any(tree%values(picked)%kind /= kind_number)) return
+        n = 0
+        i = 1
+        do while (i <= size(picked))
+            number = raw_text(tree, tree%values(picked(i)))
+            i = i + 1
+            if (i <= size(picked)) then
+                associate (left => tree%values(picked(i - 1)), right => tree%values(picked(i)))
+                    behind = tree%text(left%last + 1:right%first - 1)
+                    if (behind//"|" == ",|" .and. verify(number, "+-0123456789") == 0) then
+                        behind = raw_text(tree, right)
+                        if (verify(behind, "0123456789") == 0 .and. len(behind) == 3 .and. &
+                            scan(number, "123456789") > 0) behind = behind//" (or "// &
+                            number//behind//")"
+                        number = number//"."//behind
+                        i = i + 1
+                    end if
+                end associate
+            end if
+            n = n + 1
+            remedy = remedy//", "//number
+        end do
+        if (n == size(picked) .or. n < low .or. n > high) then
+            remedy = ""
+        else
+            remedy = "; a decimal point, no comma: "//escaped(remedy(3:))
+        end if
+    end function decimal_points
 
     pure subroutine refuse_missing(tree, owner, group, key, error)
         !! Demand `key`, or its whole group, if nothing there seems to be a slip for it.
@@ -66,11 +87,11 @@ contains
             near = nearest_name(group, keys)
             i = find_group(tree, near)
             if (i > 0) then
-                call fail_at(error, tree%groups(i)%place, advice("group ", near, [group]))
+                call fail_at(tree, tree%groups(i)%at, advice("group ", near, [group]), error)
                 return
             end if
-            call fail_at(error, place_t(tree%source), "group &"//escaped(group, 30)// &
-                         " is missing; it must give "//escaped(key, 30))
+            call fail_at(tree, 0, "group &"//escaped(group, 30)// &
+                         " is missing; it must give "//escaped(key, 30), error)
         else
             associate (items => tree%entries(:tree%entry_count))
                 allocate (keys, source=pack( &
@@ -79,13 +100,13 @@ contains
             end associate
             near = nearest_name(key, keys)
             if (near /= "") then
-                i = last_entry(tree, group, near)
-                call fail_at(error, tree%entries(i)%place, "&"//escaped(group, 30)//": "// &
-                             advice("key ", near, [key]))
+                i = find_entry(tree, group, near)
+                call fail_at(tree, tree%entries(i)%at, "&"//escaped(group, 30)//": "// &
+                             advice("key ", near, [key]), error)
                 return
             end if
-            call fail_at(error, tree%groups(owner)%place, label(group, key)// &
-                         " is missing; write "//escaped(key, 30)//" = value")
+            call fail_at(tree, tree%groups(owner)%at, label(group, key)// &
+                         " is missing; write "//escaped(key, 30)//" = value", error)
         end if
     end subroutine refuse_missing
 
@@ -108,10 +129,10 @@ contains
                 if (item%group /= owner .or. item%used .or. item%replaced) cycle
                 if (spared .and. any(allowed == item%key)) cycle
                 allocate (absent, source=pack(allowed, &
-                    [(item%overrides .or. item%key == allowed(k) .or. &
-                      .not. has_key(tree, group, allowed(k)), k=1, size(allowed))]))
-                call fail_at(error, item%place, "&"//escaped(trim(group), 30)//": "// &
-                             advice("key ", trim(item%key), absent))
+                    [(in_override(tree, item%at) .or. item%key == allowed(k) .or. &
+                      find_entry(tree, group, allowed(k)) == 0, k=1, size(allowed))]))
+                call fail_at(tree, item%at, "&"//escaped(trim(group), 30)//": "// &
+                             advice("key ", trim(item%key), absent), error)
                 return
             end associate
         end do
@@ -129,8 +150,8 @@ contains
         do i = 1, tree%group_count
             if (tree%groups(i)%used) cycle
             text = advice("group ", trim(tree%groups(i)%name), allowed)
-            if (tree%groups(i)%place%line == 0) text = text//" (in "//trim(tree%source)//")"
-            call fail_at(error, tree%groups(i)%place, text)
+            if (in_override(tree, tree%groups(i)%at)) text = text//" (in "//trim(tree%source)//")"
+            call fail_at(tree, tree%groups(i)%at, text, error)
             return
         end do
     end subroutine refuse_unknown_groups
@@ -154,4 +175,4 @@ contains
                    escaped(join(allowed, ", "), 160)
         end if
     end function advice
-end module lagrangia_namelist_unknown
+end module lagrangia_namelist_diagnostics
