@@ -28,4 +28,4 @@ while read -r scan line text; do
     fi
 done <data/reference/lecture_notes.txt
 echo "$count quoted lines, $bad of them not as in the notes"
-[ "$count" -gt 0 ] && [ "$bad" -eq 0 ]
+[ "$count" -eq 45 ] && [ "$bad" -eq 0 ]

@@ -3,7 +3,7 @@ module system_checks
     !!
     !! The claims themselves are judged by the library's audit, which `lagrangia check` prints.
     use description_checks, only: check_description, check_refusals
-    use funit, only: anyExceptions, assertEqual, assertGreaterThan, assertTrue
+    use funit, only: anyExceptions, assertEqual, assertTrue
     use lagrangia_audit, only: audit_system, draws
     use lagrangia_audit_equations, only: claim_accelerations, claim_energy
     use lagrangia_audit_newton, only: claim_gauss
@@ -15,12 +15,14 @@ module system_checks
 
 contains
 
-    subroutine check_system(system)
+    subroutine check_system(system, claims)
         !! All that a system claims. On return it has parameters of the last draw.
         class(system_t), intent(inout) :: system
+        integer, intent(out), optional :: claims  !! how many were judged
         type(audit_t) :: audit
         integer :: i
 
+        if (present(claims)) claims = 0
         call check_description(system)
         if (anyExceptions()) return
         call check_refusals(system)
@@ -35,7 +37,7 @@ contains
         call check_states(audit, claim_accelerations)
         call check_states(audit, claim_energy)
         call check_states(audit, claim_gauss)
-        call assertGreaterThan(size(audit%findings), 12, message="claims")
+        if (present(claims)) claims = size(audit%findings)
     end subroutine check_system
 
     subroutine check_states(audit, claim)

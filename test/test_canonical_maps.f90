@@ -91,7 +91,7 @@ contains
                 measured = measured + 1
             end do
         end do
-        call assertGreaterThan(measured, 14, message="methods and problems")
+        call assertEqual(15, measured, "methods and problems")
     end subroutine symplectic_steps_err_but_are_canonical
 
     subroutine explicit_runge_kutta_is_not_canonical()

@@ -41,18 +41,20 @@ contains
     subroutine order_conditions_hold()
         !! To the rounding of quadruple precision: some 200 products of numbers up to 2.
         type(row_t) :: row
-        integer :: i
+        integer :: i, checked
 
+        checked = 0
         i = 0
         do
             i = i + 1
             call nth_row(i, row)
             if (row%order == 0) exit
             if (.not. allocated(row%gamma)) cycle
+            checked = checked + 1
             call assertLessThan(real(worst(row%gamma, 1, row%order), dp), 1e-30_dp, &
                                 message=trim(row%name)//": order conditions")
         end do
-        call assertGreaterThan(i, 8, message="rows checked")
+        call assertEqual(8, checked, "rows checked")
     end subroutine order_conditions_hold
 
     subroutine conditions_of_the_next_order_fail()

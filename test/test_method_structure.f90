@@ -1,8 +1,8 @@
 module test_method_structure
     !! What methods preserve, as they declare it: canonical maps, reversibility, speed. What does
     !! not declare a property is seen not to have it.
-    use funit, only: TestMethod, TestSuite, anyExceptions, assertGreaterThan, assertLessThan, &
-                     assertTrue
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertGreaterThan, &
+                     assertLessThan
     use lagrangia_canonical_defect, only: canonical_defect
     use lagrangia_catalogue, only: nth_system
     use lagrangia_description, only: description_t
@@ -139,6 +139,6 @@ contains
             end if
         end do
         call assertGreaterThan(worst, 1e-6_dp, message="a method that does not keep the speed")
-        call assertTrue(declared > 1, "boris and midpoint declare it")
+        call assertEqual(2, declared, "boris and midpoint declare it")
     end subroutine speed_is_kept_as_declared
 end module test_method_structure

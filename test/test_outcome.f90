@@ -120,7 +120,7 @@ contains
         call set_up(outcome)
         outcome%drifts = [measure_t("energy_drift", 0.5_dp), measure_t("p_drift", 0.25_dp)]
         outcome%others = [measure_t("error", 0.125_dp, .true., 1.0_dp), &
-                          measure_t("period", 0.0625_dp)]
+                          measure_t("period", 0.0625_dp), measure_t("small_period", 0.03125_dp)]
         outcome%error_from = from_closed_form
         outcome%period = 1.5_dp
         outcome%seconds = 2.0_dp
@@ -134,7 +134,8 @@ contains
                            '"p_drift": 2.5000000000000000E-001}')
         call contains_once(json, '"error": 1.2500000000000000E-001, "error_from": "exact"')
         call contains_once(json, '"period": 1.5000000000000000E+000, '// &
-                           '"period_error": 6.2500000000000000E-002')
+                           '"period_error": 6.2500000000000000E-002, '// &
+                           '"small_period_error": 3.1250000000000000E-002, "omega": ')
         call contains_once(json, '"seconds": 2.0000000000000000E+000')
         call contains_once(json, '"verdict": "holds", "file": "out/swing.dat", "events": null}')
         outcome%error_from = from_half_step
@@ -150,8 +151,8 @@ contains
         json = outcome_json(outcome)
         call contains_once(json, '"energy_drift": null, "drifts": {}, "error": null, '// &
                            '"error_from": null')
-        call contains_once(json, '"period": null, "period_error": null')
-        call contains_once(json, '"omega": null')
+        call contains_once(json, '"period": null, "period_error": null, '// &
+                           '"small_period_error": null, "omega": null')
         call contains_once(json, '"verdict": "not judged", "file": null, "events": null}')
         outcome%q = [ieee_value(1.0_dp, ieee_quiet_nan), ieee_value(1.0_dp, ieee_positive_inf)]
         outcome%drifts = [measure_t("energy_drift", ieee_value(1.0_dp, ieee_positive_inf))]

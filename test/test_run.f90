@@ -9,7 +9,7 @@ module test_run
     use lagrangia_errors, only: error_t, status_numbers
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_methods, only: new_integrator, nth_integrator
+    use lagrangia_methods, only: method_names, new_integrator, nth_integrator
     use lagrangia_observer, only: observer_box_t
     use lagrangia_run, only: new_plan, plan_t, run
     use lagrangia_system, only: system_t
@@ -150,7 +150,7 @@ contains
             end do
             if (anyExceptions()) return
         end do
-        call assertGreaterThan(i, 3, message="methods tried")
+        call assertEqual(size(method_names()), i - 1, "methods tried")
     end subroutine samples_change_no_byte
 
     subroutine evaluations_are_counted()

@@ -20,9 +20,16 @@ module test_stress_systems
     use lagrangia_system, only: system_t
     use lagrangia_verdicts, only: verdicts_t
     use lagrangia_wedge, only: wedge_t
+    use plain_system, only: plain_system_t
     implicit none (type, external)
     private
     public :: stress_systems_suite
+
+    type, extends(plain_system_t) :: saddle_t
+        !! Two coordinates pushed away from (2, 1), where the runs of `judge_chaos` begin.
+    contains
+        procedure :: accelerations => pushed
+    end type saddle_t
 
 contains
 
@@ -37,6 +44,8 @@ contains
         call suite%addTest(TestMethod("slow_turns", slow_turns))
         call suite%addTest(TestMethod("bounces", bounces))
         call suite%addTest(TestMethod("chaos_takes_digits", chaos_takes_digits))
+        call suite%addTest(TestMethod("the_time_of_no_digit_is_predicted", &
+                                      the_time_of_no_digit_is_predicted))
     end function stress_systems_suite
 
     subroutine check_all(verdicts, hold, what)
@@ -189,4 +198,31 @@ contains
         call judge_chaos(system, method, other, 40.0_dp, verdicts)
         call check_all(verdicts, .false., "ln(growth)")
     end subroutine chaos_takes_digits
+
+    subroutine the_time_of_no_digit_is_predicted()
+        !! At rest on a saddle, \(\ddot q = q - q_0\): a difference of \((1, -1)/2\) rad and
+        !! \((1, 1)/2\) rad/s grows by \(\sqrt{\cosh 2t}\), which is \(1/\epsilon\) at 36.39 s and
+        !! seen at 36.5 s. The bounds are half and twice of that.
+        class(dense_integrator_t), allocatable :: method, other
+        type(saddle_t) :: system
+        type(verdicts_t) :: verdicts
+        type(error_t), allocatable :: error
+
+        call system%configure([real(dp) ::], error)
+        call new_method("gauss16", 1e-13_dp, method)
+        call new_method("dop853", 1e-13_dp, other)
+        call verdicts%begin("saddle")
+        call judge_chaos(system, method, other, 40.0_dp, verdicts)
+        call assertEqual(18.25_dp, verdicts%list(2)%least, 0.0_dp, "half of it")
+        call assertEqual(73.0_dp, verdicts%list(2)%most, 0.0_dp, "twice of it")
+    end subroutine the_time_of_no_digit_is_predicted
+
+    pure subroutine pushed(self, t, q, v, a)
+        !! See `saddle_t`.
+        class(saddle_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: a(self%ndof)
+
+        a = q - [2.0_dp, 1.0_dp]
+    end subroutine pushed
 end module test_stress_systems

@@ -45,7 +45,7 @@ contains
                             to_text(windows)//" windows of "//short(duration, 3)//" s, "// &
                             short(minval(rates), 3)//" to "//short(maxval(rates), 3)// &
                             "; every "//short(log(10.0_dp)/exponent, 2)//" s cost a digit")
-        predicted = interval*findloc(growth > -log(epsilon(loose)), .true., 1)
+        predicted = interval*findloc(growth(1:) > -log(epsilon(loose)), .true., 1)
         call follow_distance(system, method, other, n, distance)
         measured = interval*findloc(.not. distance < no_digit, .true., 1)
         call verdicts%judge("two methods, tol. 1e-14", "time when they part, s", measured, &
