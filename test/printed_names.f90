@@ -76,6 +76,7 @@ contains
         select case (system)
         case ("atwood")
             call names%set("I", p(4))
+            call names%set("phi", q(1)/p(5))
             call names%set("R", p(5))
             call names%set("a_s", p(6))
         case ("wedge")

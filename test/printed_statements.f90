@@ -1,6 +1,6 @@
 module printed_statements
     !! What a description prints, judged against the system: L, energy, equations of motion,
-    !! constraints and quantities, read as text.
+    !! constraints, quantities and what each reaction holds, read as text.
     use formula, only: formula_value, names_t
     use lagrangia_description, only: description_t
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
@@ -66,6 +66,10 @@ contains
             end if
             text = after(text, " = ")
             call value_is(text, system%quantity(i, t, q, v))
+        end do
+        do i = 1, size(d%reactions)
+            if (d%name == "hanging_chain") exit  ! of vectors r_k
+            call statements(after(trim(d%reactions(i)%meaning), ": "), ", ")
         end do
     contains
         subroutine value_is(printed, expected)

@@ -1,11 +1,14 @@
 module test_printed_formulae
-    !! What `describe` prints is what the code computes: L, energy, equations of motion, constraints
-    !! and quantities of every system, read as text and evaluated at random states.
+    !! What `describe` prints is what the code computes: L, energy, equations of motion, constraints,
+    !! quantities, reactions and defaults of every system, read as text and evaluated at random
+    !! states.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use formula, only: formula_value, names_t
     use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
     use lagrangia_catalogue, only: new_system, nth_system, system_names
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
+    use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_reference, only: reference_t
     use lagrangia_system, only: system_t
@@ -29,6 +32,8 @@ contains
         call suite%addTest(TestMethod("formulae_are_read", formulae_are_read))
         call suite%addTest(TestMethod("every_description_is_the_code", &
                                       every_description_is_the_code, setUp=restart_random))
+        call suite%addTest(TestMethod("defaults_are_their_formulae", defaults_are_their_formulae, &
+                                      setUp=restart_random))
         call suite%addTest(TestMethod("the_ball_does_what_it_says", the_ball_does_what_it_says))
         call suite%addTest(TestMethod("closed_forms_are_what_they_say", &
                                       closed_forms_are_what_they_say, setUp=restart_random))
@@ -82,7 +87,7 @@ contains
         character(*), parameter :: in_words = " atwood.total_energy hanging_chain.L_z "// &
             "hanging_chain.tension1 charged_particle.L_axis driven_pendulum.mechanical_energy "
         integer, parameter :: statements(13) = &
-            [5, 6, 11, 8, 8, 10, 21, 12, 8, 9, 9, 7, 10]
+            [5, 7, 13, 10, 10, 12, 24, 12, 9, 11, 10, 7, 10]
         class(system_t), allocatable :: system
         type(tally_t) :: tally
         integer :: i, k
@@ -119,6 +124,51 @@ contains
         if (d%name == "bouncing_ball") q = abs(q)
         call judge_all(system, d, t, q, v, in_words, tally)
     end subroutine try
+
+    subroutine defaults_are_their_formulae()
+        !! A parameter that is left to others, as `m r^2/2`: the same L as with the value of what
+        !! is printed.
+        character(*), parameter :: expected = "rolling_disk%i_roll rolling_disk%i_yaw "
+        class(system_t), allocatable :: system
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+        type(hyperdual_t) :: left_out, given
+        type(names_t) :: names
+        character(:), allocatable :: found
+        real(dp), allocatable :: values(:), q(:), v(:)
+        real(dp) :: t, size_of
+        logical :: ok
+        integer :: i, k, n
+
+        found = ""
+        do i = 1, size(system_names())
+            call nth_system(i, system)
+            call system%describe(d)
+            do k = 1, size(d%parameters)
+                if (d%parameters(k)%computed == "") cycle
+                call draw_parameters(system, .false.)
+                call draw_state(system, t, q, v)
+                call system%describe(d)
+                found = found//trim(d%name)//"%"//trim(d%parameters(k)%name)//" "
+                allocate (values(size(d%parameters)))
+                values = d%parameters%value(1)
+                do n = 1, size(d%parameters)
+                    call names%set(trim(d%parameters(n)%name), values(n))
+                end do
+                values(k) = ieee_value(t, ieee_quiet_nan)
+                call system%configure(values, error)
+                left_out = system%lagrangian(hyperdual(t), hyperdual(q), hyperdual(v))
+                call formula_value(trim(d%parameters(k)%computed), names, values(k), size_of, ok)
+                call assertTrue(ok, "read: "//d%parameters(k)%computed)
+                call system%configure(values, error)
+                given = system%lagrangian(hyperdual(t), hyperdual(q), hyperdual(v))
+                call assertEqual(given%re, left_out%re, 1e-13_dp*abs(given%re), &
+                                 trim(d%name)//": "//d%parameters(k)%computed)
+                deallocate (values)
+            end do
+        end do
+        call assertEqual(expected, found)
+    end subroutine defaults_are_their_formulae
 
     subroutine the_ball_does_what_it_says()
         !! Its equations that hold on the floor: an impact, and rest.
@@ -250,6 +300,8 @@ contains
         call counts(4, "a factor")
         d%energy = "(m1 + m2 + I/R^2) x_dot^2 - (m1 - m2) g x"
         call counts(5, "another factor")
+        d%reactions(1)%meaning = "of the string at m1: y1 - a_s t^2 + R phi = 0"
+        call counts(6, "a string that does not fit")
     contains
         subroutine counts(expected, what)
             integer, intent(in) :: expected
