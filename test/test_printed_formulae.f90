@@ -1,7 +1,7 @@
 module test_printed_formulae
-    !! What `describe` prints is what the code computes: L, energy, equations of motion, constraints,
-    !! quantities, reactions and defaults of every system, read as text and evaluated at random
-    !! states.
+    !! What `describe` prints is what the code computes: L, energy, equations of motion,
+    !! constraints, quantities, reactions, defaults and titles of every system, read as text and
+    !! evaluated at random states.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use formula, only: formula_value, names_t
     use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
