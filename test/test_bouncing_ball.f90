@@ -5,11 +5,12 @@ module test_bouncing_ball
     use lagrangia_adaptive_methods, only: new_adaptive
     use lagrangia_bouncing_ball, only: bouncing_ball_t
     use lagrangia_dense_run, only: run_dense
+    use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
     use lagrangia_events, only: contact_event_t, event_box_t, new_contact_event
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_methods, only: new_integrator
+    use lagrangia_methods, only: method_names, new_integrator
     use lagrangia_observer, only: observer_box_t
     use lagrangia_reference, only: reference_t
     use lagrangia_run, only: new_plan, new_sampled_plan, plan_t, run
@@ -287,18 +288,20 @@ contains
 
     subroutine fixed_step()
         !! A parabola is exact for all methods: bounces and Zeno point as well as by tolerance.
-        character(*), parameter :: methods(3) = ["rk4    ", "verlet ", "gauss16"]
+        character(name_length), allocatable :: methods(:)
         class(reference_t), allocatable :: reference
         type(recorder_t), allocatable :: record
         real(dp) :: q(1), v(1)
         integer :: i, k
 
+        allocate (methods, source=method_names())
         call closed_form(0.7_dp, 0.9_dp, 0.3_dp, reference)
         do k = 1, size(methods)
+            if (methods(k) == "boris") cycle  ! for a charge
             allocate (record)
             call bounce(trim(methods(k)), 0.7_dp, 0.9_dp, 0.3_dp, 3.0_dp, record, q, v, 0.01_dp)
             call assertEqual(impact_time(0.7_dp, 0.9_dp, 0.3_dp, [(i, i=1, 20)]), &
-                             record%event_t(:20), 1e-13_dp, "times")
+                             record%event_t(:20), 1e-13_dp, trim(methods(k))//": times")
             call assertEqual([0.0_dp, 0.0_dp], [q, v], message="it rests")
             call assertLessThan(abs(record%event_t(record%events) &
                                     - impact_time(0.7_dp, 0.9_dp, 0.3_dp, 200)), 1e-13_dp, &

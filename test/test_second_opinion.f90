@@ -1,12 +1,12 @@
 module test_second_opinion
     !! Where three runs of one method agree and are wrong: none of their digits is stated.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertGreaterThan, &
-                     assertLessThanOrEqual
+                     assertLessThan, assertLessThanOrEqual, assertTrue
     use lagrangia_command_line, only: word_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_observer, only: observer_t
-    use lagrangia_outcome, only: outcome_t
+    use lagrangia_outcome, only: from_closed_form, from_half_step, outcome_t, scorecard_legend
     use lagrangia_play, only: play
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene
@@ -29,12 +29,17 @@ contains
         call suite%addTest(TestMethod("steps_too_small_to_move", steps_too_small_to_move))
         call suite%addTest(TestMethod("a_late_clock", a_late_clock))
         call suite%addTest(TestMethod("the_time_of_a_slow_event", the_time_of_a_slow_event))
+        call suite%addTest(TestMethod("no_tolerance_below_the_noise", no_tolerance_below_the_noise))
+        call suite%addTest(TestMethod("an_estimate_has_the_rounding_in_it", &
+                                      an_estimate_has_the_rounding_in_it))
+        call suite%addTest(TestMethod("an_error_is_of_coordinates", an_error_is_of_coordinates))
     end function second_opinion_suite
 
-    subroutine perform(text, outcome)
-        !! The scene in `text`, from beginning to end, with its error.
+    subroutine perform(text, outcome, plain)
+        !! The scene in `text`, from beginning to end, with its error, if it is not to be `plain`.
         character(*), intent(in) :: text
         type(outcome_t), intent(out) :: outcome
+        logical, intent(in), optional :: plain
         class(system_t), allocatable :: system
         class(observer_t), pointer :: nobody
         type(scene_t) :: scene
@@ -45,6 +50,7 @@ contains
         call parse_scene("&scene error_estimate = .true., columns = 't', "//text, "a.nml", &
                          [word_t ::], scene, system, error)
         call assertFalse(allocated(error), "it is read: "//text)
+        if (present(plain)) scene%error_estimate = .not. plain
         if (.not. allocated(error)) call play(scene, system, "", "text", nobody, outcome, error)
         call assertFalse(allocated(error), "it runs: "//text)
     end subroutine perform
@@ -78,6 +84,18 @@ contains
                      "g = 1.708639195984527 /", outcome)
         call check_claim(outcome%state(1), 1.66296741722470880_dp)
         call check_claim(outcome%state(2), 0.372007821602300207_dp)
+        call perform("system = 'bouncing_ball', t0 = 2.5146692146149787, "// &
+                     "duration = 11.629592102413325, method = 'gauss16', samples = 10, "// &
+                     "tolerance = 2.4071492327272268e-8, q = 0.11719041555989085, "// &
+                     "v = -1.101450508507644 / &bouncing_ball m = 2.9276588150894547, "// &
+                     "g = 3.6905089876104653, restitution = 1.0 /", outcome)
+        call check_claim(outcome%state(2), -7.72905698161148291e-1_dp)
+        call perform("system = 'bouncing_ball', t0 = -0.43681458311007115, "// &
+                     "duration = 77.92952763058256, method = 'gauss16', samples = 8, "// &
+                     "tolerance = 1.4518517110012462e-14, q = 1.1720895674881011, "// &
+                     "v = 2.064487781871337 / &bouncing_ball m = 3.4819116782778465, "// &
+                     "g = 3.849798671831283, restitution = 0.9927712321664176 /", outcome)
+        call check_claim(outcome%state(2), -2.45030292537334670_dp)
     end subroutine three_hundred_bounces
 
     subroutine lingering_at_a_saddle()
@@ -143,6 +161,15 @@ contains
             call assertLessThanOrEqual(maxval(outcome%state%error), 2.0_dp**(-21), &
                                        message="digits are left")
         end do
+        ! the truth by .ci/quad
+        call perform("system = 'driven_pendulum', t0 = 56689647.25105157, "// &
+                     "duration = 0.965591241589557, method = 'gauss16', samples = 10, "// &
+                     "tolerance = 1.5682375972118345e-4, q = -1.140290624527396, "// &
+                     "v = 1.0312634380679873 / &driven_pendulum m = 1.63314013138094, "// &
+                     "l = 3.8040808500741057, g = 1.267976968208317, "// &
+                     "amplitude = -0.9466074867856724, drive_frequency = 0.26915778977291555 /", &
+                     outcome)
+        call check_claim(outcome%state(1), -4.15880072792298750e-2_dp)
     end subroutine a_late_clock
 
     subroutine the_time_of_a_slow_event()
@@ -159,4 +186,94 @@ contains
         call assertGreaterThan(outcome%state(1)%error, 2.0_dp**(-22), message="no less")
         call assertLessThanOrEqual(outcome%state(1)%error, 2.0_dp**(-18), message="not too warily")
     end subroutine the_time_of_a_slow_event
+
+    subroutine no_tolerance_below_the_noise()
+        !! At 1.4e8 rad the last digit, 3e-8 rad, shakes the accelerations: steps of dop853 would
+        !! shrink with the tolerance. The one that is named can be had, by the finer runs too, and
+        !! so can a late time of the driven pendulum.
+        character(*), parameter :: starts(2) = [character(80) :: &
+            "system = 'rotating_hoop', q = -1.4e8, v = 0.3 / &rotating_hoop /", &
+            "system = 'driven_pendulum', q = 1.0, v = 0.3, t0 = 1e9 / &driven_pendulum /"]
+        character(*), parameter :: method = &
+            "method = 'dop853', duration = 3.0, samples = 10, tolerance = "
+        class(system_t), allocatable :: system
+        type(scene_t) :: scene
+        type(outcome_t) :: outcome
+        type(error_t), allocatable :: error
+        integer :: i, place
+
+        do i = 1, size(starts)
+            call parse_scene("&scene columns = 't', "//method//"4e-11, "//starts(i), "a.nml", &
+                             [word_t ::], scene, system, error)
+            call assertTrue(allocated(error), "it is refused")
+            if (.not. allocated(error)) return
+            place = index(error%message, " one is ")
+            call assertGreaterThan(place, 0, message=error%message)
+            call perform(method//error%message(place + 8:len_trim(error%message))//", "// &
+                         starts(i), outcome)
+            call assertLessThan(int(outcome%steps), 1000, message="not for ever")
+            call assertTrue(outcome%state(1)%resolved(), "digits are left")
+        end do
+        call perform("system = 'rotating_hoop', q = -1.4e8, v = 0.3, method = 'gauss16', "// &
+                     "tolerance = 4e-11, duration = 3.0, samples = 10 / &rotating_hoop /", outcome)
+        call assertLessThan(int(outcome%steps), 100, message="gauss16 sees the noise")
+        call perform("system = 'oscillator', q = 1e8, v = 0.0, method = 'dop853', "// &
+                     "tolerance = 1e-14, duration = 3.0, samples = 10 / &oscillator /", outcome)
+        call assertLessThan(int(outcome%steps), 1000, message="relative to what is large")
+    end subroutine no_tolerance_below_the_noise
+
+    subroutine an_estimate_has_the_rounding_in_it()
+        !! A hoop at rest is a pendulum, whose motion is known; its own error is an estimate. So
+        !! many steps of so high an order that nothing but rounding is left. Half the truth at
+        !! least, but for the closed form's own rounding, \(\epsilon\) t times the speed, less than
+        !! 3.2 rad/s; and no more than ten of it.
+        character(*), parameter :: methods(4) = [character(40) :: &
+            "method = 'gauss16', dt = 0.002", "method = 'rk4', dt = 0.0004", &
+            "method = 'gauss16', tolerance = 1e-13", "method = 'dop853', tolerance = 1e-13"]
+        character(*), parameter :: start = ", q = 1.0, v = 0.0, duration = 40.0, every = 1000"
+        real(dp), parameter :: own = epsilon(own)*40.0_dp*3.2_dp
+        type(outcome_t) :: hoop, pendulum
+        integer :: i
+
+        do i = 1, size(methods)
+            call perform_error("system = 'rotating_hoop'", " / &rotating_hoop omega = 0.0 /", hoop)
+            call perform_error("system = 'pendulum'", " / &pendulum /", pendulum)
+            call assertEqual(from_half_step, hoop%error_from)
+            call assertEqual(from_closed_form, pendulum%error_from)
+            call assertGreaterThan(hoop%error(), 0.5_dp*pendulum%error() - own, &
+                                   message=methods(i))
+            call assertLessThan(hoop%error(), 10.0_dp*(pendulum%error() + own), &
+                                message=methods(i))
+        end do
+    contains
+        subroutine perform_error(system, parameters, outcome)
+            !! With the column that is compared.
+            character(*), intent(in) :: system, parameters
+            type(outcome_t), intent(out) :: outcome
+            character(:), allocatable :: text
+
+            text = start
+            if (index(methods(i), "tolerance") > 0) text = start(:index(start, ", every") - 1)
+            call perform(system//", expect_error = 1.0, "//trim(methods(i))//text//parameters, &
+                         outcome, plain=.true.)
+        end subroutine perform_error
+    end subroutine an_estimate_has_the_rounding_in_it
+
+    subroutine an_error_is_of_coordinates()
+        !! Of the oscillator at 1000 rad/s, whose velocity errs 1000 times as much as x: the legend
+        !! says that the error is that of x, and so it is.
+        type(outcome_t) :: outcome
+        real(dp) :: x, v
+
+        call assertTrue(index(scorecard_legend, "of a coordinate in the rows, not of a velocity") &
+                        > 0, scorecard_legend)
+        call assertTrue(index(scorecard_legend, "and against another method") > 0, scorecard_legend)
+        call perform("system = 'oscillator', method = 'rk4', dt = 1e-4, every = 100, "// &
+                     "duration = 0.01, q = 1.0, v = 0.0, expect_error = 1.0 "// &
+                     "/ &oscillator m = 1.0, k = 1e6 /", outcome, plain=.true.)
+        x = abs(outcome%q(1) - cos(10.0_dp))
+        v = abs(outcome%v(1) + 1000.0_dp*sin(10.0_dp))/(1000.0_dp*abs(sin(10.0_dp)))
+        call assertEqual(x, outcome%error(), 1e-12_dp, "of x")
+        call assertGreaterThan(abs(v - x), 0.1_dp*x, message="which is not that of the velocity")
+    end subroutine an_error_is_of_coordinates
 end module test_second_opinion

@@ -1,6 +1,7 @@
 module test_shadow
     !! The run at half the step, which estimates the error where no closed form is known.
     use funit, only: TestMethod, TestSuite, assertEqual, assertGreaterThan, assertLessThan
+    use lagrangia_dop853, only: dop853_t, new_dop853
     use lagrangia_errors, only: error_t
     use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
     use lagrangia_integrator, only: integrator_t
@@ -11,6 +12,7 @@ module test_shadow
     use lagrangia_reference, only: reference_t
     use lagrangia_rolling_disk, only: rolling_disk_t
     use lagrangia_shadow, only: distance, shadow_t
+    use lagrangia_wedge, only: wedge_t
     implicit none (type, external)
     private
     public :: shadow_suite
@@ -29,6 +31,8 @@ contains
         call suite%addTest(TestMethod("midpoint_is_estimated_well", midpoint_is_estimated_well))
         call suite%addTest(TestMethod("steps_that_no_tolerance_shortens_are_estimated", &
                                       steps_that_no_tolerance_shortens_are_estimated))
+        call suite%addTest(TestMethod("rounding_that_both_runs_share_is_in_it", &
+                                      rounding_that_both_runs_share_is_in_it))
     end function shadow_suite
 
     subroutine distance_is_absolute_below_1_and_relative_above()
@@ -138,4 +142,45 @@ contains
             call assertGreaterThan(estimate, 0.5_dp*actual - 1e-12_dp, message="estimate")
         end do
     end subroutine steps_that_no_tolerance_shortens_are_estimated
+
+    subroutine rounding_that_both_runs_share_is_in_it()
+        !! Under constant forces no method errs but by rounding, and each step may round the same
+        !! way, at half the step too. Another method, in few steps, does not; a last digit of the
+        !! time and of the coordinates is its own, and the closed form's.
+        type(wedge_t) :: system
+        class(integrator_t), allocatable :: method
+        type(dop853_t) :: other
+        class(reference_t), allocatable :: reference
+        type(random_t) :: random
+        type(shadow_t), allocatable :: shadow
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: parameters(:), q(:), v(:)
+        real(dp) :: truth(2), ignored(2), t, dt, estimate, actual, worst, own
+        integer, parameter :: steps = 2000
+        integer :: k
+
+        call new_dop853(other)
+        other%tolerance = other%least_tolerance
+        worst = 0.0_dp
+        do k = 1, 100
+            call random%parameters(system, .false., parameters, error)
+            call random%state(system, t, q, v, error)
+            call random%uniform(5e-4_dp, 1.5e-3_dp, dt)
+            call system%closed_form(t, q, v, reference)
+            call new_integrator("velocity_verlet", method, error)
+            if (allocated(shadow)) deallocate (shadow)
+            allocate (shadow)
+            call shadow%start(method, system, t, dt, q, v, error)
+            call shadow%start_other(other, system, t, t + steps*dt, q, v)
+            call method%prepare(system, error)
+            call method%advance(system, t, dt, 0_i8, int(steps, i8), q, v)
+            call shadow%estimate(system, t + steps*dt, q, estimate, error)
+            call reference%state_at(t + steps*dt, truth, ignored)
+            actual = distance(q, truth)
+            own = 16.0_dp*epsilon(own)*(1.0_dp + maxval(abs(v)))
+            worst = max(worst, actual/own)
+            call assertGreaterThan(estimate, 0.5_dp*actual - own, message="estimate")
+        end do
+        call assertGreaterThan(worst, 8.0_dp, message="more than a few last digits")
+    end subroutine rounding_that_both_runs_share_is_in_it
 end module test_shadow

@@ -59,6 +59,9 @@ contains
         do i = 1, size(d%quantities)
             if (.not. d%quantities(i)%conserved) call put_quantity(d%quantities(i))
         end do
+        call put_line("column error")
+        call put_line("  the largest of a coordinate, not of a velocity, absolute below 1 and "// &
+                      "relative above")
         call put_line("constraints")
         call put_line("  "//trim(d%constraint))
         call put_line("structure")

@@ -54,6 +54,7 @@ contains
 
         self%name = "gauss16"
         self%least_tolerance = 1e-14_dp
+        self%bears_noise = 2.0_dp**16
         self%title = "Gauss-Legendre collocation by tolerance, for smooth forces (Butcher 1964)"
         self%order = 16
     end subroutine new_gauss16_adaptive

@@ -1,7 +1,8 @@
 module lagrangia_shadow
     !! The same run at half the step, or at a hundredth of the tolerance, in step with the run
     !! itself: where no closed form exists, their distance estimates the error (Richardson;
-    !! Hairer, Nørsett & Wanner, sec. II.4).
+    !! Hairer, Nørsett & Wanner, sec. II.4). Rounding that both share shows in the distance to
+    !! another method, whose steps are few.
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
@@ -15,6 +16,7 @@ module lagrangia_shadow
         class(integrator_t), allocatable :: integrator
         class(dense_integrator_t), allocatable :: adaptive
         class(dense_integrator_t), allocatable :: probe  !! takes the run's steps, to count them
+        class(dense_integrator_t), allocatable :: other   !! another method; absent where it fails
         real(dp) :: t0 = 0.0_dp
         real(dp) :: h = 0.0_dp        !! half the step of the run
         integer(i8) :: done = 0       !! half steps taken
@@ -22,6 +24,8 @@ module lagrangia_shadow
     contains
         procedure :: start
         procedure :: start_adaptive
+        procedure :: start_other
+        procedure, private :: go_finer
         procedure :: estimate
     end type shadow_t
 
@@ -72,9 +76,49 @@ contains
         self%v = v
     end subroutine start_adaptive
 
+    subroutine start_other(self, method, system, t0, t_end, q, v)
+        !! Ask another method too, at its tolerance; one that cannot answer is not asked.
+        class(shadow_t), intent(inout) :: self
+        class(dense_integrator_t), intent(in) :: method
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t0, t_end, q(system%ndof), v(system%ndof)
+        type(error_t), allocatable :: error
+
+        allocate (self%other, source=method)
+        call self%other%prepare(system, error)
+        if (allocated(error)) then
+            deallocate (self%other)
+            return
+        end if
+        call self%other%start(system, t0, q, v, t_end)
+    end subroutine start_other
+
     subroutine estimate(self, system, t, q, deviation, error)
-        !! Go to time `t` and estimate the error of the run's coordinates `q` there. Fails where
-        !! the tighter tolerance cannot be had.
+        !! Go to time `t` and estimate the error of the run's coordinates `q` there: no less than
+        !! their distance to the other method's. Fails where the tighter tolerance cannot be had.
+        class(shadow_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof)
+        real(dp), intent(out) :: deviation
+        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable :: unknown
+        real(dp) :: q_other(system%ndof), v_other(system%ndof)
+
+        call self%go_finer(system, t, q, deviation, error)
+        if (allocated(error) .or. .not. allocated(self%other)) return
+        do while (self%other%t_new < t .and. .not. allocated(unknown))
+            call self%other%step(system, unknown)
+        end do
+        if (allocated(unknown)) then
+            deallocate (self%other)
+            return
+        end if
+        call self%other%state_at(t, q_other, v_other)
+        deviation = max(deviation, distance(q, q_other))
+    end subroutine estimate
+
+    subroutine go_finer(self, system, t, q, deviation, error)
+        !! To time `t`, and the error of `q` there as the finer steps see it.
         class(shadow_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t, q(system%ndof)
@@ -105,7 +149,7 @@ contains
         end if
         deviation = distance(q, self%q)*2.0_dp**self%integrator%order &
                     /(2.0_dp**self%integrator%order - 1.0_dp)
-    end subroutine estimate
+    end subroutine go_finer
 
     pure subroutine bound_steps(self, system)
         !! No step longer than half the run's mean one: a method may find no reason in the tighter

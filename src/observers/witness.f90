@@ -10,11 +10,13 @@ module lagrangia_witness
 
     type, extends(observer_t) :: witness_t
         integer(i8) :: samples = 0                 !! seen so far
+        integer(i8) :: events = 0                  !! met so far
         real(dp) :: t = 0.0_dp                     !! of the latest sample, s
         real(dp), allocatable :: q(:), v(:)        !! that sample; absent: there was none
         real(dp), allocatable :: q_most(:), v_most(:)  !! the largest magnitudes so far
     contains
         procedure :: observe
+        procedure :: meet
     end type witness_t
 
 contains
@@ -35,4 +37,15 @@ contains
         self%q_most = max(self%q_most, abs(q))
         self%v_most = max(self%v_most, abs(v))
     end subroutine observe
+
+    subroutine meet(self, system, event, t, q, v, error)
+        !! See `observer_t`. Never fails.
+        class(witness_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: event
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        type(error_t), allocatable, intent(out) :: error
+
+        self%events = self%events + 1
+    end subroutine meet
 end module lagrangia_witness

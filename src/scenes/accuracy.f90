@@ -25,10 +25,11 @@ module lagrangia_accuracy
     use lagrangia_reference, only: reference_t
     use lagrangia_run, only: plan_t
     use lagrangia_scene, only: scene_t
-    use lagrangia_second_opinion, only: by_closed_form, by_other_method, event_slope
+    use lagrangia_second_opinion, only: by_closed_form, by_other_method, event_slope, lost_by_clock
     use lagrangia_staging, only: stage_events, stage_method
     use lagrangia_statement, only: stated_t
     use lagrangia_system, only: system_t
+    use lagrangia_tolerance_floor, only: sensible_tolerance
     use lagrangia_witness, only: witness_t
     implicit none (type, external)
     private
@@ -49,7 +50,7 @@ contains
         class(integrator_t), allocatable :: integrator
         type(plan_t) :: plan
 
-        call stage_method(finer(scene, 2), system, plan, integrator, error)
+        call stage_method(finer(scene, system, 2), system, plan, integrator, error)
         if (allocated(error)) call error%add_context(context)
     end subroutine rehearse_finer
 
@@ -71,10 +72,10 @@ contains
         logical :: known
 
         step = (seen%t - scene%t0)/max(steps, 1_i8)
-        call run_finer(nudged(finer(scene, 1), system, 1), system, 0.5_dp*step, watcher, half, &
-                       shrinking, events, error)
-        if (.not. allocated(error)) call run_finer(nudged(finer(scene, 2), system, -1), system, &
-                                                   0.25_dp*step, watcher, quarter, &
+        call run_finer(finer(nudged(scene, system, 1), system, 1), system, 0.5_dp*step, watcher, &
+                       half, shrinking, events, error)
+        if (.not. allocated(error)) call run_finer(finer(nudged(scene, system, -1), system, 2), &
+                                                   system, 0.25_dp*step, watcher, quarter, &
                                                    shrinking, events, error)
         if (allocated(error)) then
             call error%add_context(context)
@@ -94,7 +95,9 @@ contains
             step = 1e-4_dp*(seen%t - scene%t0)
             rounding(1) = rounding(1) + rounding_of_event(system, seen, step, events, rounding)
         end if
-        state%error = vouched*max(estimate(first, second, third, most, shrinking), rounding)
+        state%error = vouched*max(estimate(first, second, third, most, shrinking), &
+                                  rounding + rounding_of_clock(system, seen, most(1))) &
+                      + late(scene, system, seen)
         call by_other_method(scene, system, seen, events, 100_i8*steps + 100000_i8, other, known)
         if (known) state%error = agreement(first, second, third, other, most, &
                                                  shrinking) + rounding
@@ -129,6 +132,33 @@ contains
         end do
         dt = dt*2.0_dp**(-20)
     end function rounding_of_event
+
+    pure function rounding_of_clock(system, seen, t_most) result(lost)
+        !! Of the state, by impacts: each is at a time that is rounded, which shifts the motion
+        !! after it, to either side.
+        class(system_t), intent(in) :: system
+        type(witness_t), intent(in) :: seen
+        real(dp), intent(in) :: t_most  !! the latest time, s
+        real(dp) :: lost(1 + 2*system%ndof), a(system%ndof)
+
+        lost = 0.0_dp
+        if (system%contacts == 0) return
+        call system%accelerations(seen%t, seen%q, seen%v, a)
+        lost(2:) = sqrt(real(seen%events, dp))*epsilon(lost)*t_most*abs([seen%v_most, a])
+    end function rounding_of_clock
+
+    pure function late(scene, system, seen) result(lost)
+        !! Of the state, in all runs alike: their clock cannot stand at the end.
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        type(witness_t), intent(in) :: seen
+        real(dp) :: lost(1 + 2*system%ndof), a(system%ndof)
+
+        lost = 0.0_dp
+        if (seen%t < scene%t0 + scene%duration) return
+        call system%accelerations(seen%t, seen%q, seen%v, a)
+        lost(2:) = abs(lost_by_clock(scene%t0, scene%duration)*[seen%v, a])
+    end function late
 
     pure subroutine name_state(system, state)
         !! Time, coordinates, velocities.
@@ -201,9 +231,10 @@ contains
         error = abs(first - other) + margin*most*apart
     end function agreement
 
-    function finer(scene, k) result(fine)
+    function finer(scene, system, k) result(fine)
         !! The scene at \(2^{-k}\) of its step or \(100^{-k}\) of its tolerance, if that can be had.
         type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
         integer, intent(in) :: k
         type(scene_t) :: fine
         class(dense_integrator_t), allocatable :: method
@@ -211,7 +242,9 @@ contains
         fine = scene
         if (scene%tolerance > 0.0_dp) then
             call new_adaptive(trim(scene%method), method)
-            fine%tolerance = max(method%least_tolerance, scene%tolerance/100.0_dp**k)
+            fine%tolerance = max(scene%tolerance/100.0_dp**k, &
+                                 sensible_tolerance(method, system, scene%t0, scene%duration, &
+                                                    scene%q, scene%v))
         else
             fine%dt = scene%duration/steps_of(scene, k)
             fine%every = scene%every*2**k

@@ -15,11 +15,11 @@ module lagrangia_outcome
 
     character(*), parameter :: scorecard_legend = &
         "drift: the largest change of an invariant in the rows, relative to its start or "// &
-        "natural size"//new_line("a")//"error: the largest of a coordinate in the rows, "// &
-        "absolute below 1 and relative above;"//new_line("a")//"exact: against a closed "// &
-        "form, estimate: against the same run at half the step or a"//new_line("a")// &
-        "hundredth of the tolerance, without the rounding of both; steps: a closed form "// &
-        "against"//new_line("a")//"steps of gauss16"
+        "natural size"//new_line("a")//"error: the largest of a coordinate in the rows, not "// &
+        "of a velocity, absolute below 1 and"//new_line("a")//"relative above; exact: "// &
+        "against a closed form, estimate: against the same run at half the"// &
+        new_line("a")//"step or a hundredth of the tolerance, and against another method; "// &
+        "steps: a closed form"//new_line("a")//"against steps of gauss16"
 
     integer, parameter :: from_closed_form = 1, from_half_step = 2
     integer, parameter :: from_steps = 3  !! of a method, where the run is the closed form

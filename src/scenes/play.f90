@@ -255,7 +255,7 @@ contains
             else if (any(scene%expectations%name == "error") .or. p%scene%method == exact) then
                 if (p%scene%method /= exact) p%outcome%error_from = from_half_step
                 allocate (p%record%shadow)
-                call stage_shadow(scene, system, p%plan, p%integrator, p%record%shadow, error)
+                call stage_shadow(p%scene, system, p%plan, p%integrator, p%record%shadow, error)
                 if (allocated(error)) return
             end if
         end if

@@ -13,10 +13,11 @@ module lagrangia_second_opinion
     use lagrangia_reference, only: reference_t
     use lagrangia_scene, only: scene_t
     use lagrangia_system, only: system_t
+    use lagrangia_tolerance_floor, only: sensible_tolerance
     use lagrangia_witness, only: witness_t
     implicit none (type, external)
     private
-    public :: by_closed_form, by_other_method, event_slope
+    public :: by_closed_form, by_other_method, event_slope, lost_by_clock, new_other_method
 
 contains
 
@@ -60,12 +61,7 @@ contains
         stopped = seen%t < scene%t0 + scene%duration
         elapsed = merge(seen%t - scene%t0, scene%duration, stopped)
         start = merge(scene%t0, 0.0_dp, system%time_dependent)
-        if (scene%method == "dop853") then
-            call new_adaptive("gauss16", method)
-        else
-            call new_adaptive("dop853", method)
-        end if
-        method%tolerance = method%least_tolerance
+        call new_other_method(scene, system, method)
         method%dense = .false.
         call method%prepare(system, error)
         if (.not. allocated(error)) call method%start(system, start, scene%q, scene%v, &
@@ -86,6 +82,19 @@ contains
         end if
         state = [seen%t - late, q, v]
     end subroutine by_other_method
+
+    subroutine new_other_method(scene, system, method)
+        !! Not the scene's, at the least tolerance that makes sense from its start.
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        class(dense_integrator_t), allocatable, intent(out) :: method
+        real(dp) :: start
+
+        call new_adaptive(merge("gauss16", "dop853 ", scene%method == "dop853"), method)
+        start = merge(scene%t0, 0.0_dp, system%time_dependent)
+        method%tolerance = sensible_tolerance(method, system, start, scene%duration, &
+                                              scene%q, scene%v)
+    end subroutine new_other_method
 
     pure function lost_by_clock(start, elapsed) result(lost)
         !! What the end on the clock, `start + elapsed` rounded, leaves of `elapsed`, s.

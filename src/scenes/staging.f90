@@ -17,9 +17,12 @@ module lagrangia_staging
     use lagrangia_reference, only: reference_t
     use lagrangia_run, only: new_plan, new_sampled_plan, plan_t
     use lagrangia_scene, only: scene_t
+    use lagrangia_second_opinion, only: new_other_method
     use lagrangia_shadow, only: shadow_t
     use lagrangia_stepwise, only: new_stepwise, stepwise_t
     use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
+    use lagrangia_tolerance_floor, only: sensible_tolerance
     implicit none (type, external)
     private
     public :: stage_method, stage_events, stage_shadow
@@ -52,6 +55,15 @@ contains
         else if (scene%tolerance > 0.0_dp) then
             call new_adaptive(trim(scene%method), adaptive)
             adaptive%tolerance = scene%tolerance
+            adaptive%least_tolerance = sensible_tolerance(adaptive, system, scene%t0, &
+                                                          scene%duration, scene%q, scene%v)
+            if (scene%tolerance < adaptive%least_tolerance) then
+                call fail(error, to_text(scene%tolerance)//" is less than rounding of so large "// &
+                          "coordinates or times leaves: "//trim(adaptive%name)//" would step "// &
+                          "for ever; the smallest sensible one is "// &
+                          to_text(adaptive%least_tolerance), key="tolerance")
+                return
+            end if
             allocate (integrator, source=adaptive)
         else
             call new_integrator(trim(scene%method), fixed, error, scene%compensated)
@@ -111,18 +123,24 @@ contains
     end subroutine stage_events
 
     subroutine stage_shadow(scene, system, plan, integrator, shadow, error)
-        !! A finer run beside the scene's, to estimate its error; beside a closed form, steps.
+        !! A finer run beside the scene's, and another method's, to estimate its error; beside a
+        !! closed form, steps.
         type(scene_t), intent(in) :: scene
         class(system_t), intent(in) :: system
         type(plan_t), intent(in) :: plan
         class(integrator_t), intent(in) :: integrator
         type(shadow_t), intent(inout) :: shadow
         type(error_t), allocatable, intent(out) :: error
-        class(dense_integrator_t), allocatable :: witness
+        class(dense_integrator_t), allocatable :: witness, other
 
         if (system%contacts > 0) then
             call fail(error, "no error is estimated across impacts", key="expect_error")
             return
+        end if
+        if (scene%method /= exact) then
+            call new_other_method(scene, system, other)
+            call shadow%start_other(other, system, plan%t0, plan%t0 + plan%duration, scene%q, &
+                                    scene%v)
         end if
         select type (integrator)
         type is (exact_motion_t)

@@ -27,6 +27,7 @@ module lagrangia_bouncing_ball
         procedure :: configure
         procedure :: accelerations
         procedure :: accelerations_lanes
+        procedure :: forces
         procedure :: lagrangian
         procedure :: energy
         procedure :: quantity => contact_force
@@ -106,6 +107,16 @@ contains
         a = -self%g
         if (q(1) <= 0.0_dp .and. abs(v(1)) <= 0.0_dp) a = 0.0_dp
     end subroutine accelerations
+
+    pure subroutine forces(self, t, q, v, f)
+        !! $$ \frac{\partial L}{\partial y} = -m g \quad\text{or, with the floor's, 0} $$
+        class(bouncing_ball_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: f(self%ndof)
+
+        call self%accelerations(t, q, v, f)
+        f = self%m*f
+    end subroutine forces
 
     pure subroutine accelerations_lanes(self, t, q, v, a)
         !! `accelerations`, in all lanes at once.

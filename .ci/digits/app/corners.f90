@@ -69,8 +69,7 @@ contains
             integer :: i, j, k
             logical :: fixed
 
-            ! a tolerance below the noise of far coordinates would be sought for ever
-            fixed = maxval(abs(q)) > 1e3_dp .or. fast(system, p, t0, q, v)*duration > 1e4_dp
+            fixed = fast(system, p, t0, q, v)*duration > 1e4_dp
             text = "&scene system = '"//trim(d%name)//"', columns = 't', "// &
                    "error_estimate = .true., t0 = "//to_text(t0)// &
                    ", duration = "//to_text(duration)// &
