@@ -194,7 +194,7 @@ for name in sys.argv[1:]:
 odd=$'ev\e[31mil\nrow\xff\xc3\xc2\x9b\xe2\x80\xae.nml'
 printf "&scene title='Schw\xfcnge \xc2\x9b31m \xe2\x80\xae' system='pendulum' dt=1e-2 duration=1 q=1 output='odd' /" >"$work/$odd"
 inside "$work" run "$odd" --output "$work/odd"
-check "a scene's odd name: nothing raw on stdout or stderr, two lines of the scorecard" eval '[ $status -eq 0 ] && plain "$work/out" "$work/err" "$work/odd/odd.dat" "$work/odd/odd.gp" && [ "$(grep -c "row" "$work/out")" -eq 1 ]'
+check "a scene's odd name: nothing raw on stdout or stderr, two lines of the scorecard" eval '[ $status -eq 0 ] && plain "$work/out" "$work/err" "$work/odd/odd.dat" "$work/odd/odd.gp" && [ "$(grep -c "^ev.*row" "$work/out")" -eq 1 ]'
 inside "$work" run "$odd" --json --output $'o\e\xff'
 check "a scene's and a folder's odd name: JSON in UTF-8" eval '[ $status -eq 0 ] && plain "$work/out" "$work/err" && python3 -c "import json, sys; d = json.load(open(sys.argv[1], encoding=\"utf-8\")); sys.exit(d[0][\"scene\"][:3] != \"ev\" + chr(27))" "$work/out"'
 inside "$work" run "$odd" --set scene%dt=-1

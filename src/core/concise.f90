@@ -72,7 +72,7 @@ contains
             rounded = nint(number/10.0_dp**place)*10.0_dp**place
             return
         end if
-        write (layout, "(a, i0, a)") "(es64.", top - place, "e4)"
+        write (layout, "(ss, a, i0, a)") "(ss, es64.", top - place, "e4)"
         write (buffer, layout) number
         read (buffer, *) rounded
     end function rounded

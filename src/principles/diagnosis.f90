@@ -185,7 +185,7 @@ contains
             if (text(max(1, len(text) - 1):) == ".0") text = text(:len(text) - 2)
             return
         end if
-        write (number, "(es13.6)") factor
+        write (number, "(ss, es13.6)") factor
         read (number, *) rounded
         text = to_text(rounded)
         if (any(d%parameters%count > 1)) return
