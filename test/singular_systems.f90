@@ -5,7 +5,7 @@ module singular_systems
                          operator(*), operator(**), operator(+), operator(-)
     implicit none (type, external)
     private
-    public :: blind_t, light_t, skew_t
+    public :: blind_t, fading_t, light_t, skew_t
 
     type, abstract, extends(lagrangian_system_t) :: two_t
         !! Coordinates x and y, no parameters.
@@ -24,6 +24,12 @@ module singular_systems
     contains
         procedure :: lagrangian => skew_lagrangian
     end type skew_t
+
+    type, extends(two_t) :: fading_t
+        !! y loses its mass at x = 1: \(L = (\dot x^2 + (1 - x)\,\dot y^2)/2 - y\).
+    contains
+        procedure :: lagrangian => fading_lagrangian
+    end type fading_t
 
     type, extends(two_t) :: blind_t
         !! L is NaN; the accelerations are 0, by hand.
@@ -58,6 +64,14 @@ contains
 
         l = v(1)*v(2) - q(1)*q(2)
     end function skew_lagrangian
+
+    pure function fading_lagrangian(self, t, q, v) result(l)
+        class(fading_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t) :: l
+
+        l = 0.5_dp*(v(1)**2 + (1.0_dp - q(1))*v(2)**2) - q(2)
+    end function fading_lagrangian
 
     pure function blind_lagrangian(self, t, q, v) result(l)
         class(blind_t), intent(in) :: self

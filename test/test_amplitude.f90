@@ -66,7 +66,6 @@ contains
         call new_integrator("rk4", integrator, error)
         call new_plan(plan, 0.0_dp, exact/10000, 6*exact, 50_i8, error)
         watch%coordinate = system%ndof
-        watch%follows = .true.
         observers(1)%item => watch
         call run(system, integrator, plan, observers, q, v, error)
         call assertFalse(allocated(error), name//" runs")

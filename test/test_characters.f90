@@ -105,6 +105,7 @@ contains
                          [character(20) :: "s", unit], error)
         call assertFalse(allocated(error), "no error: json is utf 8")
         call table%finish("rows: 0"//char(10)//repeat("x ", 300), error)
+        if (.not. allocated(error)) call table%file%commit(error)
         call assertFalse(allocated(error), "no error: json is utf 8")
         text = contents(path)
         call assertTrue(remove_file(path), "it was there: "//path)

@@ -7,7 +7,9 @@ module test_library_arguments
                          plan_t, run, system_t
     use lagrangia_errors, only: status_library, status_numbers, status_usage
     use lagrangia_run, only: new_sampled_plan
-    use singular_systems, only: blind_t, light_t, skew_t
+    use lagrangia_audit, only: audit_system
+    use lagrangia_findings, only: audit_t
+    use singular_systems, only: blind_t, fading_t, light_t, skew_t
     implicit none (type, external)
     private
     public :: library_arguments_suite
@@ -26,6 +28,9 @@ contains
         call suite%addTest(TestMethod("matrices_of_nonsense", matrices_of_nonsense))
         call suite%addTest(TestMethod("singular_mass_matrices", singular_mass_matrices))
         call suite%addTest(TestMethod("a_lagrangian_of_nan", a_lagrangian_of_nan))
+        call suite%addTest(TestMethod("a_mass_that_fades", a_mass_that_fades))
+        call suite%addTest(TestMethod("the_audit_names_the_mass_matrix", &
+                                      the_audit_names_the_mass_matrix))
         call suite%addTest(TestMethod("a_rolling_run_goes_on", a_rolling_run_goes_on))
     end function library_arguments_suite
 
@@ -211,6 +216,69 @@ contains
         call find_modes(blind, q, .true., modes, error)
         call assertTrue(allocated(error), message="modes of NaN")
     end subroutine a_lagrangian_of_nan
+
+    subroutine a_mass_that_fades()
+        !! The mass matrix is singular where a run arrives: said, with the place, by steps and by
+        !! a method that chooses them. Another run of the same system just ends.
+        type(fading_t) :: fading
+        type(error_t), allocatable :: error
+        real(dp) :: q(2), v(2)
+
+        call fading%configure([real(dp) ::], error)
+        q = [0.0_dp, 0.0_dp]
+        v = [1.0_dp, 0.0_dp]
+        call try_run(fading, q, v, error)
+        call assertFalse(allocated(error), message="x stays below 1")
+        q = [0.97_dp, 0.0_dp]
+        v = [1.0_dp, 0.0_dp]
+        call try_run(fading, q, v, error)
+        call assertTrue(allocated(error), message="x comes to 1")
+        if (.not. allocated(error)) return
+        call assertEqual(status_numbers, error%status, message=error%message)
+        call assertTrue(index(error%message, "the state is not finite at t = ") == 1, &
+                        message=error%message)
+        call assertTrue(index(error%message, "the mass matrix d2L/dv dv is ") > 0 .and. &
+                        index(error%message, ", q = ") > 0, message=error%message)
+    end subroutine a_mass_that_fades
+
+    subroutine the_audit_names_the_mass_matrix()
+        !! `check` says of each what is wrong with it, and at which state.
+        type(light_t) :: light
+        type(skew_t) :: skew
+        type(blind_t) :: blind
+        type(audit_t) :: audit
+
+        call audit_system(light, audit)
+        call remarked(audit, "mass matrix is positive definite", &
+                      ": the mass matrix d2L/dv dv is singular: it has the eigenvalue 0.0 beside 1.0")
+        call remarked(audit, "accelerations as from L", &
+                      ": the mass matrix d2L/dv dv is singular: it has the eigenvalue 0.0 beside 1.0")
+        audit = audit_t()
+        call audit_system(skew, audit)
+        call remarked(audit, "mass matrix is positive definite", ": the mass matrix d2L/dv dv "// &
+                      "is not positive definite: it has the eigenvalue -1.0")
+        audit = audit_t()
+        call audit_system(blind, audit)
+        call remarked(audit, "accelerations as from L", &
+                      ": the Lagrangian is not a finite number")
+    end subroutine the_audit_names_the_mass_matrix
+
+    subroutine remarked(audit, claim, words)
+        !! The claim does not hold, and these words are behind the state.
+        type(audit_t), intent(in) :: audit
+        character(*), intent(in) :: claim, words
+        integer :: row
+
+        row = audit%row_of(claim)
+        call assertTrue(row > 0, message=claim//" is judged")
+        if (row == 0) return
+        associate (finding => audit%findings(row))
+            call assertFalse(finding%holds, message=claim)
+            call assertTrue(index(finding%remark, "at ") == 1 .and. &
+                            index(finding%remark, "q = ") > 0 .and. &
+                            index(finding%remark, words) > 0, message=finding%remark)
+        end associate
+    end subroutine remarked
 
     subroutine a_rolling_run_goes_on()
         !! The end of a run of rk4 down an incline is a start; a slip of 1e-6 is none.

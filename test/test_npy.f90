@@ -39,6 +39,7 @@ contains
             call file%row([1.0_dp, 2.0_dp])
         end do
         call file%finish("", error)
+        if (.not. allocated(error)) call file%file%commit(error)
         call assertFalse(allocated(error), "no error: the header is numpys")
         bytes = contents(path)
         call assertEqual(147, ichar(bytes(1:1)))
@@ -74,6 +75,7 @@ contains
             end do
             call assertFalse(file%file%failed(), "not file%file%failed()")
             call file%finish("", error)
+            if (.not. allocated(error)) call file%file%commit(error)
             bytes = contents(path)
             call assertEqual(0, modulo(len(bytes) - 24*count, 64))
             if (count > 0) then

@@ -144,7 +144,6 @@ contains
         call new_gauss16_adaptive(gauss16)
         do k = 1, 2
             do i = 1, size(rows)
-                periods(i, k)%follows = .true.
                 observers(1)%item => periods(i, k)
                 q = 2.0_dp
                 v = 0.0_dp

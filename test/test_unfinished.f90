@@ -1,6 +1,8 @@
 module test_unfinished
     !! What becomes of temporary files: of this run, of others, of those that were killed.
+    use, intrinsic :: iso_c_binding, only: c_int, c_null_char
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_c_library, only: c_chmod
     use lagrangia_errors, only: error_t
     use lagrangia_output_file, only: output_file_t
     use lagrangia_text, only: to_text
@@ -84,10 +86,11 @@ contains
         call running%open(folder//"/a.dat", error)
         call running%write("running")
         do i = 2, 8, 3
-            call write_file(folder//"/.lagrangia-a.dat-"//to_text(i)//".tmp", "old")
+            call plant(folder//"/.lagrangia-a.dat-"//to_text(i)//".tmp")
         end do
-        call write_file(folder//"/.lagrangia-b.dat-1.tmp", "old")
-        call write_file(folder//"/.lagrangia-"//long(:100)//"-1.tmp", "old")
+        call plant(folder//"/.lagrangia-b.dat-1.tmp")
+        call plant(folder//"/.lagrangia-"//long(:100)//"-1.tmp")
+        call write_file(folder//"/.lagrangia-a.dat-3.tmp", "a user's")
         call file%open(folder//"/a.dat", error)
         call file%write("new")
         call file%commit(error)
@@ -99,8 +102,20 @@ contains
         call assertTrue(remove_file(folder//"/a.dat"), "it was there: "//folder//"/a.dat")
         call assertTrue(remove_file(folder//"/"//long), "it was there: "//folder//"/"//long)
         call assertTrue(remove_file(folder//"/.lagrangia-b.dat-1.tmp"), "another name's was taken")
+        call assertEqual("a user's", contents(folder//"/.lagrangia-a.dat-3.tmp"), "no mark of ours")
+        call assertTrue(remove_file(folder//"/.lagrangia-a.dat-3.tmp"), "a user's own")
         call assertTrue(remove_file(folder), "a temporary was left")
     end subroutine abandoned_temporaries_are_removed
+
+    subroutine plant(name)
+        !! A file as a run leaves it that is killed, with the mark of a temporary.
+        character(*), intent(in) :: name
+        integer :: status
+
+        call write_file(name, "old")
+        status = int(c_chmod(name//c_null_char, int(o"1644", c_int)))
+        call assertEqual(0, status, "chmod "//name)
+    end subroutine plant
 
     subroutine nobody_elses_file_is_removed()
         !! Once ours is committed or abandoned, its temporary name may be another run's.

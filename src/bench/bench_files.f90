@@ -7,7 +7,7 @@ module lagrangia_bench_files
     use lagrangia_gnuplot_script, only: begin_script, gnuplot_string, lines_t
     use lagrangia_kinds, only: dp
     use lagrangia_machine, only: processor
-    use lagrangia_output_file, only: output_file_t
+    use lagrangia_output_file, only: commit_both, output_file_t
     use lagrangia_output_trials, only: refuse_unwritable
     use lagrangia_places, only: places_t
     use lagrangia_scene_claims, only: claim_table
@@ -79,9 +79,10 @@ contains
         call table%finish("rows: "//to_text(sum(curves%count)), error)
         if (allocated(error)) return
         call script%open(script_path(path), error)
+        if (allocated(error)) call table%file%abandon()
         if (allocated(error)) return
         call script%write(bench_script(problems, methods, curves))
-        call script%commit(error)
+        call commit_both(table%file, script, error)
     end subroutine write_bench_files
 
     function header(problems, methods) result(lines)

@@ -28,26 +28,59 @@ contains
         type(error_t), allocatable, intent(out) :: error
         type(audited_t), allocatable :: audited(:)
         type(audit_t) :: audit
-        logical :: methods
-        integer :: i
+        type(description_t) :: d
+        logical :: json, methods
+        integer :: i, shown
 
         call choose(line, audited, methods, error)
         if (allocated(error)) return
-        if (line%has("json")) call put_line("[")
-        call flush_console()
-        if (console_failed()) return
+        json = line%has("json")
+        shown = 0
+        if (json) call put_line("[")
+        call audit%begin("")
         do i = 1, size(audited)
+            call audited(i)%system%describe(d)
+            call put_head(trim(d%name))
+            if (console_failed()) return
             call announce(audited(i)%system, audited(i)%given)
             call audit_system(audited(i)%system, audit, audited(i)%fixed, audited(i)%given)
+            call put_rows()
         end do
-        if (methods) call audit_methods(audit)
-        if (line%has("json")) then
+        if (methods) then
+            call put_head("methods")
+            if (console_failed()) return
+            call audit_methods(audit)
+            call put_rows()
+        end if
+        if (json) then
             call put_json(audit)
         else
-            call put_tables(audit)
+            call put_summary(audit)
         end if
         if (audit%broken() > 0) call fail(error, to_text(audit%broken())//" of "// &
             to_text(size(audit%findings))//" claims do not hold", status_not_held)
+    contains
+        subroutine put_head(name)
+            !! Above the columns of a table, before it is computed: a stdout that takes nothing is
+            !! noticed here.
+            character(*), intent(in) :: name
+            character(claim_length + 2) :: wide
+
+            wide = name
+            if (.not. json .and. shown > 0) call put_line("")
+            if (.not. json) call put_line(wide//"   worst   noise   bound states")
+            call flush_console()
+        end subroutine put_head
+
+        subroutine put_rows()
+            !! The rows that are new.
+            integer :: k
+
+            do k = shown + 1, merge(shown, size(audit%findings), json)
+                call put_row(audit%findings(k))
+            end do
+            shown = size(audit%findings)
+        end subroutine put_rows
     end subroutine check_command
 
     subroutine announce(default, given)
@@ -112,25 +145,19 @@ contains
         call read_audited(names, line%values_of("set"), audited, error)
     end subroutine choose
 
-    subroutine put_tables(audit)
-        !! A table for each system, one line a claim.
-        type(audit_t), intent(in) :: audit
-        integer :: i
+    subroutine put_row(row)
+        !! One claim, and what there is to say about it.
+        type(finding_t), intent(in) :: row
 
-        do i = 1, size(audit%findings)
-            associate (row => audit%findings(i))
-                if (i == 1) then
-                    call put_head(row%system, "")
-                else if (row%system /= audit%findings(i - 1)%system) then
-                    call put_line("")
-                    call put_head(row%system, "")
-                end if
-                call put_line("  "//row%claim//short(row%worst)//short(row%noise)// &
-                              short(row%bound)//to_wide(row%states)//"  "// &
-                              merge("holds", "FAILS", row%holds))
-                if (row%remark /= "") call put_line("      "//trim(row%remark))
-            end associate
-        end do
+        call put_line("  "//row%claim//short(row%worst)//short(row%noise)//short(row%bound)// &
+                      to_wide(row%states)//"  "//merge("holds", "FAILS", row%holds))
+        if (row%remark /= "") call put_line("      "//trim(row%remark))
+    end subroutine put_row
+
+    subroutine put_summary(audit)
+        !! Below all tables.
+        type(audit_t), intent(in) :: audit
+
         call put_line("")
         call put_line(to_text(size(audit%findings))//" claims, "//to_text(audit%broken())// &
                       " do not hold")
@@ -138,16 +165,7 @@ contains
                       "terms that add up; noise: what")
         call put_line("rounding or the difference formula does to it; bound: what is allowed; "// &
                       "states: random, as are parameters")
-    end subroutine put_tables
-
-    subroutine put_head(name, title)
-        !! Above the columns.
-        character(*), intent(in) :: name, title
-        character(claim_length + 2) :: wide
-
-        wide = trim(name)//title
-        call put_line(wide//"   worst   noise   bound states")
-    end subroutine put_head
+    end subroutine put_summary
 
     pure function short(value) result(text)
         !! Two digits, in eight columns at least.

@@ -11,7 +11,7 @@ module lagrangia_principle
     use lagrangia_kinds, only: dp
     use lagrangia_least_time, only: least_time_principle
     use lagrangia_number_text, only: scientific
-    use lagrangia_picture_files, only: write_picture
+    use lagrangia_picture_files, only: check_picture, write_picture
     use lagrangia_report, only: report_t, statement_length, statement_t
     use lagrangia_scene_files, only: draw
     use lagrangia_system, only: system_box_t
@@ -26,13 +26,15 @@ module lagrangia_principle
     type :: principle_t
         character(16) :: name = ""
         character(76) :: meaning = ""
+        logical :: drawn = .false.  !! there is a picture to it
     end type principle_t
 
     type(principle_t), parameter :: principles(*) = [ &
-        principle_t("action", "Hamilton: the actual path makes the action stationary"), &
-        principle_t("constraints", "holonomic or not, fixed or moving; degrees of freedom"), &
+        principle_t("action", "Hamilton: the actual path makes the action stationary", .true.), &
+        principle_t("constraints", "holonomic or not, fixed or moving; degrees of freedom", &
+                    .true.), &
         principle_t("gauge", "uniqueness: L and L + dF/dt tell the same motion"), &
-        principle_t("least-time", "Hero, Fermat: light takes a path of stationary time"), &
+        principle_t("least-time", "Hero, Fermat: light takes a path of stationary time", .true.), &
         principle_t("virtual-work", "d'Alembert: constraint forces do no virtual work; Q_j")]
 
 contains
@@ -56,8 +58,13 @@ contains
         if (kind /= "png" .and. kind /= "svg") call fail(error, "unknown picture format "// &
             quoted(kind)//"; there are png, svg")
         if (allocated(error)) return
+        if (any(principles%name == line%arguments(1)%text .and. principles%drawn)) then
+            call check_picture(picture_name(line%arguments(1)%text), folder, error)
+            if (allocated(error)) return
+        end if
         call principle_report(line%arguments(1)%text, report, error)
         if (allocated(error)) return
+        if (report%picture%file /= "") report%picture%file = picture_name(line%arguments(1)%text)
         call write_picture(report%picture, folder, file, error)
         if (allocated(error)) return
         if (line%has("json")) then
@@ -70,6 +77,18 @@ contains
         if (report%misses() > 0) call fail(error, to_text(report%misses())//" of "// &
             to_text(size(report%rows))//" statements are not as they must be", status_not_held)
     end subroutine principle_command
+
+    pure function picture_name(name) result(file)
+        !! `principle_least_time`: of the files of `least-time`, without folder and ending.
+        character(*), intent(in) :: name
+        character(:), allocatable :: file
+        integer :: i
+
+        file = "principle_"//name
+        do i = 1, len(file)
+            if (file(i:i) == "-") file(i:i) = "_"
+        end do
+    end function picture_name
 
     subroutine principle_report(name, report, error)
         !! The report of one principle.

@@ -16,7 +16,7 @@ module lagrangia_run_command
     use lagrangia_shipped, only: find_scene, shipped_scenes
     use lagrangia_statement, only: statement_legend, statement_line
     use lagrangia_step_warning, only: step_warning
-    use lagrangia_system, only: system_t
+    use lagrangia_system, only: system_box_t, system_t
     use lagrangia_text, only: quoted, to_text
     use lagrangia_version, only: is_optimised
     implicit none (type, external)
@@ -32,6 +32,8 @@ contains
         type(error_t), allocatable, intent(out) :: error
         type(error_t), allocatable :: scene_error
         type(word_t), allocatable :: paths(:)
+        type(scene_t), allocatable :: scenes(:)
+        type(system_box_t), allocatable :: systems(:)
         type(progress_t), target :: progress
         class(observer_t), pointer :: watcher
         type(outcome_t) :: outcome
@@ -52,7 +54,7 @@ contains
         if (kind /= "png" .and. kind /= "svg") call fail(error, "unknown picture format "// &
             quoted(kind)//"; there are png, svg")
         if (allocated(error)) return
-        call choose_scenes(line, folder, format, paths, error)
+        call choose_scenes(line, folder, format, paths, scenes, systems, error)
         if (allocated(error)) return
         if (.not. (is_optimised() .or. quiet)) call note("this build is not optimised; "// &
             "'fpm run --profile release' is several times faster")
@@ -67,7 +69,7 @@ contains
             call put_line(scorecard_head())
         end if
         do i = 1, size(paths)
-            call run_one(paths(i)%text, scene_error)
+            call run_one(paths(i)%text, scenes(i), systems(i)%item, scene_error)
             call progress%clear()
             if (allocated(scene_error)) then
                 call scene_error%add_context(paths(i)%text)
@@ -108,19 +110,19 @@ contains
         if (missed > 0 .and. .not. allocated(error)) call fail(error, to_text(missed)//" of "// &
             to_text(size(paths))//" scenes did not hold their tolerances", status_not_held)
     contains
-        subroutine run_one(path, error)
+        subroutine run_one(path, scene, system, error)
             character(*), intent(in) :: path
+            type(scene_t), intent(inout) :: scene
+            class(system_t), intent(in) :: system
             type(error_t), allocatable, intent(out) :: error
-            class(system_t), allocatable :: system
-            character(:), allocatable :: warning
-            type(scene_t) :: scene
+            character(:), allocatable :: warning, much
 
-            call read_scene(path, line%values_of("set"), scene, system, error)
-            if (allocated(error)) return
             warning = step_warning(scene, system)
+            much = size_warning(scene, folder, format)
             if (warning /= "" .and. .not. quiet) call note(path//": "//warning)
-            warning = size_warning(scene, folder, format)
-            if (warning /= "" .and. .not. quiet) call note(path//": "//warning)
+            if (much /= "" .and. .not. quiet) call note(path//": "//much)
+            if (warning /= "" .and. much /= "") warning = warning//"; "
+            warning = warning//much
             scene%error_estimate = scene%error_estimate .or. line%has("error-estimate")
             call progress%restart(trim(scene%name), quiet)
             call play(scene, system, folder, format, watcher, outcome, error)
@@ -132,16 +134,16 @@ contains
         end subroutine run_one
     end subroutine run_command
 
-    subroutine choose_scenes(line, folder, format, paths, error)
-        !! The named scenes or all; every one is read, and all files of the run are compared, so
-        !! that nothing runs if one is wrong or a file would be lost.
+    subroutine choose_scenes(line, folder, format, paths, scenes, systems, error)
+        !! The named scenes or all; every one is read, once, and all files of the run are compared,
+        !! so that nothing runs if one is wrong or a file would be lost.
         type(command_line_t), intent(in) :: line
         character(*), intent(in) :: folder, format
         type(word_t), allocatable, intent(out) :: paths(:)
+        type(scene_t), allocatable, intent(out) :: scenes(:)
+        type(system_box_t), allocatable, intent(out) :: systems(:)
         type(error_t), allocatable, intent(out) :: error
-        class(system_t), allocatable :: system
         type(places_t) :: places
-        type(scene_t) :: scene
         integer :: i, turn
 
         if (line%command == "") then
@@ -157,15 +159,17 @@ contains
             end do
         end if
         if (allocated(error)) return
+        allocate (scenes(size(paths)), systems(size(paths)))
         do turn = 1, 2  ! what is read comes before what is written
             do i = 1, size(paths)
-                call read_scene(paths(i)%text, line%values_of("set"), scene, system, error)
-                if (allocated(error)) return
                 if (turn == 1) then
-                    call claim_scene(scene, places, error)
+                    call read_scene(paths(i)%text, line%values_of("set"), scenes(i), &
+                                    systems(i)%item, error)
+                    if (allocated(error)) return
+                    call claim_scene(scenes(i), places, error)
                     if (allocated(error)) call fail(error, "this scene is given twice")
                 else
-                    call claim_files(scene, system, folder, format, places, error)
+                    call claim_files(scenes(i), systems(i)%item, folder, format, places, error)
                 end if
                 if (allocated(error)) then
                     call error%add_context(paths(i)%text)

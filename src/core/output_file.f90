@@ -14,7 +14,7 @@ module lagrangia_output_file
     use lagrangia_unfinished, only: create, forget, remove_abandoned
     implicit none (type, external)
     private
-    public :: output_file_t, partial_ending
+    public :: commit_both, output_file_t, partial_ending
 
     character(*), parameter :: partial_ending = ".partial"  !! of what a run wrote that failed
 
@@ -28,7 +28,7 @@ module lagrangia_output_file
         type(c_ptr) :: stream = c_null_ptr      !! C's `FILE *`; null when not open
         integer(i8) :: bytes = 0                !! written so far
         integer :: failure = 0                  !! the system's number of the first failure
-        integer :: permissions = -1             !! of the file to be replaced, if there is one
+        integer :: permissions = -1             !! of the file to be replaced, or of a new one
         logical, public :: partial = .false.    !! `commit` is to call it `NAME.partial`
     contains
         procedure :: open => open_file
@@ -41,6 +41,8 @@ module lagrangia_output_file
         procedure :: position
         procedure :: name => final_name
         procedure :: temporary_name
+        procedure :: complete
+        procedure :: is_open
         procedure :: commit
         procedure :: abandon
     end type output_file_t
@@ -110,6 +112,7 @@ contains
         integer, parameter :: likely = 8       !! and few do
         integer, parameter :: longest = 100    !! of its name, shown in that of the temporary
         character(:), allocatable :: start
+        type(facts_t) :: facts
         integer :: i, first, last
 
         first = index(self%place, "/", back=.true.) + 1
@@ -120,9 +123,10 @@ contains
         end do
         do i = 1, attempts
             self%temporary = start//to_text(i)//".tmp"
-            call create(self%temporary, self%stream, number)
-            if (number /= e_exists) return
+            call create(self%temporary, self%stream, facts, number)
+            if (number /= e_exists) exit
         end do
+        if (self%permissions < 0 .and. number == 0) self%permissions = facts%permissions
     end subroutine open_temporary
 
     subroutine write_text(self, text)
@@ -228,34 +232,67 @@ contains
         name = plain_path(self%temporary)
     end function temporary_name
 
-    subroutine commit(self, error)
-        !! Close the file and give it its name. On failure nothing is left behind, and a file
-        !! that had this name before is as it was.
+    subroutine complete(self, error)
+        !! Send all that was written to the disk, under the temporary name: what can fail of a
+        !! `commit` fails here. On failure nothing is left behind.
         class(output_file_t), intent(inout) :: self
         type(error_t), allocatable, intent(out) :: error
         integer :: status
 
-        if (.not. c_associated(self%stream)) then
+        if (.not. self%is_open()) then
             if (.not. allocated(self%path)) self%path = ""
             call refuse(error, self%path, "it is not open")
             return
         end if
         if (self%partial) self%place = self%place//partial_ending
         if (self%partial) self%path = self%place
-        if (c_fflush(self%stream) /= 0 .and. self%failure == 0) self%failure = last_error()
+        self%partial = .false.
+        call self%flush()
         ! what only a close reports (NFS, quotas); a copy's, as our own would end the lock
         status = int(c_close(c_dup(c_fileno(self%stream))))
         if (status /= 0 .and. self%failure == 0) self%failure = last_error()
-        if (self%failure == 0 .and. self%permissions >= 0) then
+        call self%report(error)
+        if (allocated(error)) call self%abandon()
+    end subroutine complete
+
+    function is_open(self)
+        !! Whether it was opened, and neither committed nor abandoned.
+        class(output_file_t), intent(in) :: self
+        logical :: is_open
+
+        is_open = c_associated(self%stream)
+    end function is_open
+
+    subroutine commit(self, error)
+        !! Complete the file, close it and give it its name. On failure nothing is left behind, and
+        !! a file that had this name before is as it was.
+        class(output_file_t), intent(inout) :: self
+        type(error_t), allocatable, intent(out) :: error
+        integer :: status
+
+        call self%complete(error)
+        if (allocated(error)) return
+        if (self%permissions >= 0) then
             status = int(c_chmod(self%temporary//c_null_char, int(self%permissions, c_int)))
         end if
-        if (self%failure == 0) then
-            status = int(c_rename(self%temporary//c_null_char, self%place//c_null_char))
-            if (status /= 0) self%failure = last_error()
-        end if
-        if (self%failure /= 0) call refuse(error, self%path, reason(self%failure))
-        call close_temporary(self, remove=self%failure /= 0)
+        status = int(c_rename(self%temporary//c_null_char, self%place//c_null_char))
+        if (status /= 0) self%failure = last_error()
+        call self%report(error)
+        call close_temporary(self, remove=status /= 0)
     end subroutine commit
+
+    subroutine commit_both(first, second, error)
+        !! Two files that belong together: neither gets its name before both are on the disk.
+        class(output_file_t), intent(inout) :: first, second
+        type(error_t), allocatable, intent(out) :: error
+
+        call first%complete(error)
+        if (.not. allocated(error)) call second%complete(error)
+        if (.not. allocated(error)) call first%commit(error)
+        if (.not. allocated(error)) call second%commit(error)
+        call first%abandon()
+        call second%abandon()
+    end subroutine commit_both
 
     subroutine abandon(self)
         !! Close and remove what has been written; does nothing if no file is open.

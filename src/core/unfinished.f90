@@ -2,7 +2,7 @@ module lagrangia_unfinished
     !! Which files are still being written: whoever ends the program early can remove them; and
     !! after `kill -9`, when nobody could, the next run that writes the same file does.
     use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_null_char, c_null_ptr, c_ptr
-    use lagrangia_c_library, only: c_fclose, c_fileno, c_flock, c_fopen, c_remove
+    use lagrangia_c_library, only: c_chmod, c_fclose, c_fileno, c_flock, c_fopen, c_remove
     use lagrangia_files, only: e_exists, facts_t, last_error, look_at, same_file
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -13,6 +13,8 @@ module lagrangia_unfinished
         !! The name of a temporary file, as C wants it.
         character(:), allocatable :: text
     end type name_t
+
+    integer, parameter :: mark = int(o"1000")  !! S_ISVTX, which nobody gives to a regular file
 
     type(name_t), allocatable :: unfinished(:)  !! temporaries that still exist
     logical, volatile :: creating = .false.     !! one exists, perhaps, that is not in the list
@@ -26,11 +28,12 @@ contains
         yes = creating
     end function is_creating
 
-    subroutine create(name, stream, number)
+    subroutine create(name, stream, facts, number)
         !! Make the file `name`, which there is not yet, and lock it until it is closed. It counts
-        !! as unfinished until it is forgotten.
+        !! as unfinished until it is forgotten, and is marked as ours.
         character(*), intent(in) :: name
         type(c_ptr), intent(out) :: stream
+        type(facts_t), intent(out) :: facts  !! about it, but for the mark
         integer, intent(out) :: number  !! 0, or why not; e_exists: another name may do
         integer :: status
 
@@ -42,6 +45,9 @@ contains
             number = last_error()
         else if (claimed(stream, name)) then
             call remember(name)
+            facts = look_at(name)
+            if (facts%found) status = int(c_chmod(name//c_null_char, &
+                                                  int(ior(facts%permissions, mark), c_int)))
         else
             number = e_exists
             status = int(c_fclose(stream))
@@ -65,12 +71,15 @@ contains
     end function claimed
 
     subroutine remove_abandoned(name)
-        !! Remove the temporary `name` if there is one and nobody holds its lock: the run that
-        !! made it is gone. Where the file system has no locks it stays.
+        !! Remove the temporary `name` if there is one with our mark and nobody holds its lock: the
+        !! run that made it is gone. Where the file system has no locks, or no marks, it stays.
         character(*), intent(in) :: name
+        type(facts_t) :: facts
         type(c_ptr) :: stream
         integer :: status
 
+        facts = look_at(name, follow=.false.)
+        if (.not. facts%regular .or. iand(facts%permissions, mark) == 0) return
         stream = c_fopen(name//c_null_char, "r+e"//c_null_char)
         if (.not. c_associated(stream)) return
         if (c_flock(c_fileno(stream), 6_c_int) == 0) then

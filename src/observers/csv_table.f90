@@ -64,12 +64,12 @@ contains
     end subroutine row
 
     subroutine finish(self, counts, error)
-        !! Give the file its name.
+        !! There is nothing to fill in.
         class(csv_table_t), intent(inout) :: self
         character(*), intent(in) :: counts
         type(error_t), allocatable, intent(out) :: error
 
-        call self%file%commit(error)
+        call self%file%complete(error)
     end subroutine finish
 
     pure function reading(self) result(words)

@@ -115,13 +115,13 @@ contains
     end subroutine row
 
     subroutine finish(self, counts, error)
-        !! Write the number of rows into the header, and give the file its name.
+        !! Write the number of rows into the header.
         class(npy_table_t), intent(inout) :: self
         character(*), intent(in) :: counts
         type(error_t), allocatable, intent(out) :: error
 
         call self%file%rewrite(int(preamble, i8), header_text(self%kinds, self%rows))
-        call self%file%commit(error)
+        call self%file%complete(error)
     end subroutine finish
 
     pure function reading(self) result(words)

@@ -9,10 +9,10 @@ module lagrangia_observer
     public :: observer_t, observer_box_t
 
     type, abstract :: observer_t
-        logical :: follows = .false.  !! wants to see every step, not only the samples
     contains
         procedure(observe_i), deferred :: observe
         procedure :: tick => no_tick
+        procedure :: follows => no
         procedure :: meet => no_meet
         procedure :: follow => no_follow
         procedure :: follow_inside => no_follow_inside
@@ -42,6 +42,14 @@ contains
         class(observer_t), intent(inout) :: self
         integer(i8), intent(in) :: done, steps
     end subroutine no_tick
+
+    pure function no(self)
+        !! Whether it wants to see every step, not only the samples: most don't.
+        class(observer_t), intent(in) :: self
+        logical :: no
+
+        no = .false.
+    end function no
 
     subroutine no_meet(self, system, event, t, q, v, error)
         !! Event number `event` of the run has happened; after an impact, with the state after it.

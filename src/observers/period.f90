@@ -15,11 +15,8 @@ module lagrangia_period
     private
     public :: period_t
 
-    integer, parameter :: places = 8            !! in a step where the velocity is looked at
-    integer, parameter :: exact_places = 32768  !! in a closed form, which is one step
-
     type, extends(observer_t) :: period_t
-        !! Its owner sets `follows`.
+        !! It follows every step.
         integer :: coordinate = 1
         integer :: turns = 0          !! lower turning points met
         real(dp) :: first = 0.0_dp    !! time of the first, s
@@ -29,6 +26,7 @@ module lagrangia_period
         real(dp), allocatable, private :: q(:), v(:)
     contains
         procedure :: observe
+        procedure :: follows
         procedure :: meet
         procedure :: follow
         procedure :: follow_inside
@@ -46,6 +44,14 @@ contains
 
         if (.not. allocated(self%q)) call stand(self, t, q, v)
     end subroutine observe
+
+    pure function follows(self)
+        !! See `observer_t`: whatever its owner does.
+        class(period_t), intent(in) :: self
+        logical :: follows
+
+        follows = .true.
+    end function follows
 
     subroutine stand(self, t, q, v)
         !! All up to this state has been seen.
@@ -109,7 +115,7 @@ contains
         integer :: k, count
 
         start = self%t
-        count = merge(exact_places, places, method%name == "exact")
+        count = method%looks
         do k = 1, count
             high = merge(t, start + k*(t - start)/count, k == count)
             call method%state_at(high, q, v)

@@ -36,6 +36,7 @@ module lagrangia_table
         end subroutine row_i
 
         subroutine finish_i(self, counts, error)
+            !! All is there and on the disk; `file%commit` gives it its name.
             import :: table_t, error_t
             implicit none (type, external)
             class(table_t), intent(inout) :: self

@@ -67,13 +67,13 @@ contains
     end subroutine row
 
     subroutine finish(self, counts, error)
-        !! Fill in the counts and give the file its name.
+        !! Fill in the counts.
         class(text_table_t), intent(inout) :: self
         character(*), intent(in) :: counts
         type(error_t), allocatable, intent(out) :: error
 
         call self%file%rewrite(self%counts_at, "# "//shortened(printable(counts), counts_width))
-        call self%file%commit(error)
+        call self%file%complete(error)
     end subroutine finish
 
     pure function reading(self) result(words)

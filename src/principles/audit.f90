@@ -4,7 +4,7 @@ module lagrangia_audit
     !! Parameters and states are the same ones in every run. Every second draw puts parameters on
     !! the edge of their domain (no gravity, no spring), where further quantities are conserved.
     !! Velocities of a non-holonomic system are completed from the free ones.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
     use lagrangia_audit_equations, only: audit_accelerations, audit_constraints, audit_energy, &
                                          audit_lanes, audit_momenta, claim_accelerations
     use lagrangia_audit_motion, only: audit_rates
@@ -12,12 +12,15 @@ module lagrangia_audit
     use lagrangia_audit_structure, only: audit_cyclic, audit_flags, audit_mass
     use lagrangia_description, only: description_t
     use lagrangia_diagnosis, only: diagnose
-    use lagrangia_errors, only: error_t
+    use lagrangia_errors, only: error_t, fail
     use lagrangia_findings, only: audit_t
     use lagrangia_kinds, only: dp
+    use lagrangia_lagrange, only: euler_lagrange_t
+    use lagrangia_mass_matrix, only: check_mass_matrix, list_of
     use lagrangia_random_draws, only: random_t
     use lagrangia_system, only: default_values, system_t
     use lagrangia_term_sizes, only: motion_t, nearby_t, new_nearby, solve_motion
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: audit_system, draws
@@ -128,6 +131,7 @@ contains
         call new_nearby(nearby, system, values, t, q, v)
         call solve_motion(nearby, motion, unsolved)
         if (allocated(unsolved)) then
+            call say_why(nearby%terms(0), t, q, v, unsolved)
             call audit%judge(claim_accelerations, 1.0_dp, 0.0_dp, 1.0_dp)
             call audit%say(claim_accelerations, unsolved%message)
         else
@@ -144,4 +148,20 @@ contains
         call audit_cyclic(audit, system, t, q, v)
         call audit_flags(audit, system, t, q, v, other_t, other_v, inside .and. all_free)
     end subroutine audit_state
+
+    pure subroutine say_why(terms, t, q, v, error)
+        !! What of the Lagrangian leaves the accelerations open, and where.
+        type(euler_lagrange_t), intent(in) :: terms  !! of the Lagrangian at the state
+        real(dp), intent(in) :: t, q(:), v(:)
+        type(error_t), allocatable, intent(inout) :: error
+        type(error_t), allocatable :: cause
+
+        if (.not. ieee_is_finite(terms%l)) then
+            call fail(cause, "the Lagrangian is not a finite number")
+        else
+            call check_mass_matrix(terms%mass, cause)
+        end if
+        if (allocated(cause)) call move_alloc(cause, error)
+        call error%add_context("at t = "//to_text(t)//", q = "//list_of(q)//", v = "//list_of(v))
+    end subroutine say_why
 end module lagrangia_audit

@@ -1,11 +1,13 @@
 module lagrangia_audit_structure
     !! What a system says of its structure: integrators and small oscillations rely on it.
     use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t, fail
     use lagrangia_findings, only: audit_t
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
     use lagrangia_least_squares, only: smallest_pivot
+    use lagrangia_mass_matrix, only: check_mass_matrix, list_of
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -105,6 +107,7 @@ contains
         type(euler_lagrange_t) :: terms
         type(hyperdual_t) :: place(size(q)), rows(system%constraints, size(q))
         type(hyperdual_t) :: drift(system%constraints)
+        type(error_t), allocatable :: error
         real(dp) :: lack, weight, matrix(size(q), size(q))
         integer :: i, k
 
@@ -125,6 +128,9 @@ contains
         end do
         lack = 1.0_dp - smallest_pivot(matrix)
         call audit%judge(claim, lack, 1.0_dp - 100.0_dp*epsilon(lack), 1.0_dp)
-        if (.not. lack < 1.0_dp) call audit%say(claim, "a pivot is zero or negative")
+        if (lack < 1.0_dp) return
+        call check_mass_matrix(matrix, error)
+        if (.not. allocated(error)) call fail(error, "a pivot is zero or negative")
+        call audit%say(claim, "at q = "//list_of(q)//", v = "//list_of(v)//": "//error%message)
     end subroutine audit_mass
 end module lagrangia_audit_structure

@@ -9,7 +9,7 @@ module lagrangia_dense_run
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_box_t
     use lagrangia_run, only: plan_t, run
-    use lagrangia_start, only: check_start
+    use lagrangia_start, only: blame_mass_matrix, check_start
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -76,6 +76,8 @@ contains
         call show(plan%t0, watch%q, watch%v)
         do while (method%t_new < t_end .and. .not. (stopped .or. allocated(error)))
             call method%step(system, error)
+            if (allocated(error)) call blame_mass_matrix(system, ended, method%t_new - ended, &
+                                                         q_end, v_end, error)
             if (allocated(error)) exit
             restarted = .false.
             do while (.not. (stopped .or. restarted .or. allocated(error)))
@@ -133,7 +135,7 @@ contains
             integer :: i
 
             do i = 1, size(observers)
-                if (observers(i)%item%follows) call observers(i)%item%follow_inside(method, t)
+                if (observers(i)%item%follows()) call observers(i)%item%follow_inside(method, t)
             end do
         end subroutine follow
 

@@ -6,7 +6,6 @@ module lagrangia_event_files
     use lagrangia_events, only: event_box_t
     use lagrangia_gnuplot, only: dots, gnuplot_script, panel_t
     use lagrangia_output_file, only: output_file_t
-    use lagrangia_output_trials, only: remove_partial
     use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
     use lagrangia_scene_files, only: data_path, new_table, script_path, send_header
     use lagrangia_system, only: system_t
@@ -59,15 +58,15 @@ contains
         call send_header(record%table, error)
     end subroutine open_event_file
 
-    subroutine finish_event_file(scene, folder, format, record, panels, drawn, error)
-        !! Complete the file under its name; with more than one row, a script too.
+    subroutine finish_event_file(scene, folder, format, record, panels, script, drawn, error)
+        !! Complete the file; with more than one row, a script too. `commit_files` names them.
         type(scene_t), intent(in) :: scene
         character(*), intent(in) :: folder, format
         type(event_record_t), intent(inout) :: record
         type(panel_t), intent(in) :: panels(:)
+        type(output_file_t), intent(inout) :: script
         character(:), allocatable, intent(out) :: drawn  !! the data file, if it has a script
         type(error_t), allocatable, intent(out) :: error
-        type(output_file_t) :: script
         character(:), allocatable :: path
         integer :: n
 
@@ -76,7 +75,6 @@ contains
         call record%table%finish("events: "//to_text(record%rows), error)
         if (allocated(error)) return
         path = event_path(scene, folder, format)
-        call remove_partial(path)
         if (record%rows < 2 .or. size(panels) == 0) return
         n = size(record%columns%items)
         call script%open(script_path(path), error)
@@ -85,7 +83,7 @@ contains
             path(index(path, "/", back=.true.) + 1:), record%table%reading(), &
             trim(scene%title)//": events", record%columns%names(n), record%columns%units(n), &
             record%low, record%high, panels, dots))
-        call script%commit(error)
+        call script%complete(error)
         if (.not. allocated(error)) drawn = path
     end subroutine finish_event_file
 end module lagrangia_event_files

@@ -28,6 +28,7 @@ contains
         class(reference_t), intent(in) :: closed_form
 
         self%name = "exact"
+        self%looks = 32768  ! all of the motion is one step
         self%title = closed_form%title
         self%trouble = "the closed form gives none"
         allocate (self%closed_form, source=closed_form)

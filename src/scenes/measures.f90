@@ -1,5 +1,6 @@
 module lagrangia_measures
     !! What a run is judged by: the worst of its columns, its period, its small oscillations.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_outcome, only: measure_t, outcome_t
@@ -23,6 +24,7 @@ contains
         class(reference_t), allocatable, intent(in) :: reference
         type(outcome_t), intent(inout) :: outcome
         type(measure_t) :: m
+        real(dp) :: measured
         integer :: i
 
         outcome%energy_evaluations = record%columns%energy_evaluations
@@ -40,10 +42,12 @@ contains
         if (scene%period_of == "") return
         outcome%period = period%period()
         if (.not. allocated(reference)) return
+        measured = outcome%period
+        if (measured <= 0.0_dp) measured = ieee_value(measured, ieee_quiet_nan)
         if (reference%period > 0.0_dp) outcome%others = [outcome%others, &
-            measure("period", abs(outcome%period/reference%period - 1.0_dp))]
+            measure("period", abs(measured/reference%period - 1.0_dp))]
         if (reference%small_period > 0.0_dp) outcome%others = [outcome%others, &
-            measure("small_period", abs(outcome%period/reference%small_period - 1.0_dp))]
+            measure("small_period", abs(measured/reference%small_period - 1.0_dp))]
     contains
         pure function measure(name, worst) result(m)
             character(*), intent(in) :: name

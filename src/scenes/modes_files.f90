@@ -6,7 +6,7 @@ module lagrangia_modes_files
     use lagrangia_gnuplot, only: gnuplot_script, new_panels, panel_t
     use lagrangia_kinds, only: dp
     use lagrangia_number_text, only: field_width
-    use lagrangia_output_file, only: output_file_t
+    use lagrangia_output_file, only: commit_both, output_file_t
     use lagrangia_output_trials, only: refuse_unwritable
     use lagrangia_places, only: places_t
     use lagrangia_scene_claims, only: claim_table
@@ -116,14 +116,15 @@ contains
             high = max(high, row)
             call table%row(row)
         end do
-        call table%finish("rows: "//to_text(samples + 1), error)
-        if (allocated(error)) return
         call new_panels([character(1) ::], names, units, panels, error)
+        if (.not. allocated(error)) call table%finish("rows: "//to_text(samples + 1), error)
+        if (allocated(error)) call table%file%abandon()
         if (allocated(error)) return
         call script%open(script_path(path), error)
+        if (allocated(error)) call table%file%abandon()
         if (allocated(error)) return
         call script%write(gnuplot_script(trim(d%name)//"_mode_"//to_text(j)//".dat", "", &
                                          trim(header(1)), names, units, low, high, panels))
-        call script%commit(error)
+        call commit_both(table%file, script, error)
     end subroutine write_mode
 end module lagrangia_modes_files

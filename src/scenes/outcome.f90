@@ -1,5 +1,6 @@
 module lagrangia_outcome
     !! What came out of one scene: a row of the scorecard.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use lagrangia_characters, only: printable
     use lagrangia_description, only: name_length
     use lagrangia_json, only: json_list, json_number, json_string
@@ -23,6 +24,7 @@ module lagrangia_outcome
 
     integer, parameter :: from_closed_form = 1, from_half_step = 2
     integer, parameter :: from_steps = 3  !! of a method, where the run is the closed form
+    character(8), parameter :: sources(3) = ["exact   ", "estimate", "steps   "]
 
     type :: measure_t
         !! The largest magnitude of one judged or shown quantity.
@@ -177,13 +179,11 @@ contains
             json = json//json_string(self%drifts(i)%name)//": "//json_number(self%drifts(i)%worst)
         end do
         json = json//'}, "error": '//find(self%others, "error")
-        json = json//', "error_from": '
-        select case (self%error_from)
-        case (from_closed_form); json = json//'"exact"'
-        case (from_half_step); json = json//'"estimate"'
-        case (from_steps); json = json//'"steps"'
-        case default; json = json//"null"
-        end select
+        if (self%error() < 0.0_dp) then
+            json = json//', "error_from": null'
+        else
+            json = json//', "error_from": '//json_string(trim(sources(self%error_from)))
+        end if
         json = json//', "period": '
         if (self%period > 0.0_dp) then
             json = json//json_number(self%period)
@@ -266,13 +266,14 @@ contains
             end associate
         end if
         error_text = "-"
-        if (self%error_from == from_closed_form) error_text = short(self%error())//" exact"
-        if (self%error_from == from_half_step) error_text = short(self%error())//" estimate"
-        if (self%error_from == from_steps) error_text = short(self%error())//" steps"
+        if (.not. self%error() < 0.0_dp) error_text = short(self%error())//" "// &
+                                                      trim(sources(self%error_from))
         period_text = "-"
         i = self%shown_period()
-        if (i > 0) period_text = short(self%others(i)%worst)
-        if (self%period_is_small()) period_text = period_text//" small"
+        if (i > 0) then
+            if (.not. ieee_is_nan(self%others(i)%worst)) period_text = short(self%others(i)%worst)
+            if (self%period_is_small()) period_text = period_text//" small"
+        end if
         omega_text = "-"
         if (self%omega > 0.0_dp) then
             omega_text = fixed(self%omega, 5)

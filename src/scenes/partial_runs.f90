@@ -61,6 +61,7 @@ contains
         end if
         table%file%partial = .true.
         call table%finish("PARTIAL, rows: "//to_text(rows)//"; "//ending, error)
+        if (.not. allocated(error)) call table%file%commit(error)
     end subroutine keep_part
 
     pure function planned(plan) result(steps)

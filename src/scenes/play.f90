@@ -16,6 +16,7 @@ module lagrangia_play
     use lagrangia_observer, only: observer_box_t, observer_t
     use lagrangia_outcome, only: from_closed_form, from_half_step, from_steps, &
                                  measure_t, outcome_t
+    use lagrangia_output_file, only: output_file_t
     use lagrangia_partial_runs, only: keep_parts, planned
     use lagrangia_period, only: period_t
     use lagrangia_record, only: record_t
@@ -24,7 +25,7 @@ module lagrangia_play
     use lagrangia_run, only: plan_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_claims, only: claim_alone
-    use lagrangia_scene_files, only: abandon_files, finish_files, open_files
+    use lagrangia_scene_files, only: abandon_files, commit_files, finish_files, open_files
     use lagrangia_staging, only: stage_events, stage_method, stage_shadow
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
@@ -128,7 +129,6 @@ contains
         if (scene%period_of /= "") then
             call system%describe(d)
             p%period%coordinate = findloc(d%coordinates%name == scene%period_of, .true., 1)
-            p%period%follows = .true.
             call join(p%period)
         end if
         if (size(p%events) > 0) call join(p%event_record)
@@ -156,14 +156,7 @@ contains
             call keep_parts(p%plan, p%record, p%event_record, outcome, error)
             return
         end if
-        if (allocated(p%event_record%table)) then
-            call finish_event_file(scene, folder, format, p%event_record, p%event_panels, &
-                                   outcome%events, file_error)
-            if (allocated(file_error) .and. .not. allocated(error)) then
-                call move_alloc(file_error, error)
-            end if
-        end if
-        call finish_files(scene, folder, format, p%record, p%panels, outcome, file_error)
+        call write_files(scene, folder, format, p, outcome, file_error)
         if (allocated(file_error) .and. .not. allocated(error)) call move_alloc(file_error, error)
     contains
         subroutine join(observer)
@@ -173,6 +166,30 @@ contains
             observers(n)%item => observer
         end subroutine join
     end subroutine perform
+
+    subroutine write_files(scene, folder, format, p, outcome, error)
+        !! Complete all files of the scene; where that succeeds they get their names, else none.
+        type(scene_t), intent(in) :: scene
+        character(*), intent(in) :: folder, format
+        type(performance_t), intent(inout) :: p
+        type(outcome_t), intent(inout) :: outcome
+        type(error_t), allocatable, intent(out) :: error
+        type(output_file_t) :: scripts(2)
+
+        call finish_event_file(scene, folder, format, p%event_record, p%event_panels, &
+                               scripts(1), outcome%events, error)
+        if (.not. allocated(error)) call finish_files(scene, folder, format, p%record, p%panels, &
+                                                      outcome, scripts(2), error)
+        if (.not. allocated(error)) call commit_files(p%event_record%table, scripts(1), error)
+        if (.not. allocated(error)) call commit_files(p%record%table, scripts(2), error)
+        if (.not. allocated(error)) return
+        outcome%file = ""
+        outcome%events = ""
+        call abandon_files(p%record)
+        if (allocated(p%event_record%table)) call p%event_record%table%file%abandon()
+        call scripts(1)%abandon()
+        call scripts(2)%abandon()
+    end subroutine write_files
 
     subroutine timed_run(system, p, observers, outcome, error)
         !! The run itself, its final state and what it cost.

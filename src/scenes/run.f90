@@ -6,7 +6,7 @@ module lagrangia_run
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_box_t
-    use lagrangia_start, only: check_start
+    use lagrangia_start, only: blame_mass_matrix, check_start
     use lagrangia_stepwise, only: whole_steps
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
@@ -142,7 +142,8 @@ contains
         real(dp), intent(inout) :: q(:), v(:)  !! the start; the end on return, (system%ndof)
         type(error_t), allocatable, intent(out) :: error
         real(dp) :: q_start(system%ndof), v_start(system%ndof)
-        integer(i8) :: done, block_end
+        real(dp) :: q_known(system%ndof), v_known(system%ndof)  ! at step `known`, finite
+        integer(i8) :: done, block_end, known
         integer :: i
         logical :: followed
 
@@ -159,9 +160,12 @@ contains
         call integrator%prepare(system, error)
         if (allocated(error)) return
         done = 0
+        known = 0
         q_start = q
         v_start = v
-        followed = any([(observers(i)%item%follows, i=1, size(observers))])
+        q_known = q
+        v_known = v
+        followed = any([(observers(i)%item%follows(), i=1, size(observers))])
         call show(plan%t0)
         do while (done < plan%steps .and. .not. allocated(error))
             block_end = min(plan%steps, done + merge(1_i8, longest_block, followed), &
@@ -197,7 +201,7 @@ contains
             integer :: j
 
             do j = 1, size(observers)
-                if (observers(j)%item%follows) call observers(j)%item%follow(system, t, q, v)
+                if (observers(j)%item%follows()) call observers(j)%item%follow(system, t, q, v)
             end do
         end subroutine follow
 
@@ -206,13 +210,38 @@ contains
             integer :: i
 
             call integrator%refuse_state(t, plan%dt, q, v, error)
+            if (allocated(error)) call find_cause()
             if (allocated(error)) return
+            known = done
+            q_known = q
+            v_known = v
             do i = 1, size(observers)
                 call observers(i)%item%observe(system, t, q, v, error)
                 if (allocated(error)) return
             end do
             call look_around()
         end subroutine show
+
+        subroutine find_cause()
+            !! Once more, step by step, from the last state that is known to be finite.
+            type(error_t), allocatable :: refused
+            integer(i8) :: evaluations
+
+            evaluations = integrator%evaluations
+            call integrator%prepare(system, refused)
+            q = q_known
+            v = v_known
+            do while (known < done)
+                call integrator%advance(system, plan%t0, plan%dt, known, 1_i8, q, v)
+                if (.not. all(ieee_is_finite([q, v]))) exit
+                known = known + 1
+                q_known = q
+                v_known = v
+            end do
+            integrator%evaluations = evaluations
+            call blame_mass_matrix(system, plan%t0 + known*plan%dt, plan%dt, q_known, v_known, &
+                                   error)
+        end subroutine find_cause
 
         subroutine look_around()
             integer :: i

@@ -20,7 +20,7 @@ module lagrangia_scene_files
     use lagrangia_version, only: build_text, version
     implicit none (type, external)
     private
-    public :: check_format, open_files, finish_files, abandon_files, draw, &
+    public :: check_format, open_files, finish_files, commit_files, abandon_files, draw, &
               send_header, script_path, data_path, new_table
 
     character(4), parameter :: formats(3) = ["text", "csv ", "npy "]
@@ -162,15 +162,15 @@ contains
         if (allocated(error)) call table%file%abandon()
     end subroutine send_header
 
-    subroutine finish_files(scene, folder, format, record, panels, outcome, error)
-        !! Complete the data file under its name, and write the script beside it.
+    subroutine finish_files(scene, folder, format, record, panels, outcome, script, error)
+        !! Complete the data file, and the script beside it. `commit_files` names them.
         type(scene_t), intent(in) :: scene
         character(*), intent(in) :: folder, format
         type(record_t), intent(inout) :: record
         type(panel_t), intent(in) :: panels(:)
         type(outcome_t), intent(in) :: outcome
+        type(output_file_t), intent(inout) :: script
         type(error_t), allocatable, intent(out) :: error
-        type(output_file_t) :: script
         character(:), allocatable :: path, rejected
 
         if (.not. allocated(record%table)) return
@@ -183,15 +183,28 @@ contains
                                  ", rows: "//to_text(outcome%rows), error)
         if (allocated(error)) return
         path = data_path(folder, trim(scene%output), format)
-        call remove_partial(path)
         call script%open(script_path(path), error)
         if (allocated(error)) return
         call script%write(gnuplot_script( &
             path(index(path, "/", back=.true.) + 1:), record%table%reading(), trim(scene%title), &
             record%columns%names(record%shown), record%columns%units(record%shown), record%low, &
             record%high, panels))
-        call script%commit(error)
+        call script%complete(error)
     end subroutine finish_files
+
+    subroutine commit_files(table, script, error)
+        !! Give the data file, if there is one, and its script their names; what an earlier run
+        !! that failed has left of the data goes.
+        class(table_t), allocatable, intent(inout) :: table
+        type(output_file_t), intent(inout) :: script
+        type(error_t), allocatable, intent(out) :: error
+
+        if (.not. allocated(table)) return
+        call table%file%commit(error)
+        if (allocated(error)) return
+        call remove_partial(table%file%name())
+        if (script%is_open()) call script%commit(error)
+    end subroutine commit_files
 
     subroutine abandon_files(record)
         !! Leave nothing behind.

@@ -11,7 +11,7 @@ module lagrangia_start
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: check_start
+    public :: blame_mass_matrix, check_start
 
 contains
 
@@ -41,6 +41,37 @@ contains
         if (allocated(error)) call error%add_context("at t = "//to_text(t)//", q = "// &
             list_of(q)//", v = "//list_of(v))
     end subroutine check_start
+
+    pure subroutine blame_mass_matrix(system, t, h, q, v, error)
+        !! Name, in the message of a run that failed in a step from this state on, the mass matrix
+        !! of a Lagrangian where it is not positive definite in that step or soon after it. With
+        !! accelerations by hand, or another reason, the message stays.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t         !! of the last state that is finite, s
+        real(dp), intent(in) :: h         !! length of the step, s
+        real(dp), intent(in) :: q(:), v(:)  !! that state
+        type(error_t), intent(inout) :: error
+        integer, parameter :: places = 16, ahead = 4  !! places a step; steps
+        type(error_t), allocatable :: cause
+        type(euler_lagrange_t) :: terms
+        real(dp) :: s
+        integer :: k
+
+        select type (system)
+        class is (lagrangian_system_t)
+            if (.not. all(ieee_is_finite([t, h, q, v]))) return
+            do k = 0, ahead*places
+                s = k*h/places
+                call expand_lagrangian(system, t + s, q + s*v, v, terms)
+                if (.not. all(ieee_is_finite(terms%mass))) cycle
+                call check_mass_matrix(terms%mass, cause)
+                if (.not. allocated(cause)) cycle
+                error%message = error%message//"; at t = "//to_text(t + s)//", q = "// &
+                                list_of(q + s*v)//", v = "//list_of(v)//": "//cause%message
+                return
+            end do
+        end select
+    end subroutine blame_mass_matrix
 
     pure subroutine check_lagrangian(system, t, q, v, error)
         !! See `check_start`. Accelerations by hand may be finite where the mass matrix is singular.
