@@ -5,10 +5,10 @@ module test_library_arguments
     use lagrangia, only: dp, error_t, find_modes, i8, integrator_t, modes_t, new_integrator, &
                          new_plan, new_system, normal_modes, normal_modes_t, observer_box_t, &
                          plan_t, run, system_t
-    use lagrangia_errors, only: status_library, status_numbers, status_usage
-    use lagrangia_run, only: new_sampled_plan
     use lagrangia_audit, only: audit_system
+    use lagrangia_errors, only: status_library, status_numbers, status_usage
     use lagrangia_findings, only: audit_t
+    use lagrangia_run, only: new_sampled_plan
     use singular_systems, only: blind_t, fading_t, light_t, skew_t
     implicit none (type, external)
     private
@@ -250,17 +250,18 @@ contains
 
         call audit_system(light, audit)
         call remarked(audit, "mass matrix is positive definite", &
-                      ": the mass matrix d2L/dv dv is singular: it has the eigenvalue 0.0 beside 1.0")
+                      ": the mass matrix d2L/dv dv is singular: it has the eigenvalue 0.0 "// &
+                      "beside 1.0")
         call remarked(audit, "accelerations as from L", &
-                      ": the mass matrix d2L/dv dv is singular: it has the eigenvalue 0.0 beside 1.0")
+                      ": the mass matrix d2L/dv dv is singular: it has the eigenvalue 0.0 "// &
+                      "beside 1.0")
         audit = audit_t()
         call audit_system(skew, audit)
         call remarked(audit, "mass matrix is positive definite", ": the mass matrix d2L/dv dv "// &
                       "is not positive definite: it has the eigenvalue -1.0")
         audit = audit_t()
         call audit_system(blind, audit)
-        call remarked(audit, "accelerations as from L", &
-                      ": the Lagrangian is not a finite number")
+        call remarked(audit, "parameters and states are taken", "L is no number at any state tried")
     end subroutine the_audit_names_the_mass_matrix
 
     subroutine remarked(audit, claim, words)
@@ -274,8 +275,7 @@ contains
         if (row == 0) return
         associate (finding => audit%findings(row))
             call assertFalse(finding%holds, message=claim)
-            call assertTrue(index(finding%remark, "at ") == 1 .and. &
-                            index(finding%remark, "q = ") > 0 .and. &
+            call assertTrue(index(finding%remark, "q = ") > 0 .and. &
                             index(finding%remark, words) > 0, message=finding%remark)
         end associate
     end subroutine remarked

@@ -5,7 +5,9 @@ module lagrangia_random_draws
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_mass_matrix, only: list_of
     use lagrangia_system, only: default_values, system_t
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: random_t, random_box_t
@@ -110,7 +112,8 @@ contains
             if (is_inside(system, t, q, v)) return
             widest = 0.8_dp*widest
         end do
-        call fail(error, "L is no number at any state tried")
+        call fail(error, "L is no number at any state tried, such as t = "//to_text(t)//", q = "// &
+                  list_of(q)//", v = "//list_of(v))
     end subroutine state
 
     pure function is_inside(system, t, q, v) result(yes)
