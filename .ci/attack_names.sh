@@ -184,4 +184,17 @@ if [ -n "$disk" ]; then
     check "a run: more than there is room for" grep -q "are to be written, but only .* free in 'disk/new'" err
 fi
 
+# Files of one scene get their names together: where the last cannot be written, none is replaced
+mkdir -p "$work/together/s.gp"
+printf "&scene system='pendulum' dt=0.01 duration=3 q=1 event='theta = 0.5' event_columns='t' output='s' /" >"$work/together.nml"
+plant "$work/together" s.dat s_events.dat
+run run "$work/together.nml" --output "$work/together"
+check "a script that cannot be written: data and events stay" eval '[ $status -eq 5 ] && unharmed "$work/together" s.dat s_events.dat && leftovers "$work/together"'
+: >"$work/no_folder"
+run run pendulum --output "$work/no_folder"
+check "a run that could not begin has no error" eval '[ $status -eq 5 ] && ! grep -q "E+00\|exact *-" "$work/out"'
+printf 'mine' >"$work/together/.lagrangia-t.dat-1.tmp"
+run run pendulum --set scene%output=t --output "$work/together"
+check "a user's file that is called as our temporaries stays" eval '[ $status -eq 0 ] && [ "$(cat "$work/together/.lagrangia-t.dat-1.tmp")" = mine ]'
+
 summary
