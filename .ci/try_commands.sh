@@ -162,6 +162,10 @@ run principle virtual-work --json
 check "principle: its controls fail, the rest holds" json 'all(row["holds"] != row["control"] for row in d) and any(row["control"] for row in d)'
 run run cart_pendulum_small --output "$work/o"
 check "a period beside 2 pi/omega is marked small" eval 'grep -q "E-07 small  *3.83601" "$work/out" && grep -q "^small: against 2 pi/omega" "$work/out"'
+run run cart_pendulum_small --json --set cart_pendulum%g=981 --output "$work/o"
+check "a period far below a second is beside 2 pi/omega" json '0 < d[0]["small_period_error"] < 1e-6'
+run run pendulum --json --set pendulum%g=981 --output "$work/o"
+check "and beside the exact one" json '0 < d[0]["period_error"] < 1e-6'
 run run cart_pendulum --output "$work/o"
 check "an exact one is not" eval '! grep -q small "$work/out"'
 run errata --json

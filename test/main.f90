@@ -79,6 +79,7 @@ module suites
     use test_output_file, only: output_file_suite
     use test_own_closed_form, only: own_closed_form_suite
     use test_own_system, only: own_system_suite
+    use test_page_formulae, only: page_formulae_suite
     use test_partial_files, only: partial_files_suite
     use test_pendulum, only: pendulum_suite
     use test_period, only: period_suite
@@ -206,6 +207,7 @@ contains
         call suite%addTest(output_failures_suite())
         call suite%addTest(output_file_suite())
         call suite%addTest(own_system_suite())
+        call suite%addTest(page_formulae_suite())
         call suite%addTest(partial_files_suite())
         call suite%addTest(pendulum_suite())
         call suite%addTest(period_suite())

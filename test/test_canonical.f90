@@ -14,6 +14,7 @@ module test_canonical
     use lagrangia_run, only: new_plan, plan_t, run
     use lagrangia_system, only: system_t
     use random_states, only: draw_parameters, draw_state, restart_random
+    use restless_oscillator, only: restless_oscillator_t
     implicit none (type, external)
     private
     public :: canonical_suite
@@ -31,6 +32,7 @@ contains
         call suite%addTest(TestMethod("failed_iterations_are_told", failed_iterations_are_told))
         call suite%addTest(TestMethod("slow_iterations_are_no_solutions", &
                                       slow_iterations_are_no_solutions))
+        call suite%addTest(TestMethod("half_a_solution_is_none", half_a_solution_is_none))
     end function canonical_suite
 
     subroutine momenta_and_forces_follow_from_the_lagrangian()
@@ -140,4 +142,25 @@ contains
         call method%advance(system, 0.0_dp, 2.0_dp*sqrt(0.9_dp), 0_i8, 1_i8, q, v)
         call assertTrue(ieee_is_nan(q(1)), "no solution at 0.9")
     end subroutine slow_iterations_are_no_solutions
+
+    subroutine half_a_solution_is_none()
+        !! Momenta that never settle beside coordinates so large that they always do, and the other
+        !! way round: the step has no solution.
+        class(integrator_t), allocatable :: method
+        type(restless_oscillator_t) :: system
+        type(error_t), allocatable :: error
+        real(dp) :: q(1), v(1)
+        integer :: i
+
+        call new_integrator("midpoint", method, error)
+        do i = 1, 2
+            system%in_p = i == 1
+            call system%configure([merge(1.0_dp, 1e18_dp, system%in_p), 1.0_dp], error)
+            call method%prepare(system, error)
+            q = merge(1e18_dp, 1.0_dp, system%in_p)
+            v = 1.0_dp
+            call method%advance(system, 0.0_dp, 1.0_dp, 0_i8, 1_i8, q, v)
+            call assertTrue(ieee_is_nan(q(1)), trim(merge("p", "q", system%in_p))//" never settles")
+        end do
+    end subroutine half_a_solution_is_none
 end module test_canonical

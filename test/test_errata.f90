@@ -33,6 +33,8 @@ contains
         call suite%addTest(TestMethod("quotes_stand_in_the_notes", quotes_stand_in_the_notes))
         call suite%addTest(TestMethod("places_are_those_of_the_quotes", &
                                       places_are_those_of_the_quotes))
+        call suite%addTest(TestMethod("readings_have_the_signs_of_the_quotes", &
+                                      readings_have_the_signs_of_the_quotes))
         call suite%addTest(TestMethod("numbers_come_out", numbers_come_out))
     end function errata_suite
 
@@ -147,6 +149,43 @@ contains
         call assertEqual("I, line 3", slips(13)%place())
         call assertEqual("II, lines 113, 115", slips(21)%place())
     end subroutine places_are_those_of_the_quotes
+
+    subroutine readings_have_the_signs_of_the_quotes()
+        !! In our letters the first quote, or all of them, have the same pluses and minuses in the
+        !! same order; hyphens and arrows are none, "the difference between" is one.
+        type(slip_t), allocatable :: slips(:)
+        character(:), allocatable :: reading, quotes
+        integer :: i, k
+
+        call assertEqual("+--", signs("a + b -> -c, time-independent - d"))
+        allocate (slips, source=slips_of_the_notes())
+        do k = 1, size(slips)
+            reading = signs(trim(slips(k)%reads))
+            quotes = ""
+            do i = 1, size(slips(k)%quotes)
+                quotes = quotes//signs(trim(slips(k)%quotes(i)%text))
+            end do
+            call assertTrue(reading == signs(trim(slips(k)%quotes(1)%text)) .or. &
+                            reading == quotes, slips(k)%id//" "//reading//" is not "//quotes)
+        end do
+    contains
+        pure function signs(text) result(found)
+            character(*), intent(in) :: text
+            character(:), allocatable :: found
+            character(*), parameter :: letters = "abcdefghijklmnopqrstuvwxyz"
+            character(len(text) + 2) :: padded
+            integer :: j
+
+            padded = " "//text
+            found = ""
+            do j = 2, len(text) + 1
+                if (index(padded(j:), "difference between") == 1) found = found//"-"
+                if (scan(padded(j:j), "+-") == 0 .or. padded(j:j + 1) == "->") cycle
+                if (scan(padded(j - 1:j - 1), letters)*scan(padded(j + 1:j + 1), letters) > 0) cycle
+                found = found//padded(j:j)
+            end do
+        end function signs
+    end subroutine readings_have_the_signs_of_the_quotes
 
     subroutine numbers_come_out()
         !! What is derived holds, what is written fails; some letters and dates have no numbers.

@@ -4,8 +4,8 @@ module test_outcome
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_json, only: json_list, json_number, json_string
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_outcome, only: from_closed_form, from_half_step, measure_t, outcome_json, &
-                                 outcome_t, scorecard_head, scorecard_row
+    use lagrangia_outcome, only: from_closed_form, from_half_step, from_steps, measure_t, &
+                                outcome_json, outcome_t, scorecard_head, scorecard_row
     implicit none (type, external)
     private
     public :: outcome_suite
@@ -266,7 +266,8 @@ contains
     end subroutine rows_stand_under_their_titles
 
     subroutine rows_say_where_an_error_is_from()
-        !! `exact` and `estimate`; a hyphen where there is none.
+        !! `exact`, `estimate` and `steps`; a hyphen where there is none: none was asked for, or the
+        !! run ended before its first row.
         type(outcome_t) :: outcome
         character(:), allocatable :: row
         integer :: column
@@ -282,6 +283,12 @@ contains
         outcome%error_from = from_half_step
         row = scorecard_row(outcome)
         call assertEqual("3.0E-09 estimate", row(column:column + 15))
+        outcome%error_from = from_steps
+        row = scorecard_row(outcome)
+        call assertEqual("3.0E-09 steps  ", row(column:column + 14))
+        outcome%others = [measure_t("period", 0.375_dp)]
+        row = scorecard_row(outcome)
+        call assertEqual("-  ", row(column:column + 2))
     end subroutine rows_say_where_an_error_is_from
 
     subroutine starts(text, expected)

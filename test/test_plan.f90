@@ -3,7 +3,7 @@ module test_plan
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_errors, only: error_t, status_usage
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_run, only: new_plan, plan_t
+    use lagrangia_run, only: new_plan, new_sampled_plan, plan_t
     implicit none (type, external)
     private
     public :: plan_suite
@@ -22,6 +22,8 @@ contains
                                       steps_beyond_counting_are_refused))
         call suite%addTest(TestMethod("steps_that_stand_still_are_refused", &
                                       steps_that_stand_still_are_refused))
+        call suite%addTest(TestMethod("samples_lie_four_doubles_apart", &
+                                      samples_lie_four_doubles_apart))
     end function plan_suite
 
     subroutine steps_that_divide_are_counted()
@@ -79,6 +81,24 @@ contains
                            "is too small to move the time near t = -9999")
         call check_plan(1e9_dp, 0.25_dp, 1.0_dp, 4_i8)
     end subroutine steps_that_stand_still_are_refused
+
+    subroutine samples_lie_four_doubles_apart()
+        !! \(2^{50}\) of them in the first second do, one more do not; none is refused.
+        type(plan_t) :: plan
+        type(error_t), allocatable :: error
+
+        call new_sampled_plan(plan, 0.0_dp, 1.0_dp, 2_i8**50, error)
+        call assertFalse(allocated(error), "four apart")
+        call assertEqual(2_i8**50, plan%equal)
+        call new_sampled_plan(plan, 0.0_dp, 1.0_dp, 2_i8**50 + 1_i8, error)
+        call assertTrue(allocated(error), "less than four apart")
+        if (.not. allocated(error)) return
+        call assertEqual("so many samples cannot be told apart near t = 1.0 s", error%message)
+        call new_sampled_plan(plan, 0.0_dp, 1.0_dp, 0_i8, error)
+        call assertTrue(allocated(error), "no samples")
+        if (.not. allocated(error)) return
+        call assertEqual("must be at least 1, not 0", error%message)
+    end subroutine samples_lie_four_doubles_apart
 
     subroutine check_no_plan(t0, dt, duration, message)
         !! Refused in words that begin so, and `dt` is to blame.

@@ -14,6 +14,7 @@ module test_virtual_work
     use lagrangia_rotating_hoop, only: rotating_hoop_t
     use lagrangia_system, only: system_t
     use lagrangia_test_potentials, only: test_charge_t
+    use pushed_pendulum, only: pushed_pendulum_t
     use random_states, only: draw_parameters, draw_state, restart_random
     implicit none (type, external)
     private
@@ -28,6 +29,7 @@ contains
         suite = TestSuite("virtual_work")
         call suite%addTest(TestMethod("every_system_obeys_dalembert", &
                                       every_system_obeys_dalembert, setUp=restart_random))
+        call suite%addTest(TestMethod("wrong_forces_are_seen", wrong_forces_are_seen))
         call suite%addTest(TestMethod("points_move_as_differences_say", &
                                       points_move_as_differences_say, setUp=restart_random))
         call suite%addTest(TestMethod("test_charge_is_consistent", test_charge_is_consistent, &
@@ -62,6 +64,30 @@ contains
         end do
         call assertEqual(size(system_names()), i - 1, "systems checked")
     end subroutine every_system_obeys_dalembert
+
+    subroutine wrong_forces_are_seen()
+        !! A push of 1 N m or 1 rad/s^2 either way on either coordinate, beside terms that together
+        !! are below 100.
+        type(pushed_pendulum_t) :: system
+        type(error_t), allocatable :: error
+        real(dp), parameter :: t = 0.0_dp, q(2) = [0.4_dp, -1.1_dp], v(2) = [0.7_dp, 1.9_dp]
+        integer :: i, k
+
+        call system%configure([1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 9.81_dp], error)
+        do i = 1, 2
+            do k = -1, 1
+                system%which = i
+                system%push = k
+                if (k == 0) then
+                    call assertLessThanOrEqual(dalembert(system, t, q, v), 1e-14_dp)
+                    call assertLessThanOrEqual(conservative_forces(system, t, q, v), 1e-14_dp)
+                else
+                    call assertGreaterThan(dalembert(system, t, q, v), 0.01_dp)
+                    call assertGreaterThan(conservative_forces(system, t, q, v), 0.01_dp)
+                end if
+            end do
+        end do
+    end subroutine wrong_forces_are_seen
 
     subroutine points_move_as_differences_say()
         !! Velocity, acceleration, drift and slopes of moving points by fourth-order differences in

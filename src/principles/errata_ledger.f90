@@ -127,8 +127,9 @@ contains
                  "none: Goldstein, too, calls both nonholonomic; they want different methods", &
                  principle="constraints")
         call add("E15", kind_lecture, "Hamilton's principle", &
-                 [quote_t("II", 18, "the actual path followed is that which minimizes the "// &
-                                    "time integral")], &
+                 [quote_t("II", 18, "path followed is that which minimizes the time integral "// &
+                                    "of the difference between the kinetic and potential "// &
+                                    "energies")], &
                  "the actual path minimizes the time integral of T - U", &
                  "makes it stationary; least only up to the first conjugate point", &
                  "longer motions would be impossible", &
