@@ -2,9 +2,12 @@ module test_precision_curve
     !! The bench's arithmetic on made-up measurements.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
+    use lagrangia_contestant, only: party_gsl, party_ours
     use lagrangia_kinds, only: dp
     use lagrangia_precision_curve, only: best, confirmed, median, not_known, ratio, time_to_error
+    use lagrangia_precision_tables, only: best_time, least_error
     use lagrangia_stopwatch, only: repetitions
+    use lagrangia_work_precision, only: curve_t
     implicit none (type, external)
     private
     public :: precision_curve_suite
@@ -24,6 +27,7 @@ contains
         call suite%addTest(TestMethod("what_is_not_reached", what_is_not_reached))
         call suite%addTest(TestMethod("a_lucky_hit_does_not_count", a_lucky_hit_does_not_count))
         call suite%addTest(TestMethod("the_least_of_several_times", the_least_of_several_times))
+        call suite%addTest(TestMethod("curves_are_told_apart", curves_are_told_apart))
         call suite%addTest(TestMethod("short_runs_are_repeated", short_runs_are_repeated))
     end function precision_curve_suite
 
@@ -95,6 +99,44 @@ contains
                                                1e-6_dp), tolerance=100.0_dp*eps)
         call assertEqual(4.0_dp, time_to_error(errors, seconds, 1e-5_dp), tolerance=100.0_dp*eps)
     end subroutine the_least_of_several_times
+
+    subroutine curves_are_told_apart()
+        !! By problem, party and method: of each the best, and no number where there is none.
+        type(curve_t) :: curves(5)
+        real(dp), parameter :: error = 1e-6_dp
+
+        curves = [curve("P1", party_ours, "rk4", 8.0_dp, 1e-7_dp), &
+                  curve("P1", party_ours, "gauss16", 2.0_dp, 1e-8_dp), &
+                  curve("P1", party_gsl, "gsl_rk4", 4.0_dp, 1e-9_dp), &
+                  curve("P1", party_gsl, "gsl_rk8pd", 1.0_dp, 1e-10_dp), &
+                  curve("P2", party_ours, "rk4", 0.5_dp, 1e-11_dp)]
+        call assertEqual(2.0_dp, best_time(curves, "P1", party_ours, error), message="ours")
+        call assertEqual(1.0_dp, best_time(curves, "P1", party_gsl, error), message="GSL's")
+        call assertEqual(8.0_dp, best_time(curves, "P1", party_ours, error, "rk4"), message="rk4")
+        call assertEqual(4.0_dp, best_time(curves, "P1", party_gsl, error, "gsl_rk4"), &
+                         message="gsl_rk4")
+        call assertEqual(0.5_dp, best_time(curves, "P2", party_ours, error), message="P2")
+        call assertTrue(ieee_is_nan(best_time(curves, "P2", party_gsl, error)), "nobody")
+        call assertEqual(1e-8_dp, least_error(curves, "P1", party_ours), message="least of ours")
+        call assertEqual(1e-10_dp, least_error(curves, "P1", party_gsl), message="least of GSL's")
+        call assertEqual(1e-11_dp, least_error(curves, "P2", party_ours), message="least on P2")
+        call assertTrue(ieee_is_nan(least_error(curves, "P2", party_gsl)), "nobody's")
+    contains
+        pure function curve(problem, party, method, seconds, lowest)
+            !! The error 1e-6 takes `seconds`, the lowest twice that.
+            character(*), intent(in) :: problem, method
+            integer, intent(in) :: party
+            real(dp), intent(in) :: seconds, lowest
+            type(curve_t) :: curve
+
+            curve%problem = problem
+            curve%party = party
+            curve%method = method
+            curve%count = 2
+            curve%points(:2)%error = [error, lowest]
+            curve%points(:2)%seconds = [seconds, 2.0_dp*seconds]
+        end function curve
+    end subroutine curves_are_told_apart
 
     subroutine short_runs_are_repeated()
         !! Until they take long enough, but not for ever.
