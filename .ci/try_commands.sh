@@ -158,8 +158,22 @@ refuses 2 "greater than 0.0 is needed" modes cart_pendulum --set cart_pendulum%m
 refuses 4 "other units are needed" modes pendulum --set pendulum%g=1e308 --set pendulum%l=1e-300
 run check pendulum rolling_disk --json
 check "check: every claim holds" json 'len(d) == 41 and all(row["holds"] for row in d)'
+cp "$work/out" "$work/rows"
+run check pendulum rolling_disk
+check "check: the text's remarks are the JSON's" python3 -c 'import json, sys
+remarks = [row["remark"] for row in json.load(open(sys.argv[2])) if row["remark"]]
+lines = [line[6:] for line in open(sys.argv[1]).read().splitlines() if line[:6] == " "*6]
+assert remarks and lines == remarks, (lines, remarks)' "$work/out" "$work/rows"
 run principle virtual-work --json
 check "principle: its controls fail, the rest holds" json 'all(row["holds"] != row["control"] for row in d) and any(row["control"] for row in d)'
+cp "$work/out" "$work/rows"
+run principle virtual-work
+check "principle: the text's differences and bounds are the JSON's" python3 -c 'import json, sys
+lines = open(sys.argv[1]).read().splitlines()
+for row in json.load(open(sys.argv[2])):
+    words = [line[46:].split() for line in lines if line[:46].strip() == row["statement"]]
+    near = lambda word, value: abs(float(word) - value) <= 0.06*abs(value)
+    assert any(near(w[2], row["difference"]) and near(w[3], row["bound"]) for w in words if len(w) > 4), row' "$work/out" "$work/rows"
 run run cart_pendulum_small --output "$work/o"
 check "a period beside 2 pi/omega is marked small" eval 'grep -q "E-07 small  *3.83601" "$work/out" && grep -q "^small: against 2 pi/omega" "$work/out"'
 run run cart_pendulum_small --json --set cart_pendulum%g=981 --output "$work/o"
