@@ -44,7 +44,7 @@ module lagrangia
     use lagrangia_reference, only: reference_t
     use lagrangia_run, only: new_plan, plan_t, run
     use lagrangia_small_oscillations, only: find_modes, modes_t
-    use lagrangia_system, only: check_parameters, default_values, system_t
+    use lagrangia_system, only: check_parameters, default_values, reduced_t, system_t
     implicit none (type, external)
     public
 end module lagrangia

@@ -10,6 +10,7 @@ module test_own_closed_form
     use lagrangia_system, only: system_t
     use own_closed_forms, only: own_drag_t, own_spring_t, undefined, wrong_motion, wrong_size, &
                                 wrong_start
+    use own_reductions, only: own_trough_t
     use scene_runs, only: perform
     implicit none (type, external)
     private
@@ -30,6 +31,7 @@ contains
         call suite%addTest(TestMethod("it_is_the_measure_of_errors", it_is_the_measure_of_errors))
         call suite%addTest(TestMethod("auto_takes_it", auto_takes_it))
         call suite%addTest(TestMethod("its_period_is_expected", its_period_is_expected))
+        call suite%addTest(TestMethod("a_reduced_system_is_used", a_reduced_system_is_used))
     end function own_closed_form_suite
 
     subroutine refused(system, beginning)
@@ -54,9 +56,11 @@ contains
         call refused(own_spring_t(kind=wrong_size), &
                      "system 'own_spring': its closed form has ndof = 2, and not 1")
         call refused(own_spring_t(kind=wrong_start), &
-                     "system 'own_spring': its closed form of the motion from t = ")
+                     "system 'own_spring': its closed form has the motion from t = ")
         call refused(own_spring_t(kind=wrong_motion), &
                      "system 'own_spring': "//disobeys)
+        call refused(own_trough_t(slip=1e-3_dp), "system 'own_trough': its reduced system does "// &
+                     "not obey the equations of motion at ")
         call refused(own_drag_t(), "system 'own_drag': "//disobeys)
         call assertFalse(any(system_names() == "own_spring"), "nobody joined")
     end subroutine wrong_ones_are_refused
@@ -132,4 +136,23 @@ contains
         call run_by("duration = 20.0, method = 'rk4', period_of = 'x', expect_period = 1e-8", &
                     outcome)
     end subroutine its_period_is_expected
+
+    subroutine a_reduced_system_is_used()
+        !! By gauss16, which says so: \(y\) turns, and x + y goes on at 1.1 m/s.
+        type(outcome_t) :: outcome
+        type(error_t), allocatable :: error
+        real(dp) :: omega, y
+
+        call register_system(own_trough_t(), error)
+        call assertFalse(allocated(error), "it may join")
+        call perform("&scene system = 'own_trough', method = 'gauss16', q = 0.2, 0.3, "// &
+                     "v = 1.0, 0.1, dt = 0.05, duration = 2.0, columns = 't', 'x' /", "", "text", &
+                     outcome, error)
+        call assertFalse(allocated(error), "it runs")
+        if (anyExceptions()) return
+        omega = sqrt(2.5_dp)
+        y = 0.3_dp*cos(2.0_dp*omega) + 0.1_dp/omega*sin(2.0_dp*omega)
+        call assertEqual([0.5_dp + 2.0_dp*1.1_dp - y, y], outcome%q, 1e-14_dp, "where it ends")
+        call assertEqual(" (the cyclic coordinate from its momentum)", outcome%remark)
+    end subroutine a_reduced_system_is_used
 end module test_own_closed_form

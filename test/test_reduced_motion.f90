@@ -127,6 +127,17 @@ contains
         call reduced%advance(system, 0.3_dp, 0.02_dp, 0_i8, 500_i8, q, v)
         call assertEqual(q_whole, q, 1e-9_dp, "q by dop853")
         call assertEqual(v_whole, v, 1e-9_dp, "v by dop853")
+        call new_integrator("rk4", reduced, error)
+        reduced%leaves_cyclic = .true.
+        call leave_cyclic(reduced, system)
+        call assertTrue(is_reduced(reduced), "any method")
+        call reduced%prepare(system, error)
+        q = [0.4_dp, 1.2_dp]
+        v = [-0.6_dp, 1.5_dp]
+        call reduced%advance(system, 0.3_dp, 1e-3_dp, 0_i8, 10000_i8, q, v)
+        call assertEqual(q_whole, q, 1e-8_dp, "q by rk4")
+        call assertEqual(v_whole, v, 1e-8_dp, "v by rk4")
+        call assertEqual(40000_i8, reduced%evaluations, message="evaluations of rk4")
     end subroutine the_whole_motion_is_the_same
 
     subroutine between_steps_and_after_a_push()

@@ -44,6 +44,7 @@ contains
         self%name = "dop853"
         self%title = "explicit Runge-Kutta, order 8(5,3), any system (Dormand & Prince 1989)"
         self%order = 8
+        self%leaves_cyclic = .true.
     end subroutine new_dop853
 
     pure subroutine prepare(self, system, error)

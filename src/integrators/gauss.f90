@@ -42,6 +42,7 @@ contains
         self%order = 16
         self%energy_order = 16
         self%reversible = .true.
+        self%leaves_cyclic = .true.
     end subroutine new_gauss16
 
     pure subroutine prepare(self, system, error)

@@ -57,6 +57,7 @@ contains
         self%bears_noise = 2.0_dp**16
         self%title = "Gauss-Legendre collocation by tolerance, for smooth forces (Butcher 1964)"
         self%order = 16
+        self%leaves_cyclic = .true.
     end subroutine new_gauss16_adaptive
 
     pure subroutine prepare(self, system, error)

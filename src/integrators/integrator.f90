@@ -18,6 +18,7 @@ module lagrangia_integrator
         logical :: symplectic = .false.       !! a step is a canonical map of (q, p)
         logical :: reversible = .false.       !! a step back undoes a step, but for rounding
         real(dp) :: step_limit = 0.0_dp       !! omega dt of a stable oscillation; 0: none known
+        logical :: leaves_cyclic = .false.    !! a coordinate less pays, where a system knows how
         logical :: keeps_speed = .false.      !! |v| where a uniform magnetic field acts alone
         integer(i8) :: evaluations = 0        !! of accelerations or forces, since `prepare`
         character(line_length) :: trouble = ""  !! why `advance` gave NaN, where the method knows

@@ -3,8 +3,8 @@ module lagrangia_reduced_motion
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t, same
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_reduced, only: reduced_t
-    use lagrangia_system, only: system_t
+    use lagrangia_stepwise, only: new_stepwise, stepwise_t
+    use lagrangia_system, only: reduced_t, system_t
     implicit none (type, external)
     private
     public :: leave_cyclic, reduced_motion_t
@@ -13,7 +13,7 @@ module lagrangia_reduced_motion
         !! Steps of `method` for the reduced system. What is conserved is noted where a run starts,
         !! and where `advance` does not go on from where it ended.
         private
-        class(integrator_t), allocatable :: method
+        class(dense_integrator_t), allocatable :: method
         class(reduced_t), allocatable :: reduced
         real(dp), allocatable :: q_left(:), v_left(:)  !! state of the reduced system
         real(dp), allocatable :: q(:), v(:)            !! the whole one where `advance` ended
@@ -32,37 +32,37 @@ module lagrangia_reduced_motion
 contains
 
     subroutine leave_cyclic(method, system)
-        !! Let `method` leave the cyclic coordinate of `system` out, if that is known how, and
-        !! pays: `lagrangia bench` has it gain a fifth with `gauss16`, a third with `dop853`, and
-        !! nothing to speak of with the others.
+        !! Let `method` leave the cyclic coordinate of `system` out, if that pays (the method says
+        !! so) and the system knows how. `lagrangia bench` has it gain a fifth with `gauss16`, a
+        !! third with `dop853`, and nothing to speak of with the others.
         class(integrator_t), allocatable, intent(inout) :: method
         class(system_t), intent(in) :: system
-        class(system_t), allocatable :: reduced
-        class(integrator_t), allocatable :: whole
+        class(reduced_t), allocatable :: reduced
         type(reduced_motion_t) :: motion
+        type(stepwise_t) :: steps
 
-        if (method%name /= "gauss16" .and. method%name /= "dop853") return
+        if (.not. method%leaves_cyclic) return
         call system%reduce(reduced)
         if (.not. allocated(reduced)) return
-        call move_alloc(method, whole)
-        select type (reduced)
-        class is (reduced_t)
-            allocate (motion%reduced, source=reduced)
-        end select
-        motion%name = whole%name
-        motion%title = trim(whole%title)//"; the cyclic coordinate follows from its momentum"
-        motion%order = whole%order
-        motion%energy_order = whole%energy_order
-        motion%symplectic = whole%symplectic
-        motion%reversible = whole%reversible
-        select type (whole)
+        select type (method)
         class is (dense_integrator_t)
-            motion%tolerance = whole%tolerance
-            motion%least_tolerance = whole%least_tolerance
-            motion%longest = whole%longest
-            motion%dense = whole%dense
+            allocate (motion%method, source=method)
+        class default
+            call new_stepwise(steps, method, 0.0_dp)  ! only `advance` is called
+            allocate (motion%method, source=steps)
         end select
-        call move_alloc(whole, motion%method)
+        call move_alloc(reduced, motion%reduced)
+        motion%name = method%name
+        motion%title = trim(method%title)//"; the cyclic coordinate follows from its momentum"
+        motion%order = method%order
+        motion%energy_order = method%energy_order
+        motion%symplectic = method%symplectic
+        motion%reversible = method%reversible
+        motion%tolerance = motion%method%tolerance
+        motion%least_tolerance = motion%method%least_tolerance
+        motion%longest = motion%method%longest
+        motion%dense = motion%method%dense
+        deallocate (method)
         allocate (method, source=motion)
     end subroutine leave_cyclic
 
@@ -118,10 +118,7 @@ contains
         call command(self)
         call self%reduced%leave(q, v, self%q_left, self%v_left)
         self%t_left = t0
-        select type (method => self%method)
-        class is (dense_integrator_t)
-            call method%start(self%reduced, t0, self%q_left, self%v_left, t_end)
-        end select
+        call self%method%start(self%reduced, t0, self%q_left, self%v_left, t_end)
         call report(self)
     end subroutine start
 
@@ -131,10 +128,7 @@ contains
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
 
-        select type (method => self%method)
-        class is (dense_integrator_t)
-            call method%step(self%reduced, error)
-        end select
+        call self%method%step(self%reduced, error)
         call report(self)
     end subroutine step
 
@@ -145,10 +139,7 @@ contains
         real(dp), intent(out) :: q(:), v(:)
         real(dp) :: q_left(self%reduced%ndof), v_left(self%reduced%ndof)
 
-        select type (method => self%method)
-        class is (dense_integrator_t)
-            call method%state_at(t, q_left, v_left)
-        end select
+        call self%method%state_at(t, q_left, v_left)
         call self%reduced%complete(t - self%t_left, q_left, v_left, q, v)
     end subroutine state_at
 
@@ -156,12 +147,9 @@ contains
         !! What the caller wants of the method.
         class(reduced_motion_t), intent(inout) :: self
 
-        select type (method => self%method)
-        class is (dense_integrator_t)
-            method%tolerance = self%tolerance
-            method%longest = self%longest
-            method%dense = self%dense
-        end select
+        self%method%tolerance = self%tolerance
+        self%method%longest = self%longest
+        self%method%dense = self%dense
     end subroutine command
 
     pure subroutine report(self)
@@ -169,13 +157,10 @@ contains
         class(reduced_motion_t), intent(inout) :: self
 
         self%evaluations = self%method%evaluations
-        select type (method => self%method)
-        class is (dense_integrator_t)
-            self%t_old = method%t_old
-            self%t_new = method%t_new
-            self%t_end = method%t_end
-            self%accepted = method%accepted
-            self%rejected = method%rejected
-        end select
+        self%t_old = self%method%t_old
+        self%t_new = self%method%t_new
+        self%t_end = self%method%t_end
+        self%accepted = self%method%accepted
+        self%rejected = self%method%rejected
     end subroutine report
 end module lagrangia_reduced_motion

@@ -39,6 +39,7 @@ contains
         self%name = method%name
         self%title = method%title
         self%order = method%order
+        self%leaves_cyclic = method%leaves_cyclic
         self%dt = dt
     end subroutine new_stepwise
 
@@ -88,6 +89,7 @@ contains
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
 
         call self%method%advance(system, t0, dt, first, steps, q, v)
+        self%trouble = self%method%trouble
         self%evaluations = self%method%evaluations + self%own
     end subroutine advance
 

@@ -1,9 +1,9 @@
 module lagrangia_newcomer
     !! What a system from outside must bring along before it may join the catalogue.
-    use lagrangia_closed_form_check, only: check_closed_form
     use lagrangia_columns, only: column_names
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_motion_check, only: check_motions
     use lagrangia_system, only: default_values, system_t
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
@@ -19,8 +19,8 @@ contains
 
     subroutine check_newcomer(system, taken, error)
         !! Fails on a name that is `taken` or cannot be typed, on a description with gaps, on
-        !! defaults that are not allowed, and on a closed form of another motion. `system` has its
-        !! default parameters on return.
+        !! defaults that are not allowed, and on a closed form or a reduced system of another
+        !! motion. `system` has its default parameters on return.
         class(system_t), intent(inout) :: system
         character(*), intent(in) :: taken(:)
         type(error_t), allocatable, intent(out) :: error
@@ -48,7 +48,7 @@ contains
             end if
             call check_names(system, d, error)
             if (allocated(error)) exit check
-            call check_closed_form(system, error)
+            call check_motions(system, error)
         end block check
         if (allocated(error)) call error%add_context("system "//quoted(trim(d%name)))
     end subroutine check_newcomer

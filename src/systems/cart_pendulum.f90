@@ -13,7 +13,7 @@ module lagrangia_cart_pendulum
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
     use lagrangia_reference, only: reference_t
-    use lagrangia_system, only: check_parameters, lanes, system_t
+    use lagrangia_system, only: check_parameters, lanes, reduced_t, system_t
     implicit none (type, external)
     private
     public :: cart_pendulum_t
@@ -286,7 +286,7 @@ contains
     subroutine reduce(self, reduced)
         !! Without \(x\).
         class(cart_pendulum_t), intent(in) :: self
-        class(system_t), allocatable, intent(out) :: reduced
+        class(reduced_t), allocatable, intent(out) :: reduced
         type(cart_swing_t) :: swing
         type(error_t), allocatable :: error
 

@@ -11,8 +11,7 @@ module lagrangia_cart_swing
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-)
     use lagrangia_kinds, only: dp
-    use lagrangia_reduced, only: reduced_t
-    use lagrangia_system, only: check_parameters, lanes
+    use lagrangia_system, only: check_parameters, lanes, reduced_t
     implicit none (type, external)
     private
     public :: cart_swing_t

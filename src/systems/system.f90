@@ -15,7 +15,8 @@ module lagrangia_system
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: system_t, system_box_t, lanes, check_parameter, check_parameters, default_values
+    public :: system_t, system_box_t, reduced_t
+    public :: lanes, check_parameter, check_parameters, default_values
 
     integer, parameter :: lanes = 8  !! states that `accelerations_lanes` takes at once
 
@@ -46,6 +47,13 @@ module lagrangia_system
         procedure :: reduce => not_reduced
         procedure :: closed_form => no_closed_form
     end type system_t
+
+    type, abstract, extends(system_t) :: reduced_t
+        !! A system without its cyclic coordinate, which its conserved momentum gives back (Routh).
+    contains
+        procedure(leave_i), deferred :: leave
+        procedure(complete_i), deferred :: complete
+    end type reduced_t
 
     type :: system_box_t
         !! A place for one system of any kind.
@@ -100,6 +108,26 @@ module lagrangia_system
             real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
             real(dp) :: e
         end function energy_i
+
+        pure subroutine leave_i(self, q, v, q_left, v_left)
+            !! Note what the state `(q, v)` conserves; the state without the cyclic coordinate.
+            import :: reduced_t, dp
+            implicit none (type, external)
+            class(reduced_t), intent(inout) :: self
+            real(dp), intent(in) :: q(:), v(:)                              !! the whole state
+            real(dp), intent(out) :: q_left(self%ndof), v_left(self%ndof)  !! what is left of it
+        end subroutine leave_i
+
+        pure subroutine complete_i(self, elapsed, q_left, v_left, q, v)
+            !! The whole state at `elapsed` s after `leave`, by what that has noted. A time so short
+            !! is a better number than that on the clock.
+            import :: reduced_t, dp
+            implicit none (type, external)
+            class(reduced_t), intent(in) :: self
+            real(dp), intent(in) :: elapsed                                 !! s
+            real(dp), intent(in) :: q_left(self%ndof), v_left(self%ndof)   !! the reduced state
+            real(dp), intent(out) :: q(:), v(:)                             !! the whole one
+        end subroutine complete_i
     end interface
 
 contains
@@ -270,9 +298,9 @@ contains
     end subroutine no_impact
 
     subroutine not_reduced(self, reduced)
-        !! The same without its cyclic coordinate, a `reduced_t`; not allocated if none is known.
+        !! The same without its cyclic coordinate; not allocated if none is known.
         class(system_t), intent(in) :: self
-        class(system_t), allocatable, intent(out) :: reduced
+        class(reduced_t), allocatable, intent(out) :: reduced
     end subroutine not_reduced
 
     subroutine no_closed_form(self, t0, q0, v0, reference)

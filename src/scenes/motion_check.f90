@@ -1,15 +1,16 @@
-module lagrangia_closed_form_check
-    !! Whether the closed form that a system brings is that of its motion.
+module lagrangia_motion_check
+    !! Whether what a system brings of its motion, a closed form or itself without a cyclic
+    !! coordinate, obeys its equations of motion.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
     use lagrangia_random_draws, only: random_t
     use lagrangia_reference, only: reference_t
-    use lagrangia_system, only: system_t
+    use lagrangia_system, only: reduced_t, system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: check_closed_form
+    public :: check_motions
 
     integer, parameter :: draws = 40   !! of parameters and states, half of them at rest
     integer, parameter :: halvings = 30
@@ -17,11 +18,21 @@ module lagrangia_closed_form_check
     !! of a rate beside those of the motion. With the best step h the central difference has
     !! rounding/h and h**2: together rounding**(2/3), some 4e-11, where times are of order 1
 
+    type, extends(reference_t) :: parabola_t
+        !! The motion near a state, as the reduced system has it: a parabola of its coordinates.
+        class(reduced_t), allocatable :: reduced
+        real(dp) :: t0 = 0.0_dp                     !! s
+        real(dp), allocatable :: q(:), v(:), a(:)   !! of the reduced system at `t0`
+    contains
+        procedure :: state_at
+    end type parabola_t
+
 contains
 
-    subroutine check_closed_form(system, error)
-        !! Fails where the closed form of a drawn state has another number of coordinates, does not
-        !! go through that state, or does not obey the equations of motion there.
+    subroutine check_motions(system, error)
+        !! Fails where the closed form of a drawn state, or the state of the reduced system, has
+        !! another number of coordinates, does not go through that state, or does not obey the
+        !! equations of motion there.
         class(system_t), intent(in) :: system             !! with parameters that are allowed
         type(error_t), allocatable, intent(out) :: error
         class(system_t), allocatable :: drawn
@@ -39,16 +50,49 @@ contains
             if (allocated(none_drawn)) cycle
             if (mod(i, 2) == 0) v = 0.0_dp
             call drawn%closed_form(t, q, v, motion)
-            if (.not. allocated(motion)) cycle
-            call judge(drawn, motion, t, q, v, error)
+            if (allocated(motion)) call judge(drawn, motion, "closed form", t, q, v, error)
+            if (allocated(error)) return
+            call new_parabola(drawn, t, q, v, motion)
+            if (allocated(motion)) call judge(drawn, motion, "reduced system", t, q, v, error)
             if (allocated(error)) return
         end do
-    end subroutine check_closed_form
+    end subroutine check_motions
 
-    subroutine judge(system, motion, t, q, v, error)
+    subroutine new_parabola(system, t, q, v, motion)
+        !! Not allocated where no reduced system is known.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(:), v(:)
+        class(reference_t), allocatable, intent(out) :: motion
+        type(parabola_t) :: near
+
+        call system%reduce(near%reduced)
+        if (.not. allocated(near%reduced)) return
+        near%ndof = system%ndof
+        near%t0 = t
+        allocate (near%q(near%reduced%ndof), near%v(near%reduced%ndof), near%a(near%reduced%ndof))
+        call near%reduced%leave(q, v, near%q, near%v)
+        call near%reduced%accelerations(t, near%q, near%v, near%a)
+        allocate (motion, source=near)
+    end subroutine new_parabola
+
+    pure subroutine state_at(self, t, q, v)
+        !! See `reference_t`: right to second order in `t - t0`.
+        class(parabola_t), intent(in) :: self
+        real(dp), intent(in) :: t
+        real(dp), intent(out) :: q(self%ndof), v(self%ndof)
+        real(dp) :: q_left(size(self%q)), v_left(size(self%q)), h
+
+        h = t - self%t0
+        q_left = self%q + h*(self%v + 0.5_dp*h*self%a)
+        v_left = self%v + h*self%a
+        call self%reduced%complete(h, q_left, v_left, q, v)
+    end subroutine state_at
+
+    subroutine judge(system, motion, what, t, q, v, error)
         !! One motion, at the state from which it was made.
         class(system_t), intent(in) :: system
         class(reference_t), intent(in) :: motion
+        character(*), intent(in) :: what  !! gave it
         real(dp), intent(in) :: t, q(:), v(:)
         type(error_t), allocatable, intent(out) :: error
         real(dp), dimension(size(q)) :: a, here, rate, rate_q, rate_v
@@ -56,7 +100,7 @@ contains
         integer :: k
 
         if (motion%ndof /= system%ndof) then
-            call fail(error, "its closed form has ndof = "//to_text(motion%ndof)//", and not "// &
+            call fail(error, "its "//what//" has ndof = "//to_text(motion%ndof)//", and not "// &
                       to_text(system%ndof))
             return
         end if
@@ -68,8 +112,8 @@ contains
         size_rates = maxval(abs(v)) + maxval(abs(a)) + bound*size_q
         if (.not. (all(abs(here - q) <= bound*size_q) &
                    .and. all(abs(rate - v) <= bound*size_rates))) then
-            call fail(error, "its closed form of the motion from "//state_text()//" is at "// &
-                      "q = "//list(here)//", v = "//list(rate)//" then")
+            call fail(error, "its "//what//" has the motion from "//state_text()// &
+                      " at q = "//list(here)//", v = "//list(rate)//" then")
             return
         end if
         if (system%contacts > 0) return  ! an impact may be near
@@ -80,9 +124,9 @@ contains
             if (off <= bound*size_rates) return
             h = 0.5_dp*h
         end do
-        call fail(error, "its closed form does not obey the equations of motion at "// &
-                  state_text()//": accelerations are "//list(a)//"; give the system a "// &
-                  "closed_form of its own, or none")
+        call fail(error, "its "//what//" does not obey the equations of motion at "// &
+                  state_text()//": accelerations are "//list(a)//"; give the system one "// &
+                  "of its own, or none")
     contains
         subroutine differences(step, by_q, by_v)
             !! Central ones.
@@ -115,4 +159,4 @@ contains
             text = text//to_text(x(i))
         end do
     end function list
-end module lagrangia_closed_form_check
+end module lagrangia_motion_check
