@@ -212,7 +212,6 @@ contains
         !! spacing of times, 4e-16: 1e-13 is some 150 bounces' worth of it. What flies for less
         !! than one spacing rests at once: that is spacing/(1 - e) too early.
         real(dp), parameter :: restitutions(3) = [0.3_dp, 0.8_dp, 0.97_dp]
-        class(reference_t), allocatable :: reference
         type(recorder_t), allocatable :: record
         type(bouncing_ball_t) :: system
         type(error_t), allocatable :: error

@@ -16,12 +16,19 @@ module lagrangia_run_command
     use lagrangia_shipped, only: find_scene, shipped_scenes
     use lagrangia_statement, only: statement_legend, statement_line
     use lagrangia_step_warning, only: step_warning
-    use lagrangia_system, only: system_box_t, system_t
+    use lagrangia_system, only: system_t
     use lagrangia_text, only: quoted, to_text
     use lagrangia_version, only: is_optimised
     implicit none (type, external)
     private
     public :: run_command
+
+    type :: chosen_t
+        !! One scene of the run, read and found good.
+        type(word_t) :: path
+        type(scene_t) :: scene
+        class(system_t), allocatable :: system
+    end type chosen_t
 
 contains
 
@@ -31,9 +38,7 @@ contains
         type(command_line_t), intent(in) :: line
         type(error_t), allocatable, intent(out) :: error
         type(error_t), allocatable :: scene_error
-        type(word_t), allocatable :: paths(:)
-        type(scene_t), allocatable :: scenes(:)
-        type(system_box_t), allocatable :: systems(:)
+        type(chosen_t), allocatable :: chosen(:)
         type(progress_t), target :: progress
         class(observer_t), pointer :: watcher
         type(outcome_t) :: outcome
@@ -54,7 +59,8 @@ contains
         if (kind /= "png" .and. kind /= "svg") call fail(error, "unknown picture format "// &
             quoted(kind)//"; there are png, svg")
         if (allocated(error)) return
-        call choose_scenes(line, folder, format, paths, scenes, systems, error)
+        allocate (chosen(0))  ! gfortran 12 would warn of its bounds
+        call choose_scenes(line, folder, format, chosen, error)
         if (allocated(error)) return
         if (.not. (is_optimised() .or. quiet)) call note("this build is not optimised; "// &
             "'fpm run --profile release' is several times faster")
@@ -68,18 +74,18 @@ contains
         else if (.not. quiet) then
             call put_line(scorecard_head())
         end if
-        do i = 1, size(paths)
-            call run_one(paths(i)%text, scenes(i), systems(i)%item, scene_error)
+        do i = 1, size(chosen)
+            call run_one(chosen(i)%path%text, chosen(i)%scene, chosen(i)%system, scene_error)
             call progress%clear()
             if (allocated(scene_error)) then
-                call scene_error%add_context(paths(i)%text)
+                call scene_error%add_context(chosen(i)%path%text)
                 if (is_signal(scene_error)) then
                     call move_alloc(scene_error, error)
                     return
                 end if
             end if
             if (json) then
-                call put_line(outcome_json(outcome)//trim(merge(",", " ", i < size(paths))))
+                call put_line(outcome_json(outcome)//trim(merge(",", " ", i < size(chosen))))
             else if (.not. quiet) then
                 call put_line(scorecard_row(outcome))
                 if (allocated(outcome%state)) call put_line("    at the end: "// &
@@ -87,9 +93,9 @@ contains
                 stated = stated .or. allocated(outcome%state)
                 small = small .or. outcome%period_is_small()
             end if
-            if (outcome%choice /= "" .and. .not. quiet) call note(paths(i)%text//": "// &
+            if (outcome%choice /= "" .and. .not. quiet) call note(chosen(i)%path%text//": "// &
                 outcome%choice)
-            if (outcome%remark /= "" .and. .not. quiet) call note(paths(i)%text//": "// &
+            if (outcome%remark /= "" .and. .not. quiet) call note(chosen(i)%path%text//": "// &
                 to_text(outcome%steps)//" steps"//outcome%remark)
             if (allocated(scene_error)) then
                 call note(scene_error%message)
@@ -108,7 +114,7 @@ contains
             call put_line("data files and gnuplot scripts: "//folder)
         end if
         if (missed > 0 .and. .not. allocated(error)) call fail(error, to_text(missed)//" of "// &
-            to_text(size(paths))//" scenes did not hold their tolerances", status_not_held)
+            to_text(size(chosen))//" scenes did not hold their tolerances", status_not_held)
     contains
         subroutine run_one(path, scene, system, error)
             character(*), intent(in) :: path
@@ -134,16 +140,15 @@ contains
         end subroutine run_one
     end subroutine run_command
 
-    subroutine choose_scenes(line, folder, format, paths, scenes, systems, error)
+    subroutine choose_scenes(line, folder, format, chosen, error)
         !! The named scenes or all; every one is read, once, and all files of the run are compared,
         !! so that nothing runs if one is wrong or a file would be lost.
         type(command_line_t), intent(in) :: line
         character(*), intent(in) :: folder, format
-        type(word_t), allocatable, intent(out) :: paths(:)
-        type(scene_t), allocatable, intent(out) :: scenes(:)
-        type(system_box_t), allocatable, intent(out) :: systems(:)
+        type(chosen_t), allocatable, intent(out) :: chosen(:)
         type(error_t), allocatable, intent(out) :: error
         type(places_t) :: places
+        type(word_t), allocatable :: paths(:)
         integer :: i, turn
 
         if (line%command == "") then
@@ -159,17 +164,19 @@ contains
             end do
         end if
         if (allocated(error)) return
-        allocate (scenes(size(paths)), systems(size(paths)))
+        allocate (chosen(size(paths)))
         do turn = 1, 2  ! what is read comes before what is written
             do i = 1, size(paths)
                 if (turn == 1) then
-                    call read_scene(paths(i)%text, line%values_of("set"), scenes(i), &
-                                    systems(i)%item, error)
+                    chosen(i)%path = paths(i)
+                    call read_scene(paths(i)%text, line%values_of("set"), chosen(i)%scene, &
+                                    chosen(i)%system, error)
                     if (allocated(error)) return
-                    call claim_scene(scenes(i), places, error)
+                    call claim_scene(chosen(i)%scene, places, error)
                     if (allocated(error)) call fail(error, "this scene is given twice")
                 else
-                    call claim_files(scenes(i), systems(i)%item, folder, format, places, error)
+                    call claim_files(chosen(i)%scene, chosen(i)%system, folder, format, places, &
+                                     error)
                 end if
                 if (allocated(error)) then
                     call error%add_context(paths(i)%text)

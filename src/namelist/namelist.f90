@@ -194,7 +194,7 @@ contains
         end do
         if (position > 0) then
             if (present(found)) found = .true.
-            picked = elements(tree, group, key)
+            allocate (picked, source=elements(tree, group, key))
             call check_elements(tree, picked, position, label(group, key), error, least, most)
             if (allocated(error)) picked = [integer ::]
         else if (present(required)) then
@@ -342,7 +342,7 @@ contains
         integer, allocatable :: picked(:)
         integer :: i, position
 
-        picked = elements(tree, group, key)
+        allocate (picked, source=elements(tree, group, key))
         i = 1
         if (present(element)) i = max(1, element)
         position = 0
