@@ -194,7 +194,7 @@ contains
         end do
         if (position > 0) then
             if (present(found)) found = .true.
-            allocate (picked, source=elements(tree, group, key))
+            picked = elements(tree, group, key)
             call check_elements(tree, picked, position, label(group, key), error, least, most)
             if (allocated(error)) picked = [integer ::]
         else if (present(required)) then
