@@ -40,14 +40,15 @@ contains
         call suite%addTest(TestMethod("small_oscillations", small_oscillations))
         call suite%addTest(TestMethod("periods_from_rest", periods_from_rest))
         call suite%addTest(TestMethod("period_is_the_integral", period_is_the_integral))
-        call suite%addTest(TestMethod("state_from_rest", state_from_rest))
+        call suite%addTest(TestMethod("state_from_rest", state_from_rest, &
+                                      setUp=restart_random))
         call suite%addTest(TestMethod("bob_moves_on_an_ellipse", bob_moves_on_an_ellipse))
         call suite%addTest(TestMethod("heavy_cart_is_a_pendulum", heavy_cart_is_a_pendulum, &
                                       setUp=restart_random))
         call suite%addTest(TestMethod("reference_solves_it", reference_solves_it, &
                                       setUp=restart_random))
         call suite%addTest(TestMethod("what_the_reference_leaves_out", &
-                                      what_the_reference_leaves_out))
+                                      what_the_reference_leaves_out, setUp=restart_random))
     end function cart_pendulum_suite
 
     pure function period_integrand(self, x) result(y)

@@ -32,10 +32,13 @@ contains
         call suite%addTest(TestMethod("reference_turns_with_the_fields", &
                                       reference_turns_with_the_fields, setUp=restart_random))
         call suite%addTest(TestMethod("drift_is_e_cross_b", drift_is_e_cross_b))
-        call suite%addTest(TestMethod("trap_splits_the_frequency", trap_splits_the_frequency))
-        call suite%addTest(TestMethod("period_closes_the_orbit", period_closes_the_orbit))
+        call suite%addTest(TestMethod("trap_splits_the_frequency", trap_splits_the_frequency, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("period_closes_the_orbit", period_closes_the_orbit, &
+                                      setUp=restart_random))
         call suite%addTest(TestMethod("weak_fields_lose_no_digits", weak_fields_lose_no_digits))
-        call suite%addTest(TestMethod("many_turns_lose_no_digits", many_turns_lose_no_digits))
+        call suite%addTest(TestMethod("many_turns_lose_no_digits", many_turns_lose_no_digits, &
+                                      setUp=restart_random))
     end function charged_particle_reference_suite
 
     subroutine build(particle, m, charge, electric, magnetic, trap)

@@ -20,7 +20,8 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("oscillator")
-        call suite%addTest(TestMethod("hooke_and_newton", hooke_and_newton))
+        call suite%addTest(TestMethod("hooke_and_newton", hooke_and_newton, &
+                                      setUp=restart_random))
         call suite%addTest(TestMethod("no_spring_no_force", no_spring_no_force, &
                                       setUp=restart_random))
         call suite%addTest(TestMethod("reference_solves_it", reference_solves_it, &

@@ -27,12 +27,15 @@ contains
                                       lagrangian_and_tension_of_a_bob, setUp=restart_random))
         call suite%addTest(TestMethod("periods_from_rest", periods_from_rest))
         call suite%addTest(TestMethod("states_from_rest", states_from_rest))
-        call suite%addTest(TestMethod("states_from_anywhere", states_from_anywhere))
-        call suite%addTest(TestMethod("separatrix", separatrix))
+        call suite%addTest(TestMethod("states_from_anywhere", states_from_anywhere, &
+                                      setUp=restart_random))
+        call suite%addTest(TestMethod("separatrix", separatrix, &
+                                      setUp=restart_random))
         call suite%addTest(TestMethod("energies_close_to_the_separatrix", &
-                                      energies_close_to_the_separatrix))
+                                      energies_close_to_the_separatrix, setUp=restart_random))
         call suite%addTest(TestMethod("many_turns", many_turns))
-        call suite%addTest(TestMethod("equilibrium_and_no_gravity", equilibrium_and_no_gravity))
+        call suite%addTest(TestMethod("equilibrium_and_no_gravity", equilibrium_and_no_gravity, &
+                                      setUp=restart_random))
         call suite%addTest(TestMethod("reference_solves_it", reference_solves_it, &
                                       setUp=restart_random))
     end function pendulum_suite

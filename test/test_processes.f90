@@ -180,15 +180,29 @@ contains
     subroutine programs_return_their_status()
         !! 128 + the signal if they die of one.
         type(error_t), allocatable :: error
+        type(word_t), allocatable :: words(:)
         integer :: status
 
-        call run_program([word_t("sh"), word_t("-c"), word_t("exit 7")], status, error)
+        if (allocated(words)) deallocate (words)
+        allocate (words(3))
+        words(1)%text = "sh"
+        words(2)%text = "-c"
+        words(3)%text = "exit 7"
+        call run_program(words, status, error)
         call assertFalse(allocated(error), "no error: programs return their status")
         call assertEqual(7, status)
-        call run_program([word_t("sh"), word_t("-c"), word_t("kill -9 $$")], status, error)
+        if (allocated(words)) deallocate (words)
+        allocate (words(3))
+        words(1)%text = "sh"
+        words(2)%text = "-c"
+        words(3)%text = "kill -9 $$"
+        call run_program(words, status, error)
         call assertFalse(allocated(error), "no error: programs return their status")
         call assertEqual(137, status)
-        call run_program([word_t("true")], status, error)
+        if (allocated(words)) deallocate (words)
+        allocate (words(1))
+        words(1)%text = "true"
+        call run_program(words, status, error)
         call assertEqual(0, status)
     end subroutine programs_return_their_status
 
@@ -212,9 +226,14 @@ contains
     subroutine a_missing_program_is_an_error()
         !! With its name in the message.
         type(error_t), allocatable :: error
+        type(word_t), allocatable :: words(:)
         integer :: status
 
-        call run_program([word_t("/no/gnuplot"), word_t("-d")], status, error)
+        if (allocated(words)) deallocate (words)
+        allocate (words(2))
+        words(1)%text = "/no/gnuplot"
+        words(2)%text = "-d"
+        call run_program(words, status, error)
         call assertTrue(allocated(error), "an error: a missing program is an error")
         if (anyExceptions()) return
         call assertEqual("cannot run '/no/gnuplot': no such program", error%message)
@@ -234,12 +253,18 @@ contains
 
     function put_run_put() result(status)
         !! We, another program, we.
+        type(word_t), allocatable :: words(:)
         integer :: status
         type(error_t), allocatable :: error
 
         call send_stdout_to(new_folder("order")//"/out")
         call put_line("one")
-        call run_program([word_t("sh"), word_t("-c"), word_t("echo two")], status, error)
+        if (allocated(words)) deallocate (words)
+        allocate (words(3))
+        words(1)%text = "sh"
+        words(2)%text = "-c"
+        words(3)%text = "echo two"
+        call run_program(words, status, error)
         call put_line("three")
         call finish_console(error)
     end function put_run_put

@@ -21,7 +21,7 @@ contains
 
         suite = TestSuite("systems")
         call suite%addTest(TestMethod("every_system_keeps_its_claims", &
-                                      every_system_keeps_its_claims))
+                                      every_system_keeps_its_claims, setUp=restart_random))
         call suite%addTest(TestMethod("every_closed_form_solves_its_equations", &
                                       every_closed_form_solves_its_equations, setUp=restart_random))
     end function systems_suite
