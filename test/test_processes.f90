@@ -178,7 +178,7 @@ contains
     end function ignore_sigint
 
     subroutine run_shell(command, status, error)
-        !! `sh -c command`. Word by word: gfortran 12 leaks what an array constructor of words holds.
+        !! `sh -c command`, word by word: gfortran 12 leaks what an array constructor of them holds.
         character(*), intent(in) :: command
         integer, intent(out) :: status
         type(error_t), allocatable, intent(out) :: error
