@@ -5,13 +5,13 @@ module test_auto
                      assertGreaterThan, assertLessThan, assertTrue
     use lagrangia_adaptive_methods, only: new_adaptive
     use lagrangia_catalogue, only: nth_system
-    use lagrangia_choice, only: auto, settle_method, workhorse
+    use lagrangia_choice, only: settle_method
     use lagrangia_command_line, only: word_t
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp
-    use lagrangia_methods, only: new_integrator
+    use lagrangia_methods, only: auto, new_integrator, workhorse
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: from_closed_form, from_steps, outcome_json, outcome_t
     use lagrangia_play, only: play

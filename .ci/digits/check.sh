@@ -9,8 +9,7 @@ drawn=$(mktemp)
 trap 'rm -f "$drawn"' EXIT
 
 fpm build -C .ci/digits --profile release >/dev/null
-fpm build -C .ci/quad --profile release --flag "-DREAL128" >/dev/null
 digits=$(ls -t .ci/digits/build/gfortran_*/app/digits | head -n 1)
-quad=$(ls -t .ci/quad/build/gfortran_*/app/quad | head -n 1)
+quad=$(bash .ci/quad/build.sh)
 OPENBLAS_NUM_THREADS=1 "$digits" "${1:-600}" "${2:-1}" >"$drawn"
 "$quad" judge "$drawn"

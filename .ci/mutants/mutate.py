@@ -6,8 +6,8 @@
 
 Run it, by nice, in a checkout of its own whose tests pass. Each mutant is one change of one statement in
 src: an operator, a number, an intrinsic function, a condition, a deleted statement or, within a
-string, a sign. Each kind of change has the same chance, and a line of src/principles, src/scenes,
-src/commands, src/bench and src/stress twice that of another. One file is compiled and linked with
+string, a sign. Each kind of change has the same chance, and a line of src/audit, src/principles,
+src/scenes, src/runs, src/commands, src/bench and src/stress twice that of another. One file is compiled and linked with
 the objects of an ordinary build; where the change is seen by other files (a named constant, what
 a component begins with) a copy of the project is built again. A mutant whose object file is the
 original's is no mutant.
@@ -42,7 +42,7 @@ SWAPS = {
                  ("sqrt(", "("), ("maxval(", "minval("), ("minval(", "maxval("), ("any(", "all("),
                  ("all(", "any("), ("trim(", "(")],
 }
-HEAVY = ("principles", "scenes", "commands", "bench", "stress")  # drawn twice as often
+HEAVY = ("audit", "principles", "scenes", "runs", "commands", "bench", "stress")  # drawn twice as often
 NUMBER = re.compile(r"(?<![\w.])(\d+\.\d+(?:e-?\d+)?_dp|\d+(?!\.\d)(?:_i8)?)(?![\w.])")
 DECLARATION = re.compile(r"^\s*(use|import|implicit|public|private|end|module|submodule|contains|type|class|real|integer|"
                          r"logical|character|procedure|abstract|interface|pure|elemental|subroutine|function|"

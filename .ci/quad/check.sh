@@ -4,14 +4,11 @@
 # what needs LAPACK or GSL says that it cannot be built so.
 #
 #   check.sh [--write]     with --write double_pendulum.nml is made anew
-#
-# src here is links to what has no part in C's doubles; fpm would keep GSL's callbacks otherwise.
 set -eu
 cd "$(dirname "$0")/../.."
 swings=data/reference/double_pendulum.nml
 
-fpm build -C .ci/quad --profile release --flag "-DREAL128" >/dev/null
-quad=$(ls -t .ci/quad/build/gfortran_*/app/quad | head -n 1)
+quad=$(bash .ci/quad/build.sh)
 "$quad" bench data/reference/bench.nml
 if [ "${1:-}" = --write ]; then
     "$quad" swings >"$swings"

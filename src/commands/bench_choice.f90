@@ -1,12 +1,13 @@
 module lagrangia_bench_choice
     !! What the options of `lagrangia bench` choose; everything is checked before anything is run.
     use lagrangia_bench_problems, only: problem_names
-    use lagrangia_catalogue, only: refuse_name, system_names
+    use lagrangia_catalogue, only: system_names
     use lagrangia_command_line, only: command_line_t
     use lagrangia_contestants, only: contestant_names
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
+    use lagrangia_names, only: refuse_name
     use lagrangia_number_list, only: read_numbers
     use lagrangia_stopwatch, only: effort, effort_t
     use lagrangia_text, only: quoted, to_text

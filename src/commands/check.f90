@@ -2,7 +2,7 @@ module lagrangia_check
     !! `lagrangia check [SYSTEM...]`: the audit of systems and methods, a table each.
     use lagrangia_audit, only: audit_system
     use lagrangia_audited, only: audited_t, read_audited
-    use lagrangia_catalogue, only: refuse_name, system_names
+    use lagrangia_catalogue, only: system_names
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: console_failed, flush_console, note, put_line
     use lagrangia_description, only: description_t, name_length
@@ -12,6 +12,7 @@ module lagrangia_check
     use lagrangia_json, only: json_number, json_string
     use lagrangia_kinds, only: dp, i8
     use lagrangia_method_orders, only: audit_methods
+    use lagrangia_names, only: refuse_name
     use lagrangia_number_text, only: scientific
     use lagrangia_progress, only: about
     use lagrangia_system, only: system_t

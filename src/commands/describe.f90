@@ -1,12 +1,12 @@
 module lagrangia_describe
     !! `lagrangia describe SYSTEM`: what a lecturer would write on the blackboard.
     use lagrangia_catalogue, only: new_system
-    use lagrangia_choice, only: auto, workhorse
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_description, only: description_t, line_length, quantity_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
+    use lagrangia_methods, only: auto, workhorse
     use lagrangia_random_draws, only: random_t
     use lagrangia_reference, only: reference_t
     use lagrangia_system, only: system_t

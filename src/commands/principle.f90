@@ -1,7 +1,7 @@
 module lagrangia_principle
     !! `lagrangia principle NAME`: both sides of a principle's statement, and their difference.
     use lagrangia_action, only: action_principle
-    use lagrangia_catalogue, only: built_in, nth_system, refuse_name
+    use lagrangia_catalogue, only: built_in, nth_system
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_constraints, only: constraints_principle
@@ -10,6 +10,7 @@ module lagrangia_principle
     use lagrangia_json, only: json_number, json_string
     use lagrangia_kinds, only: dp
     use lagrangia_least_time, only: least_time_principle
+    use lagrangia_names, only: refuse_name
     use lagrangia_number_text, only: scientific
     use lagrangia_picture_files, only: check_picture, write_picture
     use lagrangia_report, only: report_t, statement_length, statement_t

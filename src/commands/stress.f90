@@ -1,10 +1,10 @@
 module lagrangia_stress
     !! `lagrangia stress [ROW...]`: numerical stability, a table for each row.
     use lagrangia_bench_table, only: short
-    use lagrangia_catalogue, only: refuse_name
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: console_failed, flush_console, put_line
     use lagrangia_errors, only: error_t, fail, status_not_held
+    use lagrangia_names, only: refuse_name
     use lagrangia_observer, only: observer_t
     use lagrangia_progress, only: progress_t
     use lagrangia_stress_measures, only: measure_row

@@ -1,9 +1,10 @@
 module lagrangia_names
     !! What somebody may have meant who typed a name that does not exist.
-    use lagrangia_text, only: join, lower
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_text, only: join, lower, quoted
     implicit none (type, external)
     private
-    public :: abbreviation, advice, nearest_name
+    public :: abbreviation, advice, nearest_name, refuse_name
 
 contains
 
@@ -120,4 +121,14 @@ contains
         end do
         distance = d(len(a), len(b))
     end function edits
+
+    pure subroutine refuse_name(kind, name, names, error)
+        !! There is no such name: say which one is near, or which ones there are.
+        character(*), intent(in) :: kind      !! what is named: `system`, `method`
+        character(*), intent(in) :: name      !! what was typed
+        character(*), intent(in) :: names(:)  !! those that there are
+        type(error_t), allocatable, intent(out) :: error
+
+        call fail(error, "unknown "//kind//" "//quoted(name)//"; "//advice(name, names))
+    end subroutine refuse_name
 end module lagrangia_names

@@ -1,7 +1,6 @@
 module lagrangia_staging
     !! From a scene to its method, the plan of its run, and the events that it looks for.
     use lagrangia_adaptive_methods, only: new_adaptive
-    use lagrangia_choice, only: exact, workhorse
     use lagrangia_columns, only: new_columns
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
@@ -12,7 +11,7 @@ module lagrangia_staging
     use lagrangia_gnuplot, only: new_panels, panel_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp
-    use lagrangia_methods, only: new_integrator, prepare_integrator
+    use lagrangia_methods, only: exact, new_integrator, prepare_integrator, workhorse
     use lagrangia_reduced_motion, only: leave_cyclic
     use lagrangia_reference, only: reference_t
     use lagrangia_run, only: new_plan, new_sampled_plan, plan_t

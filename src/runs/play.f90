@@ -1,7 +1,7 @@
 module lagrangia_play
     !! One scene from its data to its data file, picture and row of the scorecard.
     use lagrangia_accuracy, only: rehearse_finer, state_accuracy
-    use lagrangia_choice, only: exact, settle_method
+    use lagrangia_choice, only: settle_method
     use lagrangia_columns, only: new_columns
     use lagrangia_dense_run, only: drive
     use lagrangia_description, only: description_t, name_length
@@ -13,6 +13,7 @@ module lagrangia_play
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_measures, only: take_measures, take_modes
+    use lagrangia_methods, only: exact
     use lagrangia_observer, only: observer_box_t, observer_t
     use lagrangia_outcome, only: from_closed_form, from_half_step, from_steps, &
                                  measure_t, outcome_t

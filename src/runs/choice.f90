@@ -3,18 +3,13 @@ module lagrangia_choice
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_description, only: name_length
     use lagrangia_kinds, only: dp
+    use lagrangia_methods, only: auto, exact, workhorse
     use lagrangia_reference, only: reference_t
     use lagrangia_scene, only: scene_t
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: auto, exact, workhorse, settle_method
-
-    character(*), parameter :: auto = "auto", exact = "exact"
-    character(*), parameter :: workhorse = "gauss16"
-    !! With `dt` and with `tolerance`, whatever the structure: `lagrangia bench` has it before
-    !! the others on the double pendulum, cart-pendulum and pendulum at every error, on the
-    !! oscillator from 1e-6 on; and a step costs no more than one of `blanes_moan6`.
+    public :: settle_method
 
 contains
 

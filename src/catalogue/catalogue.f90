@@ -7,9 +7,9 @@ module lagrangia_catalogue
     use lagrangia_description, only: description_t, name_length
     use lagrangia_double_pendulum, only: double_pendulum_t
     use lagrangia_driven_pendulum, only: driven_pendulum_t
-    use lagrangia_errors, only: error_t, fail
+    use lagrangia_errors, only: error_t
     use lagrangia_hanging_chain, only: hanging_chain_t
-    use lagrangia_names, only: advice
+    use lagrangia_names, only: refuse_name
     use lagrangia_newcomer, only: check_newcomer
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_pendulum, only: pendulum_t
@@ -17,12 +17,10 @@ module lagrangia_catalogue
     use lagrangia_rotating_hoop, only: rotating_hoop_t
     use lagrangia_rotating_wire, only: rotating_wire_t
     use lagrangia_system, only: default_values, system_box_t, system_t
-    use lagrangia_text, only: quoted
     use lagrangia_wedge, only: wedge_t
     implicit none (type, external)
     private
     public :: new_system, nth_system, register_system, system_names
-    public :: refuse_name
     public :: built_in
 
     integer, parameter :: built_in = 13               !! systems: those of the lectures
@@ -119,12 +117,4 @@ contains
             names = [character(name_length) :: names, d%name]
         end do
     end function system_names
-
-    pure subroutine refuse_name(kind, name, names, error)
-        !! There is no such name: say which one is near, or which ones there are.
-        character(*), intent(in) :: kind, name, names(:)
-        type(error_t), allocatable, intent(out) :: error
-
-        call fail(error, "unknown "//kind//" "//quoted(name)//"; "//advice(name, names))
-    end subroutine refuse_name
 end module lagrangia_catalogue

@@ -1,1 +1,0 @@
-../../../src/numerics/hyperdual_algebra.f90

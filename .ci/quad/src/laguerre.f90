@@ -1,1 +1,0 @@
-../../../src/numerics/laguerre.f90

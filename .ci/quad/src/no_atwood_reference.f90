@@ -1,9 +1,0 @@
-submodule (lagrangia_atwood) no_atwood_reference
-    !! In quadruple precision no closed form is asked for: GSL has none in it.
-    implicit none (type, external)
-
-contains
-
-    module procedure closed_form
-    end procedure closed_form
-end submodule no_atwood_reference

@@ -1,9 +1,0 @@
-submodule (lagrangia_wedge) no_wedge_reference
-    !! In quadruple precision no closed form is asked for: GSL has none in it.
-    implicit none (type, external)
-
-contains
-
-    module procedure closed_form
-    end procedure closed_form
-end submodule no_wedge_reference
