@@ -155,6 +155,7 @@ contains
     subroutine values_are_given_once()
         !! The same value again is none; what may be repeated is.
         type(command_line_t) :: line
+        type(word_t), allocatable :: words(:)
         type(error_t), allocatable :: error
 
         call refused("--to|a|--to=b", "option '--to' is given twice, as 'a' and 'b'; give one "// &
@@ -163,7 +164,8 @@ contains
                      "give one of them")
         call parse_words(split("--to|a|--to=a|--set|a|--set|b|--help|--help"), some, line, error)
         call assertFalse(allocated(error), "nothing contradicts")
-        call assertEqual(2, size(line%values_of("set")))
+        words = line%values_of("set")
+        call assertEqual(2, size(words))
         call parse_words(split("--output|a|--output=a "), options, line, error)
         call assertTrue(allocated(error), "a blank is a difference")
     end subroutine values_are_given_once
