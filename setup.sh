@@ -2,8 +2,8 @@
 # Make this machine ready to build and run lagrangia; what is already there is left alone.
 #
 #   ./setup.sh          compiler, LAPACK, BLAS, GSL, gnuplot and fpm
-#   ./setup.sh --dev    the same, and what .ci/run needs: two tools for lint, valgrind,
-#                       the reference BLAS and LAPACK
+#   ./setup.sh --dev    the same, and what .ci/run needs: two tools for lint, FORD
+#                       for the API pages, valgrind, the reference BLAS and LAPACK
 #
 # Debian and its relatives: missing libraries come from apt-get (as root, or through sudo), fpm and
 # the lint tools from pip into a virtual environment of their own. Elsewhere it says what to install.
@@ -12,6 +12,7 @@ set -u
 
 fpm_wheel="fpm==0.12.0"
 lint_wheels=("fortitude-lint==0.10.0" "findent==4.3.6")
+ford_wheel="ford==7.0.13"
 pip_settings='^(https?|no|all|ftp)_proxy=|^(HTTPS?|NO|ALL|FTP)_PROXY=|^PIP_|^SSL_CERT_|^REQUESTS_CA_'
 missing_packages=()
 missing_tools=()
@@ -43,6 +44,7 @@ tool_is_fine() {
         fpm) at_least 0.12.0 "$(fpm_version)" ;;
         fortitude) at_least 0.10.0 "$(tool_version fortitude)" ;;
         findent) has findent ;;
+        ford) at_least 7.0.13 "$(tool_version ford)" ;;
     esac
 }
 
@@ -84,6 +86,7 @@ find_missing() {
     if $dev; then
         tool_is_fine fortitude || missing_tools+=(fortitude)
         tool_is_fine findent || missing_tools+=(findent)
+        tool_is_fine ford || missing_tools+=(ford)
         has valgrind || missing_packages+=(valgrind)
         compgen -G '/usr/lib/*/blas/libblas.so.3' >/dev/null || missing_packages+=(libblas3)
         compgen -G '/usr/lib/*/lapack/liblapack.so.3' >/dev/null || missing_packages+=(liblapack3)
@@ -204,6 +207,7 @@ install_tools() {
             fpm) wheels+=("$fpm_wheel") ;;
             fortitude) wheels+=("${lint_wheels[0]}") ;;
             findent) wheels+=("${lint_wheels[1]}") ;;
+            ford) wheels+=("$ford_wheel") ;;
         esac
     done
     if [ ${#wheels[@]} -gt 0 ]; then

@@ -69,7 +69,8 @@ contains
         type(gsl_context_t), intent(inout) :: self
         integer, intent(in) :: n, k
         real(dp), intent(in) :: t, y(2*n)
-        real(dp), intent(inout) :: work(2*n, 4), jacobian(2*n, 2*n)  !! transposed: C has it by rows
+        real(dp), intent(inout) :: work(2*n, 4)
+        real(dp), intent(inout) :: jacobian(2*n, 2*n)  !! the transpose, since C has it by rows
 
         work(:, 1) = y
         work(:, 2) = y

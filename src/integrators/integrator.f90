@@ -47,7 +47,7 @@ module lagrangia_integrator
         real(dp) :: t_new = 0.0_dp        !! s
         real(dp) :: t_end = 0.0_dp        !! no step goes beyond, s
         integer :: looks = 8              !! places in a step, between which the motion hardly turns
-        logical :: dense = .true.         !! false: only the ends of steps are asked for: cheaper,
+        logical :: dense = .true.         !! if false only the ends of steps are asked for: cheaper,
         !! but gauss16 looks for no kinks of the force
         integer(i8) :: accepted = 0
         integer(i8) :: rejected = 0

@@ -1,5 +1,5 @@
 module lagrangia_events
-    !! Events: where a function of \((t, q, v)\) goes through zero, and what follows from it.
+    !! An event is where a function of \((t, q, v)\) goes through zero; and what follows.
     !!
     !! An event is seen as a change of sign between two of eight places in a step and located on
     !! the dense output to round-off. So a function that touches zero without crossing is no event,

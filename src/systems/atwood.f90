@@ -17,7 +17,7 @@ module lagrangia_atwood
     public :: atwood_t
 
     type, extends(system_t) :: atwood_t
-        !! Coordinate: \(x\), m, of \(m_1\) downwards from the pulley; zero where both are level.
+        !! The coordinate is \(x\), m, of \(m_1\) down from the pulley; zero where both are level.
         real(dp) :: m1 = 3.0_dp                    !! kg
         real(dp) :: m2 = 2.0_dp                    !! kg
         real(dp) :: g = 9.81_dp                    !! m s^-2
@@ -110,7 +110,7 @@ contains
     end subroutine describe
 
     pure subroutine configure(self, values, error)
-        !! Parameters: m1, m2, g, pulley_inertia, radius, support_acceleration.
+        !! In this order: m1, m2, g, pulley_inertia, radius, support_acceleration.
         class(atwood_t), intent(inout) :: self
         real(dp), intent(in) :: values(:)
         type(error_t), allocatable, intent(out) :: error
@@ -184,8 +184,8 @@ contains
     end function energy
 
     pure function energy_or_force(self, i, t, q, v) result(value)
-        !! 1: energy in the support's frame. 2: momentum of \(x\). 3: \(T + V\) in the inertial
-        !! frame. 4, 5: tension of the string at \(m_1\) and at \(m_2\), equal if \(I = 0\).
+        !! (1) energy in the support's frame. (2) momentum of \(x\). (3) \(T + V\) in the inertial
+        !! frame. (4, 5) tension of the string at \(m_1\) and at \(m_2\), equal if \(I = 0\).
         class(atwood_t), intent(in) :: self
         integer, intent(in) :: i
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)

@@ -18,7 +18,7 @@ module lagrangia_bouncing_ball
     public :: bouncing_ball_t
 
     type, extends(system_t) :: bouncing_ball_t
-        !! Coordinate: \(y\), m, height of the ball's lowest point above the floor.
+        !! The coordinate is \(y\), m, height of the ball's lowest point above the floor.
         real(dp) :: m = 1.0_dp            !! kg
         real(dp) :: g = 9.81_dp           !! m s^-2
         real(dp) :: restitution = 0.8_dp  !! speed after an impact over that before
@@ -83,7 +83,7 @@ contains
     end subroutine describe
 
     pure subroutine configure(self, values, error)
-        !! Parameters: m, g, restitution.
+        !! In this order: m, g, restitution.
         class(bouncing_ball_t), intent(inout) :: self
         real(dp), intent(in) :: values(:)
         type(error_t), allocatable, intent(out) :: error

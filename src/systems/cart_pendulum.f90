@@ -19,7 +19,7 @@ module lagrangia_cart_pendulum
     public :: cart_pendulum_t
 
     type, extends(system_t) :: cart_pendulum_t
-        !! Coordinates: \(x\), m, of the cart; \(\theta\), rad, from the downward vertical.
+        !! The coordinates are \(x\), m, of the cart; \(\theta\), rad, from the downward vertical.
         real(dp) :: m1 = 1.0_dp  !! cart, kg
         real(dp) :: m2 = 1.0_dp  !! bob, kg
         real(dp) :: l = 1.0_dp   !! rod, m
@@ -98,7 +98,7 @@ contains
     end subroutine describe
 
     pure subroutine configure(self, values, error)
-        !! Parameters: m1, m2, l, g.
+        !! In this order: m1, m2, l, g.
         class(cart_pendulum_t), intent(inout) :: self
         real(dp), intent(in) :: values(:)
         type(error_t), allocatable, intent(out) :: error
@@ -198,7 +198,7 @@ contains
     end function energy
 
     pure function momentum_or_force(self, i, t, q, v) result(value)
-        !! 1: \(p_x\). 2: where the centre of mass was at \(t = 0\). 3: the rod's tension.
+        !! (1) \(p_x\). (2) where the centre of mass was at \(t = 0\). (3) the rod's tension.
         class(cart_pendulum_t), intent(in) :: self
         integer, intent(in) :: i
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
@@ -247,7 +247,7 @@ contains
     end subroutine accelerations_lanes
 
     pure subroutine linearise(self, q, page)
-        !! Hanging: \(M = (m_1+m_2, m_2\ell; m_2\ell, m_2\ell^2)\), \(K = (0, 0; 0, m_2g\ell)\),
+        !! At rest \(M = (m_1+m_2, m_2\ell; m_2\ell, m_2\ell^2)\), \(K = (0, 0; 0, m_2g\ell)\),
         !! \(\omega^2 = 0, (m_1+m_2)g/(m_1\ell)\). Upside down \(\theta\) and \(g\) change sign.
         class(cart_pendulum_t), intent(in) :: self
         real(dp), intent(in) :: q(self%ndof)

@@ -17,7 +17,7 @@ module lagrangia_cart_swing
     public :: cart_swing_t
 
     type, extends(reduced_t) :: cart_swing_t
-        !! Coordinate: \(\theta\), rad, from the downward vertical.
+        !! The coordinate is \(\theta\), rad, from the downward vertical.
         real(dp) :: m1 = 1.0_dp  !! cart, kg
         real(dp) :: m2 = 1.0_dp  !! bob, kg
         real(dp) :: l = 1.0_dp   !! rod, m
@@ -56,7 +56,7 @@ contains
     end subroutine describe
 
     pure subroutine configure(self, values, error)
-        !! Parameters: m1, m2, l, g.
+        !! In this order: m1, m2, l, g.
         class(cart_swing_t), intent(inout) :: self
         real(dp), intent(in) :: values(:)
         type(error_t), allocatable, intent(out) :: error

@@ -19,7 +19,7 @@ module lagrangia_charged_particle
     public :: charged_particle_t
 
     type, extends(gyrating_system_t) :: charged_particle_t
-        !! Coordinates: \(x\), \(y\), \(z\), m, from the centre of the trap.
+        !! The coordinates are \(x\), \(y\), \(z\), m, from the centre of the trap.
         real(dp) :: m = 1.0_dp                                  !! kg
         real(dp) :: charge = 1.0_dp                             !! e, C
         real(dp) :: electric(3) = [0.2_dp, 0.1_dp, 0.0_dp]      !! E, V/m
@@ -64,7 +64,7 @@ module lagrangia_charged_particle
 contains
 
     pure subroutine configure(self, values, error)
-        !! Parameters: m, charge, electric(3), magnetic(3), trap.
+        !! In this order: m, charge, electric(3), magnetic(3), trap.
         class(charged_particle_t), intent(inout) :: self
         real(dp), intent(in) :: values(:)
         type(error_t), allocatable, intent(out) :: error

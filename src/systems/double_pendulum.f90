@@ -15,7 +15,7 @@ module lagrangia_double_pendulum
     public :: double_pendulum_t
 
     type, extends(system_t) :: double_pendulum_t
-        !! Coordinates: \(\theta_1, \theta_2\), rad, both from the downward vertical.
+        !! The coordinates are \(\theta_1, \theta_2\), rad, both from the downward vertical.
         real(dp) :: m1 = 1.0_dp  !! upper bob, kg
         real(dp) :: m2 = 1.0_dp  !! lower bob, kg
         real(dp) :: l1 = 1.0_dp  !! upper rod, m
@@ -49,7 +49,7 @@ module lagrangia_double_pendulum
 contains
 
     pure subroutine configure(self, values, error)
-        !! Parameters: m1, m2, l1, l2, g.
+        !! In this order: m1, m2, l1, l2, g.
         class(double_pendulum_t), intent(inout) :: self
         real(dp), intent(in) :: values(:)
         type(error_t), allocatable, intent(out) :: error
@@ -170,7 +170,7 @@ contains
     end function energy
 
     pure function momentum_or_tension(self, i, t, q, v) result(value)
-        !! 1: angular momentum about the pivot. 2, 3: tension of the upper and the lower rod, from
+        !! (1) angular momentum about the pivot. (2, 3) tension of the upper and the lower rod, from
         !! Newton's law for each bob along its rod and the accelerations above.
         class(double_pendulum_t), intent(in) :: self
         integer, intent(in) :: i

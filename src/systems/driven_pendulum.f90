@@ -22,7 +22,7 @@ module lagrangia_driven_pendulum
     public :: driven_pendulum_t
 
     type, extends(system_t) :: driven_pendulum_t
-        !! Coordinate: \(\theta\), rad, from the downward vertical.
+        !! The coordinate is \(\theta\), rad, from the downward vertical.
         real(dp) :: m = 1.0_dp                 !! kg
         real(dp) :: l = 1.0_dp                 !! m
         real(dp) :: g = 9.81_dp                !! m s^-2
@@ -107,7 +107,7 @@ contains
     end subroutine describe
 
     pure subroutine configure(self, values, error)
-        !! Parameters: m, l, g, amplitude, drive_frequency.
+        !! In this order: m, l, g, amplitude, drive_frequency.
         class(driven_pendulum_t), intent(inout) :: self
         real(dp), intent(in) :: values(:)
         type(error_t), allocatable, intent(out) :: error
@@ -173,8 +173,8 @@ contains
     end function energy
 
     pure function energy_or_force(self, i, t, q, v) result(value)
-        !! 1: \(T + V\). 2: momentum of \(\theta\). 3: Kapitza's averaged energy. 4: tension.
-        !! 5: height of the pivot.
+        !! (1) \(T + V\). (2) momentum of \(\theta\). (3) Kapitza's averaged energy. (4) tension.
+        !! (5) height of the pivot.
         class(driven_pendulum_t), intent(in) :: self
         integer, intent(in) :: i
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)

@@ -18,7 +18,7 @@ module lagrangia_hanging_chain
     integer, parameter :: most = 1000  !! bobs
 
     type, extends(system_t) :: hanging_chain_t
-        !! Coordinates: \(\theta_k\), rad, of rod k from the downward vertical.
+        !! The coordinates are \(\theta_k\), rad, of rod k from the downward vertical.
         integer :: n = 3         !! bobs
         real(dp) :: m = 1.0_dp   !! each bob, kg
         real(dp) :: l = 1.0_dp   !! the whole chain, m
@@ -48,7 +48,7 @@ module lagrangia_hanging_chain
 contains
 
     pure subroutine configure(self, values, error)
-        !! Parameters: n, m, l, g.
+        !! In this order: n, m, l, g.
         class(hanging_chain_t), intent(inout) :: self
         real(dp), intent(in) :: values(:)
         type(error_t), allocatable, intent(out) :: error
@@ -187,7 +187,7 @@ contains
     end function energy
 
     pure function momentum_or_tension(self, i, t, q, v) result(value)
-        !! 1: angular momentum about the pivot. 2: tension of the uppermost rod.
+        !! (1) angular momentum about the pivot. (2) tension of the uppermost rod.
         class(hanging_chain_t), intent(in) :: self
         integer, intent(in) :: i
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)

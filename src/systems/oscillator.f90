@@ -16,7 +16,7 @@ module lagrangia_oscillator
     public :: oscillator_t
 
     type, extends(system_t) :: oscillator_t
-        !! Coordinate: \(x\), m, from where the spring is relaxed.
+        !! The coordinate is \(x\), m, from where the spring is relaxed.
         real(dp) :: m = 1.0_dp  !! kg
         real(dp) :: k = 1.0_dp  !! N/m
     contains
@@ -75,7 +75,7 @@ contains
     end subroutine describe
 
     pure subroutine configure(self, values, error)
-        !! Parameters: m, k.
+        !! In this order: m, k.
         class(oscillator_t), intent(inout) :: self
         real(dp), intent(in) :: values(:)
         type(error_t), allocatable, intent(out) :: error
@@ -117,7 +117,7 @@ contains
     end function energy
 
     pure function force_or_momentum(self, i, t, q, v) result(value)
-        !! 1: force of the spring. 2: momentum.
+        !! (1) force of the spring. (2) momentum.
         class(oscillator_t), intent(in) :: self
         integer, intent(in) :: i
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)

@@ -17,7 +17,7 @@ module lagrangia_pendulum
     public :: pendulum_t
 
     type, extends(system_t) :: pendulum_t
-        !! Coordinate: \(\theta\), rad, from the downward vertical.
+        !! The coordinate is \(\theta\), rad, from the downward vertical.
         real(dp) :: m = 1.0_dp   !! bob, kg
         real(dp) :: l = 1.0_dp   !! rod, m
         real(dp) :: g = 9.81_dp  !! m s^-2
@@ -82,7 +82,7 @@ contains
     end subroutine describe
 
     pure subroutine configure(self, values, error)
-        !! Parameters: m, l, g.
+        !! In this order: m, l, g.
         class(pendulum_t), intent(inout) :: self
         real(dp), intent(in) :: values(:)
         type(error_t), allocatable, intent(out) :: error
@@ -152,7 +152,7 @@ contains
     end function energy
 
     pure function momentum_or_tension(self, i, t, q, v) result(value)
-        !! 1: angular momentum. 2: the rod's tension.
+        !! (1) angular momentum. (2) the rod's tension.
         class(pendulum_t), intent(in) :: self
         integer, intent(in) :: i
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)

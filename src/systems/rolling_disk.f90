@@ -21,7 +21,7 @@ module lagrangia_rolling_disk
     public :: rolling_disk_t
 
     type, extends(system_t) :: rolling_disk_t
-        !! Coordinates: \(x\), \(y\), m, of the point of contact, in the plane, \(x\) downhill;
+        !! The coordinates are \(x\), \(y\), m, of the contact, in the plane, \(x\) downhill;
         !! \(\varphi\), rad, the angle rolled; \(\theta\), rad, the heading: the disk's axle lies
         !! along \((\cos\theta, \sin\theta)\), and it rolls towards \((\sin\theta, -\cos\theta)\).
         real(dp) :: m = 1.0_dp        !! kg
@@ -68,7 +68,7 @@ module lagrangia_rolling_disk
 contains
 
     pure subroutine configure(self, values, error)
-        !! Parameters: m, r, i_roll, i_yaw, g, incline. Moments of inertia that are not given,
+        !! In this order: m, r, i_roll, i_yaw, g, incline. Moments of inertia that are not given,
         !! NaN, are those of a uniform disk.
         class(rolling_disk_t), intent(inout) :: self
         real(dp), intent(in) :: values(:)

@@ -18,7 +18,7 @@ module lagrangia_rotating_hoop
     public :: rotating_hoop_t
 
     type, extends(system_t) :: rotating_hoop_t
-        !! Coordinate: \(\theta\), rad, from the downward vertical.
+        !! The coordinate is \(\theta\), rad, from the downward vertical.
         real(dp) :: m = 1.0_dp      !! kg
         real(dp) :: r = 1.0_dp      !! m
         real(dp) :: omega = 5.0_dp  !! rad s^-1
@@ -98,7 +98,7 @@ contains
     end subroutine describe
 
     pure subroutine configure(self, values, error)
-        !! Parameters: m, r, omega, g.
+        !! In this order: m, r, omega, g.
         class(rotating_hoop_t), intent(inout) :: self
         real(dp), intent(in) :: values(:)
         type(error_t), allocatable, intent(out) :: error
@@ -147,7 +147,7 @@ contains
     end function energy
 
     pure function energy_or_torque(self, i, t, q, v) result(value)
-        !! 1: \(T + V\). 2: angular momentum. 3: torque of the drive. 4: force of the hoop in
+        !! (1) \(T + V\). (2) angular momentum. (3) torque of the drive. (4) force of the hoop in
         !! its own plane.
         class(rotating_hoop_t), intent(in) :: self
         integer, intent(in) :: i

@@ -18,7 +18,7 @@ module lagrangia_rotating_wire
     public :: rotating_wire_t
 
     type, extends(system_t) :: rotating_wire_t
-        !! Coordinate: \(r\), m, along the wire from the axis; negative beyond it.
+        !! The coordinate is \(r\), m, along the wire from the axis; negative beyond it.
         real(dp) :: m = 1.0_dp      !! kg
         real(dp) :: omega = 1.5_dp  !! rad s^-1
     contains
@@ -51,7 +51,7 @@ contains
         !! See `system_t`.
         class(rotating_wire_t), intent(in) :: self
         type(description_t), intent(out) :: d
-        real(dp), parameter :: per_length = 1.0_dp  !! m: the wire has no natural length
+        real(dp), parameter :: per_length = 1.0_dp  !! the wire has no natural length, m
 
         d%name = "rotating_wire"
         d%title = "a bead on a straight wire that turns at a constant rate, horizontally"
@@ -83,7 +83,7 @@ contains
     end subroutine describe
 
     pure subroutine configure(self, values, error)
-        !! Parameters: m, omega.
+        !! In this order: m, omega.
         class(rotating_wire_t), intent(inout) :: self
         real(dp), intent(in) :: values(:)
         type(error_t), allocatable, intent(out) :: error
@@ -125,7 +125,7 @@ contains
     end function energy
 
     pure function energy_or_force(self, i, t, q, v) result(value)
-        !! 1: the growing part. 2: \(T\). 3: angular momentum. 4: force of the wire.
+        !! (1) the growing part. (2) \(T\). (3) angular momentum. (4) force of the wire.
         class(rotating_wire_t), intent(in) :: self
         integer, intent(in) :: i
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)

@@ -19,7 +19,7 @@ module lagrangia_wedge
     real(dp), parameter :: right_angle = acos(0.0_dp)  !! rad
 
     type, extends(system_t) :: wedge_t
-        !! Coordinates: \(q_1\), m, of the block down the incline; \(q_2\), m, of the wedge.
+        !! The coordinates are \(q_1\), m, of the block down the incline; \(q_2\), m, of the wedge.
         real(dp) :: m_block = 1.0_dp             !! kg
         real(dp) :: m_wedge = 2.0_dp             !! kg
         real(dp) :: alpha = right_angle/3.0_dp   !! of the incline to the horizontal, rad
@@ -101,7 +101,7 @@ contains
     end subroutine describe
 
     pure subroutine configure(self, values, error)
-        !! Parameters: m_block, m_wedge, alpha, g.
+        !! In this order: m_block, m_wedge, alpha, g.
         class(wedge_t), intent(inout) :: self
         real(dp), intent(in) :: values(:)
         type(error_t), allocatable, intent(out) :: error
@@ -172,8 +172,8 @@ contains
     end function energy
 
     pure function momentum_or_force(self, i, t, q, v) result(value)
-        !! 1: horizontal momentum. 2: where the centre of mass was at \(t = 0\). 3: momentum along
-        !! the incline. 4: the force between wedge and block, from \(M\ddot q_2 = -N\sin\alpha\).
+        !! (1) horizontal momentum. (2) the centre of mass at \(t = 0\). (3) momentum along
+        !! the incline. (4) the force between wedge and block, from \(M\ddot q_2 = -N\sin\alpha\).
         class(wedge_t), intent(in) :: self
         integer, intent(in) :: i
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
