@@ -8,15 +8,13 @@ module test_bench
     use lagrangia_bench_table, only: bench_table_t, count_cell, new_bench_table, number_cell, &
                                      short, word_cell
     use lagrangia_command_line, only: command_line_t, parse_words, word_t
-    use lagrangia_concrete_loops, only: rk4_double_pendulum, rk4_pendulum
-    use lagrangia_contestant, only: contestant_box_t, knob_tolerance
+    use lagrangia_contestant, only: contestant_box_t, set_by_tolerance
     use lagrangia_contestants, only: new_contestants
-    use lagrangia_description, only: description_t, name_length
+    use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, status_usage
     use lagrangia_kinds, only: dp, i8
     use lagrangia_precision_curve, only: not_known
     use lagrangia_registry, only: options
-    use lagrangia_system, only: default_values
     implicit none (type, external)
     private
     public :: bench_suite
@@ -32,7 +30,6 @@ contains
                                       closed_forms_agree_with_the_file))
         call suite%addTest(TestMethod("energy_is_kept_to_the_end", energy_is_kept_to_the_end))
         call suite%addTest(TestMethod("everybody_solves_something", everybody_solves_something))
-        call suite%addTest(TestMethod("concrete_loops_are_rk4", concrete_loops_are_rk4))
         call suite%addTest(TestMethod("numbers_are_short", numbers_are_short))
         call suite%addTest(TestMethod("tables_are_lines_and_objects", tables_are_lines_and_objects))
         call suite%addTest(TestMethod("debug_builds_are_refused", debug_builds_are_refused))
@@ -108,7 +105,7 @@ contains
             do i = 1, size(problems)
                 if (problems(i)%name == "P1a" .or. problems(i)%name == "P3") cycle  ! stiff in error
                 n = problems(i)%system%ndof
-                setting = merge(1e-9_dp, 0.01_dp, everybody(k)%item%knob == knob_tolerance)
+                setting = merge(1e-9_dp, 0.01_dp, everybody(k)%item%set_by == set_by_tolerance)
                 call everybody(k)%item%prepare(problems(i), setting, error)
                 if (allocated(error)) cycle
                 call everybody(k)%item%solve(problems(i), q(:n), v(:n), error)
@@ -121,40 +118,6 @@ contains
             call assertTrue(solved > 0, everybody(k)%item%name)
         end do
     end subroutine everybody_solves_something
-
-    subroutine concrete_loops_are_rk4()
-        !! The loops that the contracts are compared with do the same: equal to rounding, which a
-        !! regular motion of a thousand steps makes no larger than this.
-        type(bench_problem_t), allocatable, target :: problems(:)
-        type(contestant_box_t), allocatable :: rk4(:)
-        type(description_t) :: d
-        type(error_t), allocatable :: error
-        real(dp) :: q(2), v(2), x(2), w(2)
-        integer :: i, n
-
-        call get_problems(problems)
-        if (anyExceptions()) return
-        call new_contestants(["rk4"], rk4)
-        do i = 1, size(problems)
-            if (problems(i)%name /= "P1" .and. problems(i)%name /= "P3") cycle
-            n = problems(i)%system%ndof
-            problems(i)%duration = 1.0_dp
-            call rk4(1)%item%prepare(problems(i), 1e-3_dp, error)
-            call rk4(1)%item%solve(problems(i), q(:n), v(:n), error)
-            x(:n) = problems(i)%q
-            w(:n) = problems(i)%v
-            call problems(i)%system%describe(d)
-            if (n == 1) then
-                call rk4_pendulum(default_values(d), 1e-3_dp, 1000_i8, x(:n), w(:n))
-            else
-                call rk4_double_pendulum(default_values(d), 1e-3_dp, 1000_i8, x(:n), w(:n))
-            end if
-            call assertEqual(q(:n), x(:n), tolerance=1e-12_dp)
-            call assertEqual(v(:n), w(:n), tolerance=1e-12_dp)
-            call assertTrue(any(abs(q(:n) - problems(i)%q) > 0.01_dp), &
-                            "any(abs(q(:n) - problems(i)%q) > 0.01)")
-        end do
-    end subroutine concrete_loops_are_rk4
 
     subroutine numbers_are_short()
         !! So many digits, and no more.
@@ -184,10 +147,6 @@ contains
         call assertEqual("gauss16     -      1", table%line(2))
         call assertEqual('{"table": "demo", "method": "gauss16", "us": null, "count": 1}', &
                          table%object(2))
-        call assertEqual(1.5_dp, table%value("rk4", "us"))
-        call assertEqual(1.0_dp, table%value("gauss16", "count"))
-        call assertFalse(table%value("rk5", "us") >= 0.0_dp, "not table%value('rk5', 'us') >= 0.0")
-        call assertFalse(table%value("rk4", "ns") >= 0.0_dp, "not table%value('rk4', 'ns') >= 0.0")
         do i = 1, 40
             call table%add([word_cell("more"), number_cell(real(i, dp), 3), count_cell(int(i, i8))])
         end do

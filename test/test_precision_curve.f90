@@ -2,10 +2,10 @@ module test_precision_curve
     !! The bench's arithmetic on made-up measurements.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
-    use lagrangia_contestant, only: party_gsl, party_ours
+    use lagrangia_contestant, only: source_gsl, source_ours
     use lagrangia_kinds, only: dp
     use lagrangia_precision_curve, only: best, confirmed, median, not_known, ratio, time_to_error
-    use lagrangia_precision_tables, only: best_time, least_error
+    use lagrangia_precision_tables, only: best_time
     use lagrangia_stopwatch, only: repetitions
     use lagrangia_work_precision, only: curve_t
     implicit none (type, external)
@@ -101,36 +101,30 @@ contains
     end subroutine the_least_of_several_times
 
     subroutine curves_are_told_apart()
-        !! By problem, party and method: of each the best, and no number where there is none.
+        !! By problem and source: of each the best, and no number where there is none.
         type(curve_t) :: curves(5)
         real(dp), parameter :: error = 1e-6_dp
 
-        curves = [curve("P1", party_ours, "rk4", 8.0_dp, 1e-7_dp), &
-                  curve("P1", party_ours, "gauss16", 2.0_dp, 1e-8_dp), &
-                  curve("P1", party_gsl, "gsl_rk4", 4.0_dp, 1e-9_dp), &
-                  curve("P1", party_gsl, "gsl_rk8pd", 1.0_dp, 1e-10_dp), &
-                  curve("P2", party_ours, "rk4", 0.5_dp, 1e-11_dp)]
-        call assertEqual(2.0_dp, best_time(curves, "P1", party_ours, error), message="ours")
-        call assertEqual(1.0_dp, best_time(curves, "P1", party_gsl, error), message="GSL's")
-        call assertEqual(8.0_dp, best_time(curves, "P1", party_ours, error, "rk4"), message="rk4")
-        call assertEqual(4.0_dp, best_time(curves, "P1", party_gsl, error, "gsl_rk4"), &
-                         message="gsl_rk4")
-        call assertEqual(0.5_dp, best_time(curves, "P2", party_ours, error), message="P2")
-        call assertTrue(ieee_is_nan(best_time(curves, "P2", party_gsl, error)), "nobody")
-        call assertEqual(1e-8_dp, least_error(curves, "P1", party_ours), message="least of ours")
-        call assertEqual(1e-10_dp, least_error(curves, "P1", party_gsl), message="least of GSL's")
-        call assertEqual(1e-11_dp, least_error(curves, "P2", party_ours), message="least on P2")
-        call assertTrue(ieee_is_nan(least_error(curves, "P2", party_gsl)), "nobody's")
+        curves = [curve("P1", source_ours, "rk4", 8.0_dp, 1e-7_dp), &
+                  curve("P1", source_ours, "gauss16", 2.0_dp, 1e-8_dp), &
+                  curve("P1", source_gsl, "gsl_rk4", 4.0_dp, 1e-9_dp), &
+                  curve("P1", source_gsl, "gsl_rk8pd", 1.0_dp, 1e-10_dp), &
+                  curve("P2", source_ours, "rk4", 0.5_dp, 1e-11_dp)]
+        call assertEqual(2.0_dp, best_time(curves, "P1", source_ours, error), message="ours")
+        call assertEqual(1.0_dp, best_time(curves, "P1", source_gsl, error), message="GSL's")
+        call assertEqual(0.5_dp, best_time(curves, "P2", source_ours, error), message="P2")
+        call assertTrue(ieee_is_nan(best_time(curves, "P2", source_gsl, error)), "nobody")
+        call assertEqual(1e-10_dp, curves(4)%least_error(), message="least error")
     contains
-        pure function curve(problem, party, method, seconds, lowest)
+        pure function curve(problem, source, method, seconds, lowest)
             !! The error 1e-6 takes `seconds`, the lowest twice that.
             character(*), intent(in) :: problem, method
-            integer, intent(in) :: party
+            integer, intent(in) :: source
             real(dp), intent(in) :: seconds, lowest
             type(curve_t) :: curve
 
             curve%problem = problem
-            curve%party = party
+            curve%source = source
             curve%method = method
             curve%count = 2
             curve%points(:2)%error = [error, lowest]

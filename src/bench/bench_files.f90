@@ -1,7 +1,7 @@
 module lagrangia_bench_files
     !! Run time against error as a data file and a picture.
     use lagrangia_bench_problems, only: bench_problem_t
-    use lagrangia_contestant, only: knobs, party_closed_form, party_gsl
+    use lagrangia_contestant, only: set_by_names, source_closed_form, source_gsl
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
     use lagrangia_gnuplot_script, only: begin_script, gnuplot_string, lines_t
@@ -55,7 +55,7 @@ contains
         type(output_file_t) :: script
         type(text_table_t) :: table
         character(name_length), parameter :: names(*) = [character(name_length) :: "problem", &
-            "method", "knob", "setting", "error", "time", "evaluations"]
+            "method", "set_by", "setting", "error", "time", "evaluations"]
         character(2), parameter :: units(*) = ["1 ", "1 ", "1 ", "1 ", "1 ", "us", "1 "]
         integer :: i, k
 
@@ -71,7 +71,7 @@ contains
                 associate (p => curves(i)%points(k))
                     call table%row([real(curves(i)%problem_index, dp), &
                                     real(findloc(methods, label(curves(i)), 1), dp), &
-                                    real(curves(i)%knob, dp), p%setting, p%error, &
+                                    real(curves(i)%set_by, dp), p%setting, p%error, &
                                     1e6_dp*p%seconds, real(p%evaluations, dp)])
                 end associate
             end do
@@ -86,7 +86,7 @@ contains
     end subroutine write_bench_files
 
     function header(problems, methods) result(lines)
-        !! What the numbers of problems, methods and knobs stand for.
+        !! What the numbers of problems, methods and settings stand for.
         type(bench_problem_t), intent(in) :: problems(:)
         character(*), intent(in) :: methods(:)
         character(header_length) :: lines(4 + size(problems) + size(methods))
@@ -104,9 +104,9 @@ contains
         do i = 1, size(methods)
             lines(n + i) = "method "//to_text(i)//": "//methods(i)
         end do
-        lines(size(lines)) = "knob 1: none"
-        do i = 2, size(knobs)
-            lines(size(lines)) = trim(lines(size(lines)))//", "//to_text(i)//": "//knobs(i)
+        lines(size(lines)) = "set_by 1: none"
+        do i = 2, size(set_by_names)
+            lines(size(lines)) = trim(lines(size(lines)))//", "//to_text(i)//": "//set_by_names(i)
         end do
     end function header
 
@@ -132,8 +132,8 @@ contains
         character(name_length) :: text
 
         text = curve%method
-        if (curve%party == party_closed_form .or. curve%party == party_gsl) return
-        text = trim(text)//", "//knobs(curve%knob)
+        if (curve%source == source_closed_form .or. curve%source == source_gsl) return
+        text = trim(text)//", "//set_by_names(curve%set_by)
     end function label
 
     function bench_script(problems, methods, curves) result(text)

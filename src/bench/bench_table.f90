@@ -3,7 +3,6 @@ module lagrangia_bench_table
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_json, only: json_number, json_string
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_precision_curve, only: not_known
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -15,7 +14,6 @@ module lagrangia_bench_table
     type :: cell_t
         character(width) :: shown = ""   !! to people
         character(width) :: json = ""    !! to programs
-        real(dp) :: value = 0.0_dp       !! to ourselves
         logical :: word = .false.        !! stands to the left
     end type cell_t
 
@@ -36,7 +34,6 @@ module lagrangia_bench_table
         procedure :: head
         procedure :: line
         procedure :: object
-        procedure :: value
     end type bench_table_t
 
 contains
@@ -147,24 +144,6 @@ contains
         json = json//"}"
     end function object
 
-    pure function value(self, row, column) result(number)
-        !! The number in `column` of the first row that begins with the word `row`; NaN if there
-        !! is none.
-        class(bench_table_t), intent(in) :: self
-        character(*), intent(in) :: row, column
-        real(dp) :: number
-        integer :: i, k
-
-        number = not_known()
-        k = findloc(self%names(:self%columns) == column, .true., 1)
-        if (k == 0) return
-        do i = 1, self%rows
-            if (self%row(i)%cells(1)%shown /= row) cycle
-            number = self%row(i)%cells(k)%value
-            return
-        end do
-    end function value
-
     elemental function word_cell(text) result(cell)
         !! A name.
         character(*), intent(in) :: text
@@ -180,7 +159,6 @@ contains
         integer(i8), intent(in) :: number
         type(cell_t) :: cell
 
-        cell%value = real(number, dp)
         write (cell%shown, "(ss, i0)") number
         cell%json = cell%shown
     end function count_cell
@@ -191,7 +169,6 @@ contains
         integer, intent(in) :: digits
         type(cell_t) :: cell
 
-        cell%value = number
         cell%shown = short(number, digits)
         cell%json = json_number(number)
     end function number_cell

@@ -6,18 +6,18 @@ module lagrangia_contestant
     use lagrangia_kinds, only: dp, i8
     implicit none (type, external)
     private
-    public :: contestant_t, contestant_box_t, knobs
-    public :: knob_none, knob_step, knob_tolerance
-    public :: party_closed_form, party_gsl, party_ours
+    public :: contestant_t, contestant_box_t, set_by_names
+    public :: set_by_nothing, set_by_step, set_by_tolerance
+    public :: source_closed_form, source_gsl, source_ours
 
-    integer, parameter :: knob_none = 1, knob_step = 2, knob_tolerance = 3
-    character(9), parameter :: knobs(3) = ["-        ", "dt       ", "tolerance"]
-    integer, parameter :: party_ours = 1, party_gsl = 2, party_closed_form = 3
+    integer, parameter :: set_by_nothing = 1, set_by_step = 2, set_by_tolerance = 3
+    character(9), parameter :: set_by_names(3) = ["-        ", "dt       ", "tolerance"]
+    integer, parameter :: source_ours = 1, source_gsl = 2, source_closed_form = 3
 
     type, abstract :: contestant_t
         character(name_length) :: name = ""
-        integer :: party = party_ours
-        integer :: knob = knob_step      !! what sets its accuracy
+        integer :: source = source_ours    !! who wrote it
+        integer :: set_by = set_by_step    !! what sets its accuracy
         integer :: order = 1             !! of the error in the step
         integer(i8) :: evaluations = 0   !! of accelerations, since `prepare`
     contains
@@ -37,7 +37,7 @@ module lagrangia_contestant
             implicit none (type, external)
             class(contestant_t), intent(inout) :: self
             type(bench_problem_t), target, intent(in) :: problem  !! stays where it is
-            real(dp), intent(in) :: setting                       !! of the knob
+            real(dp), intent(in) :: setting                       !! of what it is set by
             type(error_t), allocatable, intent(out) :: error
         end subroutine prepare_i
 

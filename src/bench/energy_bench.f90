@@ -14,7 +14,7 @@ module lagrangia_energy_bench
     use lagrangia_work_precision, only: look_around
     implicit none (type, external)
     private
-    public :: measure_energy, long_run_steps
+    public :: measure_energy
 
     integer(i8), parameter :: long_run_steps = 1000000_i8, short_run_steps = 20000_i8
     integer(i8), parameter :: every = 7                 !! odd: it meets all phases of a swing

@@ -2,7 +2,7 @@ module lagrangia_gsl_contestants
     !! GSL's methods in the benchmark, as its manual drives them.
     use, intrinsic :: iso_c_binding, only: c_funloc, c_loc
     use lagrangia_bench_problems, only: bench_problem_t
-    use lagrangia_contestant, only: contestant_t, knob_step, knob_tolerance, party_gsl
+    use lagrangia_contestant, only: contestant_t, set_by_step, set_by_tolerance, source_gsl
     use lagrangia_errors, only: error_t
     use lagrangia_gsl_mechanics, only: gsl_context_t, gsl_jacobian, gsl_rates
     use lagrangia_gsl_odeiv, only: gsl_driver_t
@@ -36,8 +36,8 @@ contains
 
         self%name = "gsl_"//method
         self%method = method
-        self%party = party_gsl
-        self%knob = merge(knob_step, knob_tolerance, method == "rk4")
+        self%source = source_gsl
+        self%set_by = merge(set_by_step, set_by_tolerance, method == "rk4")
         self%order = 4
     end subroutine new_gsl_contestant
 
@@ -50,7 +50,7 @@ contains
         real(dp) :: tolerance
 
         tolerance = setting
-        if (self%knob == knob_step) then
+        if (self%set_by == set_by_step) then
             tolerance = any_error
             self%steps = ceiling(problem%duration/setting*(1.0_dp - epsilon(setting)), i8)
         end if
@@ -80,7 +80,7 @@ contains
         t = 0.0_dp
         call self%driver%restart(first_step, error)
         if (allocated(error)) return
-        if (self%knob == knob_step) then
+        if (self%set_by == set_by_step) then
             call self%driver%fixed_steps(t, problem%duration/self%steps, self%steps, self%y, error)
         else
             call self%driver%integrate(t, problem%duration, self%y, error)

@@ -2,8 +2,8 @@ module lagrangia_our_contestants
     !! Our own methods in the benchmark: by a fixed step, by a tolerance, by a closed form.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_bench_problems, only: bench_problem_t
-    use lagrangia_contestant, only: contestant_t, knob_none, knob_step, knob_tolerance, &
-                                    party_closed_form
+    use lagrangia_contestant, only: contestant_t, set_by_nothing, set_by_step, set_by_tolerance, &
+                                    source_closed_form
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
@@ -48,7 +48,7 @@ contains
 
         allocate (self%plain, source=method)
         self%name = method%name
-        self%knob = knob_step
+        self%set_by = set_by_step
         self%order = method%order
     end subroutine new_fixed_contestant
 
@@ -86,7 +86,7 @@ contains
 
         allocate (self%plain, source=method)
         self%name = method%name
-        self%knob = knob_tolerance
+        self%set_by = set_by_tolerance
         self%order = method%order
     end subroutine new_adaptive_contestant
 
@@ -140,8 +140,8 @@ contains
         type(formula_contestant_t), intent(out) :: self
 
         self%name = "closed_form"
-        self%party = party_closed_form
-        self%knob = knob_none
+        self%source = source_closed_form
+        self%set_by = set_by_nothing
     end subroutine new_formula_contestant
 
     subroutine prepare_formula(self, problem, setting, error)

@@ -1,22 +1,19 @@
 module lagrangia_step_cost
-    !! What one step costs: of every method on every system, and of the contracts themselves.
+    !! What one step costs, of every method on every system.
     use lagrangia_bench_problems, only: bench_problem_t
     use lagrangia_bench_table, only: cell_t, new_bench_table, number_cell, bench_table_t, word_cell
     use lagrangia_catalogue, only: new_system
-    use lagrangia_concrete_loops, only: rk4_double_pendulum, rk4_pendulum
-    use lagrangia_contestant, only: contestant_box_t, contestant_t, knob_step
-    use lagrangia_contestants, only: new_contestants
-    use lagrangia_description, only: description_t, name_length
+    use lagrangia_contestant, only: contestant_box_t, contestant_t, set_by_step
+    use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_t
-    use lagrangia_precision_curve, only: median, not_known, ratio
+    use lagrangia_precision_curve, only: median, not_known
     use lagrangia_stopwatch, only: effort_t, repetitions, seconds_since, ticks_now
-    use lagrangia_system, only: default_values
     use lagrangia_work_precision, only: look_around
     implicit none (type, external)
     private
-    public :: measure_dispatch, measure_steps
+    public :: measure_steps
 
     real(dp), parameter :: dt = 1e-3_dp, duration = 1.0_dp  !! s: a thousand steps a call
     real(dp), parameter :: nanoseconds = 1e9_dp
@@ -45,7 +42,7 @@ contains
             do k = 1, size(contestants)
                 call look_around(watcher, (i - 1)*size(contestants) + k, size(cost), error)
                 if (allocated(error)) return
-                if (contestants(k)%item%knob /= knob_step) cycle
+                if (contestants(k)%item%set_by /= set_by_step) cycle
                 do round = 1, plan%rounds
                     call time_steps(contestants(k)%item, problem, plan, samples(round))
                 end do
@@ -93,66 +90,6 @@ contains
         call contestant%prepare(problem, dt, error)
         call contestant%solve(problem, q, v, error)
     end subroutine time_steps
-
-    subroutine measure_dispatch(plan, table, error)
-        !! RK4 through the contracts, the same loop compiled for the concrete type, and GSL's.
-        type(effort_t), intent(in) :: plan
-        type(bench_table_t), intent(out) :: table
-        type(error_t), allocatable, intent(out) :: error
-        character(name_length), parameter :: systems(2) = [character(name_length) :: &
-            "pendulum", "double_pendulum"]
-        type(bench_problem_t), target :: problem
-        type(contestant_box_t), allocatable :: ours(:), gsl(:)
-        real(dp) :: samples(2*plan%rounds, 3), ns(3)
-        integer :: i, round
-
-        call new_bench_table(table, "dispatch", "RK4, one step, ns: through the contracts, "// &
-                             "compiled for the concrete type, GSL's", [character(name_length) :: &
-                             "system", "contracts", "concrete", "gsl_rk4", &
-                             "contracts/concrete", "contracts/gsl"])
-        call new_contestants(["rk4"], ours)
-        call new_contestants(["gsl_rk4"], gsl)
-        do i = 1, size(systems)
-            call pose(trim(systems(i)), problem, error)
-            if (allocated(error)) return
-            do round = 1, size(samples, 1)
-                call time_steps(ours(1)%item, problem, plan, samples(round, 1))
-                call time_concrete(problem, plan, samples(round, 2))
-                call time_steps(gsl(1)%item, problem, plan, samples(round, 3))
-            end do
-            ns = [median(samples(:, 1)), median(samples(:, 2)), median(samples(:, 3))]*nanoseconds
-            call table%add([word_cell(systems(i)), number_cell(ns, 3), &
-                             number_cell(ratio(ns(1), ns(2:3)), 3)])
-        end do
-    end subroutine measure_dispatch
-
-    subroutine time_concrete(problem, plan, seconds)
-        !! As `time_steps`, without contracts.
-        type(bench_problem_t), intent(in) :: problem
-        type(effort_t), intent(in) :: plan
-        real(dp), intent(out) :: seconds
-        type(description_t) :: d
-        real(dp), allocatable :: p(:)
-        real(dp) :: q(problem%system%ndof), v(problem%system%ndof)
-        integer(i8) :: start, steps
-        integer :: i, count
-
-        call problem%system%describe(d)
-        allocate (p, source=default_values(d))
-        steps = nint(duration/dt, i8)
-        count = repetitions(1e-7_dp*steps, plan%shortest)
-        start = ticks_now()
-        do i = 1, count
-            q = problem%q
-            v = problem%v
-            if (size(q) == 1) then
-                call rk4_pendulum(p, dt, steps, q, v)
-            else
-                call rk4_double_pendulum(p, dt, steps, q, v)
-            end if
-        end do
-        seconds = seconds_since(start)/(count*steps)
-    end subroutine time_concrete
 
     subroutine pose(name, problem, error)
         !! A motion of the system called `name`, with its default parameters, from some state.

@@ -1,7 +1,7 @@
 module lagrangia_work_precision
     !! Run time against error: each contestant over its steps or tolerances, on each problem.
     use lagrangia_bench_problems, only: bench_problem_t
-    use lagrangia_contestant, only: contestant_box_t, contestant_t, knob_none, knob_step
+    use lagrangia_contestant, only: contestant_box_t, contestant_t, set_by_nothing, set_by_step
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_interrupt, only: interrupt_status
@@ -30,7 +30,7 @@ module lagrangia_work_precision
     type :: curve_t
         !! One contestant on one problem, coarsest setting first.
         character(name_length) :: problem = "", method = ""
-        integer :: party = 0, knob = 0
+        integer :: source = 0, set_by = 0
         integer :: problem_index = 0, contestant_index = 0
         integer :: count = 0
         type(point_t) :: points(most_rungs)
@@ -102,14 +102,14 @@ contains
 
         curve%problem = problem%name
         curve%method = contestant%name
-        curve%party = contestant%party
-        curve%knob = contestant%knob
+        curve%source = contestant%source
+        curve%set_by = contestant%set_by
         least = huge(least)
         idle = 0
         do rung = 1, most_rungs
             call choose_setting(contestant, tolerances, plan, rung, setting)
             if (setting <= 0.0_dp) exit
-            if (contestant%knob == knob_step) setting = problem%duration/ &
+            if (contestant%set_by == set_by_step) setting = problem%duration/ &
                 ceiling(problem%duration/setting*(1.0_dp - epsilon(setting)), i8)
             took = huge(took)
             do attempt = 1, attempts
@@ -146,10 +146,10 @@ contains
         real(dp), intent(out) :: setting
 
         setting = 0.0_dp
-        select case (contestant%knob)
-        case (knob_none)
+        select case (contestant%set_by)
+        case (set_by_nothing)
             if (rung == 1) setting = 1.0_dp
-        case (knob_step)
+        case (set_by_step)
             setting = longest_step*10.0_dp**(-plan%decades*(rung - 1)/contestant%order)
         case default  ! a tolerance
             if (size(tolerances) > 0) then

@@ -10,8 +10,6 @@ module lagrangia_bench
     use lagrangia_contestants, only: new_contestants
     use lagrangia_energy_bench, only: measure_energy
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_goals, only: goals_of_dispatch, goals_of_energy, goals_of_growth, &
-                               goals_of_modes, goals_of_output, goals_of_precision, new_goals
     use lagrangia_growth_bench, only: measure_growth
     use lagrangia_machine, only: processor
     use lagrangia_modes_bench, only: measure_modes
@@ -20,7 +18,7 @@ module lagrangia_bench
     use lagrangia_precision_tables, only: points_table, times_table
     use lagrangia_progress, only: progress_t
     use lagrangia_scene_files, only: draw
-    use lagrangia_step_cost, only: measure_dispatch, measure_steps
+    use lagrangia_step_cost, only: measure_steps
     use lagrangia_version, only: build_text, is_optimised
     use lagrangia_work_precision, only: curve_t, measure_curves
     implicit none (type, external)
@@ -38,11 +36,11 @@ module lagrangia_bench
 contains
 
     subroutine bench_command(line, error)
-        !! Measure the parts that are asked for, print them, and judge the goals they concern.
+        !! Measure the parts that are asked for, and print each table as soon as it is there.
         type(command_line_t), intent(in) :: line
         type(error_t), allocatable, intent(out) :: error
         type(bench_choice_t) :: choice
-        type(bench_table_t) :: goals, table
+        type(bench_table_t) :: table
         type(output_t) :: output
         type(progress_t), target :: progress
         class(observer_t), pointer :: watcher
@@ -60,7 +58,6 @@ contains
         if (output%json) call put_line("[")
         call output%say("build: "//build_text(brief=.true.))
         call output%say("processor: "//processor())
-        call new_goals(goals)
         do i = 1, size(parts)
             if (.not. any(choice%parts == parts(i))) cycle
             call flush_console()
@@ -75,28 +72,23 @@ contains
                 call measure_energy(choice%methods, choice%plan, watcher, table, error)
                 if (allocated(error)) exit
                 call output%show(table, progress)
-                call goals_of_energy(table, goals)
             case ("growth")
                 call measure_growth(choice%folder, choice%plan, table, error)
                 if (allocated(error)) exit
                 call output%show(table, progress)
-                call goals_of_growth(table, goals)
             case ("modes")
                 call measure_modes(choice%plan, table, error)
                 if (allocated(error)) exit
                 call output%show(table, progress)
-                call goals_of_modes(table, goals)
             case default
                 call measure_output(choice%folder, choice%plan, table, error)
                 if (allocated(error)) exit
                 call output%show(table, progress)
-                call goals_of_output(table, goals)
             end select
             if (allocated(error)) exit
         end do
         call progress%clear()
         if (allocated(error)) return
-        if (goals%rows > 0) call output%show(goals, progress)
         if (output%json) call put_line("]")
     contains
         subroutine bench_precision()
@@ -118,7 +110,6 @@ contains
             call output%show(table, progress)
             call times_table(curves, table)
             call output%show(table, progress)
-            call goals_of_precision(curves, goals)
             call write_bench_files(choice%folder, problems, curves, path, error)
             if (allocated(error)) return
             call output%say("data file and gnuplot script: "//path)
@@ -128,10 +119,6 @@ contains
         subroutine bench_steps()
             type(contestant_box_t), allocatable :: contestants(:)
 
-            call measure_dispatch(choice%plan, table, error)
-            if (allocated(error)) return
-            call output%show(table, progress)
-            call goals_of_dispatch(table, goals)
             call new_contestants(choice%methods, contestants)
             call measure_steps(choice%systems, contestants, choice%plan, watcher, table, error)
             if (allocated(error)) return
