@@ -7,9 +7,9 @@ module event_runs
     use lagrangia_events, only: column_event_t, event_box_t, new_column_event
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_box_t
+    use lagrangia_recorder, only: recorder_t
     use lagrangia_run, only: new_sampled_plan, plan_t
     use lagrangia_system, only: system_t
-    use recorder, only: recorder_t
     implicit none (type, external)
     private
     public :: find

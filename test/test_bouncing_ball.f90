@@ -12,10 +12,10 @@ module test_bouncing_ball
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: method_names, new_integrator
     use lagrangia_observer, only: observer_box_t
+    use lagrangia_recorder, only: recorder_t
     use lagrangia_reference, only: reference_t
     use lagrangia_run, only: new_plan, new_sampled_plan, plan_t, run
     use lagrangia_stepwise, only: new_stepwise, stepwise_t
-    use recorder, only: recorder_t
     implicit none (type, external)
     private
     public :: bouncing_ball_suite
@@ -78,7 +78,7 @@ contains
         if (allocated(error)) call assertEqual("", error%message, message="error")
         call assertEqual(duration, ended, message="the end is reached")
         call assertEqual(duration, record%t(record%samples), message="the last sample is the end")
-        call assertGreaterThanOrEqual(minval(record%q(:record%samples)), 0.0_dp, &
+        call assertGreaterThanOrEqual(minval(record%q(1, :record%samples)), 0.0_dp, &
                                       message="never below the floor")
     end subroutine bounce
 
@@ -186,13 +186,13 @@ contains
                          1e-13_dp, "times")
         speed = sqrt(v0**2 + 2*gravity*q0)
         do i = 1, n
-            call assertEqual(1.0_dp, record%event_v(i)/(speed*restitution**i), 1e-13_dp, &
+            call assertEqual(1.0_dp, record%event_v(1, i)/(speed*restitution**i), 1e-13_dp, &
                              "E is multiplied by restitution**2")
-            call assertEqual(0.0_dp, record%event_q(i), message="on the floor")
+            call assertEqual(0.0_dp, record%event_q(1, i), message="on the floor")
         end do
         do i = 1, record%samples
             call reference%state_at(record%t(i), q, v)
-            call assertEqual(q(1), record%q(i), 1e-13_dp, "y")
+            call assertEqual(q(1), record%q(1, i), 1e-13_dp, "y")
         end do
     end subroutine check_times
 
@@ -229,8 +229,9 @@ contains
             call assertGreaterThan(k, 20, message="many bounces")
             call assertEqual(rest, record%event_t(k), 1e-13_dp*max(1.0_dp, 0.02_dp*k), &
                              "the Zeno point")
-            call assertEqual(0.0_dp, record%event_v(k), message="the last bounce")
-            call assertEqual(0.0_dp, maxval(pack(record%q, record%t > rest + 1e-9_dp)), &
+            call assertEqual(0.0_dp, record%event_v(1, k), message="the last bounce")
+            k = record%samples
+            call assertEqual(0.0_dp, maxval(pack(record%q(1, :k), record%t(:k) > rest + 1e-9_dp)), &
                              message="flat")
             deallocate (record)
         end do
@@ -252,7 +253,7 @@ contains
         call assertEqual(100, record%events, message="bounces")
         if (anyExceptions()) return
         call assertEqual([(4.0_dp/gravity*i, i=1, 100)], record%event_t(:100), 1e-12_dp, "times")
-        call assertEqual(2.0_dp, record%event_v(100), 1e-13_dp, "speed")
+        call assertEqual(2.0_dp, record%event_v(1, 100), 1e-13_dp, "speed")
     end subroutine elastic
 
     subroutine plastic()
@@ -272,7 +273,7 @@ contains
         call bounce("gauss16", 0.5_dp, 0.0_dp, -2.0_dp, 0.1_dp, record, q, v)
         call assertEqual(1, record%events, message="one impact")
         call assertEqual(0.0_dp, record%event_t(1), message="at the start")
-        call assertEqual(1.0_dp, record%event_v(1), 1e-15_dp, "its speed")
+        call assertEqual(1.0_dp, record%event_v(1, 1), 1e-15_dp, "its speed")
         call assertEqual(1.0_dp - 0.1_dp*gravity, v(1), 1e-15_dp, "v")
     end subroutine down_at_once
 

@@ -11,11 +11,11 @@ module test_dense_run
     use lagrangia_observer, only: observer_box_t
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_pendulum, only: pendulum_t
+    use lagrangia_recorder, only: recorder_t
     use lagrangia_reference, only: reference_t
     use lagrangia_rk4, only: new_rk4, rk4_t
     use lagrangia_run, only: new_plan, new_sampled_plan, plan_t, run
     use lagrangia_stepwise, only: new_stepwise, stepwise_t
-    use recorder, only: recorder_t
     implicit none (type, external)
     private
     public :: dense_run_suite
@@ -77,9 +77,9 @@ contains
         if (anyExceptions()) return
         call assertEqual([(7.3_dp*(k/97.0_dp), k=0, 97)], record%t(:98), 1e-15_dp, "times")
         call assertEqual(7.3_dp, record%t(98), message="the end")
-        call assertEqual(sin(record%t(:98)), record%q(:98), 1e-10_dp, "x")
-        call assertEqual(cos(record%t(:98)), record%v(:98), 1e-10_dp, "x_dot")
-        call assertEqual(record%q(98), q(1), message="the final state")
+        call assertEqual(sin(record%t(:98)), record%q(1, :98), 1e-10_dp, "x")
+        call assertEqual(cos(record%t(:98)), record%v(1, :98), 1e-10_dp, "x_dot")
+        call assertEqual(record%q(1, 98), q(1), message="the final state")
     end subroutine sample_times
 
     subroutine same_steps()
@@ -113,8 +113,8 @@ contains
         call assertEqual(28, dense%samples, message="samples with events")
         call assertEqual(3, dense%events, message="events")
         call assertEqual(plain%t(:28), dense%t(:28), message="t")
-        call assertEqual(plain%q(:28), dense%q(:28), message="q")
-        call assertEqual(plain%v(:28), dense%v(:28), message="v")
+        call assertEqual(plain%q(1, :28), dense%q(1, :28), message="q")
+        call assertEqual(plain%v(1, :28), dense%v(1, :28), message="v")
         call assertEqual(134_i8, stepwise%accepted, message="steps")
         call assertEqual(5*134_i8 + 1, stepwise%evaluations, message="evaluations")
     end subroutine same_steps

@@ -9,11 +9,11 @@ module test_events
     use lagrangia_observer, only: observer_box_t
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_pendulum, only: pendulum_t
+    use lagrangia_recorder, only: recorder_t
     use lagrangia_reference, only: reference_t
     use lagrangia_rk4, only: new_rk4, rk4_t
     use lagrangia_run, only: new_plan, plan_t
     use lagrangia_stepwise, only: new_stepwise, stepwise_t
-    use recorder, only: recorder_t
     implicit none (type, external)
     private
     public :: events_suite
@@ -72,7 +72,7 @@ contains
         if (anyExceptions()) return
         do i = 1, record%events
             call assertEqual(0.5_dp*reference%period*i, record%event_t(i), 1e-11_dp, "time")
-            call assertEqual(2.0_dp*(-1)**i, record%event_q(i), 1e-11_dp, "angle")
+            call assertEqual(2.0_dp*(-1)**i, record%event_q(1, i), 1e-11_dp, "angle")
         end do
         call assertEqual(reference%period, record%event_t(3) - record%event_t(1), 1e-12_dp, &
                          "period")
@@ -111,9 +111,9 @@ contains
         call assertEqual([2, 4, 1, 3], reorder(record%event(:4)), message="order")
         call assertTrue(all(record%event_t(2:4) >= record%event_t(:3)), "times do not fall")
         call assertEqual(times(record%event(:4)), record%event_t(:4), 1e-5_dp, "times")
-        call assertLessThan(maxval(abs(record%event_q(3:4) - 0.2_dp)), 1e-14_dp, message="x = 0.2")
-        call assertEqual(0.25_dp, record%event_q(1), 1e-15_dp, "x = 0.25")
-        call assertEqual(-0.97_dp, record%event_v(2), 1e-15_dp, "x_dot = -0.97")
+        call assertLessThan(maxval(abs(record%event_q(1, 3:4) - 0.2_dp)), 1e-14_dp, message="x = 0.2")
+        call assertEqual(0.25_dp, record%event_q(1, 1), 1e-15_dp, "x = 0.25")
+        call assertEqual(-0.97_dp, record%event_v(1, 2), 1e-15_dp, "x_dot = -0.97")
     contains
         pure function reorder(which) result(sorted)
             !! Of the two that come together, the first in the list first.
@@ -185,7 +185,7 @@ contains
         call assertEqual(2*pi/3, ended, 1e-12_dp, "end")
         call assertEqual(3, record%samples, message="0, 2, and the event")
         call assertEqual(ended, record%t(3), message="the last sample")
-        call assertEqual(-0.5_dp, record%q(3), 1e-15_dp, "its state")
+        call assertEqual(-0.5_dp, record%q(1, 3), 1e-15_dp, "its state")
     end subroutine terminal
 
     subroutine slack()
