@@ -7,6 +7,7 @@ module suites
     use test_audit, only: audit_suite
     use test_auto, only: auto_suite
     use test_bench, only: bench_suite
+    use test_bench_files, only: bench_files_suite
     use test_blas_threads, only: blas_threads_suite
     use test_bouncing_ball, only: bouncing_ball_suite
     use test_canonical, only: canonical_suite
@@ -64,6 +65,7 @@ module suites
     use test_method_refusals, only: method_refusals_suite
     use test_method_structure, only: method_structure_suite
     use test_methods, only: methods_suite
+    use test_mirror, only: mirror_suite
     use test_namelist, only: namelist_suite
     use test_namelist_file, only: namelist_file_suite
     use test_namelist_limits, only: namelist_limits_suite
@@ -79,6 +81,7 @@ module suites
     use test_output_file, only: output_file_suite
     use test_own_closed_form, only: own_closed_form_suite
     use test_own_system, only: own_system_suite
+    use test_page_controls, only: page_controls_suite
     use test_page_formulae, only: page_formulae_suite
     use test_partial_files, only: partial_files_suite
     use test_pendulum, only: pendulum_suite
@@ -139,6 +142,7 @@ contains
         call suite%addTest(audit_suite())
         call suite%addTest(auto_suite())
         call suite%addTest(bench_suite())
+        call suite%addTest(bench_files_suite())
         call suite%addTest(blas_threads_suite())
         call suite%addTest(bouncing_ball_suite())
         call suite%addTest(canonical_suite())
@@ -193,6 +197,7 @@ contains
         call suite%addTest(method_refusals_suite())
         call suite%addTest(method_structure_suite())
         call suite%addTest(methods_suite())
+        call suite%addTest(mirror_suite())
         call suite%addTest(namelist_suite())
         call suite%addTest(namelist_file_suite())
         call suite%addTest(namelist_limits_suite())
@@ -207,6 +212,7 @@ contains
         call suite%addTest(output_failures_suite())
         call suite%addTest(output_file_suite())
         call suite%addTest(own_system_suite())
+        call suite%addTest(page_controls_suite())
         call suite%addTest(page_formulae_suite())
         call suite%addTest(partial_files_suite())
         call suite%addTest(pendulum_suite())

@@ -59,10 +59,37 @@ contains
             call assertEqual(expected, audit%findings(row)%remark(:len(expected)))
             row = audit%row_of("Gauss's least constraint")
             call assertFalse(audit%findings(row)%holds, "Gauss: "//expected)
+            call assertTrue(names_what_moves(audit%findings(row)%remark, system), &
+                            "Gauss: "//audit%findings(row)%remark)
             row = audit%row_of("energy is v dL/dv - L")
             call assertTrue(audit%findings(row)%holds, "energy: "//expected)
         end do
     end subroutine wrong_equations_are_named
+
+    function names_what_moves(remark, system) result(yes)
+        !! Whether it says of a point of the system along an axis, or of something that turns, that
+        !! its accelerations are not those of least constraint.
+        character(*), intent(in) :: remark
+        class(system_t), intent(in) :: system
+        logical :: yes
+        character(*), parameter :: first = "the accelerations of "
+        character(*), parameter :: last = " are not those of least constraint", axes = "xyz"
+        type(description_t) :: d
+        integer :: i, k
+
+        yes = .false.
+        call system%describe(d)
+        do i = 1, size(d%points)
+            do k = 1, 3
+                if (remark /= first//trim(d%points(i)%name)//" along "//axes(k:k)//last) cycle
+                yes = .true.
+            end do
+        end do
+        if (.not. allocated(d%rotors)) return
+        do i = 1, size(d%rotors)
+            if (remark == first//trim(d%rotors(i)%name)//last) yes = .true.
+        end do
+    end function names_what_moves
 
     subroutine factors_of_zero_have_no_sign()
         !! Whichever way the rounding of 1 - 1 falls; a half and a whole number keep theirs.

@@ -3,10 +3,12 @@ module test_output_failures
     use, intrinsic :: iso_c_binding, only: c_int, c_null_char
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertTrue
     use lagrangia_c_library, only: c_access, c_chmod
-    use lagrangia_errors, only: error_t, message_length, status_file
+    use lagrangia_errors, only: error_t, fail, message_length, status_file, status_usage
     use lagrangia_interrupt, only: catch_interrupts
     use lagrangia_kinds, only: i8
     use lagrangia_output_file, only: output_file_t
+    use lagrangia_scene_files, only: new_table, send_header
+    use lagrangia_table, only: table_t
     use lagrangia_text, only: shortened
     use test_scratch, only: c_symlink, contents, exit_status, limit_file_size, new_folder, &
         remove_file, write_file
@@ -30,6 +32,8 @@ contains
         call suite%addTest(TestMethod("a_failed_rename_is_reported", a_failed_rename_is_reported))
         call suite%addTest(TestMethod("a_full_disk_is_reported", a_full_disk_is_reported))
         call suite%addTest(TestMethod("a_full_disk_is_seen_early", a_full_disk_is_seen_early))
+        call suite%addTest(TestMethod("a_header_is_sent_before_the_run", &
+                                      a_header_is_sent_before_the_run))
     end function output_failures_suite
 
     subroutine what_cannot_be_written_is_refused()
@@ -184,6 +188,77 @@ contains
         if (.not. allocated(error)) return
         if (error%message == "cannot write '"//path//"': File too large") status = error%status
     end function write_limited
+
+    subroutine a_header_is_sent_before_the_run()
+        !! In every format: where there is no room for it, that is said before anything is computed,
+        !! and nothing is left; a header that could not begin keeps its own reason.
+        character(:), allocatable :: folder
+
+        folder = new_folder("header")
+        call assertEqual(status_file, exit_status(text_header), "text")
+        call assertEqual(status_file, exit_status(csv_header), "csv")
+        call assertEqual(status_file, exit_status(npy_header), "npy")
+        call assertEqual(status_usage, exit_status(refused_header), "refused by its format")
+        call assertEqual(0, exit_status(good_header), "room enough")
+        call assertTrue(remove_file(folder), "a temporary was left")
+    end subroutine a_header_is_sent_before_the_run
+
+    function text_header() result(status)
+        !! See `header_status`.
+        integer :: status
+
+        status = header_status("text", 3, .false.)
+    end function text_header
+
+    function csv_header() result(status)
+        !! See `header_status`.
+        integer :: status
+
+        status = header_status("csv", 3, .false.)
+    end function csv_header
+
+    function npy_header() result(status)
+        !! See `header_status`.
+        integer :: status
+
+        status = header_status("npy", 3, .false.)
+    end function npy_header
+
+    function refused_header() result(status)
+        !! See `header_status`.
+        integer :: status
+
+        status = header_status("text", 100000, .true.)
+    end function refused_header
+
+    function good_header() result(status)
+        !! See `header_status`.
+        integer :: status
+
+        status = header_status("text", 100000, .false.)
+    end function good_header
+
+    function header_status(format, room, refused_before) result(status)
+        !! The status of the error of a header where so many bytes are; 0 if there is none.
+        character(*), intent(in) :: format
+        integer, intent(in) :: room
+        logical, intent(in) :: refused_before  !! as if `begin` had found a mistake
+        integer :: status
+        class(table_t), allocatable :: table
+        type(error_t), allocatable :: error
+
+        call catch_interrupts()
+        call limit_file_size(room)
+        call new_table(format, table)
+        call table%file%open(new_folder("header")//"/a", error)
+        call table%begin(["title"], ["t", "x"], ["s", "m"], error)
+        if (refused_before) call fail(error, "refused")
+        call send_header(table, error)
+        status = 0
+        if (allocated(error)) status = error%status
+        if (table%file%is_open() .neqv. status == 0) status = 99
+        call table%file%abandon()
+    end function header_status
 
     subroutine a_full_disk_is_seen_early()
         !! A long run can stop at the first row that is lost.

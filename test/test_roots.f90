@@ -16,6 +16,8 @@ module test_roots
     type, extends(scalar_function_t) :: sample_t
         integer :: kind = parabola
         integer :: calls = 0
+        logical :: twice = .false.     !! a point was asked for again
+        real(dp) :: asked(2000) = huge(1.0_dp)
     contains
         procedure :: value
     end type sample_t
@@ -38,6 +40,8 @@ contains
         real(dp) :: y
 
         self%calls = self%calls + 1
+        if (any(abs(self%asked(:self%calls - 1) - x) <= 0.0_dp)) self%twice = .true.
+        self%asked(self%calls) = x
         select case (self%kind)
         case (parabola); y = x**2 - 2.0_dp
         case (cosine); y = cos(x)
@@ -67,9 +71,11 @@ contains
                 from = merge(low(kind), high(kind), way == 1)
                 to = merge(high(kind), low(kind), way == 1)
                 f%kind = kind
-                f%calls = 0
                 side = sign(1.0_dp, f%value(from))
+                f%calls = 0
+                f%twice = .false.
                 call find_root(f, from, to, root, error)
+                call assertFalse(f%twice, "a point asked for twice, kind "//to_text(kind))
                 call assertFalse(allocated(error), "no error")
                 if (anyExceptions()) return
                 call assertTrue((root - low(kind))*(high(kind) - root) >= 0.0_dp, "within")

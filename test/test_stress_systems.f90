@@ -48,12 +48,23 @@ contains
                                       the_time_of_no_digit_is_predicted))
     end function stress_systems_suite
 
-    subroutine check_all(verdicts, hold, what)
+    subroutine check_all(verdicts, hold, what, cases)
         !! All lines hold, or none of those of `what` does; then start anew.
         type(verdicts_t), intent(inout) :: verdicts
         logical, intent(in) :: hold
         character(*), intent(in) :: what
+        character(*), intent(in), optional :: cases  !! what the lines are of, in this order
+        character(:), allocatable :: found
         integer :: i
+
+        if (present(cases)) then
+            found = trim(verdicts%list(1)%of)
+            do i = 2, size(verdicts%list)
+                if (verdicts%list(i)%of == verdicts%list(i - 1)%of) cycle
+                found = found//"; "//trim(verdicts%list(i)%of)
+            end do
+            call assertEqual(cases, found, "cases")
+        end if
 
         do i = 1, size(verdicts%list)
             associate (line => verdicts%list(i))
@@ -91,9 +102,11 @@ contains
         call new_method("gauss16", 1e-13_dp, method)
         call verdicts%begin("near_separatrix")
         call judge_separatrix(system, method, verdicts)
-        call check_all(verdicts, .true., "run")
+        call check_all(verdicts, .true., "run", "pi - 1e-1; pi - 1e-3; pi - 1e-6; pi - 1e-9; "// &
+                       "pi - 1e-12; pi - 1e-15")
         call judge_large_angles(system, method, verdicts)
-        call check_all(verdicts, .true., "last digits")
+        call check_all(verdicts, .true., "last digits", &
+                       "theta = 1000.0; theta = 1000000.0; theta = 1000000000.0")
         call judge_separatrix(careless, method, verdicts)
         call assertFalse(verdicts%list(2)%holds .or. verdicts%list(4)%holds, "a careless run")
         call check_all(verdicts, .false., "closed form")
@@ -116,14 +129,17 @@ contains
         call new_method("gauss16", 1e-11_dp, method)
         call verdicts%begin("mass_ratios")
         call judge_massless(system, verdicts)
-        call check_all(verdicts, .true., "refused")
+        call check_all(verdicts, .true., "refused", "m1 = 1e-3; m1 = 1e-6; m1 = 1e-12; "// &
+                       "m1 = 1e-100; m1 = 1e-300; m1 = 0")
         call judge_massless(careless, verdicts)
         call assertFalse(verdicts%list(7)%holds, "slow mode, 1e-100")
         call check_all(verdicts, .false., "refused")
         call judge_mass_ratios(careless, method, 0.0_dp, verdicts)
         call check_all(verdicts, .false., "frequencies")
         call judge_mass_ratios(system, method, 1e-5_dp, verdicts)
-        call check_all(verdicts, .true., "from one")
+        call check_all(verdicts, .true., "from one", "m1/m2 = 1e-12; m1/m2 = 1e-8; "// &
+                       "m1/m2 = 1e-4; m1/m2 = 1e0; m1/m2 = 1e4; m1/m2 = 1e8; m1/m2 = 1e12; "// &
+                       "m1/m2 = 1e-12")
     end subroutine masses_of_all_sizes
 
     subroutine steep_and_flat_wedges()
@@ -134,7 +150,9 @@ contains
 
         call verdicts%begin("wedge")
         call judge_wedge(system, verdicts)
-        call check_all(verdicts, .true., "accelerations")
+        call check_all(verdicts, .true., "accelerations", "alpha = 0.6; alpha = 0.0001; "// &
+                       "alpha = 1e-8; alpha = 1e-300; alpha = 0.0; alpha = pi/2 - 1e-4; "// &
+                       "alpha = pi/2 - 1e-12; alpha = pi/2 - 0")
         call judge_wedge(careless, verdicts)
         call check_all(verdicts, .false., "accelerations")
     end subroutine steep_and_flat_wedges
@@ -145,6 +163,8 @@ contains
         type(error_t), allocatable :: error
         type(verdicts_t) :: verdicts
         integer :: i
+        character(13), parameter :: turns(3) = [character(13) :: "wire, omega", "disk, omega", &
+                                                "charge, B"]
         character(16), parameter :: names(4) = [character(16) :: "rotating_wire", "rolling_disk", &
                                                 "charged_particle", "oscillator"]
 
@@ -157,9 +177,18 @@ contains
             case (3); call judge_weak_field(system, verdicts)
             case default; call judge_slow_wire(system, verdicts)
             end select
-            if (i < 4) call check_all(verdicts, .true., "after 2 s")
+            if (i < 4) call check_all(verdicts, .true., "after 2 s", cases_of(trim(turns(i))))
             if (i == 4) call assertFalse(any(verdicts%list(:2)%holds), "another system")
         end do
+    contains
+        pure function cases_of(turn) result(text)
+            !! From 1 down to 0.
+            character(*), intent(in) :: turn
+            character(:), allocatable :: text
+
+            text = turn//" = 1.0; "//turn//" = 0.001; "//turn//" = 1e-6; "//turn//" = 1e-9; "// &
+                   turn//" = 1e-300; "//turn//" = 0.0"
+        end function cases_of
     end subroutine slow_turns
 
     subroutine bounces()
@@ -172,9 +201,10 @@ contains
         call new_method("dop853", 1e-12_dp, method)
         call verdicts%begin("bounces")
         call judge_elastic(system, method, verdicts)
-        call check_all(verdicts, .true., "20 bounces")
+        call check_all(verdicts, .true., "20 bounces", "e = 1 - 1e-1; e = 1 - 1e-4; "// &
+                       "e = 1 - 1e-8; e = 1 - 1e-12; e = 1 - 1e-15; e = 1")
         call judge_zeno(system, method, verdicts)
-        call check_all(verdicts, .true., "height")
+        call check_all(verdicts, .true., "height", "e = 0.1; e = 0.5; e = 0.8; e = 0.95")
         call judge_elastic(careless, method, verdicts)
         call check_all(verdicts, .false., "20 bounces")
         call judge_zeno(careless, method, verdicts)

@@ -2,7 +2,8 @@ module test_systems
     !! Walks over the catalogue: a new system is tested the day it is listed.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual
     use lagrangia_catalogue, only: nth_system, system_names
-    use lagrangia_description, only: description_t, name_length
+    use lagrangia_description, only: between, count_of, description_t, name_length, nonnegative, &
+                                     number, parameter_t, positive, vector
     use lagrangia_kinds, only: dp
     use lagrangia_reference, only: reference_t
     use lagrangia_system, only: system_t
@@ -24,6 +25,7 @@ contains
                                       every_system_keeps_its_claims, setUp=restart_random))
         call suite%addTest(TestMethod("every_closed_form_solves_its_equations", &
                                       every_closed_form_solves_its_equations, setUp=restart_random))
+        call suite%addTest(TestMethod("domains_in_words", domains_in_words))
     end function systems_suite
 
     subroutine every_system_keeps_its_claims()
@@ -41,6 +43,31 @@ contains
             call assertEqual(expected(i), claims, "claims of "//names(i))
         end do
     end subroutine every_system_keeps_its_claims
+
+    subroutine domains_in_words()
+        !! Every form; a right angle has a name on both sides of zero, half of one and two have not.
+        type(parameter_t) :: p
+        real(dp), parameter :: right = acos(0.0_dp)
+
+        p = number("a", "1", "", 1.0_dp)
+        call assertEqual("any finite number", p%domain())
+        p = vector("a", "1", "", [1.0_dp, 2.0_dp, 3.0_dp])
+        call assertEqual("any finite number", p%domain())
+        p = positive("a", "1", "", 1.0_dp)
+        call assertEqual("greater than 0.0", p%domain())
+        p = nonnegative("a", "1", "", 1.0_dp)
+        call assertEqual("at least 0.0", p%domain())
+        p = between("a", "1", "", 0.5_dp, -0.25_dp, 1.5_dp)
+        call assertEqual("from -0.25 to 1.5", p%domain())
+        p%open_lower = .true.
+        call assertEqual("from -0.25 to 1.5, above -0.25", p%domain())
+        p = between("a", "rad", "", 0.5_dp, -right, right)
+        call assertEqual("from -pi/2 to pi/2", p%domain())
+        p = between("a", "rad", "", 0.5_dp, -2.0_dp, 2.0_dp)
+        call assertEqual("from -2.0 to 2.0", p%domain())
+        p = count_of("a", "", 2, 7)
+        call assertEqual("a whole number from 1 to 7", p%domain())
+    end subroutine domains_in_words
 
     subroutine every_closed_form_solves_its_equations()
         !! From random states, where the closed form covers them.

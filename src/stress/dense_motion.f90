@@ -42,7 +42,7 @@ contains
         real(dp) :: t
         type(error_t), allocatable :: error
         real(dp), dimension(system%ndof) :: q, v
-        real(dp) :: before, after
+        real(dp) :: between(2)
         integer :: i
 
         t = ieee_value(t, ieee_quiet_nan)
@@ -56,13 +56,11 @@ contains
             call method%state_at(method%t_new, q, v)
             if (q(1) <= 0.0_dp) exit
         end do
-        before = method%t_old
-        after = method%t_new
+        between = [method%t_old, method%t_new]
         do i = 1, 100
-            t = 0.5_dp*(before + after)
+            t = 0.5_dp*sum(between)
             call method%state_at(t, q, v)
-            if (q(1) > 0.0_dp) before = t
-            if (q(1) <= 0.0_dp) after = t
+            between(merge(1, 2, q(1) > 0.0_dp)) = t
         end do
     end function time_of_zero
 end module lagrangia_dense_motion

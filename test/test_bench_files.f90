@@ -1,0 +1,165 @@
+module test_bench_files
+    !! The files of `lagrangia bench --output` say which problem, method and setting a number
+    !! stands for, and the picture shows every curve once.
+    use funit, only: anyExceptions, assertEqual, assertFalse, assertTrue, TestMethod, TestSuite
+    use lagrangia_bench_files, only: write_bench_files
+    use lagrangia_bench_problems, only: bench_problem_t, problem_names, read_problems
+    use lagrangia_contestant, only: set_by_nothing, set_by_step, set_by_tolerance, &
+                                    source_closed_form, source_gsl, source_ours
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_text, only: to_text
+    use lagrangia_work_precision, only: curve_t
+    use test_scratch, only: contents, new_folder, remove_file
+    implicit none (type, external)
+    private
+    public :: bench_files_suite
+
+    character(1), parameter :: newline = new_line("a")
+
+contains
+
+    function bench_files_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("bench_files")
+        call suite%addTest(TestMethod("numbers_are_explained", numbers_are_explained))
+        call suite%addTest(TestMethod("errors_are_of_the_worst", errors_are_of_the_worst))
+    end function bench_files_suite
+
+    pure function curve(problem, method, source, set_by, points) result(made)
+        !! A curve of so many points: errors 1e-1, 1e-2, ..., times 1 us, 2 us, ...
+        integer, intent(in) :: problem, source, set_by, points
+        character(*), intent(in) :: method
+        type(curve_t) :: made
+        integer :: k
+
+        made%problem_index = problem
+        made%method = method
+        made%source = source
+        made%set_by = set_by
+        made%count = points
+        do k = 1, points
+            made%points(k)%setting = 0.5_dp**k
+            made%points(k)%error = 0.1_dp**k
+            made%points(k)%seconds = 1e-6_dp*k
+            made%points(k)%evaluations = 100*k
+        end do
+    end function curve
+
+    subroutine numbers_are_explained()
+        !! Every line of the header, every block, and every curve of the picture, in this order.
+        type(bench_problem_t), allocatable :: problems(:)
+        type(curve_t) :: curves(6)
+        type(error_t), allocatable :: error
+        character(:), allocatable :: folder, path, text, script
+        integer :: i
+
+        call read_problems(problem_names(:2), problems, error)
+        curves = [curve(1, "rk4", source_ours, set_by_step, 2), &
+                  curve(1, "gauss16", source_ours, set_by_step, 1), &
+                  curve(1, "gauss16", source_ours, set_by_tolerance, 3), &
+                  curve(1, "closed_form", source_closed_form, set_by_nothing, 1), &
+                  curve(2, "rk4", source_ours, set_by_step, 1), &
+                  curve(2, "gsl_rk8pd", source_gsl, set_by_tolerance, 2)]
+        folder = new_folder("bench_files")
+        call write_bench_files(folder, problems, curves, path, error)
+        call assertFalse(allocated(error), "written")
+        if (anyExceptions()) return
+        call assertEqual(folder//"/bench.dat", path)
+        text = contents(path)
+        script = contents(folder//"/bench.gp")
+        call follow(text, "# lagrangia ")
+        call follow(text, ": run time against error at the end"//newline//"# build: ")
+        call follow(text, newline//"# processor: ")
+        call follow(text, newline//"# problem 1: oscillator, "//trim(problems(1)%title)//newline// &
+                    "# problem 2: P1, "//trim(problems(2)%title)//newline// &
+                    "# method 1: rk4, dt"//newline//"# method 2: gauss16, dt"//newline// &
+                    "# method 3: gauss16, tolerance"//newline//"# method 4: closed_form"// &
+                    newline//"# method 5: gsl_rk8pd"//newline// &
+                    "# set_by 1: none, 2: dt, 3: tolerance"//newline//"# rows: 10 ")
+        call follow(text, newline//"# problem[1] method[1] set_by[1] setting[1] error[1] "// &
+                    "time[us] evaluations[1]"//newline)
+        do i = 1, size(curves)
+            call judge_block(text, curves(i), i)
+        end do
+        call assertEqual("", text, "after the last block")
+        call follow(script, "set title ""oscillator: "//trim(problems(1)%title)//", T = "// &
+                    to_text(problems(1)%duration)//" s""")
+        call follow(script, "set xrange [1.0:10.0]")
+        do i = 1, 4
+            call follow(script, "index "//to_text(i - 1)//" ")
+            call follow(script, "ls "//to_text(i)//" notitle")
+        end do
+        call follow(script, "set title ""P1: "//trim(problems(2)%title))
+        call follow(script, "index 4 ")
+        call follow(script, "ls 1 notitle")
+        call follow(script, "index 5 ")
+        call follow(script, "ls 5 notitle")
+        call follow(script, "NaN with linespoints ls 1 title ""rk4, dt"", NaN with linespoints "// &
+                    "ls 2 title ""gauss16, dt"", NaN with linespoints ls 3 title ""gauss16, "// &
+                    "tolerance"", NaN with linespoints ls 4 title ""closed_form"", NaN with "// &
+                    "linespoints ls 5 title ""gsl_rk8pd"""//newline)
+        call assertTrue(remove_file(path), "it was there: "//path)
+        call assertTrue(remove_file(folder//"/bench.gp"), "the script was there")
+        call assertTrue(remove_file(folder), "nothing else is left")
+    end subroutine numbers_are_explained
+
+    subroutine follow(text, part)
+        !! `part` comes in `text`, which is then what is behind it.
+        character(:), allocatable, intent(inout) :: text
+        character(*), intent(in) :: part
+        integer :: at
+
+        at = index(text, part)
+        call assertTrue(at > 0, "not there: "//part)
+        if (at > 0) text = text(at + len(part):)
+    end subroutine follow
+
+    subroutine judge_block(text, expected, i)
+        !! The rows of curve `i`, and two blank lines unless it is the last.
+        character(:), allocatable, intent(inout) :: text
+        type(curve_t), intent(in) :: expected
+        integer, intent(in) :: i
+        integer, parameter :: method(6) = [1, 2, 3, 4, 1, 5]
+        real(dp) :: row(7)
+        integer :: k, status
+
+        do k = 1, expected%count
+            read (text(:index(text, newline)), *, iostat=status) row
+            call assertEqual(0, status, "a row of 7 numbers")
+            if (status /= 0) return
+            call assertEqual([real(dp) :: expected%problem_index, method(i), expected%set_by, &
+                              expected%points(k)%setting, expected%points(k)%error, k, 100*k], &
+                             row, 1e-15_dp*k, "row "//to_text(k)//" of curve "//to_text(i))
+            text = text(index(text, newline) + 1:)
+        end do
+        if (i == 6) return
+        call assertEqual(newline//newline, text(:2), "two blank lines")
+        text = text(3:)
+    end subroutine judge_block
+
+    subroutine errors_are_of_the_worst()
+        !! Whichever coordinate or velocity is off, to either side, all others being right.
+        type(bench_problem_t), allocatable :: problems(:)
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: state(:)
+        integer :: i, k, n, way
+
+        call read_problems(problem_names, problems, error)
+        do i = 1, size(problems)
+            associate (p => problems(i))
+                n = size(p%q_end)
+                do k = 1, 2*n
+                    do way = -1, 1, 2
+                        state = [p%q_end, p%v_end]
+                        state(k) = state(k) + 0.125_dp*way
+                        call assertEqual(0.125_dp, p%error_of(state(:n), state(n + 1:)), &
+                                         2.0_dp*spacing(maxval(abs(state))), p%name)
+                    end do
+                end do
+            end associate
+        end do
+    end subroutine errors_are_of_the_worst
+end module test_bench_files
