@@ -28,6 +28,7 @@ contains
         call rk4%prepare(system, error)
         q_rk4 = q0
         v_rk4 = v0
+        call rk4%start(system, 0.0_dp, q_rk4, v_rk4)
         call rk4%advance(system, 0.0_dp, duration/4000, 0_i8, 4000_i8, q_rk4, v_rk4)
         call reference%state_at(duration, q, v)
         tolerance = 4000*epsilon(1.0_dp)*max(maxval(abs(q)), maxval(abs(v)))

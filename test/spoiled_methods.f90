@@ -17,6 +17,7 @@ module spoiled_methods
         real(dp) :: share = 0.0_dp    !! and that share of them
     contains
         procedure :: prepare
+        procedure :: start
         procedure :: advance
     end type spoiled_t
 
@@ -51,6 +52,17 @@ contains
         self%evaluations = 0
     end subroutine prepare
 
+    pure subroutine start(self, system, t0, q, v, t_end)
+        !! See `integrator_t`.
+        class(spoiled_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t0
+        real(dp), intent(in) :: q(system%ndof), v(system%ndof)
+        real(dp), intent(in), optional :: t_end
+
+        call self%method%start(system, t0, q, v, t_end)
+    end subroutine start
+
     pure subroutine advance(self, system, t0, dt, first, steps, q, v)
         !! See the type.
         class(spoiled_t), intent(inout) :: self
@@ -64,11 +76,13 @@ contains
             do k = first, first + steps - 1
                 call self%method%advance(system, t0, dt, k, 1_i8, q, v)
                 v = v*(1.0_dp - self%damping)
+                call self%method%start(system, t0 + (k + 1)*dt, q, v)
             end do
         else
             call self%method%advance(system, t0, dt, first, steps, q, v)
         end if
         v = v*(1.0_dp + self%share) + self%push
+        call self%method%start(system, t0 + (first + steps)*dt, q, v)
         self%evaluations = self%method%evaluations
     end subroutine advance
 end module spoiled_methods

@@ -265,6 +265,7 @@ contains
         call rk4%prepare(driven, error)
         angle = 0.3_dp
         rate = 0.7_dp
+        call rk4%start(driven, 0.3_dp, angle, rate)
         call rk4%advance(driven, 0.3_dp, 0.05_dp, 0_i8, 2_i8, angle, rate)
         call assertEqual([angle(1), rate(1)], [q(1, 3), v(1, 3)], 0.0_dp)
         call walker%make("rk5", system, 0.0_dp, 0.01_dp, [0.3_dp], [0.7_dp], q, v, error)

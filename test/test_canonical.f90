@@ -95,6 +95,7 @@ contains
             call method%prepare(system, error)
             q = [2.0_dp, 1.0_dp]
             v = [7.0_dp, -9.0_dp]
+            call method%start(system, 0.0_dp, q, v)
             call method%advance(system, 0.0_dp, 1.0_dp, 0_i8, 3_i8, q, v)
             call assertTrue(all(ieee_is_nan([q, v])), trim(method%name)//": NaN")
             do again = 1, 2
@@ -114,7 +115,7 @@ contains
                              "step at t = 0.5 s did not converge; a shorter dt is needed", &
                              error%message)
             call assertEqual([2.0_dp, 1.0_dp], q, message="the last good coordinates")
-            call method%prepare(system, error)
+            call method%start(system, 0.0_dp, q, v)
             call assertEqual("", trim(method%trouble), "a new run has no trouble")
         end do
     end subroutine failed_iterations_are_told
@@ -135,10 +136,12 @@ contains
         q = 1.0_dp
         v = 0.0_dp
         do i = 1, 10
+            call method%start(system, 0.0_dp, q, v)
             call method%advance(system, 0.0_dp, 2.0_dp*sqrt(0.7_dp), 0_i8, 1_i8, q, v)
         end do
         call assertEqual(1.0_dp, hypot(q(1), v(1)), 1e-14_dp, "energy at 0.7")
         call assertEqual(cos(20.0_dp*atan(sqrt(0.7_dp))), q(1), 1e-14_dp, "angle at 0.7")
+        call method%start(system, 0.0_dp, q, v)
         call method%advance(system, 0.0_dp, 2.0_dp*sqrt(0.9_dp), 0_i8, 1_i8, q, v)
         call assertTrue(ieee_is_nan(q(1)), "no solution at 0.9")
     end subroutine slow_iterations_are_no_solutions
@@ -159,6 +162,7 @@ contains
             call method%prepare(system, error)
             q = merge(1e18_dp, 1.0_dp, system%in_p)
             v = 1.0_dp
+            call method%start(system, 0.0_dp, q, v)
             call method%advance(system, 0.0_dp, 1.0_dp, 0_i8, 1_i8, q, v)
             call assertTrue(ieee_is_nan(q(1)), trim(merge("p", "q", system%in_p))//" never settles")
         end do

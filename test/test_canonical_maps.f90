@@ -59,9 +59,11 @@ contains
         call method%prepare(system, error)
         call assertFalse(allocated(error), "the method takes the system")
         defect = canonical_defect(method, system, 0.0_dp, q, v, dt)
+        call method%start(system, 0.0_dp, q, v)
         call method%advance(system, 0.0_dp, dt, 0_i8, 1_i8, q, v)
         call new_gauss16(exact)
         call exact%prepare(system, error)
+        call exact%start(system, 0.0_dp, q_true, v_true)
         call exact%advance(system, 0.0_dp, dt/10, 0_i8, 10_i8, q_true, v_true)
         miss = norm2([q - q_true, v - v_true])
     end subroutine judge
@@ -183,8 +185,10 @@ contains
             y = start(1, 0.5_dp)
             q = y(:2)
             v = y(3:)
+            call method%start(system, 0.0_dp, q, v)
             call method%advance(system, 0.0_dp, 0.2_dp, 0_i8, 10_i8, q, v)
             call assertGreaterThan(norm2([q, v] - y), 0.5_dp, message="it moved")
+            call method%start(system, 2.0_dp, q, v)
             call method%advance(system, 2.0_dp, -0.2_dp, 0_i8, 10_i8, q, v)
             distance = norm2([q, v] - y)
             if (method%reversible) then

@@ -95,6 +95,7 @@ contains
         call method%prepare(system, error)
         q = 1.0_dp
         v = 0.3_dp
+        call method%start(system, 0.0_dp, q, v)
         start = energy()
         worst = 0.0_dp
         do k = 0, thousands - 1
@@ -133,6 +134,7 @@ contains
                 call method%prepare(system, error)
                 q = 0.3_dp
                 v = 0.7_dp
+                call method%start(system, 0.0_dp, q, v)
                 call method%advance(system, 0.0_dp, 1e-4_dp, 0_i8, 100000_i8, q, v)
                 way(k) = abs(q(1)/(0.3_dp + 7.0_dp + 0.5_dp*1.962_dp*100.0_dp) - 1.0_dp)
             end do
@@ -156,12 +158,15 @@ contains
             call method%prepare(system, error)
             q = 1.0_dp
             v = 0.3_dp
+            call method%start(system, 0.0_dp, q, v)
             call method%advance(system, 0.0_dp, 0.1_dp, 0_i8, 1000_i8, q, v)
             v = -0.8_dp*v
             q_new = q
             v_new = v
+            call method%start(system, 100.0_dp, q, v)
             call method%advance(system, 0.0_dp, 0.1_dp, 1000_i8, 1000_i8, q, v)
             call method%prepare(system, error)
+            call method%start(system, 100.0_dp, q_new, v_new)
             call method%advance(system, 0.0_dp, 0.1_dp, 1000_i8, 1000_i8, q_new, v_new)
             call assertEqual(q_new, q, message=trim(names(i))//": q")
             call assertEqual(v_new, v, message=trim(names(i))//": v")

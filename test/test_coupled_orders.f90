@@ -45,6 +45,7 @@ contains
         q = y(:2)
         v = y(3:)
         call method%prepare(system, error)
+        call method%start(system, 0.0_dp, q, v)
         call method%advance(system, 0.0_dp, duration/steps, 0_i8, int(steps, i8), q, v)
         y = [q, v]
     end subroutine go
@@ -218,6 +219,7 @@ contains
         energy = system%energy(0.0_dp, q, v)
         swing = 0.0_dp
         call method%prepare(system, error)
+        call method%start(system, 0.0_dp, q, v)
         do i = 0, steps - 1
             call method%advance(system, 0.0_dp, 8.0_dp/steps, i, 1_i8, q, v)
             swing = max(swing, abs(system%energy(0.0_dp, q, v) - energy))

@@ -51,6 +51,7 @@ contains
 
         call new_gauss16(method)
         call method%prepare(system, error)
+        call method%start(system, 0.0_dp, q, v)
         call method%advance(system, 0.0_dp, t/8, 0_i8, 8_i8, q, v)
     end subroutine exact
 
@@ -144,6 +145,7 @@ contains
         v = v0
         call new_gauss16(method)
         call method%prepare(system, error)
+        call method%start(system, 0.0_dp, q, v)
         call method%advance(system, 0.0_dp, h, 0_i8, 1_i8, q, v)
         call inside%prepare(2)
         call inside%keep(0.0_dp, q0, v0)

@@ -131,6 +131,7 @@ contains
         call assertFalse(allocated(error), "rk4 takes it")
         q = acos(0.0_dp)
         v = 0.0_dp
+        call method%start(system, 0.0_dp, q, v)
         call method%advance(system, 0.0_dp, h, 0_i8, second, q, v)
         call assertEqual([-0.62508769980639063_dp, -1.03458508568001234_dp], q, 1e-11_dp, "q(1)")
         call assertEqual([-3.92227957288797662_dp, -1.30309924869633124_dp], v, 1e-11_dp, "v(1)")

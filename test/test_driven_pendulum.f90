@@ -128,6 +128,7 @@ contains
         q = pi - 0.2_dp
         v = 0.0_dp
         largest = 0.2_dp
+        call rk4%start(pendulum, 0.0_dp, q, v)
         do k = 0, 10000
             t = k*4e-4_dp
             largest = max(largest, abs(q(1) - pi))

@@ -60,6 +60,7 @@ contains
         call method%prepare(system, error)
         q = q_start
         v = v_start
+        call method%start(system, t0, q, v)
         call method%advance(system, t0, h, 0_i8, 3_i8, q, v)
         call assertEqual(expected, [q, v], rounding, name)
     end subroutine check_map

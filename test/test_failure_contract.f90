@@ -7,7 +7,7 @@ module test_failure_contract
     use lagrangia_dense_run, only: run_dense
     use lagrangia_errors, only: error_t, status_numbers
     use lagrangia_events, only: event_box_t
-    use lagrangia_integrator, only: dense_integrator_t, integrator_t
+    use lagrangia_integrator, only: dense_integrator_t, integrator_t, not_started
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: nth_integrator
     use lagrangia_observer, only: observer_box_t
@@ -29,6 +29,8 @@ contains
         call suite%addTest(TestMethod("a_refusal_changes_nothing", a_refusal_changes_nothing))
         call suite%addTest(TestMethod("steps_that_fail_leave_the_state", &
                                       steps_that_fail_leave_the_state))
+        call suite%addTest(TestMethod("a_forgotten_start_is_told", a_forgotten_start_is_told))
+        call suite%addTest(TestMethod("the_step_may_change", the_step_may_change))
         call suite%addTest(TestMethod("runs_that_fail_leave_the_state", &
                                       runs_that_fail_leave_the_state))
         call suite%addTest(TestMethod("dense_runs_that_fail_leave_the_state", &
@@ -98,9 +100,11 @@ contains
             call nth_method(i, method)
             if (.not. allocated(method)) exit
             call new_trap(method, system, q, v, q_other, v_other)
+            call method%start(system, 0.3_dp, q, v)
             call method%advance(system, 0.3_dp, 0.1_dp, 0_i8, 3_i8, q, v)
             call nth_method(i, other)
             call other%prepare(system, error)
+            call other%start(system, 0.3_dp, q_other, v_other)
             call other%advance(system, 0.3_dp, 0.1_dp, 0_i8, 3_i8, q_other, v_other)
             k = 0
             do
@@ -137,6 +141,7 @@ contains
             call nth_method(i, method)
             if (.not. allocated(method)) exit
             call new_trap(method, system, q, v, q0, v0)
+            call method%start(system, 0.0_dp, q, v)
             call method%try_advance(system, 0.0_dp, 1e3_dp, 0_i8, 200_i8, q, v, error)
             call assertTrue(allocated(error), trim(method%name)//" fails")
             if (.not. allocated(error)) return
@@ -149,12 +154,85 @@ contains
             call assertEqual("", trim(method%trouble))
             call nth_method(i, other)
             call other%prepare(system, error)
+            call other%start(system, 0.0_dp, q0, v0)
             call other%advance(system, 0.0_dp, 0.1_dp, 0_i8, 5_i8, q0, v0)
             call assertEqual([q0, v0], [q, v], message=trim(method%name)//": shorter steps")
             if (anyExceptions()) return
         end do
         call assertEqual(24, i - 1, "methods and variants")
     end subroutine steps_that_fail_leave_the_state
+
+    subroutine a_forgotten_start_is_told()
+        !! A method that cannot do without `start` says so; the others step as if it had been
+        !! called, to rounding. After the refusal the method has started.
+        class(integrator_t), allocatable :: method, other
+        class(dense_integrator_t), allocatable :: adaptive
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: q(:), v(:), q0(:), v0(:)
+        integer :: i, told
+
+        told = 0
+        i = 0
+        do
+            i = i + 1
+            call nth_method(i, method)
+            if (.not. allocated(method)) exit
+            call new_trap(method, system, q, v, q0, v0)
+            call method%try_advance(system, 0.3_dp, 0.1_dp, 0_i8, 5_i8, q, v, error)
+            if (allocated(error)) then
+                told = told + 1
+                call assertEqual("the state is not finite at t = 0.8 s: "//not_started, &
+                                 error%message)
+                call assertEqual([q0, v0], [q, v], message=trim(method%name)//": as it was")
+                call method%try_advance(system, 0.3_dp, 0.1_dp, 0_i8, 5_i8, q, v, error)
+                call assertFalse(allocated(error), trim(method%name)//": once is enough")
+            end if
+            call nth_method(i, other)
+            call other%prepare(system, error)
+            call other%start(system, 0.3_dp, q0, v0)
+            call other%advance(system, 0.3_dp, 0.1_dp, 0_i8, 5_i8, q0, v0)
+            call assertEqual([q0, v0], [q, v], 1e-14_dp, trim(method%name))
+            if (anyExceptions()) return
+        end do
+        call assertEqual(2, told, "kick first, plain and compensated")
+        call nth_adaptive(1, adaptive)
+        call adaptive%prepare(system, error)
+        call adaptive%try_advance(system, 0.3_dp, 0.1_dp, 0_i8, 5_i8, q, v, error)
+        call assertEqual("the state is not finite at t = 0.8 s: "//not_started, error%message)
+    end subroutine a_forgotten_start_is_told
+
+    subroutine the_step_may_change()
+        !! Without a new start, also backwards: to the rounding of some dozen evaluations the state
+        !! is that of a method that starts where each length begins.
+        class(integrator_t), allocatable :: method, other
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        real(dp), parameter :: lengths(4) = [0.1_dp, 0.03_dp, -0.2_dp, 0.17_dp]
+        real(dp), allocatable :: q(:), v(:), q0(:), v0(:)
+        real(dp) :: t
+        integer :: i, k
+
+        i = 0
+        do
+            i = i + 1
+            call nth_method(i, method)
+            if (.not. allocated(method)) exit
+            call new_trap(method, system, q, v, q0, v0)
+            call nth_method(i, other)
+            call other%prepare(system, error)
+            t = 0.3_dp
+            call method%start(system, t, q, v)
+            do k = 1, size(lengths)
+                call other%start(system, t, q0, v0)
+                call method%advance(system, t, lengths(k), 0_i8, 3_i8, q, v)
+                call other%advance(system, t, lengths(k), 0_i8, 3_i8, q0, v0)
+                call assertEqual([q0, v0], [q, v], 2e-15_dp*k, trim(method%name))
+                t = t + 3*lengths(k)
+            end do
+            if (anyExceptions()) return
+        end do
+    end subroutine the_step_may_change
 
     subroutine runs_that_fail_leave_the_state()
         !! Every method, at its first sample or later.

@@ -82,6 +82,7 @@ contains
         call new_gauss16(method)
         call method%prepare(system, error)
         call assertFalse(allocated(error), "prepare")
+        call method%start(system, t0, q, v)
         call method%advance(system, t0, dt, 0_i8, steps, q, v)
     end subroutine go
 
@@ -146,11 +147,13 @@ contains
         call method%prepare(system, error)
         q = 2.5_dp
         v = 0.3_dp
+        call method%start(system, 0.1_dp, q, v)
         call method%advance(system, 0.1_dp, 0.07_dp, 0_i8, 200_i8, q, v)
         whole = [q, v]
         q = 2.5_dp
         v = 0.3_dp
         k = 0
+        call method%start(system, 0.1_dp, q, v)
         do while (k < 200)
             call method%advance(system, 0.1_dp, 0.07_dp, k, min(1 + k/3, 200 - k), q, v)
             k = k + min(1 + k/3, 200 - k)
@@ -159,6 +162,7 @@ contains
         q = q + 1e-3_dp
         fresh_q = q
         fresh_v = v
+        call method%start(system, 0.1_dp + 200*0.07_dp, q, v)
         call method%advance(system, 0.1_dp, 0.07_dp, 200_i8, 5_i8, q, v)
         call go(system, 0.1_dp + 200*0.07_dp, 0.07_dp, 5_i8, fresh_q, fresh_v)
         call assertEqual([fresh_q, fresh_v], [q, v], 1e-14_dp, "from another state")
@@ -183,6 +187,7 @@ contains
             q = 2.0_dp - 0.1_dp*k
             v = 0.0_dp
             e = system%energy(0.0_dp, q, v)
+            call method%start(system, 0.0_dp, q, v)
             call method%advance(system, 0.0_dp, 0.05_dp, 0_i8, 20000_i8, q, v)
             drift = drift + abs(system%energy(0.0_dp, q, v)/e - 1.0_dp)
             call assertLessThan(method%evaluations, 8*90000_i8, message="evaluations")

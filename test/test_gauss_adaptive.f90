@@ -70,6 +70,7 @@ contains
             call ready(system, tolerance, method)
             q = 2.5_dp
             v = 0.3_dp
+            call method%start(system, 0.0_dp, q, v)
             call method%advance(system, 0.0_dp, 10.0_dp, 0_i8, 1_i8, q, v)
             worst = max(abs(q(1) - q_true(1)), abs(v(1) - v_true(1)))
             call assertLessThan(worst, 100.0_dp*tolerance, message="error")
@@ -137,6 +138,7 @@ contains
         call assertEqual(before, [q, v], 0.0_dp, "state stands")
         q = [0.8_dp, 1.9_dp]
         v = [-0.4_dp, 1.1_dp]
+        call method%start(system, 0.0_dp, q, v)
         call method%advance(system, 0.0_dp, 2.0_dp, 0_i8, 1_i8, q, v)
         call assertTrue(any(ieee_is_nan([q, v])), "advance")
     end subroutine stops_where_nothing_goes_on
@@ -152,6 +154,7 @@ contains
         call ready(system, 1e-9_dp, method)
         q = 1e-6_dp
         v = 0.0_dp
+        call method%start(system, 0.0_dp, q, v)
         call method%advance(system, 0.0_dp, 0.02_dp, 0_i8, 1_i8, q, v)
         call assertGreaterThan(method%rejected, 0_i8, message="rejected steps")
         call assertEqual(1e-6_dp*cos(200.0_dp), q(1), 1e-9_dp, "coordinate")
@@ -170,11 +173,13 @@ contains
         call ready(system, 1e-9_dp, method)
         q = 1.0_dp
         v = 0.0_dp
+        call method%start(system, 0.0_dp, q, v)
         call method%advance(system, 0.0_dp, 30.0_dp, 0_i8, 1_i8, q, v)
         evaluations = method%evaluations
         call ready(system, 1e-9_dp, method)
         q = 1e6_dp
         v = 0.0_dp
+        call method%start(system, 0.0_dp, q, v)
         call method%advance(system, 0.0_dp, 30.0_dp, 0_i8, 1_i8, q, v)
         call assertLessThan(real(method%evaluations, dp), 2.0_dp*evaluations, message="cost")
         call assertEqual(cos(30.0_dp), q(1)/1e6_dp, 1e-7_dp, "relative error")
@@ -193,12 +198,14 @@ contains
         call ready(system, 1e-10_dp, method)
         q = 2.5_dp
         v = 0.3_dp
+        call method%start(system, 0.0_dp, q, v)
         call method%advance(system, 0.0_dp, 0.5_dp, 0_i8, 20_i8, q, v)
         whole = [q, v]
         evaluations = method%evaluations
         call ready(system, 1e-10_dp, method)
         q = 2.5_dp
         v = 0.3_dp
+        call method%start(system, 0.0_dp, q, v)
         do k = 0, 19
             call method%advance(system, 0.0_dp, 0.5_dp, k, 1_i8, q, v)
         end do
@@ -218,6 +225,7 @@ contains
         q = [0.3_dp, 0.1_dp]
         v = [1.0_dp, -0.5_dp]
         call system%accelerations(0.0_dp, q, v, a)
+        call method%start(system, 0.0_dp, q, v)
         call method%advance(system, 0.0_dp, 100.0_dp, 0_i8, 1_i8, q, v)
         call assertLessThan(method%accepted, 16_i8, message="steps")
         call assertEqual(0_i8, method%rejected, message="rejected")
@@ -235,6 +243,7 @@ contains
         call ready(system, 1e-9_dp, method)
         q = 1.0_dp
         v = 0.0_dp
+        call method%start(system, 0.0_dp, q, v)
         call method%advance(system, 0.0_dp, -1.0_dp, 0_i8, 1_i8, q, v)
         call assertTrue(ieee_is_nan(v(1)), "backwards")
     end subroutine backwards_is_refused

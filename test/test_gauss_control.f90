@@ -158,6 +158,7 @@ contains
         call new_gauss16(method)
         call method%prepare(system, error)
         y_end = y
+        call method%start(system, 0.0_dp, y_end(:2), y_end(3:))
         call method%advance(system, 0.0_dp, duration/steps, 0_i8, int(steps, i8), y_end(:2), &
                             y_end(3:))
     end subroutine go

@@ -52,6 +52,7 @@ contains
 
         call new_gauss16(method)
         call method%prepare(system, error)
+        call method%start(system, t0, q, v)
         call method%advance(system, t0, (t1 - t0)/16, 0_i8, 16_i8, q, v)
     end subroutine exact
 
@@ -119,6 +120,7 @@ contains
         q = [1.5_dp, 0.8_dp]
         v = [0.2_dp, -1.0_dp]
         call ready(system, 1e-9_dp, method)
+        call method%start(system, 0.5_dp, q, v)
         call method%advance(system, 0.5_dp, 2.5_dp, 0_i8, 1_i8, q, v)
         call assertEqual([q, v], [end_q, end_v], 0.0_dp, "steps of advance are the same")
     end subroutine states_at_the_ends

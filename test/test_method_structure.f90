@@ -95,7 +95,9 @@ contains
                     if (refuses(method, system)) cycle
                     q = q0
                     v = v0
+                    call method%start(system, t, q, v)
                     call method%advance(system, t, 0.02_dp, 0_i8, 20_i8, q, v)
+                    call method%start(system, t + 20*0.02_dp, q, v)
                     call method%advance(system, t + 20*0.02_dp, -0.02_dp, 0_i8, 20_i8, q, v)
                     worst = max(worst, maxval(abs(q - q0)), maxval(abs(v - v0)))
                     if (method%reversible) call assertLessThan(worst, rounding, &
@@ -128,6 +130,7 @@ contains
                                    0.3_dp, 0.0_dp], error)
             if (refuses(method, system)) cycle
             speed = norm2(v)
+            call method%start(system, 0.0_dp, q, v)
             call method%advance(system, 0.0_dp, 1.0_dp, 0_i8, 10000_i8, q, v)
             change = abs(norm2(v)/speed - 1.0_dp)
             if (method%keeps_speed) then

@@ -124,6 +124,7 @@ contains
         if (refuses(method, system)) return
         q = q0
         v = v0
+        call method%start(system, 0.3_dp, q, v)
         call method%advance(system, 0.3_dp, 0.01_dp, 0_i8, 300_i8, q, v)
         evaluations = method%evaluations
         call assertGreaterThan(evaluations, 0_i8, message=trim(method%name)//": evaluations")
@@ -131,6 +132,7 @@ contains
             if (refuses(method, system)) return
             q_cut = q0
             v_cut = v0
+            call method%start(system, 0.3_dp, q_cut, v_cut)
             do i = 2, size(pieces)
                 call method%advance(system, 0.3_dp, 0.01_dp, pieces(i - 1), &
                                     pieces(i) - pieces(i - 1), q_cut, v_cut)
@@ -155,10 +157,13 @@ contains
         call fresh%prepare(system, error)
         q = 1.0_dp
         v = 0.5_dp
+        call method%start(system, 0.0_dp, q, v)
         call method%advance(system, 0.0_dp, 0.01_dp, 0_i8, 10_i8, q, v)
         q_fresh = q
         v_fresh = v
+        call method%start(system, 0.7_dp, q, v)
         call method%advance(system, 0.7_dp, 0.01_dp, 0_i8, 10_i8, q, v)
+        call fresh%start(system, 0.7_dp, q_fresh, v_fresh)
         call fresh%advance(system, 0.7_dp, 0.01_dp, 0_i8, 10_i8, q_fresh, v_fresh)
         call assertEqual(q_fresh, q, message="q")
         call assertEqual(v_fresh, v, message="v")
@@ -189,6 +194,7 @@ contains
             q = 1.0_dp
             v = 0.0_dp
             call method%prepare(system, error)
+            call method%start(system, 0.0_dp, q, v)
             call method%advance(system, 0.0_dp, (1.0_dp + 0.01_dp*k)*limit/1.5_dp, 0_i8, 2000_i8, &
                                 q, v)
             if (k < 0) then

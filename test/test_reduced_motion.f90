@@ -9,7 +9,7 @@ module test_reduced_motion
     use lagrangia_command_line, only: word_t
     use lagrangia_errors, only: error_t
     use lagrangia_findings, only: audit_t
-    use lagrangia_integrator, only: dense_integrator_t, integrator_t
+    use lagrangia_integrator, only: dense_integrator_t, integrator_t, not_started
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: new_integrator
     use lagrangia_observer, only: observer_t
@@ -110,8 +110,10 @@ contains
         q_whole = q
         v_whole = v
         call whole%prepare(system, error)
+        call whole%start(system, 0.3_dp, q_whole, v_whole)
         call whole%advance(system, 0.3_dp, 0.05_dp, 0_i8, 200_i8, q_whole, v_whole)
         call reduced%prepare(system, error)
+        call reduced%start(system, 0.3_dp, q, v)
         call reduced%advance(system, 0.3_dp, 0.05_dp, 0_i8, 200_i8, q, v)
         call assertEqual(q_whole, q, 1e-13_dp, "q")
         call assertEqual(v_whole, v, 1e-13_dp, "v")
@@ -124,6 +126,7 @@ contains
         call reduced%prepare(system, error)
         q = [0.4_dp, 1.2_dp]
         v = [-0.6_dp, 1.5_dp]
+        call reduced%start(system, 0.3_dp, q, v)
         call reduced%advance(system, 0.3_dp, 0.02_dp, 0_i8, 500_i8, q, v)
         call assertEqual(q_whole, q, 1e-9_dp, "q by dop853")
         call assertEqual(v_whole, v, 1e-9_dp, "v by dop853")
@@ -134,6 +137,7 @@ contains
         call reduced%prepare(system, error)
         q = [0.4_dp, 1.2_dp]
         v = [-0.6_dp, 1.5_dp]
+        call reduced%start(system, 0.3_dp, q, v)
         call reduced%advance(system, 0.3_dp, 1e-3_dp, 0_i8, 10000_i8, q, v)
         call assertEqual(q_whole, q, 1e-8_dp, "q by rk4")
         call assertEqual(v_whole, v, 1e-8_dp, "v by rk4")
@@ -170,6 +174,7 @@ contains
                 call assertEqual(2*k + 2, int(method%accepted), "steps")
                 call method%state_at(t, q, v)
                 call whole%prepare(system, error)
+                call whole%start(system, 1.0_dp*k, q_true, v_true)
                 call whole%advance(system, 1.0_dp*k, (t - k)/20, 0_i8, 20_i8, q_true, v_true)
                 call assertEqual(q_true, q, 1e-12_dp, "q")
                 call assertEqual(v_true, v, 1e-11_dp, "v")
@@ -195,8 +200,12 @@ contains
         q = spread([0.4_dp, 2.0_dp], 2, 2)
         v = spread([-0.6_dp, 1.5_dp], 2, 2)
         call method%prepare(system, error)
+        call method%start(system, 0.3_dp, q(:, 1), v(:, 1))
         call method%advance(system, 0.3_dp, 0.05_dp, 0_i8, 30_i8, q(:, 1), v(:, 1))
         call method%prepare(system, error)
+        call method%try_advance(system, 0.3_dp, 0.05_dp, 0_i8, 30_i8, q(:, 2), v(:, 2), error)
+        call assertEqual("the state is not finite at t = 1.8 s: "//not_started, error%message)
+        call method%start(system, 0.3_dp, q(:, 2), v(:, 2))
         do k = 0, 29
             call method%advance(system, 0.3_dp, 0.05_dp, k, 1_i8, q(:, 2), v(:, 2))
         end do
@@ -204,6 +213,7 @@ contains
         call assertEqual(v(:, 1), v(:, 2), message="v")
         v(1, 2) = 5.0_dp
         call system%momenta(0.0_dp, q(:, 2), v(:, 2), p)
+        call method%start(system, 0.3_dp + 30*0.05_dp, q(:, 2), v(:, 2))
         call method%advance(system, 0.3_dp, 0.05_dp, 30_i8, 10_i8, q(:, 2), v(:, 2))
         call system%momenta(0.0_dp, q(:, 2), v(:, 2), p_new)
         call assertEqual(p(1), p_new(1), 1e-14_dp*abs(p(1)), "p_x")
@@ -240,6 +250,7 @@ contains
             end select
             v(:, k) = [-0.6_dp, 1.5_dp]
             call method%prepare(system, error)
+            call method%start(system, t, q(:, k), v(:, k))
             call method%advance(system, t, 0.0371_dp, 0_i8, 30_i8, q(:, k), v(:, k))
         end do
         call assertEqual(q(:, 1), q(:, 2), message="q")

@@ -81,6 +81,7 @@ contains
         call new_integrator(name, method, error)
         call shadow%start(method, system, 0.3_dp, dt, q, v, error)
         call method%prepare(system, error)
+        call method%start(system, 0.3_dp, q, v)
         call shadow%estimate(system, 0.3_dp, q, estimate, error)
         call assertEqual(0.0_dp, estimate, message="no error at the start")
         largest = 0.0_dp
@@ -173,6 +174,7 @@ contains
             call shadow%start(method, system, t, dt, q, v, error)
             call shadow%start_other(other, system, t, t + steps*dt, q, v)
             call method%prepare(system, error)
+            call method%start(system, t, q, v)
             call method%advance(system, t, dt, 0_i8, int(steps, i8), q, v)
             call shadow%estimate(system, t + steps*dt, q, estimate, error)
             call reference%state_at(t + steps*dt, truth, ignored)

@@ -97,6 +97,7 @@ contains
 
             q = 2.0_dp
             v = 0.0_dp
+            call method%start(system, 0.0_dp, q, v)
             start = system%energy(0.0_dp, q, v)
             worst = 0.0_dp
             do k = 0, 99999

@@ -133,6 +133,7 @@ contains
         call method%prepare(system, refusal)
         q = q0
         v = v0
+        call method%start(system, 0.0_dp, q, v)
         e0 = system%energy(0.0_dp, q, v)
         swing = 0.0_dp
         do k = 0, steps - 1

@@ -71,6 +71,7 @@ contains
         if (allocated(refusal)) return
         q = theta0
         v = 0.0_dp
+        call method%start(system, 0.0_dp, q, v)
         start_energy = system%energy(0.0_dp, q, v)
         worst = 0.0_dp
         start = ticks_now()

@@ -72,6 +72,7 @@ contains
 
         q = problem%q
         v = problem%v
+        call self%method%start(problem%system, 0.0_dp, q, v)
         call self%method%advance(problem%system, 0.0_dp, problem%duration/self%steps, 0_i8, &
                                  self%steps, q, v)
         self%evaluations = self%method%evaluations

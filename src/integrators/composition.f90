@@ -5,9 +5,10 @@ module lagrangia_composition
     !! fractions \(\gamma_s\), \(\sum\gamma_s = 1\), each drift, kick, drift in the position form
     !! and kick, drift, kick in the velocity form. Source: Hairer, Lubich & Wanner, *Geometric
     !! Numerical Integration*, 2nd ed., secs. I.1.4, V.3; compensated sums: sec. VIII.5.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_composition_table, only: nth_row, row_t
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_integrator, only: integrator_t
+    use lagrangia_integrator, only: integrator_t, not_started
     use lagrangia_kinds, only: dp, i8, qp
     use lagrangia_summation, only: add, add_pair
     use lagrangia_system, only: system_t
@@ -22,10 +23,9 @@ module lagrangia_composition
         real(dp), allocatable :: node(:)            !! of the evaluations, fractions of the step
         real(dp), allocatable :: a(:)
         real(dp), allocatable :: q_low(:), v_low(:) !! what did not fit into q and v
-        real(dp), allocatable :: q_end(:), v_end(:) !! where `a` and the low parts belong: the
-        real(dp) :: t_end = 0.0_dp                  !! state that the latest call has returned
     contains
         procedure :: prepare
+        procedure :: start
     end type composition_t
 
     type, extends(composition_t) :: position_form_t
@@ -39,6 +39,7 @@ module lagrangia_composition
     type, extends(composition_t) :: velocity_form_t
         !! Kick, drift, kick. The last evaluation of a step is the first of the next one.
     contains
+        procedure :: start => start_velocities
         procedure :: advance => advance_velocities
         procedure :: compensated => compensate_velocities
     end type velocity_form_t
@@ -136,16 +137,43 @@ contains
         end if
         state = 0.0_dp
         self%evaluations = 0
-        self%a = state
         self%q_low = state
         self%v_low = state
-        state = huge(1.0_dp)
-        self%q_end = state
-        self%v_end = state
+        state = ieee_value(state, ieee_quiet_nan)
+        self%a = state
+        self%trouble = not_started
     end subroutine prepare
 
+    pure subroutine start(self, system, t0, q, v, t_end)
+        !! See `integrator_t`. Nothing is known yet of what rounding took from the state.
+        class(composition_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t0
+        real(dp), intent(in) :: q(system%ndof), v(system%ndof)
+        real(dp), intent(in), optional :: t_end
+
+        self%trouble = ""
+        self%q_low(:) = 0.0_dp
+        self%v_low(:) = 0.0_dp
+    end subroutine start
+
+    pure subroutine start_velocities(self, system, t0, q, v, t_end)
+        !! See `integrator_t`. The first kick needs the accelerations.
+        class(velocity_form_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t0
+        real(dp), intent(in) :: q(system%ndof), v(system%ndof)
+        real(dp), intent(in), optional :: t_end
+
+        self%trouble = ""
+        self%q_low(:) = 0.0_dp
+        self%v_low(:) = 0.0_dp
+        call system%accelerations(t0, q, v, self%a)
+        self%evaluations = self%evaluations + 1
+    end subroutine start_velocities
+
     pure subroutine advance_positions(self, system, t0, dt, first, steps, q, v)
-        !! See `integrator_t`. Nothing is carried between calls.
+        !! See `integrator_t`. Nothing is kept from step to step.
         class(position_form_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t0, dt
@@ -169,7 +197,7 @@ contains
     end subroutine advance_positions
 
     pure subroutine advance_velocities(self, system, t0, dt, first, steps, q, v)
-        !! See `integrator_t`. Carried between calls: the accelerations at the last state.
+        !! See `integrator_t`. Kept from step to step: the accelerations at its end.
         class(velocity_form_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t0, dt
@@ -179,7 +207,6 @@ contains
         integer(i8) :: k
         integer :: s, stages
 
-        call resume_accelerations(self, system, t0 + first*dt, q, v)
         stages = size(self%drift)
         do k = first, first + steps - 1
             t = t0 + k*dt
@@ -194,11 +221,10 @@ contains
             v = v + self%kick(stages + 1)*dt*self%a
         end do
         self%evaluations = self%evaluations + steps*stages
-        call remember(self, t0 + (first + steps)*dt, q, v)
     end subroutine advance_velocities
 
     pure subroutine advance_positions_compensated(self, system, t0, dt, first, steps, q, v)
-        !! See `integrator_t`. Carried between calls: the low parts of the last state.
+        !! See `integrator_t`. Kept from step to step: the low parts of the state.
         class(compensated_positions_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t0, dt
@@ -208,7 +234,6 @@ contains
         integer(i8) :: k
         integer :: s, stages
 
-        call resume(self, q, v)
         stages = size(self%kick)
         do k = first, first + steps - 1
             t = t0 + k*dt
@@ -221,11 +246,10 @@ contains
                           self%drift(stages + 1)*dt*self%v_low)
         end do
         self%evaluations = self%evaluations + steps*stages
-        call remember(self, t0 + (first + steps)*dt, q, v)
     end subroutine advance_positions_compensated
 
     pure subroutine advance_velocities_compensated(self, system, t0, dt, first, steps, q, v)
-        !! See `integrator_t`. Carried between calls: accelerations and low parts.
+        !! See `integrator_t`. Kept from step to step: accelerations and low parts.
         class(compensated_velocities_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t0, dt
@@ -235,8 +259,6 @@ contains
         integer(i8) :: k
         integer :: s, stages
 
-        call resume(self, q, v)
-        call resume_accelerations(self, system, t0 + first*dt, q, v)
         stages = size(self%drift)
         do k = first, first + steps - 1
             t = t0 + k*dt
@@ -252,37 +274,5 @@ contains
             call add(v, self%v_low, self%kick(stages + 1)*dt*self%a)
         end do
         self%evaluations = self%evaluations + steps*stages
-        call remember(self, t0 + (first + steps)*dt, q, v)
     end subroutine advance_velocities_compensated
-
-    pure subroutine resume(self, q, v)
-        !! Forget the low parts unless the state is the one that they belong to.
-        class(composition_t), intent(inout) :: self
-        real(dp), intent(in) :: q(:), v(:)
-
-        if (all(abs(q - self%q_end) <= 0.0_dp) .and. all(abs(v - self%v_end) <= 0.0_dp)) return
-        self%q_low = 0.0_dp
-        self%v_low = 0.0_dp
-    end subroutine resume
-
-    pure subroutine resume_accelerations(self, system, t, q, v)
-        !! Evaluate the accelerations unless those at hand belong to this time and place.
-        class(velocity_form_t), intent(inout) :: self
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
-
-        if (all(abs(q - self%q_end) <= 0.0_dp) .and. abs(t - self%t_end) <= 0.0_dp) return
-        call system%accelerations(t, q, v, self%a)
-        self%evaluations = self%evaluations + 1
-    end subroutine resume_accelerations
-
-    pure subroutine remember(self, t, q, v)
-        !! What is carried belongs to this state.
-        class(composition_t), intent(inout) :: self
-        real(dp), intent(in) :: t, q(:), v(:)
-
-        self%t_end = t
-        self%q_end = q
-        self%v_end = v
-    end subroutine remember
 end module lagrangia_composition

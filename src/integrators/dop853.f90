@@ -29,8 +29,8 @@ module lagrangia_dop853
         real(dp), allocatable :: inside(:, :)  !! coefficients of the dense output
     contains
         procedure :: prepare
-        procedure :: advance
         procedure :: start
+        procedure :: advance
         procedure :: step
         procedure :: state_at
     end type dop853_t
@@ -91,12 +91,12 @@ contains
         !! little, and as the change of the slope over it allows. Two evaluations.
         class(dop853_t), intent(inout) :: self
         class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t0, q(system%ndof), v(system%ndof), t_end
+        real(dp), intent(in) :: t0
+        real(dp), intent(in) :: q(system%ndof), v(system%ndof)
+        real(dp), intent(in), optional :: t_end
         real(dp) :: size_y, size_slope, change
 
-        self%t_old = t0
-        self%t_new = t0
-        self%t_end = t_end
+        call self%stand(t0, t_end)
         self%last_error = 1e-4_dp
         self%y(:system%ndof) = q
         self%y(system%ndof + 1:) = v
@@ -107,7 +107,7 @@ contains
         size_slope = norm(self%tolerance, self%k(:, 1), self%y, self%y)
         self%h = 1e-6_dp
         if (min(size_y, size_slope) > 1e-5_dp) self%h = 0.01_dp*size_y/size_slope
-        self%h = min(self%h, t_end - t0)
+        self%h = min(self%h, self%t_end - t0)
         self%work = self%y + self%h*self%k(:, 1)
         call slope(system, system%ndof, t0 + self%h, self%work, self%k(:, 2))
         self%k(:, 3) = self%k(:, 2) - self%k(:, 1)

@@ -8,7 +8,7 @@ module lagrangia_gauss
     use lagrangia_errors, only: error_t
     use lagrangia_gauss_stages, only: gauss_stages_t
     use lagrangia_gauss_tables, only: stages
-    use lagrangia_integrator, only: integrator_t, same
+    use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: system_t
     implicit none (type, external)
@@ -23,11 +23,10 @@ module lagrangia_gauss
         private
         type(gauss_stages_t) :: s
         real(dp), allocatable :: weight(:)  !! 1/(accelerations that matter), squared
-        real(dp) :: t0 = 0.0_dp, dt = 0.0_dp
         integer :: blind = 0               !! sweeps that need not be measured in the next step
-        integer(i8) :: next = -1           !! step that would go on from where `s` stands
     contains
         procedure :: prepare
+        procedure :: start
         procedure :: advance
     end type gauss_t
 
@@ -53,14 +52,27 @@ contains
 
         call self%s%prepare(system%ndof)
         self%weight = self%s%v
-        self%next = -1
+        self%blind = 0
         self%evaluations = 0
     end subroutine prepare
 
+    pure subroutine start(self, system, t0, q, v, t_end)
+        !! See `integrator_t`. One evaluation, from which the first step guesses its stages.
+        class(gauss_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t0
+        real(dp), intent(in) :: q(system%ndof), v(system%ndof)
+        real(dp), intent(in), optional :: t_end
+
+        self%trouble = ""
+        call self%s%place(system, t0, q, v)
+        self%blind = 0
+        self%evaluations = self%evaluations + 1
+    end subroutine start
+
     pure subroutine advance(self, system, t0, dt, first, steps, q, v)
-        !! See `integrator_t`. What rounding took from the state, and the polynomial of the last
-        !! step, are kept from one call to the next, and used if that one goes on from there: so
-        !! the bytes are the same however a run is cut. Where the iteration fails the state is NaN.
+        !! See `integrator_t`. Kept from step to step: what rounding took from the state, and the
+        !! polynomial of the last step. Where the iteration fails the state is NaN.
         class(gauss_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t0, dt
@@ -70,11 +82,8 @@ contains
         integer :: sweeps
         logical :: good
 
-        if (.not. goes_on(self, t0, dt, first, q, v)) then
-            call self%s%place(system, t0 + first*dt, q, v)
-            self%blind = 0
-            self%evaluations = self%evaluations + 1
-        end if
+        self%s%q(:) = q
+        self%s%v(:) = v
         do k = first, first + steps - 1
             call self%s%guess(t0 + k*dt, dt)
             call solve(self%s, system, self%blind, self%weight, sweeps, good)
@@ -87,21 +96,7 @@ contains
         end do
         q = self%s%q
         v = self%s%v
-        self%t0 = t0
-        self%dt = dt
-        self%next = first + steps
     end subroutine advance
-
-    pure function goes_on(self, t0, dt, first, q, v)
-        !! The call goes on from where the last one ended.
-        class(gauss_t), intent(in) :: self
-        real(dp), intent(in) :: t0, dt, q(:), v(:)
-        integer(i8), intent(in) :: first
-        logical :: goes_on
-
-        goes_on = first == self%next .and. same(t0, self%t0) .and. same(dt, self%dt) &
-                  .and. all(same(q, self%s%q)) .and. all(same(v, self%s%v))
-    end function goes_on
 
     pure subroutine solve(s, system, blind, weight, sweeps, good)
         !! Sweep until what the next sweep leaves cannot add up to anything, even over a million

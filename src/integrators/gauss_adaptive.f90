@@ -14,7 +14,7 @@ module lagrangia_gauss_adaptive
     use lagrangia_gauss_kinks, only: see_kinks
     use lagrangia_gauss_stages, only: gauss_stages_t
     use lagrangia_gauss_tables, only: stages
-    use lagrangia_integrator, only: dense_integrator_t, same
+    use lagrangia_integrator, only: dense_integrator_t, not_started
     use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
@@ -40,8 +40,8 @@ module lagrangia_gauss_adaptive
         real(dp), allocatable :: weight(:)       !! 1/(wanted error of `f`), squared
     contains
         procedure :: prepare
-        procedure :: advance
         procedure :: start
+        procedure :: advance
         procedure :: step
         procedure :: state_at
     end type gauss_adaptive_t
@@ -78,29 +78,23 @@ contains
         self%accepted = 0
         self%rejected = 0
         self%h = 0.0_dp
+        self%trouble = not_started
     end subroutine prepare
 
     pure subroutine advance(self, system, t0, dt, first, steps, q, v)
-        !! From `t0 + first*dt` to `t0 + (first + steps)*dt`, in steps of its own. Where it stood
-        !! there already, it goes on with the steps that it found right. NaN where none is, and
-        !! backwards.
+        !! To `t0 + (first + steps)*dt`, in steps of its own: the first is as long as the last one
+        !! let it expect. NaN where none is short enough, and backwards.
         class(gauss_adaptive_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t0, dt
         integer(i8), intent(in) :: first, steps
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
-        real(dp) :: from, to
         logical :: good
 
-        from = t0 + first*dt
-        to = t0 + (first + steps)*dt
-        if (self%h > 0.0_dp .and. same(from, self%t_new) .and. all(same(q, self%s%q)) &
-            .and. all(same(v, self%s%v))) then
-            self%t_end = to
-        else
-            call self%start(system, from, q, v, to)
-        end if
-        good = to >= from
+        self%s%q(:) = q
+        self%s%v(:) = v
+        self%t_end = t0 + (first + steps)*dt
+        good = self%t_end >= self%t_new .and. self%h > 0.0_dp
         do while (self%t_new < self%t_end .and. good)
             call take_whole_step(self, system, good)
         end do
@@ -114,19 +108,20 @@ contains
         !! itself.
         class(gauss_adaptive_t), intent(inout) :: self
         class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t0, q(system%ndof), v(system%ndof), t_end
-        real(dp) :: speed
+        real(dp), intent(in) :: t0
+        real(dp), intent(in) :: q(system%ndof), v(system%ndof)
+        real(dp), intent(in), optional :: t_end
+        real(dp) :: speed, ahead
 
         call self%s%place(system, t0, q, v)
         call self%inside%keep(t0, q, v)
         self%evaluations = self%evaluations + 1
-        self%t_old = t0
-        self%t_new = t0
-        self%t_end = t_end
+        call self%stand(t0, t_end)
         self%rate = best_rate
         speed = maxval(abs(v)/max(1.0_dp, abs(q))) &
                 + maxval(abs(self%s%known(1, :))/max(1.0_dp, abs(v)))
-        self%h = (t_end - t0)/max(1.0_dp, 3.0_dp*speed*(t_end - t0))
+        ahead = min(self%t_end - t0, sqrt(huge(t0)))  ! its product with a speed is a number
+        self%h = ahead/max(1.0_dp, 3.0_dp*speed*ahead)
     end subroutine start
 
     pure subroutine step(self, system, error)

@@ -1,5 +1,6 @@
 module lagrangia_integrator
-    !! The contract of an integrator: `prepare` refuses or allocates, `advance` cannot fail.
+    !! The contract of an integrator: `prepare` refuses or allocates, `start` begins a motion,
+    !! `advance` goes on from where the last one ended, and cannot fail.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_description, only: line_length, name_length
     use lagrangia_errors, only: error_t, fail, status_numbers
@@ -8,7 +9,10 @@ module lagrangia_integrator
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: integrator_t, integrator_box_t, dense_integrator_t, dense_integrator_box_t, same
+    public :: integrator_t, integrator_box_t, dense_integrator_t, dense_integrator_box_t
+    public :: not_started
+
+    character(*), parameter :: not_started = "`start` has not been called"
 
     type, abstract :: integrator_t
         character(name_length) :: name = ""
@@ -24,6 +28,7 @@ module lagrangia_integrator
         character(line_length) :: trouble = ""  !! why `advance` gave NaN, where the method knows
     contains
         procedure(prepare_i), deferred :: prepare
+        procedure :: start
         procedure(advance_i), deferred :: advance
         procedure :: compensated => no_compensated
         procedure :: properties
@@ -45,14 +50,14 @@ module lagrangia_integrator
         real(dp) :: longest = huge(1.0_dp)  !! no step is longer, but for 1 % at the end, s
         real(dp) :: t_old = 0.0_dp        !! s
         real(dp) :: t_new = 0.0_dp        !! s
-        real(dp) :: t_end = 0.0_dp        !! no step goes beyond, s
+        real(dp) :: t_end = 0.0_dp        !! no step goes beyond, s; set by `start`
         integer :: looks = 8              !! places in a step, between which the motion hardly turns
         logical :: dense = .true.         !! if false only the ends of steps are asked for: cheaper,
         !! but gauss16 looks for no kinks of the force
         integer(i8) :: accepted = 0
         integer(i8) :: rejected = 0
     contains
-        procedure(start_i), deferred :: start
+        procedure, non_overridable :: stand
         procedure(step_i), deferred :: step
         procedure(state_at_i), deferred :: state_at
     end type dense_integrator_t
@@ -70,32 +75,26 @@ module lagrangia_integrator
             implicit none (type, external)
             class(integrator_t), intent(inout) :: self
             class(system_t), intent(in) :: system
-            type(error_t), allocatable, intent(out) :: error
+            type(error_t), allocatable, intent(out) :: error  !! why it refuses
         end subroutine prepare_i
 
         pure subroutine advance_i(self, system, t0, dt, first, steps, q, v)
             !! Take the steps `first`, ..., `first + steps - 1` of a run: step `k` starts at
             !! `t0 + k*dt`, so that a run gives the same bytes however it is cut into blocks.
-            !! A step that cannot be taken leaves a state of NaN, and the reason in `trouble`.
+            !! The state and its time are those of `start`, or where the last call ended; `dt` may
+            !! be another one than there. A step that cannot be taken leaves a state of NaN, and
+            !! the reason in `trouble`; after that only `start` helps.
             import :: integrator_t, system_t, dp, i8
             implicit none (type, external)
             class(integrator_t), intent(inout) :: self
-            class(system_t), intent(in) :: system
+            class(system_t), intent(in) :: system     !! the one of `prepare`
             real(dp), intent(in) :: t0                !! time of step 0, s
-            real(dp), intent(in) :: dt                !! step, s
-            integer(i8), intent(in) :: first, steps
-            real(dp), intent(inout) :: q(system%ndof)
-            real(dp), intent(inout) :: v(system%ndof)
+            real(dp), intent(in) :: dt                !! step, s; negative: backwards
+            integer(i8), intent(in) :: first          !! number of the first step
+            integer(i8), intent(in) :: steps          !! how many
+            real(dp), intent(inout) :: q(system%ndof) !! coordinates, before and after
+            real(dp), intent(inout) :: v(system%ndof) !! velocities, before and after
         end subroutine advance_i
-
-        pure subroutine start_i(self, system, t0, q, v, t_end)
-            !! Stand at `t0`; `prepare` came before. Also after an event has changed the state.
-            import :: dense_integrator_t, system_t, dp
-            implicit none (type, external)
-            class(dense_integrator_t), intent(inout) :: self
-            class(system_t), intent(in) :: system
-            real(dp), intent(in) :: t0, q(system%ndof), v(system%ndof), t_end
-        end subroutine start_i
 
         pure subroutine step_i(self, system, error)
             !! One accepted step from `t_new` on, never beyond `t_end`; fails (status 3) where no
@@ -103,8 +102,8 @@ module lagrangia_integrator
             import :: dense_integrator_t, system_t, error_t
             implicit none (type, external)
             class(dense_integrator_t), intent(inout) :: self
-            class(system_t), intent(in) :: system
-            type(error_t), allocatable, intent(out) :: error
+            class(system_t), intent(in) :: system             !! the one of `prepare`
+            type(error_t), allocatable, intent(out) :: error  !! why there is no step
         end subroutine step_i
 
         pure subroutine state_at_i(self, t, q, v)
@@ -113,36 +112,69 @@ module lagrangia_integrator
             import :: dense_integrator_t, dp
             implicit none (type, external)
             class(dense_integrator_t), intent(in) :: self
-            real(dp), intent(in) :: t
-            real(dp), intent(out) :: q(:), v(:)
+            real(dp), intent(in) :: t      !! s
+            real(dp), intent(out) :: q(:)  !! coordinates, `(ndof)`
+            real(dp), intent(out) :: v(:)  !! velocities, `(ndof)`
         end subroutine state_at_i
     end interface
 
 contains
 
+    pure subroutine start(self, system, t0, q, v, t_end)
+        !! Begin a motion at a state: at the start of a run, and wherever the state is not the one
+        !! where the last step ended. `prepare` came before. A method that keeps something from
+        !! step to step overrides this; here only `trouble` is forgotten.
+        class(integrator_t), intent(inout) :: self
+        class(system_t), intent(in) :: system      !! the one of `prepare`
+        real(dp), intent(in) :: t0                 !! time of the state, s
+        real(dp), intent(in) :: q(system%ndof)     !! coordinates
+        real(dp), intent(in) :: v(system%ndof)     !! velocities
+        real(dp), intent(in), optional :: t_end    !! where `step` must end, s; absent: nowhere
+
+        self%trouble = ""
+    end subroutine start
+
+    pure subroutine stand(self, t0, t_end)
+        !! What every dense method notes where it starts.
+        class(dense_integrator_t), intent(inout) :: self
+        real(dp), intent(in) :: t0               !! s
+        real(dp), intent(in), optional :: t_end  !! s; absent: no end
+
+        self%trouble = ""
+        self%t_old = t0
+        self%t_new = t0
+        self%t_end = huge(t0)
+        if (present(t_end)) self%t_end = t_end
+    end subroutine stand
+
     subroutine no_compensated(self, variant)
         !! The same method with compensated sums; not allocated where there is none.
         class(integrator_t), intent(in) :: self
-        class(integrator_t), allocatable, intent(out) :: variant
+        class(integrator_t), allocatable, intent(out) :: variant  !! not yet prepared
     end subroutine no_compensated
 
     pure subroutine try_advance(self, system, t0, dt, first, steps, q, v, error)
         !! `advance`, for a caller who wants to know: where that ends in a state that is not finite
-        !! `q` and `v` stay as they were, and the error says why.
+        !! `q` and `v` stay as they were, the error says why, and the method starts there again.
         class(integrator_t), intent(inout) :: self
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t0, dt
-        integer(i8), intent(in) :: first, steps
-        real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
-        type(error_t), allocatable, intent(out) :: error
+        class(system_t), intent(in) :: system             !! the one of `prepare`
+        real(dp), intent(in) :: t0                        !! time of step 0, s
+        real(dp), intent(in) :: dt                        !! step, s
+        integer(i8), intent(in) :: first                  !! number of the first step
+        integer(i8), intent(in) :: steps                  !! how many
+        real(dp), intent(inout) :: q(system%ndof)         !! coordinates
+        real(dp), intent(inout) :: v(system%ndof)         !! velocities
+        type(error_t), allocatable, intent(out) :: error  !! status 3
         real(dp) :: q_new(system%ndof), v_new(system%ndof)
 
         q_new = q
         v_new = v
-        self%trouble = ""
         call self%advance(system, t0, dt, first, steps, q_new, v_new)
         call self%refuse_state(t0 + (first + steps)*dt, dt, q_new, v_new, error)
-        if (allocated(error)) return
+        if (allocated(error)) then
+            call self%start(system, t0 + first*dt, q, v)
+            return
+        end if
         q = q_new
         v = v_new
     end subroutine try_advance
@@ -150,8 +182,10 @@ contains
     pure subroutine refuse_state(self, t, dt, q, v, error)
         !! Fail (status 3) if a state that the method made by steps of `dt` is not finite.
         class(integrator_t), intent(in) :: self
-        real(dp), intent(in) :: t, dt, q(:), v(:)
-        type(error_t), allocatable, intent(out) :: error
+        real(dp), intent(in) :: t                         !! time of the state, s
+        real(dp), intent(in) :: dt                        !! s
+        real(dp), intent(in) :: q(:), v(:)                !! coordinates, velocities
+        type(error_t), allocatable, intent(out) :: error  !! with `trouble`, if the method has any
         character(:), allocatable :: why
 
         if (all(ieee_is_finite(q)) .and. all(ieee_is_finite(v))) return
@@ -159,14 +193,6 @@ contains
         if (why == "") why = "the step dt = "//to_text(dt)//" s is too long, or the motion diverges"
         call fail(error, "the state is not finite at t = "//to_text(t)//" s: "//why, status_numbers)
     end subroutine refuse_state
-
-    pure elemental function same(x, y)
-        !! Equal to the last bit, for numbers.
-        real(dp), intent(in) :: x, y
-        logical :: same
-
-        same = x <= y .and. x >= y
-    end function same
 
     pure function properties(self) result(text)
         !! What the method preserves, in words.

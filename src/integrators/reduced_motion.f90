@@ -1,7 +1,8 @@
 module lagrangia_reduced_motion
     !! A method that leaves a cyclic coordinate out of its steps.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t
-    use lagrangia_integrator, only: dense_integrator_t, integrator_t, same
+    use lagrangia_integrator, only: dense_integrator_t, integrator_t, not_started
     use lagrangia_kinds, only: dp, i8
     use lagrangia_stepwise, only: new_stepwise, stepwise_t
     use lagrangia_system, only: reduced_t, system_t
@@ -10,21 +11,16 @@ module lagrangia_reduced_motion
     public :: leave_cyclic, reduced_motion_t
 
     type, extends(dense_integrator_t) :: reduced_motion_t
-        !! Steps of `method` for the reduced system. What is conserved is noted where a run starts,
-        !! and where `advance` does not go on from where it ended.
+        !! Steps of `method` for the reduced system. What is conserved is noted by `start`.
         private
         class(dense_integrator_t), allocatable :: method
         class(reduced_t), allocatable :: reduced
         real(dp), allocatable :: q_left(:), v_left(:)  !! state of the reduced system
-        real(dp), allocatable :: q(:), v(:)            !! the whole one where `advance` ended
-        real(dp) :: t0 = 0.0_dp, dt = 0.0_dp
-        integer(i8) :: next = -1                       !! step that would go on from there
-        integer(i8) :: first = 0                       !! step where it left the whole system,
-        real(dp) :: t_left = 0.0_dp                    !! or the time, s
+        real(dp) :: t_left = 0.0_dp                    !! when it left the whole system, s
     contains
         procedure :: prepare
-        procedure :: advance
         procedure :: start
+        procedure :: advance
         procedure :: step
         procedure :: state_at
     end type reduced_motion_t
@@ -71,41 +67,31 @@ contains
         class(reduced_motion_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
-        real(dp) :: left(self%reduced%ndof), state(system%ndof)
+        real(dp) :: left(self%reduced%ndof)
 
-        left = 0.0_dp
-        state = 0.0_dp
-        self%q_left = left
-        self%v_left = left
-        self%q = state
-        self%v = state
-        self%next = -1
         call command(self)
         call self%method%prepare(self%reduced, error)
+        if (allocated(error)) return
+        left = ieee_value(left, ieee_quiet_nan)
+        self%q_left = left
+        self%v_left = left
+        self%trouble = not_started
         call report(self)
     end subroutine prepare
 
     pure subroutine advance(self, system, t0, dt, first, steps, q, v)
-        !! See `integrator_t`. The bytes are the same however a run is cut.
+        !! See `integrator_t`. Time counts from where the whole system was left, so that a clock
+        !! that has run long costs no digits.
         class(reduced_motion_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t0, dt
         integer(i8), intent(in) :: first, steps
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
 
-        if (.not. (first == self%next .and. all(same([t0, dt, q, v], &
-                                                     [self%t0, self%dt, self%q, self%v])))) then
-            call self%reduced%leave(q, v, self%q_left, self%v_left)
-            self%first = first
-        end if
         call self%method%advance(self%reduced, t0, dt, first, steps, self%q_left, self%v_left)
-        call self%reduced%complete((first + steps - self%first)*dt, self%q_left, self%v_left, q, v)
-        self%q(:) = q
-        self%v(:) = v
-        self%t0 = t0
-        self%dt = dt
-        self%next = first + steps
-        self%trouble = self%method%trouble
+        call self%reduced%complete((t0 - self%t_left) + (first + steps)*dt, self%q_left, &
+                                   self%v_left, q, v)
+        if (self%method%trouble /= "") self%trouble = self%method%trouble
         call report(self)
     end subroutine advance
 
@@ -113,9 +99,12 @@ contains
         !! See `dense_integrator_t`.
         class(reduced_motion_t), intent(inout) :: self
         class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t0, q(system%ndof), v(system%ndof), t_end
+        real(dp), intent(in) :: t0
+        real(dp), intent(in) :: q(system%ndof), v(system%ndof)
+        real(dp), intent(in), optional :: t_end
 
         call command(self)
+        self%trouble = ""
         call self%reduced%leave(q, v, self%q_left, self%v_left)
         self%t_left = t0
         call self%method%start(self%reduced, t0, self%q_left, self%v_left, t_end)

@@ -25,13 +25,13 @@ module lagrangia_rk4
     end type rk4_t
 
     type, extends(rk4_t) :: compensated_rk4_t
-        !! The same with compensated sums (Hairer, Lubich & Wanner, sec. VIII.5). The low parts
-        !! belong to the state that the latest call has returned.
+        !! The same with compensated sums (Hairer, Lubich & Wanner, sec. VIII.5): the state is
+        !! `q + q_low`, `v + v_low`.
         private
         real(dp), allocatable :: q_low(:), v_low(:)
-        real(dp), allocatable :: q_end(:), v_end(:)
     contains
         procedure :: prepare => prepare_compensated
+        procedure :: start => start_compensated
         procedure :: advance => advance_compensated
     end type compensated_rk4_t
 
@@ -92,9 +92,20 @@ contains
         call self%rk4_t%prepare(system, error)
         self%q_low = self%q
         self%v_low = self%q
-        self%q_end = self%q
-        self%v_end = self%q
     end subroutine prepare_compensated
+
+    pure subroutine start_compensated(self, system, t0, q, v, t_end)
+        !! See `integrator_t`. Nothing is known yet of what rounding took from the state.
+        class(compensated_rk4_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t0
+        real(dp), intent(in) :: q(system%ndof), v(system%ndof)
+        real(dp), intent(in), optional :: t_end
+
+        call self%rk4_t%start(system, t0, q, v, t_end)
+        self%q_low(:) = 0.0_dp
+        self%v_low(:) = 0.0_dp
+    end subroutine start_compensated
 
     pure subroutine stages(self, system, t, dt, q, v)
         !! The accelerations and velocities of the four stages; those of the first are `v`.
@@ -141,7 +152,7 @@ contains
     end subroutine finish
 
     pure subroutine advance(self, system, t0, dt, first, steps, q, v)
-        !! See `integrator_t`. Nothing is carried between calls.
+        !! See `integrator_t`. Nothing is kept from step to step.
         class(rk4_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t0, dt
@@ -158,7 +169,7 @@ contains
     end subroutine advance
 
     pure subroutine advance_compensated(self, system, t0, dt, first, steps, q, v)
-        !! See `integrator_t`. Carried between calls: the low parts of the last state.
+        !! See `integrator_t`. Kept from step to step: the low parts of the state.
         class(compensated_rk4_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t0, dt
@@ -166,19 +177,12 @@ contains
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
         integer(i8) :: k
 
-        if (.not. (all(abs(q - self%q_end) <= 0.0_dp) &
-                   .and. all(abs(v - self%v_end) <= 0.0_dp))) then
-            self%q_low = 0.0_dp
-            self%v_low = 0.0_dp
-        end if
         do k = first, first + steps - 1
             call stages(self, system, t0 + k*dt, dt, q, v)
             call add_pair(q, self%q_low, dt/6.0_dp*(v + 2.0_dp*(self%v2 + self%v3) + self%v4), &
                           dt*self%v_low)
             call add(v, self%v_low, dt/6.0_dp*(self%a1 + 2.0_dp*(self%a2 + self%a3) + self%a4))
         end do
-        self%q_end = q
-        self%v_end = v
         self%evaluations = self%evaluations + 4*steps
     end subroutine advance_compensated
 end module lagrangia_rk4

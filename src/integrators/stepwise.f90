@@ -2,6 +2,7 @@ module lagrangia_stepwise
     !! A method of fixed step, made dense: between the ends of a step each coordinate is the
     !! quintic that has their coordinates, velocities and accelerations, right to \(O(h^6)\).
     !! One evaluation a step besides the method's own.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
@@ -21,8 +22,8 @@ module lagrangia_stepwise
         real(dp), allocatable, private :: q0(:), v0(:), a0(:), q1(:), v1(:), a1(:)
     contains
         procedure :: prepare
-        procedure :: advance
         procedure :: start
+        procedure :: advance
         procedure :: step
         procedure :: state_at
     end type stepwise_t
@@ -67,7 +68,7 @@ contains
 
         call self%method%prepare(system, error)
         if (allocated(error)) return
-        state = 0.0_dp
+        state = ieee_value(state, ieee_quiet_nan)
         self%q0 = state
         self%v0 = state
         self%a0 = state
@@ -97,21 +98,21 @@ contains
         !! See `dense_integrator_t`. Steps are counted anew from here.
         class(stepwise_t), intent(inout) :: self
         class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t0, q(system%ndof), v(system%ndof), t_end
+        real(dp), intent(in) :: t0
+        real(dp), intent(in) :: q(system%ndof), v(system%ndof)
+        real(dp), intent(in), optional :: t_end
 
-        self%t_old = t0
-        self%t_new = t0
-        self%t_end = t_end
+        call self%stand(t0, t_end)
+        call self%method%start(system, t0, q, v)
         self%t_start = t0
         self%done = 0
-        call whole_steps(t_end - t0, self%dt, self%steps, self%rest)
+        self%steps = huge(self%steps)
+        self%rest = 0.0_dp
+        if (present(t_end)) call whole_steps(t_end - t0, self%dt, self%steps, self%rest)
         self%q1 = q
         self%v1 = v
-        call system%accelerations(t0, self%q1, self%v1, self%a1)
         self%q0 = self%q1
         self%v0 = self%v1
-        self%a0 = self%a1
-        self%own = self%own + 1
         self%evaluations = self%method%evaluations + self%own
     end subroutine start
 
@@ -121,6 +122,10 @@ contains
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
 
+        if (self%t_new <= self%t_start) then
+            call system%accelerations(self%t_new, self%q1, self%v1, self%a1)
+            self%own = self%own + 1
+        end if
         self%t_old = self%t_new
         self%q0 = self%q1
         self%v0 = self%v1

@@ -49,6 +49,8 @@ contains
 
         allocate (self%integrator, source=integrator)
         call self%integrator%prepare(system, error)
+        if (allocated(error)) return
+        call self%integrator%start(system, t0, q, v)
         self%t0 = t0
         self%h = 0.5_dp*dt
         self%q = q

@@ -14,8 +14,8 @@ module lagrangia_exact_motion
         class(reference_t), allocatable :: closed_form
     contains
         procedure :: prepare
-        procedure :: advance
         procedure :: start
+        procedure :: advance
         procedure :: step
         procedure :: state_at
     end type exact_motion_t
@@ -30,7 +30,6 @@ contains
         self%name = "exact"
         self%looks = 32768  ! all of the motion is one step
         self%title = closed_form%title
-        self%trouble = "the closed form gives none"
         allocate (self%closed_form, source=closed_form)
     end subroutine new_exact_motion
 
@@ -58,11 +57,12 @@ contains
         !! See `dense_integrator_t`.
         class(exact_motion_t), intent(inout) :: self
         class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t0, q(system%ndof), v(system%ndof), t_end
+        real(dp), intent(in) :: t0
+        real(dp), intent(in) :: q(system%ndof), v(system%ndof)
+        real(dp), intent(in), optional :: t_end
 
-        self%t_old = t0
-        self%t_new = t0
-        self%t_end = t_end
+        call self%stand(t0, t_end)
+        self%trouble = "the closed form gives none"
     end subroutine start
 
     pure subroutine step(self, system, error)

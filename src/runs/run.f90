@@ -159,6 +159,7 @@ contains
         if (allocated(error)) return
         call integrator%prepare(system, error)
         if (allocated(error)) return
+        call integrator%start(system, plan%t0, q, v)
         done = 0
         known = 0
         q_start = q
@@ -231,6 +232,7 @@ contains
             call integrator%prepare(system, refused)
             q = q_known
             v = v_known
+            call integrator%start(system, plan%t0 + known*plan%dt, q, v)
             do while (known < done)
                 call integrator%advance(system, plan%t0, plan%dt, known, 1_i8, q, v)
                 if (.not. all(ieee_is_finite([q, v]))) exit

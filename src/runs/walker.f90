@@ -38,6 +38,7 @@ contains
         if (allocated(error)) return
         x = q0
         x_dot = v0
+        call integrator%start(system, t0, x, x_dot)
         do k = 1, size(q, 2)
             q(:, k) = x
             v(:, k) = x_dot

@@ -73,6 +73,7 @@ contains
             qq = y(:n)
             p = y(n + 1:)
             call system%velocities(t, qq, p, vv)
+            call method%start(system, t, qq, vv)
             call method%advance(system, t, length, 0_i8, 1_i8, qq, vv)
             call system%momenta(t + length, qq, vv, p)
             y = [qq, p]

@@ -85,8 +85,10 @@ contains
         v = 0.0_dp
         q_two = q + small*[0.5_dp, -0.5_dp]
         v_two = v + small*[0.5_dp, 0.5_dp]
+        call one%start(system, 0.0_dp, q, v, interval)
         do k = 1, n
             call one%advance(system, 0.0_dp, interval, k - 1_i8, 1_i8, q, v)
+            call two%start(system, (k - 1)*interval, q_two, v_two, k*interval)
             call two%advance(system, 0.0_dp, interval, k - 1_i8, 1_i8, q_two, v_two)
             ratio = norm2([q_two - q, v_two - v])/small
             growth(k) = growth(k - 1) + log(ratio)

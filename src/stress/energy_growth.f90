@@ -70,6 +70,7 @@ contains
         integer(i8) :: k, count
 
         call method%prepare(system, refusal)
+        call method%start(system, 0.0_dp, q, v)
         start = system%energy(0.0_dp, q, v)
         do k = 0, steps - 1, every
             count = min(every, steps - k)

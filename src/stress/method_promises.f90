@@ -64,7 +64,9 @@ contains
             if (refuses(method, system)) cycle
             q = q0
             v = v0
+            call method%start(system, 0.0_dp, q, v)
             call method%advance(system, 0.0_dp, dt, 0_i8, steps, q, v)
+            call method%start(system, steps*dt, q, v)
             call method%advance(system, steps*dt, -dt, 0_i8, steps, q, v)
             worst = max(worst, maxval(abs(q - q0)), maxval(abs(v - v0)))
         end do
@@ -159,6 +161,7 @@ contains
                 speed = length/second
                 q = length*q
                 v = speed*v
+                call method%start(system, 0.0_dp, q, v)
                 call method%advance(system, 0.0_dp, second*dt, 0_i8, steps, q, v)
                 if (i == 1) whole(:2*system%ndof) = [q, v]
                 different = different + differing([q/length, v/speed], whole(:2*system%ndof))

@@ -34,6 +34,7 @@ contains
         call method%prepare(system, error)
         q = 1.0_dp
         v = 0.3_dp
+        call method%start(system, 0.0_dp, q, v)
         start = energy()
         do k = 0, steps - 1, every
             call method%advance(system, 0.0_dp, h, k, every, q, v)

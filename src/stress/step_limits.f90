@@ -110,6 +110,7 @@ contains
             v = 0.0_dp
             if (i == 1) q(1) = 1.0_dp
             if (i == 2) v(1) = 1.0_dp
+            call method%start(system, 0.0_dp, q, v)
             call method%advance(system, 0.0_dp, dt, 0_i8, 1_i8, q, v)
             map(:, i) = [q(1), v(1)]
         end do
@@ -139,6 +140,7 @@ contains
         v = 0.0_dp
         q(1) = 1.0_dp
         v(1) = 0.3_dp
+        call method%start(system, 0.0_dp, q, v)
         start = system%energy(0.0_dp, q, v)
         yes = .false.
         do k = 0, steps - 1, every
