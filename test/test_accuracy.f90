@@ -3,12 +3,11 @@ module test_accuracy
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertGreaterThan, &
                      assertLessThan, assertLessThanOrEqual
     use lagrangia_accuracy, only: estimate
-    use lagrangia_adaptive_methods, only: adaptive_names
     use lagrangia_catalogue, only: new_system
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
-    use lagrangia_methods, only: method_names
+    use lagrangia_methods, only: adaptive_names, method_names
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_t
     use lagrangia_play, only: play

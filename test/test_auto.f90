@@ -3,7 +3,6 @@ module test_auto
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
                      assertGreaterThan, assertLessThan, assertTrue
-    use lagrangia_adaptive_methods, only: new_adaptive
     use lagrangia_catalogue, only: nth_system
     use lagrangia_choice, only: settle_method
     use lagrangia_command_line, only: word_t
@@ -11,7 +10,7 @@ module test_auto
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp
-    use lagrangia_methods, only: auto, new_integrator, workhorse
+    use lagrangia_methods, only: auto, new_adaptive, new_integrator, workhorse
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: from_closed_form, from_steps, outcome_json, outcome_t
     use lagrangia_play, only: play

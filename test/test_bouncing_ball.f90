@@ -2,7 +2,6 @@ module test_bouncing_ball
     !! The ball against its closed form: bounces, the Zeno point, rest.
     use funit, only: anyExceptions, assertEqual, assertFalse, assertGreaterThan, &
                      assertGreaterThanOrEqual, assertLessThan, assertTrue, TestMethod, TestSuite
-    use lagrangia_adaptive_methods, only: new_adaptive
     use lagrangia_bouncing_ball, only: bouncing_ball_t
     use lagrangia_dense_run, only: run_dense
     use lagrangia_description, only: name_length
@@ -10,7 +9,7 @@ module test_bouncing_ball
     use lagrangia_events, only: contact_event_t, event_box_t, new_contact_event
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_methods, only: method_names, new_integrator
+    use lagrangia_methods, only: method_names, new_adaptive, new_integrator
     use lagrangia_observer, only: observer_box_t
     use lagrangia_recorder, only: recorder_t
     use lagrangia_reference, only: reference_t

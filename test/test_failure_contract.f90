@@ -2,14 +2,13 @@ module test_failure_contract
     !! What fails returns an error and leaves its caller's state as it was: every method and run.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
                      assertGreaterThan, assertTrue
-    use lagrangia_adaptive_methods, only: nth_adaptive
     use lagrangia_catalogue, only: new_system, nth_system
     use lagrangia_dense_run, only: run_dense
     use lagrangia_errors, only: error_t, status_numbers
     use lagrangia_events, only: event_box_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t, not_started
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_methods, only: nth_integrator
+    use lagrangia_methods, only: nth_adaptive, nth_integrator
     use lagrangia_observer, only: observer_box_t
     use lagrangia_run, only: new_plan, new_sampled_plan, plan_t, run
     use lagrangia_stepwise, only: new_stepwise, stepwise_t

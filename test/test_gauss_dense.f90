@@ -2,14 +2,13 @@ module test_gauss_dense
     !! The state between the ends of the steps of Gauss-Legendre collocation.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
                      assertGreaterThan, assertLessThan, assertTrue
-    use lagrangia_adaptive_methods, only: adaptive_names, new_adaptive, nth_adaptive
     use lagrangia_double_pendulum, only: double_pendulum_t
     use lagrangia_errors, only: error_t
     use lagrangia_gauss, only: gauss_t, new_gauss16
     use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_methods, only: new_integrator
+    use lagrangia_methods, only: adaptive_names, new_adaptive, new_integrator, nth_adaptive
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private

@@ -3,13 +3,12 @@ module test_mirror
     !! take it in the very same steps. Signs round alike, so that there is no tolerance; a norm, a
     !! size or a criterion that has forgotten a modulus does not pass.
     use funit, only: anyExceptions, assertEqual, assertFalse, assertTrue, TestMethod, TestSuite
-    use lagrangia_adaptive_methods, only: nth_adaptive
     use lagrangia_catalogue, only: new_system
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_methods, only: nth_integrator
+    use lagrangia_methods, only: nth_adaptive, nth_integrator
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)

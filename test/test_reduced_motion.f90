@@ -1,7 +1,6 @@
 module test_reduced_motion
     !! The cart-pendulum without its cyclic coordinate, and methods that leave that out.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertGreaterThan, assertTrue
-    use lagrangia_adaptive_methods, only: new_adaptive
     use lagrangia_audit, only: audit_system, draws
     use lagrangia_audit_equations, only: claim_accelerations, claim_energy
     use lagrangia_cart_pendulum, only: cart_pendulum_t
@@ -11,7 +10,7 @@ module test_reduced_motion
     use lagrangia_findings, only: audit_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t, not_started
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_methods, only: new_integrator
+    use lagrangia_methods, only: new_adaptive, new_integrator
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_t
     use lagrangia_pendulum, only: pendulum_t

@@ -3,7 +3,6 @@ module test_stress_systems
     use careless_systems, only: careless_ball_t, careless_double_t, careless_pendulum_t, &
                                 careless_wedge_t
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
-    use lagrangia_adaptive_methods, only: new_adaptive
     use lagrangia_bounces, only: judge_elastic, judge_zeno
     use lagrangia_bouncing_ball, only: bouncing_ball_t
     use lagrangia_catalogue, only: new_system
@@ -15,6 +14,7 @@ module test_stress_systems
     use lagrangia_kinds, only: dp
     use lagrangia_limits_of_systems, only: judge_slow_disk, judge_slow_wire, judge_wedge, &
                                            judge_weak_field
+    use lagrangia_methods, only: new_adaptive
     use lagrangia_pendulum, only: pendulum_t
     use lagrangia_pendulum_extremes, only: exact_period, judge_large_angles, judge_separatrix
     use lagrangia_system, only: system_t

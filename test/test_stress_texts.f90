@@ -2,13 +2,12 @@ module test_stress_texts
     !! What the rows of `lagrangia stress` say in words, shown in numbers.
     use funit, only: TestMethod, TestSuite, assertEqual, assertGreaterThan, assertLessThan, &
                      assertTrue
-    use lagrangia_adaptive_methods, only: new_adaptive
     use lagrangia_chaos, only: judge_chaos
     use lagrangia_double_pendulum, only: double_pendulum_t
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_methods, only: new_integrator
+    use lagrangia_methods, only: new_adaptive, new_integrator
     use lagrangia_pendulum, only: pendulum_t
     use lagrangia_stress_rows, only: rows
     use lagrangia_verdicts, only: verdicts_t

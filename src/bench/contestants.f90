@@ -1,13 +1,12 @@
 module lagrangia_contestants
     !! Everybody who takes part: all methods of the catalogue, GSL's, and the closed forms. What is
     !! listed in the catalogue tomorrow is measured tomorrow.
-    use lagrangia_adaptive_methods, only: nth_adaptive
     use lagrangia_contestant, only: contestant_box_t
     use lagrangia_description, only: name_length
     use lagrangia_gsl_contestants, only: gsl_contestant_t, new_gsl_contestant
     use lagrangia_gsl_odeiv, only: gsl_methods
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
-    use lagrangia_methods, only: nth_integrator
+    use lagrangia_methods, only: nth_adaptive, nth_integrator
     use lagrangia_our_contestants, only: adaptive_contestant_t, fixed_contestant_t, &
         formula_contestant_t, new_adaptive_contestant, new_fixed_contestant, new_formula_contestant
     implicit none (type, external)

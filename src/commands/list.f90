@@ -1,13 +1,12 @@
 module lagrangia_list
     !! `lagrangia list [systems|methods|scenes]`: what there is, one a line.
-    use lagrangia_adaptive_methods, only: nth_adaptive
     use lagrangia_catalogue, only: nth_system
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: put_line
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
-    use lagrangia_methods, only: auto, nth_integrator
+    use lagrangia_methods, only: auto, nth_adaptive, nth_integrator
     use lagrangia_names, only: advice
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: read_scene

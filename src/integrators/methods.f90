@@ -1,20 +1,23 @@
 module lagrangia_methods
-    !! Names and types of the methods: the only module that knows every integrator.
+    !! The table of methods, fixed and adaptive: the only module that knows every integrator. Of a
+    !! name that is in both, `dt` or `tolerance` in a scene says which is meant.
     use lagrangia_boris, only: boris_t, new_boris
     use lagrangia_canonical, only: midpoint_t, new_midpoint, new_stormer_verlet, stormer_verlet_t
     use lagrangia_composition, only: nth_composition
     use lagrangia_description, only: name_length
+    use lagrangia_dop853, only: dop853_t, new_dop853
     use lagrangia_errors, only: error_t, fail
     use lagrangia_gauss, only: gauss_t, new_gauss16
-    use lagrangia_integrator, only: integrator_t
+    use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
+    use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_names, only: refuse_name
     use lagrangia_rk4, only: new_rk4, rk4_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: join
     implicit none (type, external)
     private
-    public :: new_integrator, nth_integrator, method_names
-    public :: prepare_integrator
+    public :: new_integrator, nth_integrator, method_names, prepare_integrator
+    public :: new_adaptive, nth_adaptive, adaptive_names
     public :: auto, exact, workhorse
 
     character(*), parameter :: auto = "auto", exact = "exact"
@@ -26,62 +29,61 @@ module lagrangia_methods
 contains
 
     subroutine nth_integrator(i, integrator)
-        !! Entry `i` of the methods of fixed step; not allocated beyond the end.
-        integer, intent(in) :: i
-        class(integrator_t), allocatable, intent(out) :: integrator
+        !! The methods of fixed step.
+        integer, intent(in) :: i  !! from 1
+        class(integrator_t), allocatable, intent(out) :: integrator  !! not allocated past the end
         integer, parameter :: others = 5
+        type(rk4_t) :: rk4
+        type(stormer_verlet_t) :: stormer_verlet
+        type(midpoint_t) :: midpoint
+        type(boris_t) :: boris
+        type(gauss_t) :: gauss
 
         select case (i)
-        case (1); call place_rk4()
-        case (2); call place_stormer_verlet()
-        case (3); call place_midpoint()
-        case (4); call place_boris()
-        case (5); call place_gauss16()
-        case default; call nth_composition(i - others, integrator)
+        case (1)
+            call new_rk4(rk4)
+            allocate (integrator, source=rk4)
+        case (2)
+            call new_stormer_verlet(stormer_verlet)
+            allocate (integrator, source=stormer_verlet)
+        case (3)
+            call new_midpoint(midpoint)
+            allocate (integrator, source=midpoint)
+        case (4)
+            call new_boris(boris)
+            allocate (integrator, source=boris)
+        case (5)
+            call new_gauss16(gauss)
+            allocate (integrator, source=gauss)
+        case default
+            call nth_composition(i - others, integrator)
         end select
-    contains
-        subroutine place_stormer_verlet()
-            type(stormer_verlet_t) :: method
-
-            call new_stormer_verlet(method)
-            allocate (integrator, source=method)
-        end subroutine place_stormer_verlet
-
-        subroutine place_midpoint()
-            type(midpoint_t) :: method
-
-            call new_midpoint(method)
-            allocate (integrator, source=method)
-        end subroutine place_midpoint
-
-        subroutine place_boris()
-            type(boris_t) :: method
-
-            call new_boris(method)
-            allocate (integrator, source=method)
-        end subroutine place_boris
-
-        subroutine place_gauss16()
-            type(gauss_t) :: method
-
-            call new_gauss16(method)
-            allocate (integrator, source=method)
-        end subroutine place_gauss16
-
-        subroutine place_rk4()
-            type(rk4_t) :: method
-
-            call new_rk4(method)
-            allocate (integrator, source=method)
-        end subroutine place_rk4
     end subroutine nth_integrator
 
+    subroutine nth_adaptive(i, integrator)
+        !! The methods that choose their steps by a tolerance.
+        integer, intent(in) :: i  !! from 1
+        class(dense_integrator_t), allocatable, intent(out) :: integrator
+        !! not allocated past the end
+        type(gauss_adaptive_t) :: gauss
+        type(dop853_t) :: dop853
+
+        select case (i)
+        case (1)
+            call new_gauss16_adaptive(gauss)
+            allocate (integrator, source=gauss)
+        case (2)
+            call new_dop853(dop853)
+            allocate (integrator, source=dop853)
+        end select
+    end subroutine nth_adaptive
+
     subroutine new_integrator(name, integrator, error, compensated)
-        !! The method called `name`, with compensated sums if that is asked for.
-        character(*), intent(in) :: name
-        class(integrator_t), allocatable, intent(out) :: integrator
-        type(error_t), allocatable, intent(out) :: error
-        logical, intent(in), optional :: compensated
+        !! The method of fixed step that is called `name`.
+        character(*), intent(in) :: name  !! as in a scene
+        class(integrator_t), allocatable, intent(out) :: integrator  !! not yet prepared
+        type(error_t), allocatable, intent(out) :: error  !! an unknown name, or no such sums
+        logical, intent(in), optional :: compensated  !! with compensated sums; absent: without
         class(integrator_t), allocatable :: plain
         integer :: i
 
@@ -106,11 +108,26 @@ contains
                   join(compensated_names(), ", "), key="compensated")
     end subroutine new_integrator
 
+    subroutine new_adaptive(name, integrator)
+        !! The method by tolerance that is called `name`.
+        character(*), intent(in) :: name  !! as in a scene
+        class(dense_integrator_t), allocatable, intent(out) :: integrator  !! or not allocated
+        integer :: i
+
+        i = 0
+        do
+            i = i + 1
+            call nth_adaptive(i, integrator)
+            if (.not. allocated(integrator)) return
+            if (integrator%name == name) return
+        end do
+    end subroutine new_adaptive
+
     subroutine prepare_integrator(integrator, system, error)
         !! `prepare`; a refusal also names the methods that work.
-        class(integrator_t), intent(inout) :: integrator
-        class(system_t), intent(in) :: system
-        type(error_t), allocatable, intent(out) :: error
+        class(integrator_t), intent(inout) :: integrator  !! gets ready
+        class(system_t), intent(in) :: system             !! that it shall step
+        type(error_t), allocatable, intent(out) :: error  !! its refusal
         class(integrator_t), allocatable :: other
         type(error_t), allocatable :: refusal
         character(name_length), allocatable :: names(:)
@@ -131,7 +148,7 @@ contains
     end subroutine prepare_integrator
 
     function method_names() result(names)
-        !! The names of all methods.
+        !! The names of the methods of fixed step.
         character(name_length), allocatable :: names(:)
         class(integrator_t), allocatable :: integrator
         integer :: i
@@ -145,6 +162,22 @@ contains
             names = [character(name_length) :: names, integrator%name]
         end do
     end function method_names
+
+    function adaptive_names() result(names)
+        !! The names of the methods that choose their steps by a tolerance.
+        character(name_length), allocatable :: names(:)
+        class(dense_integrator_t), allocatable :: integrator
+        integer :: i
+
+        allocate (names(0))
+        i = 0
+        do
+            i = i + 1
+            call nth_adaptive(i, integrator)
+            if (.not. allocated(integrator)) exit
+            names = [character(name_length) :: names, integrator%name]
+        end do
+    end function adaptive_names
 
     function compensated_names() result(names)
         !! The names of the methods that have compensated sums.

@@ -12,7 +12,6 @@ module lagrangia_accuracy
     !! form, or to the end by another method.
     !! Source: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.,
     !! sec. II.4.
-    use lagrangia_adaptive_methods, only: new_adaptive
     use lagrangia_dense_run, only: drive
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
@@ -21,6 +20,7 @@ module lagrangia_accuracy
     use lagrangia_gnuplot, only: panel_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_methods, only: new_adaptive
     use lagrangia_observer, only: observer_box_t, observer_t
     use lagrangia_reference, only: reference_t
     use lagrangia_run, only: plan_t

@@ -5,11 +5,11 @@ module lagrangia_second_opinion
     !! coordinate, a sum that always rounds the same way, a clock that has lost the last digits of
     !! the steps. Here none of that is shared: the steps are few and long, and the clock starts at
     !! 0 where the equations do not look at it.
-    use lagrangia_adaptive_methods, only: new_adaptive
     use lagrangia_errors, only: error_t
     use lagrangia_events, only: event_box_t
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_methods, only: new_adaptive
     use lagrangia_reference, only: reference_t
     use lagrangia_scene, only: scene_t
     use lagrangia_system, only: system_t

@@ -1,6 +1,5 @@
 module lagrangia_staging
     !! From a scene to its method, the plan of its run, and the events that it looks for.
-    use lagrangia_adaptive_methods, only: new_adaptive
     use lagrangia_columns, only: new_columns
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
@@ -11,7 +10,8 @@ module lagrangia_staging
     use lagrangia_gnuplot, only: new_panels, panel_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp
-    use lagrangia_methods, only: exact, new_integrator, prepare_integrator, workhorse
+    use lagrangia_methods, only: exact, new_adaptive, new_integrator, prepare_integrator, &
+                                 workhorse
     use lagrangia_reduced_motion, only: leave_cyclic
     use lagrangia_reference, only: reference_t
     use lagrangia_run, only: new_plan, new_sampled_plan, plan_t

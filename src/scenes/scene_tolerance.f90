@@ -1,11 +1,11 @@
 module lagrangia_scene_tolerance
     !! The keys that say whether a scene's method takes steps of `dt` or chooses them.
-    use lagrangia_adaptive_methods, only: adaptive_names, new_adaptive
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_methods, only: auto, exact, method_names, workhorse
+    use lagrangia_methods, only: adaptive_names, auto, exact, method_names, new_adaptive, &
+                                 workhorse
     use lagrangia_namelist, only: get_integer, get_real, has_key, namelist_t, refuse_value
     use lagrangia_names, only: refuse_name
     use lagrangia_scene, only: scene_t

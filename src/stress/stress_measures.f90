@@ -1,6 +1,5 @@
 module lagrangia_stress_measures
     !! From the name of a row to those who measure it.
-    use lagrangia_adaptive_methods, only: new_adaptive
     use lagrangia_bounces, only: judge_elastic, judge_zeno
     use lagrangia_catalogue, only: new_system
     use lagrangia_chaos, only: judge_chaos
@@ -14,7 +13,7 @@ module lagrangia_stress_measures
                                            judge_weak_field
     use lagrangia_method_promises, only: judge_bytes, judge_reversal, judge_scaling, &
                                          judge_symplectic, judge_text
-    use lagrangia_methods, only: new_integrator, nth_integrator
+    use lagrangia_methods, only: new_adaptive, new_integrator, nth_integrator
     use lagrangia_observer, only: observer_t
     use lagrangia_pendulum_extremes, only: judge_large_angles, judge_separatrix
     use lagrangia_rounding, only: judge_rounding

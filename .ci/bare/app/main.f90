@@ -3,13 +3,12 @@ program main
     !! same by `run` with no observers. `bare METHOD STEPS [SYSTEM]`: that method on every system
     !! that it takes, or on one. `bare names`: the methods. valgrind counts instructions and
     !! allocations.
-    use lagrangia_adaptive_methods, only: adaptive_names, new_adaptive
     use lagrangia_catalogue, only: new_system, nth_system, system_names
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_methods, only: method_names, new_integrator
+    use lagrangia_methods, only: adaptive_names, method_names, new_adaptive, new_integrator
     use lagrangia_observer, only: observer_box_t
     use lagrangia_run, only: new_plan, plan_t, run
     use lagrangia_system, only: system_t

@@ -1,11 +1,10 @@
 module digits_corners
     !! Scenes at random, and in the corners where estimates of errors go wrong.
-    use lagrangia_adaptive_methods, only: adaptive_names
     use lagrangia_catalogue, only: built_in, nth_system
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
-    use lagrangia_methods, only: method_names
+    use lagrangia_methods, only: adaptive_names, method_names
     use lagrangia_random_draws, only: random_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text

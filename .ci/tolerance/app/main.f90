@@ -6,12 +6,12 @@ program tolerance
     !!     tolerance kinks [ends]    forces with kinks and jumps; `ends`: without dense output
     use, intrinsic :: iso_fortran_env, only: real128
     use kinked, only: exact_end, kind_names, kinds, kinked_t
-    use lagrangia_adaptive_methods, only: new_adaptive
     use lagrangia_catalogue, only: new_system
     use lagrangia_errors, only: error_t
     use lagrangia_gauss, only: gauss_t, new_gauss16
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_methods, only: new_adaptive
     use lagrangia_system, only: system_t
     implicit none (type, external)
 
