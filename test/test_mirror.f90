@@ -123,9 +123,11 @@ contains
                 tried = tried + 1
                 q = q0
                 v = v0
+                call method%start(system, 0.0_dp, q(:n), v(:n))
                 call method%advance(system, 0.0_dp, 0.03_dp, 0_i8, 40_i8, q(:n), v(:n))
                 q_image = -q0
                 v_image = -v0
+                call method%start(system, 0.0_dp, q_image(:n), v_image(:n))
                 call method%advance(system, 0.0_dp, 0.03_dp, 0_i8, 40_i8, q_image(:n), v_image(:n))
                 call assertTrue(all(abs(q + q_image) <= 0.0_dp .and. abs(v + v_image) <= 0.0_dp), &
                                 what)
