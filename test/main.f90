@@ -104,6 +104,7 @@ module suites
     use test_rotating_reference, only: rotating_reference_suite
     use test_run, only: run_suite
     use test_run_disks, only: run_disks_suite
+    use test_run_plan, only: run_plan_suite
     use test_scene_files, only: scene_files_suite
     use test_scene_steps, only: scene_steps_suite
     use test_scenes, only: scenes_suite
@@ -234,6 +235,7 @@ contains
         call suite%addTest(rotating_reference_suite())
         call suite%addTest(run_suite())
         call suite%addTest(run_disks_suite())
+        call suite%addTest(run_plan_suite())
         call suite%addTest(scene_files_suite())
         call suite%addTest(scene_steps_suite())
         call suite%addTest(scenes_suite())

@@ -8,13 +8,12 @@ module test_accuracy
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_methods, only: adaptive_names, method_names
-    use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_t
-    use lagrangia_play, only: play
     use lagrangia_random_draws, only: random_t
     use lagrangia_reference, only: reference_t
     use lagrangia_scene, only: scene_t
     use lagrangia_system, only: system_t
+    use scene_runs, only: plan_and_run
     use stated_text, only: read_concise
     implicit none (type, external)
     private
@@ -169,12 +168,10 @@ contains
         type(error_t), allocatable, intent(out) :: error
         class(system_t), allocatable :: system
         class(reference_t), allocatable :: reference
-        class(observer_t), pointer :: nobody
         type(scene_t) :: scene
         real(dp) :: x, q(7), v(7)
 
         known = .false.
-        nobody => null()
         call new_system(name, system, error)
         call random%parameters(system, .false., scene%parameters, error)
         call random%state(system, scene%t0, scene%q, scene%v, error)
@@ -193,7 +190,7 @@ contains
             scene%dt = min(exp(x), 0.4_dp*scene%duration)
             scene%every = 3
         end if
-        call play(scene, system, "", "text", nobody, outcome, error)
+        call plan_and_run(scene, system, outcome, error)
         if (allocated(error)) return
         call system%closed_form(scene%t0, scene%q, scene%v, reference)
         if (.not. allocated(reference)) return

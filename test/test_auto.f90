@@ -4,20 +4,18 @@ module test_auto
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
                      assertGreaterThan, assertLessThan, assertTrue
     use lagrangia_catalogue, only: nth_system
-    use lagrangia_choice, only: settle_method
     use lagrangia_command_line, only: word_t
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp
     use lagrangia_methods, only: auto, new_adaptive, new_integrator, workhorse
-    use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: from_closed_form, from_steps, outcome_json, outcome_t
-    use lagrangia_play, only: play
     use lagrangia_reference, only: reference_t
     use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
-    use lagrangia_scene_reader, only: parse_scene
     use lagrangia_system, only: system_t
+    use lagrangia_trajectory_plan, only: settle_method
+    use scene_runs, only: plan_and_run, read_and_plan
     implicit none (type, external)
     private
     public :: auto_suite
@@ -65,13 +63,11 @@ contains
         type(scene_t), intent(out), optional :: scene
         class(system_t), allocatable, intent(out), optional :: system
         class(system_t), allocatable :: a_system
-        class(observer_t), pointer :: nobody
         type(scene_t) :: a_scene
 
-        nobody => null()
-        call parse_scene(text, "a.nml", [word_t ::], a_scene, a_system, error)
+        call read_and_plan(text, "a.nml", [word_t ::], a_scene, a_system, error)
         if (allocated(error)) return
-        call play(a_scene, a_system, "", "text", nobody, outcome, error)
+        call plan_and_run(a_scene, a_system, outcome, error)
         if (present(scene)) scene = a_scene
         if (present(system)) call move_alloc(a_system, system)
     end subroutine perform
@@ -161,7 +157,7 @@ contains
         type(scene_t) :: scene, settled
         character(:), allocatable :: choice
 
-        call parse_scene(swing//" /", "a.nml", [word_t ::], scene, system, error)
+        call read_and_plan(swing//" /", "a.nml", [word_t ::], scene, system, error)
         allocate (endless_t :: closed_form)
         closed_form%ndof = 1
         call settle_method(scene, system, closed_form, settled, choice)

@@ -11,9 +11,9 @@ module test_compensated
     use lagrangia_methods, only: new_integrator
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_scene, only: scene_lines, scene_t
-    use lagrangia_scene_reader, only: parse_scene
     use lagrangia_summation, only: add
     use lagrangia_system, only: system_t
+    use scene_runs, only: read_and_plan
     implicit none (type, external)
     private
     public :: compensated_suite
@@ -181,15 +181,15 @@ contains
         type(description_t) :: d
         type(error_t), allocatable :: error
 
-        call parse_scene(text("verlet", "compensated = .true."), "a.nml", [word_t ::], scene, &
+        call read_and_plan(text("verlet", "compensated = .true."), "a.nml", [word_t ::], scene, &
                          system, error)
         call assertFalse(allocated(error), "a scene with compensated sums")
         call assertTrue(scene%compensated, "compensated")
         call system%describe(d)
         call assertTrue(any(scene_lines(scene, d) == "  compensated = .true."), "echo")
-        call parse_scene(text("verlet", ""), "a.nml", [word_t ::], scene, system, error)
+        call read_and_plan(text("verlet", ""), "a.nml", [word_t ::], scene, system, error)
         call assertFalse(allocated(error) .or. scene%compensated, "off unless asked for")
-        call parse_scene(text("midpoint", nl//"compensated = .true."), "a.nml", [word_t ::], &
+        call read_and_plan(text("midpoint", nl//"compensated = .true."), "a.nml", [word_t ::], &
                          scene, system, error)
         call assertTrue(allocated(error), "midpoint refuses")
         if (.not. allocated(error)) return

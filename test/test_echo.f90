@@ -8,10 +8,11 @@ module test_echo
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
-    use lagrangia_scene_reader, only: parse_scene, read_scene
+    use lagrangia_scene_reader, only: read_scene
     use lagrangia_shipped, only: shipped_scenes
     use lagrangia_system, only: system_t
     use lagrangia_text, only: join, to_text
+    use scene_runs, only: read_and_plan
     implicit none (type, external)
     private
     public :: echo_suite
@@ -58,7 +59,7 @@ contains
         integer :: i
 
         text = echo(scene, system)
-        call parse_scene(text, scene%source, [word_t ::], again, same_system, error)
+        call read_and_plan(text, scene%source, [word_t ::], again, same_system, error)
         call assertFalse(allocated(error), scene%source//": the echo can be read"//nl//text)
         if (allocated(error)) return
         call assertEqual([scene%t0, scene%dt, scene%tolerance, scene%duration, scene%q, scene%v, &
@@ -132,7 +133,7 @@ contains
             do k = 2, 8
                 text = text//","//panel
             end do
-            call parse_scene(text//" /", "s.nml", [word_t ::], scene, same_system, error)
+            call read_and_plan(text//" /", "s.nml", [word_t ::], scene, same_system, error)
             call assertFalse(allocated(error), text)
             if (allocated(error)) return
             call assertEqual(size(names), size(scene%columns))
@@ -148,13 +149,13 @@ contains
         type(error_t), allocatable :: error
         type(scene_t) :: scene, again
 
-        call parse_scene("&scene title = 'it''s ""it"" ! / &b = 1', system='pendulum'"//nl// &
+        call read_and_plan("&scene title = 'it''s ""it"" ! / &b = 1', system='pendulum'"//nl// &
                          "dt=0.1000000000000000055, duration=0.30000000000000004, t0=-1e-300,"// &
                          "every=3, samples=1"//nl//"q=1e300, v=-0.0, compensated=t /"//nl// &
                          "&pendulum m=4.9406564584124654e-324, l=1.7976931348623157e308 /", &
                          "s.nml", [word_t ::], scene, system, error)
         call assertTrue(allocated(error), "both every and samples")
-        call parse_scene("&scene title = 'it''s ""it"" ! / &b = 1', system='pendulum'"//nl// &
+        call read_and_plan("&scene title = 'it''s ""it"" ! / &b = 1', system='pendulum'"//nl// &
                          "dt=0.1000000000000000055, duration=0.30000000000000004, t0=-1e-300,"// &
                          "every=3"//nl//"q=1e300, v=-0.0, compensated=t /"//nl// &
                          "&pendulum m=4.9406564584124654e-300, l=1.7976931348623157e308 /", &

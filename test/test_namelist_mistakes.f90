@@ -7,8 +7,9 @@ module test_namelist_mistakes
     use lagrangia_namelist, only: apply_override, get_real, get_reals, namelist_t, &
                                   parse_namelist, point_advice, refuse_unknown_keys
     use lagrangia_scene, only: scene_t
-    use lagrangia_scene_reader, only: parse_scene, read_named_system
+    use lagrangia_scene_reader, only: read_named_system
     use lagrangia_system, only: system_t
+    use scene_runs, only: read_and_plan
     implicit none (type, external)
     private
     public :: namelist_mistakes_suite
@@ -70,7 +71,7 @@ contains
 
         allocate (overrides(merge(1, 0, present(set))))
         if (present(set)) overrides(1)%text = set
-        call parse_scene("&scene system = 'pendulum' "//keys//" /", "a.nml", &
+        call read_and_plan("&scene system = 'pendulum' "//keys//" /", "a.nml", &
                          overrides, scene, system, error)
         call assertTrue(allocated(error), message="not refused: "//expected)
         if (.not. allocated(error)) return

@@ -11,15 +11,13 @@ module test_reduced_motion
     use lagrangia_integrator, only: dense_integrator_t, integrator_t, not_started
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: new_adaptive, new_integrator
-    use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_t
     use lagrangia_pendulum, only: pendulum_t
-    use lagrangia_play, only: play
     use lagrangia_reduced_motion, only: leave_cyclic, reduced_motion_t
     use lagrangia_scene, only: scene_t
-    use lagrangia_scene_reader, only: parse_scene
     use lagrangia_system, only: system_t
     use random_states, only: draw_parameters, draw_state, restart_random
+    use scene_runs, only: plan_and_run, read_and_plan
     implicit none (type, external)
     private
     public :: reduced_motion_suite
@@ -291,18 +289,16 @@ contains
         character(*), intent(in) :: method
         logical, intent(in) :: left_out
         character(*), parameter :: remark = " (the cyclic coordinate from its momentum)"
-        class(observer_t), pointer :: nobody
         class(system_t), allocatable :: system
         type(scene_t) :: scene
         type(outcome_t) :: outcome
         type(error_t), allocatable :: error
 
-        nobody => null()
-        call parse_scene("&scene system = 'cart_pendulum', duration = 3, q = 0.4, 1.2, "// &
+        call read_and_plan("&scene system = 'cart_pendulum', duration = 3, q = 0.4, 1.2, "// &
                          "v = -0.6, 1.5, columns = 't', 'x', 'error', expect_error = 1e-8, "// &
                          method//" /", "a.nml", [word_t ::], scene, system, error)
         call assertFalse(allocated(error), method)
-        call play(scene, system, "", "text", nobody, outcome, error)
+        call plan_and_run(scene, system, outcome, error)
         call assertEqual("holds", outcome%verdict(), method)
         call assertEqual(merge(1, 0, left_out), index(outcome%remark, remark), method)
     end subroutine check_scene

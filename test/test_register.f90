@@ -9,10 +9,10 @@ module test_register
     use lagrangia_findings, only: audit_t
     use lagrangia_kinds, only: dp
     use lagrangia_scene, only: scene_t
-    use lagrangia_scene_reader, only: parse_scene
     use lagrangia_system, only: system_t
     use own_systems, only: own_named_t, own_pendulum_t
     use plain_system, only: plain_system_t
+    use scene_runs, only: read_and_plan
     implicit none (type, external)
     private
     public :: register_suite
@@ -59,9 +59,9 @@ contains
         call system%accelerations(0.0_dp, [0.3_dp], [0.0_dp], a)
         call assertEqual(-9.81_dp/1.2_dp*sin(0.3_dp), a(1), 1e-14_dp)
         call assertFalse(allocated(own%p), "what was handed over is as it was")
-        call parse_scene("&scene system='own_pendulum' method='verlet' dt=1e-2 duration=1 q=1 "// &
-                         "columns='t','x_bob' / &own_pendulum l=2 /", "s.nml", [word_t ::], &
-                         scene, system, error)
+        call read_and_plan("&scene system='own_pendulum' method='verlet' dt=1e-2 "// &
+                           "duration=1 q=1 columns='t','x_bob' / &own_pendulum l=2 /", "s.nml", &
+                           [word_t ::], scene, system, error)
         call assertFalse(allocated(error), "in a scene")
         if (anyExceptions()) return
         call assertEqual([0.5_dp, 2.0_dp, 9.81_dp], scene%parameters)

@@ -9,9 +9,8 @@ module test_run_disks
     use lagrangia_output_file, only: output_file_t
     use lagrangia_output_trials, only: refuse_unwritable
     use lagrangia_scene, only: scene_t
-    use lagrangia_scene_reader, only: parse_scene
     use lagrangia_system, only: system_t
-    use scene_runs, only: perform
+    use scene_runs, only: perform, read_and_plan
     use test_scratch, only: contents, exit_status, limit_file_size, new_folder, remove_file, &
         write_file
     implicit none (type, external)
@@ -164,7 +163,7 @@ contains
         character(:), allocatable :: name
 
         name = repeat("n", 251)  ! 255 with `.nml`, the longest there is
-        call parse_scene("&scene system='pendulum' dt=0.1 duration=1 q=1 /", "a/"//name//".nml", &
+        call read_and_plan("&scene system='pendulum' dt=0.1 duration=1 q=1 /", "a/"//name//".nml", &
                          [word_t ::], scene, system, error)
         call assertFalse(allocated(error), "a long name")
         call assertEqual(name, trim(scene%output))

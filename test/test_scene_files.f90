@@ -7,13 +7,12 @@ module test_scene_files
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, status_file, status_numbers
     use lagrangia_kinds, only: dp
-    use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: from_half_step, outcome_t
-    use lagrangia_play, only: play
     use lagrangia_scene, only: scene_t
-    use lagrangia_scene_reader, only: parse_scene, read_scene
+    use lagrangia_scene_reader, only: read_scene
     use lagrangia_shipped, only: shipped_scenes
     use lagrangia_system, only: system_t
+    use scene_runs, only: plan_and_run, read_and_plan, run_with_files => perform
     implicit none (type, external)
     private
     public :: scene_files_suite
@@ -42,13 +41,11 @@ contains
         type(word_t), allocatable :: paths(:)
         type(error_t), allocatable :: error
         class(system_t), allocatable :: system
-        class(observer_t), pointer :: nobody
         type(outcome_t) :: outcome
         type(scene_t) :: scene
         character(name_length), allocatable :: names(:)
         integer :: i
 
-        nobody => null()
         allocate (names, source=system_names())
         call shipped_scenes(paths, error)
         call assertFalse(allocated(error), message="data/scenes")
@@ -58,7 +55,7 @@ contains
             call assertFalse(allocated(error), message=paths(i)%text)
             if (allocated(error)) return
             where (names == scene%system) names = ""
-            call play(scene, system, "", "text", nobody, outcome, error)
+            call plan_and_run(scene, system, outcome, error)
             call assertEqual("holds", outcome%verdict(), paths(i)%text)
         end do
         call assertTrue(all(names == ""), message="a system has no scene")
@@ -70,14 +67,12 @@ contains
         type(outcome_t), intent(out) :: outcome
         type(error_t), allocatable, intent(out) :: error
         class(system_t), allocatable :: system
-        class(observer_t), pointer :: nobody
         type(scene_t) :: scene
 
-        nobody => null()
-        call parse_scene(text, "s.nml", [word_t ::], scene, system, error)
+        call read_and_plan(text, "s.nml", [word_t ::], scene, system, error)
         call assertFalse(allocated(error), message=text)
         if (allocated(error)) return
-        call play(scene, system, "", "text", nobody, outcome, error)
+        call plan_and_run(scene, system, outcome, error)
     end subroutine perform
 
     subroutine an_estimate_says_so()
@@ -151,16 +146,11 @@ contains
 
     subroutine a_file_that_fails_is_a_failure()
         !! Not a scene that holds, and there is no file to name.
-        class(system_t), allocatable :: system
-        class(observer_t), pointer :: nobody
-        type(scene_t) :: scene
         type(outcome_t) :: outcome
         type(error_t), allocatable :: error
 
-        nobody => null()
-        call parse_scene("&scene system='pendulum' dt=1e-2 duration=1 q=1 expect_error=1 /", &
-                         "s.nml", [word_t ::], scene, system, error)
-        call play(scene, system, "/dev/null", "text", nobody, outcome, error)
+        call run_with_files("&scene system='pendulum' dt=1e-2 duration=1 q=1 expect_error=1 /", &
+                            "/dev/null", "text", outcome, error)
         call assertTrue(allocated(error), "it fails")
         if (.not. allocated(error)) return
         call assertEqual(status_file, error%status)

@@ -7,8 +7,8 @@ module test_scene_steps
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
-    use lagrangia_scene_reader, only: parse_scene
     use lagrangia_system, only: system_t
+    use scene_runs, only: read_and_plan
     implicit none (type, external)
     private
     public :: scene_steps_suite
@@ -35,7 +35,7 @@ contains
         class(system_t), allocatable, intent(out) :: system
         type(error_t), allocatable, intent(out) :: error
 
-        call parse_scene("&scene "//keys//" /", "x.nml", [word_t ::], scene, system, error)
+        call read_and_plan("&scene "//keys//" /", "x.nml", [word_t ::], scene, system, error)
     end subroutine parse
 
     subroutine refused(keys, message)
@@ -169,7 +169,7 @@ contains
         end do
         call assertTrue(index(text, "tolerance = 1e-12") > 0, "tolerance")
         call assertTrue(index(text, "event = 'theta_dot', 'theta = 0.1 rising'") > 0, "event")
-        call parse_scene(text, "x.nml", [word_t ::], scene, system, error)
+        call read_and_plan(text, "x.nml", [word_t ::], scene, system, error)
         call assertFalse(allocated(error), "taken again")
         if (anyExceptions()) return
         second = scene_lines(scene, d)

@@ -5,8 +5,8 @@ module test_scenes
     use lagrangia_errors, only: error_t, status_usage
     use lagrangia_kinds, only: dp
     use lagrangia_scene, only: scene_t
-    use lagrangia_scene_reader, only: parse_scene
     use lagrangia_system, only: system_t
+    use scene_runs, only: read_and_plan
     implicit none (type, external)
     private
     public :: scenes_suite
@@ -52,7 +52,7 @@ contains
 
         allocate (words(merge(1, 0, present(override))))
         if (present(override)) words(1)%text = override
-        call parse_scene(text, "s.nml", words, scene, system, error)
+        call read_and_plan(text, "s.nml", words, scene, system, error)
         call assertTrue(allocated(error), "accepted: "//text)
         if (.not. allocated(error)) return
         call assertEqual(message, error%message(:min(len(message), len(error%message))))
@@ -227,7 +227,7 @@ contains
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
 
-        call parse_scene(text, "s.nml", words, scene, system, error)
+        call read_and_plan(text, "s.nml", words, scene, system, error)
         call assertFalse(allocated(error), "a good scene")
         if (allocated(error)) call assertEqual("", error%message)
     end subroutine read

@@ -5,13 +5,11 @@ module test_second_opinion
     use lagrangia_command_line, only: word_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
-    use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: from_closed_form, from_half_step, outcome_t, scorecard_legend
-    use lagrangia_play, only: play
     use lagrangia_scene, only: scene_t
-    use lagrangia_scene_reader, only: parse_scene
     use lagrangia_statement, only: stated_t, statement_line
     use lagrangia_system, only: system_t
+    use scene_runs, only: plan_and_run, read_and_plan
     use stated_text, only: read_concise
     implicit none (type, external)
     private
@@ -41,17 +39,15 @@ contains
         type(outcome_t), intent(out) :: outcome
         logical, intent(in), optional :: plain
         class(system_t), allocatable :: system
-        class(observer_t), pointer :: nobody
         type(scene_t) :: scene
         type(error_t), allocatable :: error
 
-        nobody => null()
         allocate (outcome%state(0))
-        call parse_scene("&scene error_estimate = .true., columns = 't', "//text, "a.nml", &
+        call read_and_plan("&scene error_estimate = .true., columns = 't', "//text, "a.nml", &
                          [word_t ::], scene, system, error)
         call assertFalse(allocated(error), "it is read: "//text)
         if (present(plain)) scene%error_estimate = .not. plain
-        if (.not. allocated(error)) call play(scene, system, "", "text", nobody, outcome, error)
+        if (.not. allocated(error)) call plan_and_run(scene, system, outcome, error)
         call assertFalse(allocated(error), "it runs: "//text)
     end subroutine perform
 
@@ -203,7 +199,7 @@ contains
         integer :: i, place
 
         do i = 1, size(starts)
-            call parse_scene("&scene columns = 't', "//method//"4e-11, "//starts(i), "a.nml", &
+            call read_and_plan("&scene columns = 't', "//method//"4e-11, "//starts(i), "a.nml", &
                              [word_t ::], scene, system, error)
             call assertTrue(allocated(error), "it is refused")
             if (.not. allocated(error)) return

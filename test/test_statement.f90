@@ -6,13 +6,11 @@ module test_statement
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
-    use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_json, outcome_t
-    use lagrangia_play, only: play
     use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
-    use lagrangia_scene_reader, only: parse_scene
     use lagrangia_statement, only: stated_t, statement_line
     use lagrangia_system, only: system_t
+    use scene_runs, only: plan_and_run, read_and_plan
     implicit none (type, external)
     private
     public :: statement_suite
@@ -40,13 +38,11 @@ contains
         type(outcome_t), intent(out) :: outcome
         type(error_t), allocatable, intent(out) :: error
         class(system_t), allocatable :: system
-        class(observer_t), pointer :: nobody
         type(scene_t) :: scene
 
-        nobody => null()
-        call parse_scene(text, "a.nml", overrides, scene, system, error)
+        call read_and_plan(text, "a.nml", overrides, scene, system, error)
         if (allocated(error)) return
-        call play(scene, system, "", "text", nobody, outcome, error)
+        call plan_and_run(scene, system, outcome, error)
     end subroutine perform
 
     pure function one(text) result(words)
@@ -113,7 +109,7 @@ contains
 
         call perform(text, one("scene%error_estimate=.false."), outcome, error)
         call assertFalse(allocated(error), "the step itself is long enough")
-        call parse_scene(text, "a.nml", [word_t ::], scene, system, error)
+        call read_and_plan(text, "a.nml", [word_t ::], scene, system, error)
         call assertTrue(allocated(error), "a quarter of it is not")
         if (.not. allocated(error)) return
         call assertEqual(2, error%status)
@@ -159,7 +155,7 @@ contains
         type(error_t), allocatable :: error
         character(scene_line_length), allocatable :: lines(:)
 
-        call parse_scene(text, "a.nml", [word_t ::], scene, system, error)
+        call read_and_plan(text, "a.nml", [word_t ::], scene, system, error)
         call assertFalse(allocated(error), "it is read")
         if (allocated(error)) return
         call system%describe(d)

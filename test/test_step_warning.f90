@@ -4,9 +4,9 @@ module test_step_warning
     use lagrangia_command_line, only: word_t
     use lagrangia_errors, only: error_t
     use lagrangia_scene, only: scene_t
-    use lagrangia_scene_reader, only: parse_scene
     use lagrangia_step_warning, only: step_warning
     use lagrangia_system, only: system_t
+    use scene_runs, only: read_and_plan
     implicit none (type, external)
     private
     public :: step_warning_suite
@@ -35,7 +35,7 @@ contains
 
         group = ""
         if (present(parameters)) group = parameters
-        call parse_scene("&scene system = '"//system_name//"', duration = 10.0, "//steps//" /"// &
+        call read_and_plan("&scene system = '"//system_name//"', duration = 10.0, "//steps//" /"// &
                          new_line("a")//"&"//system_name//" "//group//" /", "a.nml", &
                          [word_t ::], scene, system, error)
         call assertFalse(allocated(error), steps)

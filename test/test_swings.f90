@@ -8,11 +8,10 @@ module test_swings
     use lagrangia_kinds, only: dp
     use lagrangia_namelist, only: get_real, get_reals, has_key, namelist_t, parse_namelist
     use lagrangia_namelist_file, only: read_whole_file
-    use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_t
-    use lagrangia_play, only: play
     use lagrangia_scene, only: scene_t
     use lagrangia_text, only: to_text
+    use scene_runs, only: plan_and_run
     implicit none (type, external)
     private
     public :: swings_suite
@@ -98,13 +97,11 @@ contains
         real(dp), intent(in) :: dt, tolerance
         type(outcome_t), intent(out) :: outcome
         real(dp), intent(out) :: truth(4)
-        class(observer_t), pointer :: nobody
         type(double_pendulum_t) :: system
         type(error_t), allocatable :: error
         type(scene_t) :: scene
         real(dp), allocatable :: q(:), v(:)
 
-        nobody => null()
         call assertTrue(has_key(tree, group, "q_end"), group//" is there")
         if (anyExceptions()) return
         call get_reals(tree, group, "parameters", 5, 5, scene%parameters, error)
@@ -124,7 +121,7 @@ contains
         scene%every = 20
         scene%error_estimate = .true.
         allocate (scene%columns(0), scene%plots(0), scene%expectations(0))
-        call play(scene, system, "", "text", nobody, outcome, error)
+        call plan_and_run(scene, system, outcome, error)
         call assertFalse(allocated(error), group//" runs")
     end subroutine perform
 end module test_swings

@@ -7,12 +7,13 @@ module lagrangia_run_command
     use lagrangia_outcome, only: outcome_json, outcome_t, scorecard_head, scorecard_legend, &
                                  scorecard_row
     use lagrangia_places, only: places_t
-    use lagrangia_play, only: play
     use lagrangia_progress, only: progress_t
+    use lagrangia_run_plan, only: new_run_plan, run_plan_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_claims, only: claim_files, claim_scene, size_warning
     use lagrangia_scene_files, only: check_format, draw
     use lagrangia_scene_reader, only: read_scene
+    use lagrangia_scene_run, only: run_scene
     use lagrangia_shipped, only: find_scene, shipped_scenes
     use lagrangia_statement, only: statement_legend, statement_line
     use lagrangia_step_warning, only: step_warning
@@ -24,17 +25,17 @@ module lagrangia_run_command
     public :: run_command
 
     type :: chosen_t
-        !! One scene of the run, read and found good.
+        !! One scene of the run, read, planned and found good.
         type(word_t) :: path
-        type(scene_t) :: scene
-        class(system_t), allocatable :: system
+        type(run_plan_t) :: plan
     end type chosen_t
 
 contains
 
     subroutine run_command(line, error)
-        !! Read all scenes before any of them runs; then run them, a row each. A scene that fails
-        !! does not keep the others from running; the exit status is that of the first failure.
+        !! Read and plan all scenes before any of them runs; then run them, a row each. A scene
+        !! that fails does not keep the others from running; the exit status is that of the first
+        !! failure.
         type(command_line_t), intent(in) :: line
         type(error_t), allocatable, intent(out) :: error
         type(error_t), allocatable :: scene_error
@@ -75,7 +76,7 @@ contains
             call put_line(scorecard_head())
         end if
         do i = 1, size(chosen)
-            call run_one(chosen(i)%path%text, chosen(i)%scene, chosen(i)%system, scene_error)
+            call run_one(chosen(i)%path%text, chosen(i)%plan, scene_error)
             call progress%clear()
             if (allocated(scene_error)) then
                 call scene_error%add_context(chosen(i)%path%text)
@@ -116,22 +117,20 @@ contains
         if (missed > 0 .and. .not. allocated(error)) call fail(error, to_text(missed)//" of "// &
             to_text(size(chosen))//" scenes did not hold their tolerances", status_not_held)
     contains
-        subroutine run_one(path, scene, system, error)
+        subroutine run_one(path, plan, error)
             character(*), intent(in) :: path
-            type(scene_t), intent(inout) :: scene
-            class(system_t), intent(in) :: system
+            type(run_plan_t), intent(inout) :: plan
             type(error_t), allocatable, intent(out) :: error
             character(:), allocatable :: warning, much
 
-            warning = step_warning(scene, system)
-            much = size_warning(scene, folder, format)
+            warning = step_warning(plan%scene, plan%system)
+            much = size_warning(plan%scene, folder, format)
             if (warning /= "" .and. .not. quiet) call note(path//": "//warning)
             if (much /= "" .and. .not. quiet) call note(path//": "//much)
             if (warning /= "" .and. much /= "") warning = warning//"; "
             warning = warning//much
-            scene%error_estimate = scene%error_estimate .or. line%has("error-estimate")
-            call progress%restart(trim(scene%name), quiet)
-            call play(scene, system, folder, format, watcher, outcome, error)
+            call progress%restart(trim(plan%scene%name), quiet)
+            call run_scene(plan, folder, format, watcher, outcome, error)
             outcome%warning = warning
             if (allocated(error) .or. .not. line%has("plot")) return
             call draw(outcome%file, kind, error)
@@ -141,14 +140,16 @@ contains
     end subroutine run_command
 
     subroutine choose_scenes(line, folder, format, chosen, error)
-        !! The named scenes or all; every one is read, once, and all files of the run are compared,
-        !! so that nothing runs if one is wrong or a file would be lost.
+        !! The named scenes or all; every one is read and planned, once, and all files of the run
+        !! are compared, so that nothing runs if one is wrong or a file would be lost.
         type(command_line_t), intent(in) :: line
         character(*), intent(in) :: folder, format
         type(chosen_t), allocatable, intent(out) :: chosen(:)
         type(error_t), allocatable, intent(out) :: error
         type(places_t) :: places
         type(word_t), allocatable :: paths(:)
+        type(scene_t) :: scene
+        class(system_t), allocatable :: system
         integer :: i, turn
 
         if (line%command == "") then
@@ -169,14 +170,16 @@ contains
             do i = 1, size(paths)
                 if (turn == 1) then
                     chosen(i)%path = paths(i)
-                    call read_scene(paths(i)%text, line%values_of("set"), chosen(i)%scene, &
-                                    chosen(i)%system, error)
+                    call read_scene(paths(i)%text, line%values_of("set"), scene, system, error)
                     if (allocated(error)) return
-                    call claim_scene(chosen(i)%scene, places, error)
+                    scene%error_estimate = scene%error_estimate .or. line%has("error-estimate")
+                    call new_run_plan(chosen(i)%plan, scene, system, error)
+                    if (allocated(error)) return
+                    call claim_scene(scene, places, error)
                     if (allocated(error)) call fail(error, "this scene is given twice")
                 else
-                    call claim_files(chosen(i)%scene, chosen(i)%system, folder, format, places, &
-                                     error)
+                    call claim_files(chosen(i)%plan%scene, chosen(i)%plan%system, folder, format, &
+                                     places, error)
                 end if
                 if (allocated(error)) then
                     call error%add_context(paths(i)%text)

@@ -15,25 +15,22 @@ module lagrangia_accuracy
     use lagrangia_dense_run, only: drive
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
-    use lagrangia_event_record, only: event_record_t
     use lagrangia_events, only: event_box_t
-    use lagrangia_gnuplot, only: panel_t
-    use lagrangia_integrator, only: dense_integrator_t, integrator_t
+    use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: new_adaptive
     use lagrangia_observer, only: observer_box_t, observer_t
     use lagrangia_reference, only: reference_t
-    use lagrangia_run, only: plan_t
     use lagrangia_scene, only: scene_t
     use lagrangia_second_opinion, only: by_closed_form, by_other_method, event_slope, lost_by_clock
-    use lagrangia_staging, only: stage_events, stage_method
     use lagrangia_statement, only: stated_t
     use lagrangia_system, only: system_t
     use lagrangia_tolerance_floor, only: sensible_tolerance
+    use lagrangia_trajectory_plan, only: plan_steps, trajectory_plan_t
     use lagrangia_witness, only: witness_t
     implicit none (type, external)
     private
-    public :: estimate, rehearse_finer, state_accuracy
+    public :: estimate, plan_finer, state_accuracy
 
     character(*), parameter :: context = "the run that estimates the error"
     real(dp), parameter :: vouched = 2.0_dp       !! stated error over estimate
@@ -42,41 +39,47 @@ module lagrangia_accuracy
 
 contains
 
-    subroutine rehearse_finer(scene, system, error)
-        !! Fails where the finest run would be refused.
-        type(scene_t), intent(in) :: scene
+    subroutine plan_finer(scene, system, finer, error)
+        !! The two finer runs: one at half the step or a hundredth of the tolerance, one at the
+        !! square of that; each from a state a last digit away from the scene's, to either side.
+        type(scene_t), intent(in) :: scene                    !! its method is not `auto`
         class(system_t), intent(in) :: system
-        type(error_t), allocatable, intent(out) :: error
-        class(integrator_t), allocatable :: integrator
-        type(plan_t) :: plan
+        type(trajectory_plan_t), intent(out) :: finer(2)      !! still without their events
+        type(error_t), allocatable, intent(out) :: error      !! the finest would be refused
+        type(scene_t) :: near, fine
+        integer :: k
 
-        call stage_method(finer(scene, system, 2), system, plan, integrator, error)
-        if (allocated(error)) call error%add_context(context)
-    end subroutine rehearse_finer
+        do k = 2, 1, -1
+            call nudge(scene, system, merge(1, -1, k == 1), near)
+            call refine(near, system, k, fine)
+            call plan_steps(fine, system, finer(k), error)
+            if (allocated(error)) call error%add_context(context)
+            if (allocated(error)) return
+        end do
+    end subroutine plan_finer
 
-    subroutine state_accuracy(scene, system, closed_form, seen, steps, watcher, state, error)
+    subroutine state_accuracy(scene, system, closed_form, finer, seen, steps, progress, state, &
+                              error)
         !! Every number of the final state of `scene`, with its error; the time first if an event
         !! ended the run. Fails where a finer run fails.
         type(scene_t), intent(in) :: scene
         class(system_t), intent(in) :: system
         class(reference_t), allocatable, intent(in) :: closed_form  !! absent: none is known
-        type(witness_t), intent(in) :: seen                !! of the run itself,
-        integer(i8), intent(in) :: steps                   !! and how many it took
-        class(observer_t), pointer, intent(in) :: watcher  !! hears the runs go on; may be null
+        type(trajectory_plan_t), intent(inout) :: finer(2)   !! of `plan_finer`; used up
+        type(witness_t), intent(in) :: seen                  !! of the run itself,
+        integer(i8), intent(in) :: steps                     !! and how many it took
+        class(observer_t), pointer, intent(in) :: progress   !! hears the runs go on; may be null
         type(stated_t), allocatable, intent(out) :: state(:)
         type(error_t), allocatable, intent(out) :: error
         type(witness_t) :: half, quarter
-        type(event_box_t), allocatable :: events(:)
         real(dp), allocatable :: first(:), second(:), third(:), most(:), other(:), rounding(:)
         real(dp) :: shrinking, step
         logical :: known
 
         step = (seen%t - scene%t0)/max(steps, 1_i8)
-        call run_finer(finer(nudged(scene, system, 1), system, 1), system, 0.5_dp*step, watcher, &
-                       half, shrinking, events, error)
-        if (.not. allocated(error)) call run_finer(finer(nudged(scene, system, -1), system, 2), &
-                                                   system, 0.25_dp*step, watcher, quarter, &
-                                                   shrinking, events, error)
+        call run_finer(finer(1), system, 0.5_dp*step, progress, half, shrinking, error)
+        if (.not. allocated(error)) call run_finer(finer(2), system, 0.25_dp*step, progress, &
+                                                   quarter, shrinking, error)
         if (allocated(error)) then
             call error%add_context(context)
             return
@@ -93,12 +96,14 @@ contains
         rounding = 2.0_dp*epsilon(most)*most
         if (seen%t < scene%t0 + scene%duration) then
             step = 1e-4_dp*(seen%t - scene%t0)
-            rounding(1) = rounding(1) + rounding_of_event(system, seen, step, events, rounding)
+            rounding(1) = rounding(1) + rounding_of_event(system, seen, step, finer(2)%events, &
+                                                        rounding)
         end if
         state%error = vouched*max(estimate(first, second, third, most, shrinking), &
                                   rounding + rounding_of_clock(system, seen, most(1))) &
                       + late(scene, system, seen)
-        call by_other_method(scene, system, seen, events, 100_i8*steps + 100000_i8, other, known)
+        call by_other_method(scene, system, seen, finer(2)%events, 100_i8*steps + 100000_i8, &
+                             other, known)
         if (known) state%error = agreement(first, second, third, other, most, &
                                                  shrinking) + rounding
         call by_closed_form(scene, system, seen, closed_form, other, known)
@@ -199,18 +204,18 @@ contains
         error = max(error, min(caution, odd)*most*maxval(error/unit), 2.0_dp*epsilon(most)*most)
     end function estimate
 
-    function nudged(scene, system, way) result(near)
+    pure subroutine nudge(scene, system, sense, near)
         !! The scene from a state, and where that matters a time, a last digit away.
         type(scene_t), intent(in) :: scene
         class(system_t), intent(in) :: system
-        integer, intent(in) :: way  !! 1 or -1
-        type(scene_t) :: near
+        integer, intent(in) :: sense  !! 1 or -1
+        type(scene_t), intent(out) :: near
 
         near = scene
-        near%q = scene%q*(1.0_dp + way*epsilon(1.0_dp))
-        near%v = scene%v*(1.0_dp - way*epsilon(1.0_dp))
-        if (system%time_dependent) near%t0 = scene%t0*(1.0_dp + way*epsilon(1.0_dp))
-    end function nudged
+        near%q = scene%q*(1.0_dp + sense*epsilon(1.0_dp))
+        near%v = scene%v*(1.0_dp - sense*epsilon(1.0_dp))
+        if (system%time_dependent) near%t0 = scene%t0*(1.0_dp + sense*epsilon(1.0_dp))
+    end subroutine nudge
 
     pure function agreement(first, second, third, other, most, shrinking) result(error)
         !! Of the first run, each number by itself: its distance to the other end, and that one's
@@ -231,12 +236,12 @@ contains
         error = abs(first - other) + margin*most*apart
     end function agreement
 
-    function finer(scene, system, k) result(fine)
+    subroutine refine(scene, system, k, fine)
         !! The scene at \(2^{-k}\) of its step or \(100^{-k}\) of its tolerance, if that can be had.
         type(scene_t), intent(in) :: scene
         class(system_t), intent(in) :: system
         integer, intent(in) :: k
-        type(scene_t) :: fine
+        type(scene_t), intent(out) :: fine
         class(dense_integrator_t), allocatable :: method
 
         fine = scene
@@ -249,7 +254,7 @@ contains
             fine%dt = scene%duration/steps_of(scene, k)
             fine%every = scene%every*2**k
         end if
-    end function finer
+    end subroutine refine
 
     pure function steps_of(scene, k) result(steps)
         !! Their number in the finer run: \(2n + 1\) where n, or a part less, are in the one before.
@@ -261,40 +266,28 @@ contains
         steps = 2.0_dp**k*(anint(scene%duration/scene%dt) + 1.0_dp) - 1.0_dp
     end function steps_of
 
-    subroutine run_finer(scene, system, longest, watcher, seen, shrinking, events, error)
+    subroutine run_finer(plan, system, longest, progress, seen, shrinking, error)
         !! From the start to the end, or to the event that ends it. A method that chooses its steps
         !! may find no reason in the tolerance to shorten them: hence the bound.
-        type(scene_t), intent(in) :: scene
+        type(trajectory_plan_t), intent(inout) :: plan
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: longest  !! step of a method that chooses them, s
-        class(observer_t), pointer, intent(in) :: watcher
+        class(observer_t), pointer, intent(in) :: progress
         type(witness_t), target, intent(inout) :: seen
         real(dp), intent(out) :: shrinking  !! of the error at half the step, a tenth of tolerance
-        type(event_box_t), allocatable, intent(out) :: events(:)
         type(error_t), allocatable, intent(out) :: error
-        class(integrator_t), allocatable :: integrator
-        type(plan_t) :: plan
-        type(event_record_t) :: record
-        type(panel_t), allocatable :: panels(:)
         type(observer_box_t) :: observers(2)
-        real(dp) :: q(system%ndof), v(system%ndof), t
+        real(dp) :: t
 
-        shrinking = 10.0_dp  ! at least, by a hundredth of the tolerance
-        call stage_method(scene, system, plan, integrator, error)
-        if (allocated(error)) return
-        select type (integrator)
+        select type (method => plan%integrator)
         class is (dense_integrator_t)
-            integrator%longest = longest
+            method%longest = longest
         end select
-        call stage_events(scene, system, events, record, panels, error)
-        if (allocated(error)) return
         observers(1)%item => seen
-        if (associated(watcher)) observers(2)%item => watcher
-        q = scene%q
-        v = scene%v
-        call drive(system, integrator, plan, events, &
-                   observers(:merge(2, 1, associated(watcher))), q, v, t, error)
-        if (scene%tolerance > 0.0_dp) return
-        shrinking = 2.0_dp**integrator%order
+        if (associated(progress)) observers(2)%item => progress
+        call drive(system, plan%integrator, plan%times, plan%events, &
+                   observers(:merge(2, 1, associated(progress))), plan%q, plan%v, t, error)
+        shrinking = 10.0_dp  ! at least, by a hundredth of the tolerance
+        if (plan%times%equal == 0) shrinking = 2.0_dp**plan%integrator%order
     end subroutine run_finer
 end module lagrangia_accuracy

@@ -1,7 +1,9 @@
 module lagrangia_scene
     !! A scene as plain, validated data, and as the text that would make it again.
     use lagrangia_description, only: description_t, name_length
+    use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_namelist, only: namelist_t, refuse_value
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -39,9 +41,25 @@ module lagrangia_scene
         logical :: modes = .false.                 !! show omega of the small oscillations
         character(name_length) :: period_of = ""   !! a coordinate whose period is measured
         type(expectation_t), allocatable :: expectations(:)
+        type(namelist_t), allocatable :: file      !! where each key stands; absent: nowhere
+    contains
+        procedure :: locate
     end type scene_t
 
 contains
+
+    pure subroutine locate(self, error)
+        !! Give an error that blames a key of the scene its place: file, line, column and value.
+        class(scene_t), intent(in) :: self
+        type(error_t), allocatable, intent(inout) :: error  !! not allocated: nothing to do
+        type(error_t), allocatable :: located
+
+        if (.not. (allocated(error) .and. allocated(self%file))) return
+        if (.not. allocated(error%key)) return
+        call refuse_value(self%file, "scene", error%key, error%message, located, error%element)
+        located%status = error%status
+        call move_alloc(located, error)
+    end subroutine locate
 
     function scene_lines(scene, d) result(lines)
         !! The effective scene, all defaults filled in, as namelist text.

@@ -9,10 +9,10 @@ program digits
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_t
-    use lagrangia_play, only: play
     use lagrangia_random_draws, only: random_t
+    use lagrangia_run_plan, only: parse_run_plan, run_plan_t
     use lagrangia_scene, only: scene_t
-    use lagrangia_scene_reader, only: parse_scene
+    use lagrangia_scene_run, only: run_scene
     use lagrangia_system, only: system_t
     implicit none (type, external)
 
@@ -34,34 +34,33 @@ program digits
     do k = 1, count
         corner = 1 + mod(k - 1, size(corner_names))
         call draw_scene(random, corner, text)
-        if (text /= "") call play_scene(text, trim(corner_names(corner)))
+        if (text /= "") call run_drawn(text, trim(corner_names(corner)))
     end do
 
 contains
 
-    subroutine play_scene(text, corner)
+    subroutine run_drawn(text, corner)
         !! Run it, and print what it states. A scene that is refused says nothing.
         character(*), intent(in) :: text, corner
-        class(system_t), allocatable :: system
         class(observer_t), pointer :: nobody
-        type(scene_t) :: scene
+        type(run_plan_t) :: plan
         type(outcome_t) :: outcome
         type(error_t), allocatable :: error
 
         nobody => null()
-        call parse_scene(text, "drawn.nml", [word_t ::], scene, system, error)
+        call parse_run_plan(plan, text, "drawn.nml", [word_t ::], error)
         if (allocated(error)) then
             print "(4a)", "# refused: ", error%message, " | ", text
             return
         end if
         print "(2a)", "# next: ", text
-        call play(scene, system, "", "text", nobody, outcome, error)
+        call run_scene(plan, "", "text", nobody, outcome, error)
         if (allocated(error)) then
             print "(4a)", "# failed: ", error%message, " | ", text
             return
         end if
-        call print_case(text, corner, scene, system, outcome)
-    end subroutine play_scene
+        call print_case(text, corner, plan%scene, plan%system, outcome)
+    end subroutine run_drawn
 
     subroutine print_case(text, corner, scene, system, outcome)
         !! What the judge needs: the motion, where it ended, and each number with its statement.

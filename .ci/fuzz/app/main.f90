@@ -9,9 +9,10 @@ module fuzzing
     use lagrangia_kinds, only: dp
     use lagrangia_namelist_file, only: read_whole_file
     use lagrangia_registry, only: check_line, options
+    use lagrangia_run_plan, only: parse_run_plan, run_plan_t
     use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
     use lagrangia_scene_files, only: check_format
-    use lagrangia_scene_reader, only: parse_scene, read_named_system
+    use lagrangia_scene_reader, only: read_named_system
     use lagrangia_shipped, only: find_scene, shipped_scenes
     use lagrangia_system, only: system_t
     use mutations, only: mutate, pick, seed_with, spoil
@@ -99,8 +100,7 @@ contains
 
     subroutine try_nonsense()
         !! One scene that is right but for one number, which must be what it is refused for.
-        type(scene_t) :: scene
-        class(system_t), allocatable :: system
+        type(run_plan_t) :: plan
         type(error_t), allocatable :: error
         character(:), allocatable :: text, written
         integer :: number
@@ -109,7 +109,7 @@ contains
         text = corpus(number)%text
         call spoil(text, written)
         if (written == "") return
-        call parse_scene(text, "fuzz.nml", [word_t ::], scene, system, error)
+        call parse_run_plan(plan, text, "fuzz.nml", [word_t ::], error)
         if (.not. allocated(error)) call give_up(written//" was taken for a number", text)
         call check_message(error, text)
         if (index(error%message, "fuzz.nml:") /= 1) call give_up(error%message, text)
@@ -120,8 +120,7 @@ contains
         !! Read it; read the echo of what was accepted.
         character(*), intent(in) :: text
         type(word_t), intent(in) :: overrides(:)
-        type(scene_t) :: scene, again
-        class(system_t), allocatable :: system
+        type(run_plan_t) :: plan, again
         type(description_t) :: d
         type(error_t), allocatable :: error
         character(scene_line_length), allocatable :: lines(:)
@@ -132,28 +131,31 @@ contains
 
         source = "fuzz.nml"
         if (mod(i, 7) == 0) source = repeat("long path/", 30)//source
-        call parse_scene(text, source, overrides, scene, system, error)
+        call parse_run_plan(plan, text, source, overrides, error)
         if (allocated(error)) then
             call check_message(error, text)
             refused = refused + 1
             return
         end if
         accepted = accepted + 1
-        whole = scene%every >= 1 .and. scene%duration > 0.0_dp .and. &
-                (scene%tolerance > 0.0_dp .or. &
-                 (scene%dt > 0.0_dp .and. scene%dt <= scene%duration)) .and. &
-                size(scene%q) == system%ndof .and. all(abs(scene%q) <= huge(1.0_dp)) .and. &
-                all(abs(scene%v) <= huge(1.0_dp)) .and. size(scene%columns) > 0
+        associate (scene => plan%scene)
+            whole = scene%every >= 1 .and. scene%duration > 0.0_dp .and. &
+                    (scene%tolerance > 0.0_dp .or. &
+                     (scene%dt > 0.0_dp .and. scene%dt <= scene%duration)) .and. &
+                    size(scene%q) == plan%system%ndof .and. &
+                    all(abs(scene%q) <= huge(1.0_dp)) .and. &
+                    all(abs(scene%v) <= huge(1.0_dp)) .and. size(scene%columns) > 0
+        end associate
         if (.not. whole) call give_up("nonsense was accepted", text)
-        call system%describe(d)
-        lines = scene_lines(scene, d)
+        call plan%system%describe(d)
+        lines = scene_lines(plan%scene, d)
         echo = ""
         do k = 1, size(lines)
             echo = echo//trim(lines(k))//new_line("a")
         end do
-        call parse_scene(echo, "fuzz.nml", [word_t ::], again, system, error)
+        call parse_run_plan(again, echo, "fuzz.nml", [word_t ::], error)
         if (allocated(error)) call give_up("its echo is refused: "//error%message, text//echo)
-        whole = all(transfer(numbers(scene), [0]) == transfer(numbers(again), [0]))
+        whole = all(transfer(numbers(plan%scene), [0]) == transfer(numbers(again%scene), [0]))
         if (.not. whole) call give_up("its echo differs", text)
     end subroutine judge
 

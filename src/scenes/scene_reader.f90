@@ -1,17 +1,16 @@
 module lagrangia_scene_reader
-    !! From a scene file to a validated scene and its system; nothing is computed before all of
-    !! it has been found good.
+    !! From a scene file to a scene and its system. What the text alone shows to be wrong is refused
+    !! here; what only a method or a column shows, where the run is planned (`lagrangia_run_plan`).
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_catalogue, only: new_system
     use lagrangia_command_line, only: word_t
     use lagrangia_description, only: description_t, name_length
-    use lagrangia_errors, only: error_t, fail
+    use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_namelist, only: apply_override, get_reals, get_string, has_key, namelist_t, &
                                   parse_namelist, refuse_unknown_groups, &
                                   refuse_unknown_keys, refuse_value
     use lagrangia_namelist_file, only: read_whole_file
-    use lagrangia_play, only: performance_t, rehearse
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_keys, only: coordinates, expectation_keys, key_length, keys, &
                                     read_columns, read_state, read_times
@@ -73,12 +72,11 @@ contains
         type(scene_t), intent(out) :: scene
         class(system_t), allocatable, intent(out) :: system
         type(error_t), allocatable, intent(out) :: error
-        type(namelist_t) :: tree
-        type(performance_t) :: p
-        type(error_t), allocatable :: found
+        type(namelist_t), allocatable :: tree
         character(key_length), allocatable :: allowed(:)
         integer :: i
 
+        allocate (tree)
         call parse_namelist(text, source, tree, error)
         if (allocated(error)) return
         do i = 1, size(overrides)
@@ -106,10 +104,8 @@ contains
             if (allocated(error)) exit read_groups
             call refuse_unknown_groups(tree, [character(name_length) :: "scene", scene%system], &
                                        error)
-            if (allocated(error)) exit read_groups
-            call rehearse(scene, system, p, found)
-            if (allocated(found)) call locate(tree, found, error)
         end block read_groups
+        call move_alloc(tree, scene%file)
     end subroutine parse_scene
 
     subroutine refuse_coordinates(tree, system, error)
@@ -133,20 +129,6 @@ contains
             end do
         end do
     end subroutine refuse_coordinates
-
-    subroutine locate(tree, found, error)
-        !! Say what was `found` wrong together with its place in the file.
-        type(namelist_t), intent(inout) :: tree
-        type(error_t), intent(in) :: found
-        type(error_t), allocatable, intent(out) :: error
-
-        if (allocated(found%key)) then
-            call refuse_value(tree, "scene", found%key, found%message, error, found%element)
-        else
-            call fail(error, found%message)
-        end if
-        error%status = found%status
-    end subroutine locate
 
     subroutine read_system(tree, scene, system, error)
         !! The system by its name, with its parameters.
