@@ -63,8 +63,8 @@ contains
 
     function scene_lines(scene, d) result(lines)
         !! The effective scene, all defaults filled in, as namelist text.
-        type(scene_t), intent(in) :: scene
-        type(description_t), intent(in) :: d
+        type(scene_t), intent(in) :: scene  !! with its method as the file names it
+        type(description_t), intent(in) :: d  !! of the scene's system
         character(scene_line_length), allocatable :: lines(:)
         integer :: i, first
 

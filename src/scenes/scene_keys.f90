@@ -26,9 +26,9 @@ contains
 
     subroutine read_times(tree, scene, error)
         !! Method, how it adds, step, duration, samples.
-        type(namelist_t), intent(inout) :: tree
-        type(scene_t), intent(inout) :: scene
-        type(error_t), allocatable, intent(out) :: error
+        type(namelist_t), intent(inout) :: tree  !! keys that are read are marked as used
+        type(scene_t), intent(inout) :: scene  !! gets these values
+        type(error_t), allocatable, intent(out) :: error  !! a value that is missing or not allowed
         integer(i8) :: samples, steps
 
         call get_string(tree, "scene", "title", scene%title, error)
@@ -96,10 +96,10 @@ contains
 
     subroutine read_state(tree, system, scene, error)
         !! Coordinates and velocities at the start; velocities default to 0.
-        type(namelist_t), intent(inout) :: tree
-        class(system_t), intent(in) :: system
-        type(scene_t), intent(inout) :: scene
-        type(error_t), allocatable, intent(out) :: error
+        type(namelist_t), intent(inout) :: tree  !! keys that are read are marked as used
+        class(system_t), intent(in) :: system  !! with its parameters
+        type(scene_t), intent(inout) :: scene  !! has its times; gets q and v
+        type(error_t), allocatable, intent(out) :: error  !! a value that is missing or not allowed
         type(error_t), allocatable :: found
         type(description_t) :: d
         real(dp), allocatable :: given(:)
@@ -128,10 +128,10 @@ contains
 
     subroutine read_columns(tree, system, scene, error)
         !! What is written, drawn, measured and expected.
-        type(namelist_t), intent(inout) :: tree
-        class(system_t), intent(in) :: system
-        type(scene_t), intent(inout) :: scene
-        type(error_t), allocatable, intent(out) :: error
+        type(namelist_t), intent(inout) :: tree  !! keys that are read are marked as used
+        class(system_t), intent(in) :: system  !! with its parameters
+        type(scene_t), intent(inout) :: scene  !! gets columns, plots, events, expectations
+        type(error_t), allocatable, intent(out) :: error  !! a value that is not allowed
         character(name_length), allocatable :: names(:)
         character(key_length), allocatable :: expected(:)
         type(description_t) :: d
@@ -235,7 +235,7 @@ contains
 
     pure function coordinates(d) result(text)
         !! Their names in order.
-        type(description_t), intent(in) :: d
+        type(description_t), intent(in) :: d  !! of a system
         character(:), allocatable :: text
         character(name_length) :: names(size(d%coordinates))
 
@@ -253,7 +253,7 @@ contains
 
     pure function expectation_keys(system) result(names)
         !! `expect_` and what can be judged, in lower case as all keys are.
-        class(system_t), intent(in) :: system
+        class(system_t), intent(in) :: system  !! whose columns they judge
         character(key_length), allocatable :: names(:)
         integer :: i
 

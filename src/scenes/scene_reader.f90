@@ -25,11 +25,11 @@ contains
 
     subroutine read_scene(path, overrides, scene, system, error)
         !! Read the file at `path`; `overrides` are the words behind `--set`.
-        character(*), intent(in) :: path
-        type(word_t), intent(in) :: overrides(:)
-        type(scene_t), intent(out) :: scene
-        class(system_t), allocatable, intent(out) :: system
-        type(error_t), allocatable, intent(out) :: error
+        character(*), intent(in) :: path  !! of a readable file
+        type(word_t), intent(in) :: overrides(:)  !! they come after the file's values
+        type(scene_t), intent(out) :: scene  !! remembers the place of each key
+        class(system_t), allocatable, intent(out) :: system  !! with the scene's parameters
+        type(error_t), allocatable, intent(out) :: error  !! names file, line and key
         character(:), allocatable :: text
 
         call read_whole_file(path, text, error)
@@ -39,10 +39,10 @@ contains
 
     subroutine read_named_system(name, overrides, system, error)
         !! The system called `name`, its parameters set by the words behind `--set`.
-        character(*), intent(in) :: name
-        type(word_t), intent(in) :: overrides(:)
-        class(system_t), allocatable, intent(out) :: system
-        type(error_t), allocatable, intent(out) :: error
+        character(*), intent(in) :: name  !! as 'list' shows it
+        type(word_t), intent(in) :: overrides(:)  !! parameters of this system only
+        class(system_t), allocatable, intent(out) :: system  !! with these parameters
+        type(error_t), allocatable, intent(out) :: error  !! unknown, or a parameter is not allowed
         type(namelist_t) :: tree
         type(scene_t) :: scene
         integer :: i
@@ -67,11 +67,12 @@ contains
 
     subroutine parse_scene(text, source, overrides, scene, system, error)
         !! The scene in `text`, which came from the file `source`.
-        character(*), intent(in) :: text, source
-        type(word_t), intent(in) :: overrides(:)
-        type(scene_t), intent(out) :: scene
-        class(system_t), allocatable, intent(out) :: system
-        type(error_t), allocatable, intent(out) :: error
+        character(*), intent(in) :: text  !! a namelist, lines between line feeds
+        character(*), intent(in) :: source  !! its name, for messages
+        type(word_t), intent(in) :: overrides(:)  !! they come after the text's values
+        type(scene_t), intent(out) :: scene  !! remembers the place of each key
+        class(system_t), allocatable, intent(out) :: system  !! with the scene's parameters
+        type(error_t), allocatable, intent(out) :: error  !! names file, line and key
         type(namelist_t), allocatable :: tree
         character(key_length), allocatable :: allowed(:)
         integer :: i

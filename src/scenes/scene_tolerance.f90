@@ -24,9 +24,9 @@ contains
     subroutine read_tolerance(tree, scene, error)
         !! `tolerance` and `samples` of a scene whose method is to choose its steps; `tolerance`
         !! stays 0 where it is not.
-        type(namelist_t), intent(inout) :: tree
-        type(scene_t), intent(inout) :: scene
-        type(error_t), allocatable, intent(out) :: error
+        type(namelist_t), intent(inout) :: tree  !! keys that are read are marked as used
+        type(scene_t), intent(inout) :: scene  !! has its method; gets the two values
+        type(error_t), allocatable, intent(out) :: error  !! a value that is not allowed
         class(dense_integrator_t), allocatable :: method
         character(name_length), allocatable :: names(:)
 

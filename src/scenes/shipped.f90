@@ -51,8 +51,8 @@ contains
 
     subroutine shipped_scenes(paths, error)
         !! The paths of all shipped scenes, in alphabetical order; fails where there is none.
-        type(word_t), allocatable, intent(out) :: paths(:)
-        type(error_t), allocatable, intent(out) :: error
+        type(word_t), allocatable, intent(out) :: paths(:)  !! from the working folder
+        type(error_t), allocatable, intent(out) :: error  !! status of a file
         type(glob_t) :: found
         type(c_ptr), pointer :: list(:)
         character(kind=c_char), pointer :: bytes(:)
@@ -78,9 +78,9 @@ contains
     subroutine find_scene(name, path, error)
         !! The path of a scene: `name` itself if it looks like a path, or a shipped scene's. Fails
         !! where neither is there.
-        character(*), intent(in) :: name
-        character(:), allocatable, intent(out) :: path
-        type(error_t), allocatable, intent(out) :: error
+        character(*), intent(in) :: name  !! of a shipped scene, or a path
+        character(:), allocatable, intent(out) :: path  !! of a file that exists
+        type(error_t), allocatable, intent(out) :: error  !! names the nearest scene
         type(word_t), allocatable :: paths(:)
         character(255), allocatable :: names(:)  !! no file's name is longer
         character(:), allocatable :: near
@@ -139,7 +139,7 @@ contains
 
     pure function scene_name(path) result(name)
         !! The file's name without its folder and its ending.
-        character(*), intent(in) :: path
+        character(*), intent(in) :: path  !! of a scene's file
         character(:), allocatable :: name
         integer :: dot
 
