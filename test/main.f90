@@ -93,7 +93,6 @@ module suites
     use test_printed_formulae, only: printed_formulae_suite
     use test_processes, only: processes_suite
     use test_progress, only: progress_suite
-    use test_quadrature, only: quadrature_suite
     use test_reduced_motion, only: reduced_motion_suite
     use test_register, only: register_suite
     use test_resources, only: resources_suite
@@ -225,7 +224,6 @@ contains
         call suite%addTest(printed_formulae_suite())
         call suite%addTest(processes_suite())
         call suite%addTest(progress_suite())
-        call suite%addTest(quadrature_suite())
         call suite%addTest(reduced_motion_suite())
         call suite%addTest(resources_suite())
         call suite%addTest(rheonomic_suite())
