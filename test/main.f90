@@ -67,7 +67,6 @@ module suites
     use test_methods, only: methods_suite
     use test_mirror, only: mirror_suite
     use test_namelist, only: namelist_suite
-    use test_namelist_file, only: namelist_file_suite
     use test_namelist_limits, only: namelist_limits_suite
     use test_namelist_mistakes, only: namelist_mistakes_suite
     use test_namelist_refusals, only: namelist_refusals_suite
@@ -122,6 +121,7 @@ module suites
     use test_unfinished, only: unfinished_suite
     use test_virtual_work, only: virtual_work_suite
     use test_walls, only: walls_suite
+    use test_whole_file, only: whole_file_suite
     implicit none (type, external)
     private
     public :: load_tests
@@ -199,7 +199,6 @@ contains
         call suite%addTest(methods_suite())
         call suite%addTest(mirror_suite())
         call suite%addTest(namelist_suite())
-        call suite%addTest(namelist_file_suite())
         call suite%addTest(namelist_limits_suite())
         call suite%addTest(namelist_mistakes_suite())
         call suite%addTest(namelist_refusals_suite())
@@ -252,6 +251,7 @@ contains
         call suite%addTest(unfinished_suite())
         call suite%addTest(virtual_work_suite())
         call suite%addTest(walls_suite())
+        call suite%addTest(whole_file_suite())
         call suite%addTest(own_closed_form_suite())  ! the last two: their systems stay in the
         call suite%addTest(register_suite())         ! catalogue
     end function load_tests

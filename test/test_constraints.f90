@@ -5,7 +5,7 @@ module test_constraints
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t, operator(*), operator(**), operator(-)
     use lagrangia_kinds, only: dp
-    use lagrangia_lapack_rank, only: matrix_rank
+    use lagrangia_lapack, only: matrix_rank
     use lagrangia_lecture_constraints, only: classify, example_point, examples, &
                                              lecture_constraint_t, new_constraint, radius, turning
     use lagrangia_pfaffian, only: pfaffian_t

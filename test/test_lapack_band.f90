@@ -4,7 +4,7 @@ module test_lapack_band
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_errors, only: error_t, status_library
     use lagrangia_kinds, only: dp
-    use lagrangia_lapack_band, only: count_negative, lowest_mode, solve_band
+    use lagrangia_lapack, only: count_negative, lowest_mode, solve_band
     use lagrangia_richardson, only: extrapolated
     implicit none (type, external)
     private

@@ -5,8 +5,7 @@ module test_partial_files
     use lagrangia_errors, only: error_t, status_numbers
     use lagrangia_kinds, only: dp
     use lagrangia_outcome, only: outcome_t
-    use lagrangia_output_file, only: output_file_t
-    use lagrangia_output_trials, only: remove_partial
+    use lagrangia_output_file, only: output_file_t, remove_partial
     use scene_runs, only: perform
     use test_scratch, only: c_symlink, contents, new_folder, remove_file, write_file
     implicit none (type, external)

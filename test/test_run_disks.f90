@@ -6,8 +6,7 @@ module test_run_disks
     use lagrangia_errors, only: error_t, status_file, status_ok, status_usage
     use lagrangia_interrupt, only: catch_interrupts
     use lagrangia_outcome, only: outcome_t
-    use lagrangia_output_file, only: output_file_t
-    use lagrangia_output_trials, only: refuse_unwritable
+    use lagrangia_output_file, only: output_file_t, refuse_unwritable
     use lagrangia_scene, only: scene_t
     use lagrangia_system, only: system_t
     use scene_runs, only: perform, read_and_plan

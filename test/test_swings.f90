@@ -5,9 +5,9 @@ module test_swings
                      assertLessThan, assertLessThanOrEqual, assertTrue
     use lagrangia_double_pendulum, only: double_pendulum_t
     use lagrangia_errors, only: error_t
+    use lagrangia_files, only: read_whole_file
     use lagrangia_kinds, only: dp
     use lagrangia_namelist, only: get_real, get_reals, has_key, namelist_t, parse_namelist
-    use lagrangia_namelist_file, only: read_whole_file
     use lagrangia_outcome, only: outcome_t
     use lagrangia_scene, only: scene_t
     use lagrangia_text, only: to_text

@@ -6,7 +6,7 @@ module lagrangia_audit_structure
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
-    use lagrangia_least_squares, only: smallest_pivot
+    use lagrangia_lapack, only: smallest_pivot
     use lagrangia_mass_matrix, only: check_mass_matrix, list_of
     use lagrangia_system, only: system_t
     implicit none (type, external)

@@ -5,12 +5,11 @@ module lagrangia_diagnosis
     !! of motion, solved afterwards, shows in all accelerations, but as a residual of that equation
     !! alone. Whichever is the fewer is named. Then one term of the Lagrangian's equations is
     !! sought that, counted another number of times, explains it at every state.
-    use lagrangia_description, only: description_t
+    use lagrangia_description, only: default_values, description_t
     use lagrangia_equation_terms, only: acceleration_terms, equation_terms, term_count, &
                                         term_length, term_names
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
-    use lagrangia_parameters, only: default_values
     use lagrangia_random_draws, only: random_t
     use lagrangia_system, only: system_t
     use lagrangia_term_fit, only: best_term

@@ -2,7 +2,7 @@ module lagrangia_term_fit
     !! Which known term explains an unknown difference.
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
-    use lagrangia_least_squares, only: least_squares
+    use lagrangia_lapack, only: least_squares
     implicit none (type, external)
     private
     public :: best_term, all_terms

@@ -7,8 +7,7 @@ module lagrangia_bench_files
     use lagrangia_gnuplot_script, only: begin_script, gnuplot_string, lines_t
     use lagrangia_kinds, only: dp
     use lagrangia_machine, only: processor
-    use lagrangia_output_file, only: commit_both, output_file_t
-    use lagrangia_output_trials, only: refuse_unwritable
+    use lagrangia_output_file, only: commit_both, output_file_t, refuse_unwritable
     use lagrangia_places, only: places_t
     use lagrangia_scene_claims, only: claim_table
     use lagrangia_scene_files, only: data_path, script_path

@@ -3,10 +3,10 @@ module lagrangia_bench_problems
     use lagrangia_catalogue, only: new_system
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_files, only: read_whole_file
     use lagrangia_kinds, only: dp
     use lagrangia_namelist, only: get_real, get_reals, get_string, namelist_t, parse_namelist, &
                                   refuse_unknown_keys
-    use lagrangia_namelist_file, only: read_whole_file
     use lagrangia_reference, only: reference_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: lower

@@ -2,8 +2,7 @@ module lagrangia_picture_files
     !! A table worth a picture as files: the data, and the gnuplot script beside it.
     use lagrangia_errors, only: error_t
     use lagrangia_gnuplot, only: gnuplot_script, new_panels, panel_t
-    use lagrangia_output_file, only: commit_both, output_file_t
-    use lagrangia_output_trials, only: refuse_unwritable
+    use lagrangia_output_file, only: commit_both, output_file_t, refuse_unwritable
     use lagrangia_places, only: places_t
     use lagrangia_report, only: heading_length, picture_t
     use lagrangia_scene_claims, only: claim_table

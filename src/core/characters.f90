@@ -6,9 +6,9 @@ module lagrangia_characters
     public :: decode, described, is_control, plainly, printable, unlike
 
     type :: lookalike_t
-        integer :: code = 0              !! Unicode's number
-        character(3) :: plain = ""       !! what to type
-        integer :: length = 1            !! of that
+        integer :: code = 0         !! Unicode's number
+        character(3) :: plain = ""  !! what to type
+        integer :: length = 1       !! of that
     end type lookalike_t
 
     type(lookalike_t), parameter :: lookalikes(*) = [ &
@@ -31,8 +31,8 @@ contains
 
     pure function described(text, position) result(words)
         !! The character at `position` of a text in UTF-8: `U+2212`, `byte \xFF` where it is none.
-        character(*), intent(in) :: text
-        integer, intent(in) :: position
+        character(*), intent(in) :: text  !! UTF-8, perhaps
+        integer, intent(in) :: position   !! of its first byte
         character(:), allocatable :: words
         character(9) :: buffer
         integer :: code, length
@@ -50,7 +50,7 @@ contains
 
     pure function plainly(text) result(plain)
         !! `text` with plain characters in the place of those that look like them.
-        character(*), intent(in) :: text
+        character(*), intent(in) :: text  !! UTF-8, perhaps
         character(:), allocatable :: plain
         character(3*len(text)) :: buffer  ! no character grows to more than three times its bytes
         integer :: code, filled, i, k, length
@@ -75,7 +75,7 @@ contains
     pure function unlike(text) result(problem)
         !! The first character of `text` that only looks plain, and what to do about it: `U+2212 is
         !! no plain '-'`; empty where there is none.
-        character(*), intent(in) :: text
+        character(*), intent(in) :: text  !! UTF-8, perhaps
         character(:), allocatable :: problem
         integer :: code, i, k, length
 
@@ -99,7 +99,7 @@ contains
     pure function printable(text) result(shown)
         !! `text` as one line in valid UTF-8: a byte of a control character, or one that is no
         !! UTF-8, becomes `\xNN`. All else stays as it is.
-        character(*), intent(in) :: text
+        character(*), intent(in) :: text  !! any bytes
         character(:), allocatable :: shown
         character(16), parameter :: hex = "0123456789ABCDEF"
         character(:), allocatable :: buffer
@@ -134,7 +134,7 @@ contains
     pure function is_control(code) result(yes)
         !! Does the character with Unicode's number `code` control a terminal (C0, DEL, C1), end a
         !! line, or turn the direction of what follows? Source: Unicode 15, sec. 23.1, 23.2.
-        integer, intent(in) :: code
+        integer, intent(in) :: code  !! Unicode's number
         logical :: yes
 
         select case (code)
@@ -149,9 +149,9 @@ contains
     pure subroutine decode(text, position, code, length)
         !! Unicode's number of the character at `position`, -1 where its bytes are no UTF-8; and
         !! how many bytes it has, 1 where they are none. Source: RFC 3629.
-        character(*), intent(in) :: text          !! holds `position`
-        integer, intent(in) :: position           !! of the first byte
-        integer, intent(out) :: code, length
+        character(*), intent(in) :: text      !! holds `position`
+        integer, intent(in) :: position       !! of the first byte
+        integer, intent(out) :: code, length  !! Unicode's number or -1, and bytes
         integer, parameter :: least(4) = [0, int(z"80"), int(z"800"), int(z"10000")]
         integer :: byte, i
 

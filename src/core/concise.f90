@@ -17,6 +17,7 @@ contains
         !! and counts in units of the last digit before it. All digits where the error is 0. Both
         !! are finite.
         real(dp), intent(in) :: value, error
+        !! a finite number, and how far it may be off, not negative
         character(:), allocatable :: text
         character(1) :: digit
         real(dp) :: doubt

@@ -7,16 +7,16 @@ module lagrangia_errors
     public :: status_ok, status_not_held, status_usage, status_numbers, status_library, &
               status_file, status_interrupted, status_of_signal, status_pipe, status_terminated
 
-    integer, parameter :: status_ok = 0            !! all is well
-    integer, parameter :: status_not_held = 1      !! a check or a scene's tolerance did not hold
-    integer, parameter :: status_usage = 2         !! usage, scene or parameter error
-    integer, parameter :: status_numbers = 3       !! overflow, NaN, no convergence
-    integer, parameter :: status_library = 4       !! LAPACK or GSL refused
-    integer, parameter :: status_file = 5          !! a file could not be read or written
-    integer, parameter :: status_of_signal = 128   !! plus the number of the signal that ended it
-    integer, parameter :: status_interrupted = 130 !! SIGINT
-    integer, parameter :: status_pipe = 141        !! SIGPIPE: nobody reads what is printed
-    integer, parameter :: status_terminated = 143  !! SIGTERM
+    integer, parameter :: status_ok = 0             !! all is well
+    integer, parameter :: status_not_held = 1       !! a check or a scene's tolerance did not hold
+    integer, parameter :: status_usage = 2          !! usage, scene or parameter error
+    integer, parameter :: status_numbers = 3        !! overflow, NaN, no convergence
+    integer, parameter :: status_library = 4        !! LAPACK or GSL refused
+    integer, parameter :: status_file = 5           !! a file could not be read or written
+    integer, parameter :: status_of_signal = 128    !! plus the number of the signal that ended it
+    integer, parameter :: status_interrupted = 130  !! SIGINT
+    integer, parameter :: status_pipe = 141         !! SIGPIPE: nobody reads what is printed
+    integer, parameter :: status_terminated = 143   !! SIGTERM
 
     integer, parameter :: message_length = 289     !! 300 with `lagrangia: ` before it
 
@@ -35,11 +35,11 @@ contains
     pure subroutine fail(error, message, status, key, element)
         !! Make `error` say `message`, shortened if need be; the status is that of a usage error
         !! unless given.
-        type(error_t), allocatable, intent(out) :: error
-        character(*), intent(in) :: message
-        integer, intent(in), optional :: status
-        character(*), intent(in), optional :: key
-        integer, intent(in), optional :: element
+        type(error_t), allocatable, intent(out) :: error  !! allocated, with what follows
+        character(*), intent(in) :: message  !! for the user; cut to `message_length` bytes
+        integer, intent(in), optional :: status  !! exit status, one of the above
+        character(*), intent(in), optional :: key  !! of a scene, if it is to blame
+        integer, intent(in), optional :: element  !! which of its values, from 1
 
         allocate (error)
         error%message = shortened(message, message_length)
@@ -50,7 +50,7 @@ contains
 
     pure function is_signal(error) result(yes)
         !! Whether a signal is behind `error`: then everything ends, not only what failed.
-        type(error_t), intent(in) :: error
+        type(error_t), intent(in) :: error  !! of any kind
         logical :: yes
 
         yes = error%status > status_of_signal
@@ -59,7 +59,7 @@ contains
     pure subroutine add_context(self, context)
         !! Put `context: ` before the message.
         class(error_t), intent(inout) :: self
-        character(*), intent(in) :: context
+        character(*), intent(in) :: context  !! what was being done
 
         self%message = shortened(context//": "//self%message, message_length)
     end subroutine add_context

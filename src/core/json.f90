@@ -43,7 +43,7 @@ contains
 
     pure function json_real(value) result(json)
         !! A number with 17 digits; JSON has no NaN or Infinity, so they are `null`.
-        real(dp), intent(in) :: value
+        real(dp), intent(in) :: value  !! any double
         character(:), allocatable :: json
         character(24) :: text
 
@@ -55,7 +55,7 @@ contains
 
     pure function json_integer(value) result(json)
         !! A whole number.
-        integer(i8), intent(in) :: value
+        integer(i8), intent(in) :: value  !! any whole number
         character(:), allocatable :: json
         character(20) :: text
 
@@ -65,7 +65,7 @@ contains
 
     pure function json_list(values) result(json)
         !! A list of numbers.
-        real(dp), intent(in) :: values(:)
+        real(dp), intent(in) :: values(:)  !! any length
         character(:), allocatable :: json
         integer :: i
 

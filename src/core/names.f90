@@ -14,7 +14,7 @@ contains
         !! Near means: at most one slip for names up to three letters (and their first is there),
         !! two up to six, else three, and something of the name must be left; or two thirds of
         !! one name begin a word of the other (`cart`, `pendel`, `simple_pendulum`).
-        character(*), intent(in) :: name, candidates(:)
+        character(*), intent(in) :: name, candidates(:)  !! what was typed, and what there is
         character(:), allocatable :: best
         integer, parameter :: longest = 63, short = 3
         integer :: distance, i, length, least, shared
@@ -46,7 +46,7 @@ contains
     pure function abbreviation(name, candidates) result(best)
         !! The candidate that abbreviates `name`, as `g` for `gravity`, `m1` for `mass1`: its first
         !! letter, alone or with one of the others; empty when there is none.
-        character(*), intent(in) :: name, candidates(:)
+        character(*), intent(in) :: name, candidates(:)  !! what was typed, and what there is
         character(:), allocatable :: best
         integer :: i
 
@@ -59,7 +59,7 @@ contains
 
     pure function advice(name, candidates) result(text)
         !! What to write instead of `name`: the nearest of the candidates, or which there are.
-        character(*), intent(in) :: name, candidates(:)
+        character(*), intent(in) :: name, candidates(:)  !! what was typed, and what there is
         character(:), allocatable :: text
 
         text = nearest_name(name, candidates)
@@ -124,10 +124,10 @@ contains
 
     pure subroutine refuse_name(kind, name, names, error)
         !! There is no such name: say which one is near, or which ones there are.
-        character(*), intent(in) :: kind      !! what is named: `system`, `method`
-        character(*), intent(in) :: name      !! what was typed
-        character(*), intent(in) :: names(:)  !! those that there are
-        type(error_t), allocatable, intent(out) :: error
+        character(*), intent(in) :: kind                  !! what is named: `system`, `method`
+        character(*), intent(in) :: name                  !! what was typed
+        character(*), intent(in) :: names(:)              !! those that there are
+        type(error_t), allocatable, intent(out) :: error  !! allocated, with advice
 
         call fail(error, "unknown "//kind//" "//quoted(name)//"; "//advice(name, names))
     end subroutine refuse_name

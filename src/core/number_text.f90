@@ -13,8 +13,8 @@ contains
     pure function scientific(value, digits) result(text)
         !! `1.2E-09`: so many significant digits, and as many of the exponent as it has, but two at
         !! least; never asterisks.
-        real(dp), intent(in) :: value
-        integer, intent(in) :: digits             !! 1 to 17
+        real(dp), intent(in) :: value  !! any double
+        integer, intent(in) :: digits  !! 1 to 17
         character(:), allocatable :: text
         character(32) :: buffer, layout
 
@@ -30,8 +30,8 @@ contains
     pure function fixed(value, decimals) result(text)
         !! `-0.0120`: so many digits behind the point, as many before it as there are; never
         !! asterisks.
-        real(dp), intent(in) :: value
-        integer, intent(in) :: decimals           !! 0 to 17
+        real(dp), intent(in) :: value    !! any double
+        integer, intent(in) :: decimals  !! 0 to 17
         character(:), allocatable :: text
         character(330) :: buffer                  ! huge(value) has 309 digits before its point
         character(16) :: layout
@@ -43,9 +43,9 @@ contains
 
     pure subroutine write_row(values, row, length)
         !! A line of a text table: every value as `es24.16e3`, a blank between two, a newline.
-        real(dp), intent(in) :: values(:)
-        character((field_width + 1)*size(values)), intent(out) :: row
-        integer, intent(out) :: length      !! `row(:length)` is the line
+        real(dp), intent(in) :: values(:)                              !! one for each column
+        character((field_width + 1)*size(values)), intent(out) :: row  !! room for the longest line
+        integer, intent(out) :: length                                 !! `row(:length)` is the line
 
         write (row, "(ss, *(es24.16e3, :, 1x))") values
         length = len(row)
@@ -54,9 +54,9 @@ contains
 
     pure subroutine write_csv_row(values, row, length)
         !! A line of a comma-separated table: the same digits without padding.
-        real(dp), intent(in) :: values(:)
-        character((field_width + 1)*size(values)), intent(out) :: row
-        integer, intent(out) :: length      !! `row(:length)` is the line
+        real(dp), intent(in) :: values(:)                              !! one for each column
+        character((field_width + 1)*size(values)), intent(out) :: row  !! room for the longest line
+        integer, intent(out) :: length                                 !! `row(:length)` is the line
         character((field_width + 1)*size(values)) :: padded
         integer :: column, first, last
 

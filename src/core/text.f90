@@ -5,7 +5,10 @@ module lagrangia_text
     implicit none (type, external)
     private
     public :: word_t
-    public :: escaped, join, lower, quoted, shortened, to_text
+    public :: escaped, join, lower, quoted, short_source, shortened, to_text
+    public :: source_length
+
+    integer, parameter :: source_length = 100  !! of what `short_source` gives
 
     type :: word_t
         !! A text of its own length, for lists.
@@ -23,7 +26,7 @@ contains
 
     pure function lower(text) result(small)
         !! `text` with the letters A to Z in lower case; other bytes stay.
-        character(*), intent(in) :: text
+        character(*), intent(in) :: text  !! any bytes
         character(len(text)) :: small
         integer :: i
 
@@ -35,7 +38,7 @@ contains
 
     pure function join(names, separator) result(text)
         !! The trimmed names in a row with `separator` between them.
-        character(*), intent(in) :: names(:), separator
+        character(*), intent(in) :: names(:), separator  !! blanks at their ends do not count
         character(:), allocatable :: text
         integer :: i, length, position
 
@@ -55,8 +58,8 @@ contains
     pure function escaped(text, limit) result(shown)
         !! `text` fit for a message: control and non-ASCII bytes as `\xNN`, and cut to `limit`
         !! characters (40 unless given) with `...` behind.
-        character(*), intent(in) :: text
-        integer, intent(in), optional :: limit
+        character(*), intent(in) :: text        !! any bytes
+        integer, intent(in), optional :: limit  !! in characters, 40 unless given
         character(:), allocatable :: shown
         character(16), parameter :: hex = "0123456789ABCDEF"
         character(:), allocatable :: buffer
@@ -87,18 +90,34 @@ contains
 
     pure function quoted(text, limit) result(shown)
         !! `escaped` text between single quotes.
-        character(*), intent(in) :: text
-        integer, intent(in), optional :: limit
+        character(*), intent(in) :: text        !! any bytes
+        integer, intent(in), optional :: limit  !! of `escaped`
         character(:), allocatable :: shown
 
         shown = "'"//escaped(text, limit)//"'"
     end function quoted
 
+    pure function short_source(source) result(shown)
+        !! `source` fit for a message, a blank at either end as `\x20`; of a long one the end is
+        !! kept.
+        character(*), intent(in) :: source        !! a file's name, with any bytes
+        character(source_length) :: shown
+        character(:), allocatable :: full
+        integer :: length
+
+        full = escaped(source, 4*len(source))
+        if (len_trim(full) < len(full)) full = full(:len(full) - 1)//"\x20"
+        if (index(full, " ") == 1) full = "\x20"//full(2:)
+        length = len(full)
+        if (length > source_length) full = "..."//full(length - source_length + 4:)
+        shown = full
+    end function short_source
+
     pure function shortened(text, most) result(short)
         !! `text` in at most `most` bytes: what is longest between blanks (a path, a value) loses
         !! its middle to `...`, and then the text as a whole.
-        character(*), intent(in) :: text
-        integer, intent(in) :: most
+        character(*), intent(in) :: text  !! UTF-8, perhaps
+        integer, intent(in) :: most       !! in bytes, at least 7
         character(:), allocatable :: short
         integer, parameter :: spared = 40  !! bytes of a word
         integer :: first, last, length, start
@@ -152,7 +171,7 @@ contains
 
     pure function integer_to_text(number) result(text)
         !! A default integer in decimal.
-        integer, intent(in) :: number
+        integer, intent(in) :: number  !! any
         character(:), allocatable :: text
 
         text = int64_to_text(int(number, i8))
@@ -160,7 +179,7 @@ contains
 
     pure function int64_to_text(number) result(text)
         !! A 64-bit integer in decimal.
-        integer(i8), intent(in) :: number
+        integer(i8), intent(in) :: number  !! any
         character(:), allocatable :: text
         character(24) :: buffer
 
@@ -171,7 +190,7 @@ contains
     pure function real_to_text(number) result(text)
         !! The shortest text that reads back to the same double, for namelists and Python alike:
         !! `0.01`, `9.81`, `20.0`, `1.5e-7`; `nan`, `inf` and `-inf` where there is no number.
-        real(dp), intent(in) :: number
+        real(dp), intent(in) :: number  !! any double
         character(:), allocatable :: text
         character(32) :: buffer, layout
         real(dp) :: back

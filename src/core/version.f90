@@ -12,7 +12,7 @@ contains
     pure function build_text(brief) result(text)
         !! Compiler and flags; folders of the build machine are left out, and so are, if `brief`,
         !! the many flags that `-march=native` stands for.
-        logical, intent(in), optional :: brief
+        logical, intent(in), optional :: brief  !! false unless given
         character(:), allocatable :: text
 
         text = compiler_version()//", "//flags(brief)// &

@@ -3,12 +3,12 @@ module lagrangia_namelist_tree
     !! entries' values; and where each of them was written.
     use lagrangia_errors, only: error_t, fail, status_usage
     use lagrangia_kinds, only: dp
-    use lagrangia_text, only: escaped, to_text
+    use lagrangia_text, only: escaped, short_source, source_length, to_text
     implicit none (type, external)
     private
     public :: entry_t, group_t, namelist_t, value_t
     public :: add_entry, add_group, add_value, fail_at, find_entry, find_group, in_override, &
-              label, line_of, new_namelist, raw_text, settle_twins, short_source, text_of
+              label, line_of, new_namelist, raw_text, settle_twins, text_of
     public :: kind_number, kind_string, kind_word, max_values, name_length
 
     integer, parameter :: name_length = 63    !! of a group or key, as in Fortran
@@ -16,7 +16,6 @@ module lagrangia_namelist_tree
     integer, parameter :: max_entries = 1000  !! in one file with its overrides
     integer, parameter :: max_values = 10000  !! repeats counted, in one file with its overrides
     integer, parameter :: few = 64            !! entries and values: there is room at once
-    integer, parameter :: source_length = 100
 
     integer, parameter :: kind_number = 1  !! a finite number
     integer, parameter :: kind_string = 2  !! text between quotes
@@ -76,22 +75,6 @@ contains
         tree%source = short_source(source)
         allocate (tree%groups(max_groups), tree%entries(few), tree%values(few))
     end subroutine new_namelist
-
-    pure function short_source(source) result(shown)
-        !! `source` fit for a message, a blank at either end as `\x20`; of a long one the end is
-        !! kept.
-        character(*), intent(in) :: source        !! a file's name, with any bytes
-        character(source_length) :: shown
-        character(:), allocatable :: full
-        integer :: length
-
-        full = escaped(source, 4*len(source))
-        if (len_trim(full) < len(full)) full = full(:len(full) - 1)//"\x20"
-        if (index(full, " ") == 1) full = "\x20"//full(2:)
-        length = len(full)
-        if (length > source_length) full = "..."//full(length - source_length + 4:)
-        shown = full
-    end function short_source
 
     pure subroutine fail_at(tree, position, message, error)
         !! Fail with `source:line:column: message`, `source: message`, or `--set ...: message`.

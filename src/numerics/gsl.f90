@@ -4,9 +4,10 @@ module lagrangia_gsl
     !! GSL's error handler would abort the program: it is switched off before the first call, and
     !! every status is checked.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_funloc, &
-        c_funptr, c_int, c_loc, c_ptr, c_size_t
+    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, &
+        c_funptr, c_int, c_loc, c_ptr
     use lagrangia_errors, only: error_t, fail, status_library, status_numbers
+    use lagrangia_files, only: fortran_text
     use lagrangia_kinds, only: dp, this_part_needs_real64
     use lagrangia_roots, only: scalar_function_t
     implicit none (type, external)
@@ -101,13 +102,6 @@ module lagrangia_gsl
             integer(c_int), value :: status
             type(c_ptr) :: message
         end function gsl_strerror
-
-        function c_string_length(text) bind(c, name="strlen") result(length)
-            import :: c_ptr, c_size_t
-            implicit none (type, external)
-            type(c_ptr), value :: text
-            integer(c_size_t) :: length
-        end function c_string_length
     end interface
 
     logical :: handler_is_off = .false.
@@ -222,14 +216,7 @@ contains
         !! GSL's own words for a status.
         integer(c_int), intent(in) :: status
         character(:), allocatable :: message
-        character(kind=c_char), pointer :: text(:)
-        integer :: i, length
 
-        length = int(c_string_length(gsl_strerror(status)))
-        call c_f_pointer(gsl_strerror(status), text, [length])
-        allocate (character(length) :: message)
-        do i = 1, length
-            message(i:i) = text(i)
-        end do
+        message = fortran_text(gsl_strerror(status))
     end function gsl_reason
 end module lagrangia_gsl

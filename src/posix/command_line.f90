@@ -38,8 +38,8 @@ contains
 
     subroutine command_words(words, error)
         !! The program's arguments.
-        type(word_t), allocatable, intent(out) :: words(:)
-        type(error_t), allocatable, intent(out) :: error
+        type(word_t), allocatable, intent(out) :: words(:)  !! each of its own length
+        type(error_t), allocatable, intent(out) :: error    !! a word is too long
         integer :: i, length
 
         allocate (words(command_argument_count()))
@@ -58,10 +58,11 @@ contains
     pure subroutine parse_words(words, options, line, error)
         !! Sort words into command, arguments and options; `--` ends the options. An option that
         !! does not exist is only remembered: the command knows those that may have been meant.
-        type(word_t), intent(in) :: words(:)
-        type(option_t), intent(in) :: options(:)  !! every option there is
-        type(command_line_t), intent(out) :: line
+        type(word_t), intent(in) :: words(:)       !! as they were typed
+        type(option_t), intent(in) :: options(:)   !! every option there is
+        type(command_line_t), intent(out) :: line  !! the same, sorted
         type(error_t), allocatable, intent(out) :: error
+        !! an option lacks its value, or has one too many
         logical :: literal, named
         integer :: i
 
@@ -101,7 +102,7 @@ contains
 
     pure function without_hyphens(text) result(name)
         !! What comes behind those at the start.
-        character(*), intent(in) :: text
+        character(*), intent(in) :: text  !! `--name`
         character(:), allocatable :: name
 
         name = text(verify(text//".", "-"):)
@@ -172,8 +173,8 @@ contains
     pure subroutine check_value(option, name, value, line, error)
         !! Refuse a second value that is another one, and blanks that would go unseen.
         type(option_t), intent(in) :: option
-        character(*), intent(in) :: name, value      !! as they were typed
-        type(command_line_t), intent(in) :: line     !! what was typed before
+        character(*), intent(in) :: name, value   !! as they were typed
+        type(command_line_t), intent(in) :: line  !! what was typed before
         type(error_t), allocatable, intent(out) :: error
         character(:), allocatable :: before
 
@@ -189,7 +190,7 @@ contains
 
     pure function is_same(text1, text2) result(same)
         !! Byte for byte: blanks at the end count, as they do not for `==`.
-        character(*), intent(in) :: text1, text2
+        character(*), intent(in) :: text1, text2  !! any bytes
         logical :: same
 
         same = text1 == text2 .and. len(text1) == len(text2)
@@ -197,7 +198,7 @@ contains
 
     pure function has_outer_blanks(text) result(yes)
         !! Does it begin or end with a blank?
-        character(*), intent(in) :: text
+        character(*), intent(in) :: text  !! any bytes
         logical :: yes
 
         yes = len_trim(adjustl(text)) < len(text)
@@ -221,7 +222,7 @@ contains
     pure function has(self, name) result(found)
         !! Whether option `--name` was given.
         class(command_line_t), intent(in) :: self
-        character(*), intent(in) :: name
+        character(*), intent(in) :: name  !! without hyphens
         logical :: found
         integer :: i
 
@@ -234,7 +235,7 @@ contains
     pure function values_of(self, name) result(words)
         !! All values of a repeatable option.
         class(command_line_t), intent(in) :: self
-        character(*), intent(in) :: name
+        character(*), intent(in) :: name  !! without hyphens
         type(word_t), allocatable :: words(:)
         integer :: i
 
@@ -247,7 +248,7 @@ contains
     pure function value_of(self, name, default) result(value)
         !! The value of option `--name` (the last one given), or `default`.
         class(command_line_t), intent(in) :: self
-        character(*), intent(in) :: name, default
+        character(*), intent(in) :: name, default  !! without hyphens, and what stands for no value
         character(:), allocatable :: value
         integer :: i
 

@@ -23,7 +23,7 @@ contains
 
     subroutine put(text)
         !! Write `text` to stdout as it is.
-        character(*), intent(in) :: text
+        character(*), intent(in) :: text  !! any bytes; no newline is added
         integer(c_size_t) :: length
 
         if (failure /= 0) return
@@ -40,7 +40,7 @@ contains
 
     subroutine put_line(text)
         !! Write `text` as one line to stdout, whatever is in it: see `printable`.
-        character(*), intent(in) :: text
+        character(*), intent(in) :: text  !! without a newline
 
         call put(printable(text)//new_line("a"))
     end subroutine put_line
@@ -48,7 +48,7 @@ contains
     subroutine note(text)
         !! Write the one line `lagrangia: text` to stderr, in at most 300 bytes, whatever is in it:
         !! see `printable`.
-        character(*), intent(in) :: text
+        character(*), intent(in) :: text  !! without a newline
         character(:), allocatable :: line
         integer(c_size_t) :: written
 
@@ -60,7 +60,7 @@ contains
     subroutine say_at_once(line)
         !! Write `line`, whose end is in it, to stderr as it is. Allocates nothing, and flushes
         !! nothing: fit for signal handlers.
-        character(*), intent(in) :: line
+        character(*), intent(in) :: line  !! with its newline
         integer(c_size_t) :: written
 
         written = c_write(2_c_int, line, len(line, c_size_t))
@@ -68,7 +68,7 @@ contains
 
     subroutine show_progress(text)
         !! Let `text` replace the line of the terminal behind stderr; `""` clears it.
-        character(*), intent(in) :: text
+        character(*), intent(in) :: text  !! narrower than the terminal
         character(:), allocatable :: line
         integer(c_size_t) :: written
 
@@ -80,7 +80,7 @@ contains
         !! Send on what is still held back; fails if anything put was lost. The exit status of
         !! a program whose results go to stdout depends on it. A reader who has seen enough
         !! (`| head`) is no reason for a message, and the status is what SIGPIPE would make it.
-        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable, intent(out) :: error  !! status 5, or that of SIGPIPE
 
         call flush_console()
         if (failure == 0) return
@@ -106,7 +106,7 @@ contains
 
     function is_terminal(unit)
         !! Whether a person reads (or types) at `input_unit`, `output_unit` or `error_unit`.
-        integer, intent(in) :: unit
+        integer, intent(in) :: unit  !! Fortran's number of it
         logical :: is_terminal
 
         select case (unit)

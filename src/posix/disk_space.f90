@@ -16,7 +16,7 @@ contains
     function free_space(folder) result(bytes)
         !! Bytes that may still be written in `folder`, or in the nearest above it that exists;
         !! negative where the system does not say, or not in a way that we know.
-        character(*), intent(in) :: folder
+        character(*), intent(in) :: folder  !! need not exist
         real(dp) :: bytes
         integer(c_long) :: values(32)  !! C's `struct statvfs`, which is shorter
         character(:), allocatable :: above
@@ -38,8 +38,8 @@ contains
     function space_warning(bytes, folder) result(text)
         !! A line for the user where more is to be written than there is room for, or a gigabyte
         !! and more; else nothing.
-        real(dp), intent(in) :: bytes  !! that will be written at the most
-        character(*), intent(in) :: folder
+        real(dp), intent(in) :: bytes       !! that will be written at the most
+        character(*), intent(in) :: folder  !! need not exist
         character(:), allocatable :: text
         real(dp) :: free
 

@@ -1,15 +1,20 @@
 module lagrangia_files
     !! What a name stands for on disk, the folders above it, and the words for what went wrong.
     use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_f_procpointer, &
-        c_funloc, c_funptr, c_int, c_null_char, c_null_ptr, c_ptr
-    use lagrangia_c_library, only: c_errno, c_fclose, c_fileno, c_fopen, c_free, c_lstat, &
-        c_mkdir, c_realpath, c_stat, c_strerror, c_strlen
+        c_funloc, c_funptr, c_int, c_null_char, c_null_ptr, c_ptr, c_size_t
+    use lagrangia_c_library, only: c_errno, c_fclose, c_fileno, c_fopen, c_fread, c_free, &
+        c_lstat, c_mkdir, c_realpath, c_stat, c_strerror, c_strlen
+    use lagrangia_errors, only: error_t, fail, status_file
     use lagrangia_kinds, only: i8
+    use lagrangia_text, only: short_source, to_text
     implicit none (type, external)
     private
-    public :: facts_t, folder_of, hold_standard_units, last_error, look_at, make_folders, &
-              plain_path, reason, resolved, same_file
+    public :: facts_t, folder_of, fortran_text, hold_standard_units, last_error, look_at, &
+              make_folders, plain_path, read_whole_file, reason, resolved, same_file
+    public :: most_bytes
     public :: e_bad_unit, e_broken_pipe, e_exists, e_input_output, e_invalid, e_missing
+
+    integer, parameter :: most_bytes = 1048576  !! of a file that `read_whole_file` reads
 
     integer, parameter :: e_missing = 2       !! ENOENT; these six are the same on every Unix
     integer, parameter :: e_input_output = 5  !! EIO
@@ -55,8 +60,8 @@ contains
         !! The layout of C's `struct stat` differs from system to system. libgfortran's `stat`
         !! knows it, but as a Fortran intrinsic it is hidden by `-std=f2018`: so it is reached by
         !! its symbol, and called through a pointer whose interface is gfortran's own.
-        character(*), intent(in) :: path
-        logical, intent(in), optional :: follow
+        character(*), intent(in) :: path         !! every blank counts
+        logical, intent(in), optional :: follow  !! links; true unless given
         type(facts_t) :: facts
         procedure(stat_i), pointer :: ask
         integer(i8) :: values(13), status
@@ -82,7 +87,7 @@ contains
 
     function same_file(path1, path2) result(same)
         !! Whether both names lead to one existing file, through links of either kind too.
-        character(*), intent(in) :: path1, path2
+        character(*), intent(in) :: path1, path2  !! every blank counts
         logical :: same
         type(facts_t) :: facts1, facts2
 
@@ -94,7 +99,7 @@ contains
 
     pure function folder_of(path) result(folder)
         !! All of `path` before its last slash; `.` if there is none.
-        character(*), intent(in) :: path
+        character(*), intent(in) :: path  !! of a file, which need not exist
         character(:), allocatable :: folder
         integer :: slash
 
@@ -112,7 +117,7 @@ contains
     pure function plain_path(path) result(plain)
         !! The same file by a name whose first character means nothing to any program: `./` before
         !! a relative one, lest `-x`, `<x` and `|x` be taken for an option or a command.
-        character(*), intent(in) :: path
+        character(*), intent(in) :: path  !! of a file, which need not exist
         character(:), allocatable :: plain
 
         plain = path
@@ -121,9 +126,9 @@ contains
 
     subroutine make_folders(folder, number, culprit)
         !! Make `folder` and those above it where they are missing, as `mkdir -p` does.
-        character(*), intent(in) :: folder
-        integer, intent(out) :: number                         !! 0, or the system's error number
-        character(:), allocatable, intent(out) :: culprit      !! what could not be made
+        character(*), intent(in) :: folder                 !! every blank counts
+        integer, intent(out) :: number                     !! 0, or the system's error number
+        character(:), allocatable, intent(out) :: culprit  !! what could not be made
         type(facts_t) :: facts
         integer :: last
 
@@ -148,7 +153,7 @@ contains
 
     function resolved(path) result(target_path)
         !! Where `path` leads when all links are followed; empty if nowhere.
-        character(*), intent(in) :: path
+        character(*), intent(in) :: path  !! every blank counts
         character(:), allocatable :: target_path
         type(c_ptr) :: text
 
@@ -163,7 +168,7 @@ contains
 
     function reason(number) result(text)
         !! The system's words for an error number.
-        integer, intent(in) :: number
+        integer, intent(in) :: number  !! C's `errno`
         character(:), allocatable :: text
 
         text = fortran_text(c_strerror(int(number, c_int)))
@@ -179,7 +184,7 @@ contains
 
     function fortran_text(text) result(copy)
         !! A copy of C's null-terminated text.
-        type(c_ptr), intent(in) :: text
+        type(c_ptr), intent(in) :: text  !! not null
         character(:), allocatable :: copy
         character(kind=c_char), pointer :: letters(:)
         integer :: i, length
@@ -191,6 +196,66 @@ contains
             copy(i:i) = letters(i)
         end do
     end function fortran_text
+
+    subroutine read_whole_file(path, text, error)
+        !! All bytes of a regular file. Directories, FIFOs, terminals and devices are refused
+        !! without waiting.
+        character(*), intent(in) :: path                  !! its name, every blank of it counts
+        character(:), allocatable, intent(out) :: text    !! its bytes, at most `most_bytes`
+        type(error_t), allocatable, intent(out) :: error  !! names the file
+        character(:), allocatable :: problem
+        type(facts_t) :: facts
+
+        problem = ""
+        if (len(path) == 0) then
+            problem = "the name of the file is empty"
+        else if (index(path, c_null_char) > 0) then
+            problem = "the name of the file holds a NUL byte"
+        else
+            facts = look_at(path)
+            if (.not. facts%found) then
+                problem = "no such file"
+            else if (facts%folder) then
+                problem = "is a folder; a file is needed"
+            else if (.not. facts%regular) then
+                problem = "not a regular file"
+            else
+                call read_regular_file(path, facts%size, text, problem)
+            end if
+        end if
+        if (len(problem) == 0) return
+        if (len(path) > 0) problem = trim(short_source(path))//": "//problem
+        call fail(error, problem, status_file)
+    end subroutine read_whole_file
+
+    subroutine read_regular_file(path, size, text, problem)
+        !! The bytes of a file of this size; a file that holds more or fewer, as those that the
+        !! system makes up do, is not taken.
+        character(*), intent(in) :: path
+        integer(i8), intent(in) :: size
+        character(:), allocatable, intent(out) :: text, problem
+        character(:), allocatable :: bytes
+        integer :: status
+        integer(c_size_t) :: got
+        type(c_ptr) :: stream
+
+        problem = ""
+        stream = c_fopen(path//c_null_char, "r"//c_null_char)
+        if (.not. c_associated(stream)) then
+            problem = "the file cannot be opened; may it be read?"
+            return
+        end if
+        allocate (character(int(min(size, int(most_bytes, i8))) + 1) :: bytes)
+        got = c_fread(bytes, 1_c_size_t, int(len(bytes), c_size_t), stream)
+        status = int(c_fclose(stream))
+        if (size > most_bytes) then
+            problem = "the file is longer than "//to_text(most_bytes)//" bytes"
+        else if (got /= size) then
+            problem = "not a regular file"
+        else
+            text = bytes(:int(got))
+        end if
+    end subroutine read_regular_file
 
     subroutine hold_standard_units()
         !! Fill the places of a closed stdin, stdout or stderr (`>&-`) with an unwritable file, lest

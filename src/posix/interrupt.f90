@@ -25,8 +25,8 @@ module lagrangia_interrupt
 
     integer(c_int), parameter :: patience = 1  !! s
 
-    integer(c_int), volatile :: caught = 0  !! the first signal that came
-    integer(c_int), volatile :: beside = 0  !! the process that we wait for
+    integer(c_int), volatile :: caught = 0      !! the first signal that came
+    integer(c_int), volatile :: beside = 0      !! the process that we wait for
     type(c_funptr) :: unheeded = c_null_funptr  !! what to do where nobody looked
 
 contains
@@ -59,7 +59,7 @@ contains
 
     subroutine run_beside(pid)
         !! A signal to us is to end the process `pid` too; 0 for none.
-        integer(c_int), intent(in) :: pid
+        integer(c_int), intent(in) :: pid  !! its number
 
         beside = pid
     end subroutine run_beside

@@ -14,7 +14,7 @@ module lagrangia_output_file
     use lagrangia_unfinished, only: create, forget, remove_abandoned
     implicit none (type, external)
     private
-    public :: commit_both, output_file_t, partial_ending
+    public :: commit_both, output_file_t, partial_ending, refuse_unwritable, remove_partial
 
     character(*), parameter :: partial_ending = ".partial"  !! of what a run wrote that failed
 
@@ -54,8 +54,8 @@ contains
         !!
         !! Fails if `path` is a folder, a device or a pipe, or may not be written.
         class(output_file_t), intent(inout) :: self
-        character(*), intent(in) :: path
-        type(error_t), allocatable, intent(out) :: error
+        character(*), intent(in) :: path                  !! of the file; every blank counts
+        type(error_t), allocatable, intent(out) :: error  !! status 5: why it cannot be written
         type(facts_t) :: facts
         character(:), allocatable :: culprit
         integer :: number
@@ -132,7 +132,7 @@ contains
     subroutine write_text(self, text)
         !! Append `text` as it is; lines end with `new_line("a")`.
         class(output_file_t), intent(inout) :: self
-        character(*), intent(in) :: text
+        character(*), intent(in) :: text  !! any bytes
         integer(c_size_t) :: length
 
         if (.not. writable(self)) return
@@ -144,7 +144,7 @@ contains
     subroutine write_reals(self, values)
         !! Append the bytes of `values` as they are in memory.
         class(output_file_t), intent(inout) :: self
-        real(dp), intent(in), contiguous :: values(:)
+        real(dp), intent(in), contiguous :: values(:)  !! any number of them
         integer(c_size_t) :: length
 
         if (.not. writable(self)) return
@@ -159,8 +159,8 @@ contains
         !! Replace the bytes from `offset` (0 is the first) by `text`: all of them must have been
         !! written before. For headers with counts known only at the end.
         class(output_file_t), intent(inout) :: self
-        integer(i8), intent(in) :: offset
-        character(*), intent(in) :: text
+        integer(i8), intent(in) :: offset  !! in bytes
+        character(*), intent(in) :: text   !! any bytes
         integer(c_size_t) :: length
 
         if (.not. writable(self)) return
@@ -201,7 +201,7 @@ contains
     subroutine report(self, error)
         !! Fails with the reason if something could not be written.
         class(output_file_t), intent(in) :: self
-        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable, intent(out) :: error  !! status 5: the first failure
 
         if (.not. self%failed()) return
         call refuse(error, self%path, reason(self%failure))
@@ -236,7 +236,7 @@ contains
         !! Send all that was written to the disk, under the temporary name: what can fail of a
         !! `commit` fails here. On failure nothing is left behind.
         class(output_file_t), intent(inout) :: self
-        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable, intent(out) :: error  !! status 5: the first failure
         integer :: status
 
         if (.not. self%is_open()) then
@@ -267,7 +267,7 @@ contains
         !! Complete the file, close it and give it its name. On failure nothing is left behind, and
         !! a file that had this name before is as it was.
         class(output_file_t), intent(inout) :: self
-        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable, intent(out) :: error  !! status 5: the first failure
         integer :: status
 
         call self%complete(error)
@@ -283,8 +283,8 @@ contains
 
     subroutine commit_both(first, second, error)
         !! Two files that belong together: neither gets its name before both are on the disk.
-        class(output_file_t), intent(inout) :: first, second
-        type(error_t), allocatable, intent(out) :: error
+        class(output_file_t), intent(inout) :: first, second  !! both open; closed in any case
+        type(error_t), allocatable, intent(out) :: error      !! status 5: the first failure
 
         call first%complete(error)
         if (.not. allocated(error)) call second%complete(error)
@@ -293,6 +293,37 @@ contains
         call first%abandon()
         call second%abandon()
     end subroutine commit_both
+
+    subroutine refuse_unwritable(path, error)
+        !! Fails where a small file called `path` could not be written now: to be asked before a
+        !! long computation whose result goes there. Makes the folders that are missing.
+        character(*), intent(in) :: path                  !! of the file; every blank counts
+        type(error_t), allocatable, intent(out) :: error  !! status 5: why not
+        integer, parameter :: small = 16384               !! bytes
+        type(output_file_t) :: file
+
+        call file%open(path, error)
+        if (allocated(error)) return
+        call file%write(repeat(" ", small))
+        call file%flush()
+        call file%report(error)
+        call file%abandon()
+    end subroutine refuse_unwritable
+
+    subroutine remove_partial(path)
+        !! Remove `path.partial`, if an earlier run that failed has left it.
+        character(*), intent(in) :: path  !! without `.partial`
+        type(facts_t) :: facts
+        character(:), allocatable :: place
+        integer :: status
+
+        facts = look_at(path, follow=.false.)
+        place = path
+        if (facts%link) place = resolved(path)
+        place = place//partial_ending
+        facts = look_at(place, follow=.false.)
+        if (facts%regular) status = int(c_remove(place//c_null_char))
+    end subroutine remove_partial
 
     subroutine abandon(self)
         !! Close and remove what has been written; does nothing if no file is open.

@@ -32,10 +32,10 @@ contains
         !! One more file, `what` it is and whose. Fails (status 2) where it is one of those that
         !! are there already; the message names both.
         class(places_t), intent(inout) :: self
-        character(*), intent(in) :: path
-        character(*), intent(in) :: what   !! `data file`, `script`
-        character(*), intent(in) :: owner  !! `a.nml`; `""` where there is but one
-        type(error_t), allocatable, intent(out) :: error
+        character(*), intent(in) :: path                  !! as the user wrote it
+        character(*), intent(in) :: what                  !! `data file`, `script`
+        character(*), intent(in) :: owner                 !! `a.nml`; `""` where there is but one
+        type(error_t), allocatable, intent(out) :: error  !! status 2: it is there already
         type(place_t), allocatable :: longer(:)
         type(place_t) :: place
         integer :: i

@@ -17,7 +17,7 @@ contains
     subroutine check_stack(needed, error)
         !! Fails (status 4) where the stack may not grow to so much.
         integer, intent(in) :: needed                     !! kB
-        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable, intent(out) :: error  !! status 4: it may not
         integer(c_long) :: limits(2)
 
         if (c_getrlimit(stack, limits) /= 0) return
@@ -28,9 +28,9 @@ contains
 
     subroutine check_memory(bytes, purpose, error)
         !! Fails (status 4) where so much memory cannot be had at this moment. None is taken.
-        real(dp), intent(in) :: bytes        !! how much; rounded up
-        character(*), intent(in) :: purpose  !! what needs it, for the message
-        type(error_t), allocatable, intent(out) :: error
+        real(dp), intent(in) :: bytes                     !! how much; rounded up
+        character(*), intent(in) :: purpose               !! what needs it, for the message
+        type(error_t), allocatable, intent(out) :: error  !! status 4: it cannot be had
         type(c_ptr) :: memory
 
         if (bytes < real(huge(1_i8), dp)) then

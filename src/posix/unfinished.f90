@@ -4,19 +4,14 @@ module lagrangia_unfinished
     use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_null_char, c_null_ptr, c_ptr
     use lagrangia_c_library, only: c_chmod, c_fclose, c_fileno, c_flock, c_fopen, c_remove
     use lagrangia_files, only: e_exists, facts_t, last_error, look_at, same_file
-    use lagrangia_text, only: to_text
+    use lagrangia_text, only: to_text, word_t
     implicit none (type, external)
     private
     public :: create, forget, is_creating, remove_abandoned, remove_unfinished
 
-    type :: name_t
-        !! The name of a temporary file, as C wants it.
-        character(:), allocatable :: text
-    end type name_t
-
     integer, parameter :: mark = int(o"1000")  !! S_ISVTX, which nobody gives to a regular file
 
-    type(name_t), allocatable :: unfinished(:)  !! temporaries that still exist
+    type(word_t), allocatable :: unfinished(:)  !! temporaries that still exist, NUL behind
     logical, volatile :: creating = .false.     !! one exists, perhaps, that is not in the list
 
 contains
@@ -31,10 +26,10 @@ contains
     subroutine create(name, stream, facts, number)
         !! Make the file `name`, which there is not yet, and lock it until it is closed. It counts
         !! as unfinished until it is forgotten, and is marked as ours.
-        character(*), intent(in) :: name
-        type(c_ptr), intent(out) :: stream
+        character(*), intent(in) :: name     !! of the temporary
+        type(c_ptr), intent(out) :: stream   !! open for writing; null if `number` is not 0
         type(facts_t), intent(out) :: facts  !! about it, but for the mark
-        integer, intent(out) :: number  !! 0, or why not; e_exists: another name may do
+        integer, intent(out) :: number       !! 0, or why not; e_exists: another name may do
         integer :: status
 
         creating = .true.
@@ -73,7 +68,7 @@ contains
     subroutine remove_abandoned(name)
         !! Remove the temporary `name` if there is one with our mark and nobody holds its lock: the
         !! run that made it is gone. Where the file system has no locks, or no marks, it stays.
-        character(*), intent(in) :: name
+        character(*), intent(in) :: name  !! of a temporary, which need not exist
         type(facts_t) :: facts
         type(c_ptr) :: stream
         integer :: status
@@ -112,7 +107,7 @@ contains
     subroutine remember(name)
         !! Put `name` in a free place among the unfinished files.
         character(*), intent(in) :: name
-        type(name_t), allocatable :: longer(:)
+        type(word_t), allocatable :: longer(:)
         integer :: i, count
 
         !$omp critical (lagrangia_unfinished)
@@ -135,7 +130,7 @@ contains
 
     subroutine forget(name)
         !! Take `name` off the unfinished files.
-        character(*), intent(in) :: name
+        character(*), intent(in) :: name  !! as `create` had it
         integer :: i
 
         !$omp critical (lagrangia_unfinished)

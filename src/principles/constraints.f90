@@ -8,7 +8,7 @@ module lagrangia_constraints
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
-    use lagrangia_lapack_rank, only: matrix_rank
+    use lagrangia_lapack, only: matrix_rank
     use lagrangia_lecture_constraints, only: classify, example_point, examples, &
                                              lecture_constraint_t, new_constraint, radius, turning
     use lagrangia_path_maker, only: path_maker_t

@@ -10,7 +10,7 @@ module lagrangia_discrete_action
     use lagrangia_hyperdual, only: assignment(=), hyperdual, hyperdual_t, operator(*), &
         operator(+), operator(-), operator(/)
     use lagrangia_kinds, only: dp
-    use lagrangia_lapack_band, only: count_negative, lowest_mode, solve_band
+    use lagrangia_lapack, only: count_negative, lowest_mode, solve_band
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private

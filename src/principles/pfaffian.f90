@@ -10,7 +10,7 @@ module lagrangia_pfaffian
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t, operator(*), operator(+), operator(-), &
                                    operator(/)
     use lagrangia_kinds, only: dp
-    use lagrangia_lapack_rank, only: matrix_rank
+    use lagrangia_lapack, only: matrix_rank
     implicit none (type, external)
     private
     public :: pfaffian_t

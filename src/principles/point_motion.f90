@@ -4,7 +4,7 @@ module lagrangia_point_motion
     !! $$ \dot x = \sum_j\frac{\partial x}{\partial q_j}\dot q_j + \frac{\partial x}{\partial t},
     !!    \qquad \delta x = \sum_j\frac{\partial x}{\partial q_j}\delta q_j $$
     !! A virtual displacement has no \(dt\) term: the constraints stand still meanwhile. The `x` are
-    !! those of `newtonian_t`: three of each point, then one angle of each rotor.
+    !! those of `newton` of `system_t`: three of each point, then one angle of each rotor.
     use lagrangia_description, only: description_t
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp

@@ -6,8 +6,7 @@ module lagrangia_modes_files
     use lagrangia_gnuplot, only: gnuplot_script, new_panels, panel_t
     use lagrangia_kinds, only: dp
     use lagrangia_number_text, only: field_width
-    use lagrangia_output_file, only: commit_both, output_file_t
-    use lagrangia_output_trials, only: refuse_unwritable
+    use lagrangia_output_file, only: commit_both, output_file_t, refuse_unwritable
     use lagrangia_places, only: places_t
     use lagrangia_scene_claims, only: claim_table
     use lagrangia_scene_files, only: data_path, script_path

@@ -4,7 +4,7 @@ module lagrangia_partial_runs
     use lagrangia_event_record, only: event_record_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_outcome, only: outcome_t
-    use lagrangia_output_trials, only: remove_partial
+    use lagrangia_output_file, only: remove_partial
     use lagrangia_record, only: record_t
     use lagrangia_run, only: plan_t
     use lagrangia_table, only: table_t

@@ -8,8 +8,7 @@ module lagrangia_scene_files
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_npy, only: npy_table_t
     use lagrangia_outcome, only: outcome_t
-    use lagrangia_output_file, only: output_file_t
-    use lagrangia_output_trials, only: remove_partial
+    use lagrangia_output_file, only: output_file_t, remove_partial
     use lagrangia_processes, only: run_program
     use lagrangia_record, only: record_t
     use lagrangia_scene, only: scene_line_length, scene_lines, scene_t

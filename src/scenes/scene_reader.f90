@@ -6,11 +6,11 @@ module lagrangia_scene_reader
     use lagrangia_command_line, only: word_t
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
+    use lagrangia_files, only: read_whole_file
     use lagrangia_kinds, only: dp
     use lagrangia_namelist, only: apply_override, get_reals, get_string, has_key, namelist_t, &
                                   parse_namelist, refuse_unknown_groups, &
                                   refuse_unknown_keys, refuse_value
-    use lagrangia_namelist_file, only: read_whole_file
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_keys, only: coordinates, expectation_keys, key_length, keys, &
                                     read_columns, read_state, read_times

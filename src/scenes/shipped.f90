@@ -5,9 +5,8 @@ module lagrangia_shipped
     use lagrangia_command_line, only: has_outer_blanks, is_same, word_t
     use lagrangia_errors, only: error_t, fail, status_file, status_usage
     use lagrangia_files, only: facts_t, look_at
-    use lagrangia_namelist_tree, only: short_source
     use lagrangia_names, only: nearest_name
-    use lagrangia_text, only: quoted
+    use lagrangia_text, only: quoted, short_source
     implicit none (type, external)
     private
     public :: shipped_scenes, find_scene, scene_name

@@ -2,14 +2,13 @@ module lagrangia_method_promises
     !! What methods promise, held against runs: canonical maps, reversal, the same bytes however a
     !! run is cut, and exact scaling by powers of two.
     use lagrangia_canonical_defect, only: canonical_defect
-    use lagrangia_description, only: description_t
+    use lagrangia_description, only: default_values, description_t
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_method_problems, only: new_problem, problems, refuses
     use lagrangia_number_text, only: field_width, write_row
     use lagrangia_observer, only: observer_box_t
-    use lagrangia_parameters, only: default_values
     use lagrangia_run, only: new_plan, plan_t, run
     use lagrangia_system, only: system_t
     use lagrangia_verdicts, only: verdicts_t

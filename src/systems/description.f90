@@ -1,5 +1,7 @@
 module lagrangia_description
     !! What a system says of itself: plain data, read by `describe`, scenes, columns and tests.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
+    use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -7,6 +9,7 @@ module lagrangia_description
     public :: description_t, quantity_t, parameter_t, point_t
     public :: coordinate, conserved, quantity, positive, nonnegative, between, number, count_of, &
               vector, point
+    public :: check_parameter, default_values
     public :: name_length, line_length
 
     integer, parameter :: name_length = 32   !! of a name
@@ -198,4 +201,40 @@ contains
             if (value < 0.0_dp) text = "-pi/2"
         end if
     end function bound
+
+    pure subroutine check_parameter(p, error)
+        !! Refuse a parameter whose value is outside its domain or not finite.
+        type(parameter_t), intent(in) :: p
+        type(error_t), allocatable, intent(out) :: error
+        logical :: good
+        integer :: i
+
+        do i = 1, p%count
+            if (len_trim(p%computed) > 0 .and. ieee_is_nan(p%value(i))) cycle
+            good = ieee_is_finite(p%value(i)) .and. p%value(i) <= p%upper
+            if (p%open_lower) then
+                good = good .and. p%value(i) > p%lower
+            else
+                good = good .and. p%value(i) >= p%lower
+            end if
+            if (p%whole) good = good .and. abs(p%value(i) - anint(p%value(i))) <= 0.0_dp
+            if (.not. good) then
+                call fail(error, trim(p%name)//" = "//to_text(p%value(i))// &
+                          " is not allowed: "//p%domain())
+                return
+            end if
+        end do
+    end subroutine check_parameter
+
+    pure function default_values(d) result(values)
+        !! The parameters of a description as the flat list that `configure` takes.
+        type(description_t), intent(in) :: d
+        real(dp), allocatable :: values(:)
+        integer :: i
+
+        allocate (values(0))
+        do i = 1, size(d%parameters)
+            values = [values, d%parameters(i)%value(:d%parameters(i)%count)]
+        end do
+    end function default_values
 end module lagrangia_description

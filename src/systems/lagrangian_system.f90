@@ -14,6 +14,7 @@ module lagrangia_lagrangian_system
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: accelerations_from_lagrangian, energy_from_lagrangian, &
                                   euler_lagrange_t, expand_lagrangian
+    use lagrangia_mass_matrix, only: solve_positive
     use lagrangia_system, only: check_parameters, system_t
     implicit none (type, external)
     private
@@ -153,8 +154,8 @@ contains
         real(dp), intent(out) :: a(self%ndof)
         type(euler_lagrange_t) :: terms
         type(error_t), allocatable :: error
-        real(dp) :: multipliers(self%constraints), least(self%ndof), share
-        integer :: i, j
+        real(dp) :: multipliers(self%constraints), least(self%ndof)
+        integer :: i
 
         if (self%constraints > 0) then
             call accelerations_from_lagrangian(self, t, q, v, a, multipliers, error)
@@ -164,20 +165,7 @@ contains
         call expand_lagrangian(self, t, q, v, terms)
         a = terms%force
         least = [(2*self%ndof*epsilon(least)*terms%mass(i, i), i=1, self%ndof)]
-        do i = 1, self%ndof  ! elimination: the mass matrix is positive definite
-            if (.not. terms%mass(i, i) > max(0.0_dp, least(i))) then
-                a = ieee_value(a, ieee_quiet_nan)
-                return
-            end if
-            do j = i + 1, self%ndof
-                share = terms%mass(j, i)/terms%mass(i, i)
-                a(j) = a(j) - share*a(i)
-                terms%mass(j, i:) = terms%mass(j, i:) - share*terms%mass(i, i:)
-            end do
-        end do
-        do i = self%ndof, 1, -1
-            a(i) = (a(i) - dot_product(terms%mass(i, i + 1:), a(i + 1:)))/terms%mass(i, i)
-        end do
+        call solve_positive(terms%mass, max(0.0_dp, least), a)
     end subroutine accelerations
 
     pure function energy(self, t, q, v) result(e)

@@ -4,13 +4,12 @@ module lagrangia_system
     !! The state is the pair \((q, v)\), \(v = \dot q\). A system says what it is (`describe`),
     !! takes its parameters (`configure`), and gives its equations of motion twice: as the page
     !! has them (`accelerations`), and as the Lagrangian that they were derived from.
-    use lagrangia_description, only: description_t, name_length, parameter_t
+    use lagrangia_description, only: check_parameter, default_values, description_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
-    use lagrangia_newtonian, only: newtonian_t
-    use lagrangia_parameters, only: check_parameter, default_values
+    use lagrangia_mass_matrix, only: solve_positive
     use lagrangia_reference, only: reference_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -20,7 +19,7 @@ module lagrangia_system
 
     integer, parameter :: lanes = 8  !! states that `accelerations_lanes` takes at once
 
-    type, abstract, extends(newtonian_t) :: system_t
+    type, abstract :: system_t
         integer :: ndof = 0                  !! number of coordinates
         logical :: velocity_forces = .true.  !! accelerations depend on the velocities
         logical :: time_dependent = .false.  !! the Lagrangian contains the time
@@ -42,6 +41,8 @@ module lagrangia_system
         procedure :: constraint_rows => no_constraint_rows
         procedure :: complete_velocities
         procedure :: linearise => nothing_by_hand
+        procedure :: angles => no_angles
+        procedure :: newton => no_newton
         procedure :: gap => no_gap
         procedure :: impact => no_impact
         procedure :: reduce => not_reduced
@@ -158,7 +159,7 @@ contains
         real(dp), intent(in) :: t, q(self%ndof), p(self%ndof)
         real(dp), intent(out) :: v(self%ndof)
         type(hyperdual_t) :: tt, qq(self%ndof), vv(self%ndof), l
-        real(dp) :: mass(self%ndof, self%ndof), share
+        real(dp) :: mass(self%ndof, self%ndof)
         integer :: i, j
 
         tt%re = t
@@ -174,16 +175,7 @@ contains
             v(i) = p(i) - l%d1
             vv(i)%d1 = 0.0_dp
         end do
-        do i = 1, self%ndof
-            do j = i + 1, self%ndof
-                share = mass(j, i)/mass(i, i)
-                v(j) = v(j) - share*v(i)
-                mass(j, i:) = mass(j, i:) - share*mass(i, i:)
-            end do
-        end do
-        do i = self%ndof, 1, -1
-            v(i) = (v(i) - dot_product(mass(i, i + 1:), v(i + 1:)))/mass(i, i)
-        end do
+        call solve_positive(mass, [(-huge(v), i=1, self%ndof)], v)
     end subroutine velocities_of_lagrangian
 
     pure subroutine forces_of_lagrangian(self, t, q, v, f)
@@ -275,6 +267,31 @@ contains
         end if
         v = given
     end subroutine complete_velocities
+
+    pure subroutine no_angles(self, t, q, phi)
+        !! The angles, rad, of the rotors in the description: here none.
+        class(system_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(:)
+        type(hyperdual_t), intent(out) :: phi(:)
+
+        phi = hyperdual_t()
+    end subroutine no_angles
+
+    pure subroutine no_newton(self, t, x, u, force, held)
+        !! What acts on the Cartesian coordinates `x` with the velocities `u`: here nothing.
+        !!
+        !! `force` is applied (N; N m on an angle). Each of `held` stays zero by itself: first
+        !! functions of t and x alone, at the end, as many as `constraints`, non-holonomic ones,
+        !! linear in `u`. What keeps it at zero is the reaction of that name times its slope:
+        !! write it as a length that grows along the reaction, and the reaction is a force in N.
+        class(system_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, x(:), u(:)
+        real(dp), intent(out) :: force(:)
+        type(hyperdual_t), intent(out) :: held(:)
+
+        force = 0.0_dp
+        held = hyperdual_t()
+    end subroutine no_newton
 
     pure function no_gap(self, i, t, q, v) result(value)
         !! Unilateral constraint `i` is \(gap \ge 0\): where the gap falls through zero there is

@@ -6,8 +6,8 @@ module fuzzing
     use lagrangia_command_line, only: command_line_t, parse_words, word_t
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
+    use lagrangia_files, only: read_whole_file
     use lagrangia_kinds, only: dp
-    use lagrangia_namelist_file, only: read_whole_file
     use lagrangia_registry, only: check_line, options
     use lagrangia_run_plan, only: parse_run_plan, run_plan_t
     use lagrangia_scene, only: scene_line_length, scene_lines, scene_t

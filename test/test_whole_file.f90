@@ -1,13 +1,13 @@
-module test_namelist_file
+module test_whole_file
     !! Reading a whole file: regular files only, every byte, nothing that blocks.
     use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_errors, only: error_t, status_file
-    use lagrangia_namelist_file, only: most_bytes, read_whole_file
+    use lagrangia_files, only: most_bytes, read_whole_file
     use test_scratch, only: new_folder, remove_file
     implicit none (type, external)
     private
-    public :: namelist_file_suite
+    public :: whole_file_suite
 
     interface
         function mkfifo(path, mode) bind(c, name="mkfifo") result(status)
@@ -23,13 +23,13 @@ module test_namelist_file
 
 contains
 
-    function namelist_file_suite() result(suite)
+    function whole_file_suite() result(suite)
         !! The tests of this module.
         type(TestSuite) :: suite
 
-        suite = TestSuite("namelist_file")
+        suite = TestSuite("whole_file")
         call suite%addTest(TestMethod("only_whole_regular_files", only_whole_regular_files))
-    end function namelist_file_suite
+    end function whole_file_suite
 
     subroutine unreadable(path, expected)
         !! Reading `path` fails with just this message.
@@ -52,8 +52,8 @@ contains
         integer :: i, unit
         character(256) :: bytes
 
-        file = new_folder("namelist_file")//"/scene.nml"
-        fifo = new_folder("namelist_file")//"/fifo"
+        file = new_folder("whole_file")//"/scene.nml"
+        fifo = new_folder("whole_file")//"/fifo"
         do i = 0, 255
             bytes(i + 1:i + 1) = char(i)
         end do
@@ -92,4 +92,4 @@ contains
         call unreadable(fifo, fifo//": not a regular file")
         call assertTrue(remove_file(fifo), fifo)
     end subroutine only_whole_regular_files
-end module test_namelist_file
+end module test_whole_file
