@@ -142,14 +142,14 @@ contains
         if (self%lie == 8) r(2, 2) = 1.1_dp*r(2, 2)
     end subroutine positions_liar
 
-    pure subroutine newton_liar(self, t, x, u, force, held)
+    pure subroutine newton_liar(self, t, x, u, force, constraint_residual)
         !! 9: a bob without weight.
         class(liar_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, x(:), u(:)
         real(dp), intent(out) :: force(:)
-        type(hyperdual_t), intent(out) :: held(:)
+        type(hyperdual_t), intent(out) :: constraint_residual(:)
 
-        call self%cart_pendulum_t%newton(t, x, u, force, held)
+        call self%cart_pendulum_t%newton(t, x, u, force, constraint_residual)
         if (self%lie == 9) force(5) = 0.0_dp
     end subroutine newton_liar
 

@@ -229,25 +229,25 @@ contains
         real(dp) :: x
         real(dp), allocatable :: q(:)
         character(4) :: s
-        logical :: found
 
         call read_text("&a y = 1 /", tree)
         x = 9.81_dp
         s = "rk4"
-        call get_real(tree, "a", "x", x, error, found=found)
+        call get_real(tree, "a", "x", x, error)
         call check(error)
-        call assertFalse(found, "not found")
+        call assertFalse(has_key(tree, "a", "x"), "not found")
         call assertEqual(9.81_dp, x)
-        call get_string(tree, "b", "s", s, error, found=found)
+        call get_string(tree, "b", "s", s, error)
         call check(error)
-        call assertFalse(found, "not found")
+        call assertFalse(has_key(tree, "b", "s"), "not found")
         call assertEqual("rk4", s)
         call get_reals(tree, "a", "q", 2, 2, q, error)
         call check(error)
         call assertFalse(allocated(q), "not allocated(q)")
-        call get_real(tree, "a", "y", x, error, required=.true., found=found)
+        call get_real(tree, "a", "y", x, error, required=.true.)
         call check(error)
-        call assertTrue(found, "found")
+        call assertTrue(has_key(tree, "a", "y"), "found")
+        call assertEqual(1.0_dp, x)
     end subroutine absent_keys_leave_defaults
 
     subroutine overrides_replace_and_add()

@@ -86,7 +86,7 @@ contains
                                     message="the slow mode")
                 call assertLessThan(real(abs(modes%omega2(2)/large - 1.0_quad), dp), 1e-14_dp, &
                                     message="the fast mode")
-                call assertLessThan(maxval(abs(modes%page%omega2/modes%omega2 - 1.0_dp)), &
+                call assertLessThan(maxval(abs(modes%analytic%omega2/modes%omega2 - 1.0_dp)), &
                                     1e-14_dp, message="the page")
             end do
         end do
@@ -115,12 +115,12 @@ contains
                 call find_modes(system, at, .false., modes, error)
                 deallocate (at)
                 if (allocated(error)) cycle
-                if (.not. allocated(modes%page%mass)) cycle
+                if (.not. allocated(modes%analytic%mass)) cycle
                 by_hand = by_hand + 1
                 call assertLessThan(modes%difference, 100*epsilon(1.0_dp), &
                                     message=trim(d%name)//": page and L")
-                if (allocated(modes%page%omega2)) call assertEqual( &
-                    modes%page%omega2, modes%omega2, 1e-13_dp*maxval(abs(modes%omega2)), &
+                if (allocated(modes%analytic%omega2)) call assertEqual( &
+                    modes%analytic%omega2, modes%omega2, 1e-13_dp*maxval(abs(modes%omega2)), &
                     trim(d%name)//": closed form")
                 call assertLessThan(modes%ratio, 30.0_dp, message=trim(d%name)//": residual")
             end do
@@ -139,9 +139,10 @@ contains
         call solve("cart_pendulum", [2.0_dp, 0.5_dp, 1.3_dp, 9.81_dp], [0.3_dp, pi], modes)
         call assertEqual([is_unstable, is_zero_mode], modes%label)
         call solve("rotating_hoop", [0.4_dp, 1.0_dp, 3.0_dp, 9.81_dp], [0.0_dp], modes)
-        call assertFalse(allocated(modes%page%elsewhere), "turned slowly: the bottom alone")
+        call assertFalse(allocated(modes%analytic%elsewhere), "turned slowly: the bottom alone")
         call solve("rotating_hoop", [0.4_dp, 1.0_dp, 5.0_dp, 9.81_dp], [0.0_dp], modes)
-        call assertEqual([1.16755690380504296_dp], modes%page%elsewhere, 4.0_dp*epsilon(pi), "tilt")
+        call assertEqual([1.16755690380504296_dp], modes%analytic%elsewhere, &
+                         4.0_dp*epsilon(pi), "tilt")
         call solve("rotating_hoop", [0.4_dp, 1.0_dp, 5.0_dp, 9.81_dp], [1.16755690380504296_dp], &
                    modes)
         call assertEqual(21.150556_dp, modes%omega2(1), 1e-12_dp)

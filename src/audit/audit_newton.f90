@@ -48,8 +48,8 @@ contains
             call audit%say(claim_gauss, error%message)
             return
         end if
-        call compare(audit, "positions keep the constraints", here%held, 0.0_dp*here%held, &
-                     held_size)
+        call compare(audit, "positions keep the constraints", here%constraint_residual, &
+                     0.0_dp*here%constraint_residual, held_size)
         call compare(audit, claim_gauss, here%x_ddot, here%acceleration, acceleration_size)
         if (.not. audit%findings(audit%row_of(claim_gauss))%holds) then
             i = maxloc(abs(here%acceleration - here%x_ddot)/(acceleration_size + tiny(1.0_dp)), 1)

@@ -5,8 +5,9 @@ module lagrangia_audited
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
-    use lagrangia_namelist, only: apply_override, get_reals, namelist_t, parse_namelist, &
-                                  refuse_unknown_groups, refuse_unknown_keys, refuse_value
+    use lagrangia_namelist, only: apply_override, get_reals, has_key, namelist_t, &
+                                  parse_namelist, refuse_unknown_groups, refuse_unknown_keys, &
+                                  refuse_value
     use lagrangia_system, only: check_parameter, default_values, system_t
     implicit none (type, external)
     private
@@ -70,8 +71,8 @@ contains
         do i = 1, size(d%parameters)
             associate (p => d%parameters(i), last => first + d%parameters(i)%count - 1)
                 allocate (values, source=p%value(:p%count))
-                call get_reals(tree, trim(d%name), trim(p%name), p%count, p%count, values, error, &
-                               found=found)
+                call get_reals(tree, trim(d%name), trim(p%name), p%count, p%count, values, error)
+                found = has_key(tree, trim(d%name), trim(p%name))
                 if (allocated(error)) return
                 audited%given(first:last) = values
                 audited%fixed(first:last) = found

@@ -29,7 +29,7 @@ module lagrangia_gauss_principle
         real(dp), allocatable :: force(:)          !! (n), applied, N
         real(dp), allocatable :: slope(:, :)       !! \(A\), (k, n)
         real(dp), allocatable :: right(:)          !! \(b\), (k)
-        real(dp), allocatable :: held(:)           !! (k), zero if the state is one
+        real(dp), allocatable :: constraint_residual(:)  !! (k), zero if the state is one
         real(dp), allocatable :: acceleration(:)   !! (n), Gauss's
         real(dp), allocatable :: reaction(:)       !! \(\lambda\), (k)
     end type cartesian_t
@@ -89,7 +89,7 @@ contains
         c%x_dot = x%d1
         c%x_ddot = x%d12
         allocate (c%force(size(x)), c%slope(size(d%reactions), size(x)))
-        allocate (c%right(size(d%reactions)), c%held(size(d%reactions)))
+        allocate (c%right(size(d%reactions)), c%constraint_residual(size(d%reactions)))
         call linearise(system, t, c)
     end subroutine new_cartesian
 
@@ -100,28 +100,29 @@ contains
         real(dp), intent(in) :: t                !! s
         type(cartesian_t), intent(inout) :: c    !! all of it allocated
         type(hyperdual_t), dimension(size(c%x)) :: x, u
-        type(hyperdual_t) :: held(size(c%held))
+        type(hyperdual_t) :: constraint_residual(size(c%constraint_residual))
         integer :: i, holonomic
 
-        holonomic = size(held) - system%constraints
+        holonomic = size(constraint_residual) - system%constraints
         x%re = c%x
         u%re = c%x_dot
         do i = 1, size(c%x)
             x(i)%d1 = 1.0_dp
-            call system%newton(hyperdual_t(re=t), x, u, c%force, held)
-            c%slope(:holonomic, i) = held(:holonomic)%d1
+            call system%newton(hyperdual_t(re=t), x, u, c%force, constraint_residual)
+            c%slope(:holonomic, i) = constraint_residual(:holonomic)%d1
             x(i)%d1 = 0.0_dp
             u(i)%d1 = 1.0_dp
-            call system%newton(hyperdual_t(re=t), x, u, c%force, held)
-            c%slope(holonomic + 1:, i) = held(holonomic + 1:)%d1
+            call system%newton(hyperdual_t(re=t), x, u, c%force, constraint_residual)
+            c%slope(holonomic + 1:, i) = constraint_residual(holonomic + 1:)%d1
             u(i)%d1 = 0.0_dp
         end do
         x%d1 = c%x_dot
         x%d2 = c%x_dot
-        call system%newton(hyperdual_t(t, 1.0_dp, 1.0_dp, 0.0_dp), x, u, c%force, held)
-        c%held = held%re
-        c%right(:holonomic) = -held(:holonomic)%d12
-        c%right(holonomic + 1:) = -held(holonomic + 1:)%d1
+        call system%newton(hyperdual_t(t, 1.0_dp, 1.0_dp, 0.0_dp), x, u, c%force, &
+                           constraint_residual)
+        c%constraint_residual = constraint_residual%re
+        c%right(:holonomic) = -constraint_residual(:holonomic)%d12
+        c%right(holonomic + 1:) = -constraint_residual(holonomic + 1:)%d1
     end subroutine linearise
 
     pure subroutine gauss_equations(c, matrix, right)

@@ -58,8 +58,8 @@ contains
         end if
         call find_modes(system, at, line%has("at"), modes, error)
         if (allocated(error)) return
-        elsewhere = allocated(modes%page%elsewhere) .and. .not. line%has("at")
-        if (elsewhere) call find_modes(system, modes%page%elsewhere, .true., others, error)
+        elsewhere = allocated(modes%analytic%elsewhere) .and. .not. line%has("at")
+        if (elsewhere) call find_modes(system, modes%analytic%elsewhere, .true., others, error)
         if (allocated(error)) return
         if (line%has("json")) then
             json = as_json(line%arguments(1)%text, modes)
@@ -100,7 +100,7 @@ contains
         if (modes%difference >= 0.0_dp) then
             call put_line("page against L's second derivatives, relative: "// &
                           short(modes%difference))
-        else if (allocated(modes%page%mass)) then
+        else if (allocated(modes%analytic%mass)) then
             call put_line("page not compared with L's second derivatives: too many coordinates")
         else
             call put_line("M and K come from L's second derivatives: the page has none")
@@ -117,8 +117,8 @@ contains
             else if (modes%label(j) == is_unstable) then
                 row(20:) = "growth rate "//number(sqrt(-modes%omega2(j)))//" 1/s"
             end if
-            if (allocated(modes%page%omega2)) then
-                row(77:) = number(modes%page%omega2(j))
+            if (allocated(modes%analytic%omega2)) then
+                row(77:) = number(modes%analytic%omega2(j))
                 row(96:) = short(relative(modes, j))
             end if
             row(105:) = labels(modes%label(j))
@@ -174,8 +174,10 @@ contains
         integer, intent(in) :: j
         real(dp) :: difference
 
-        difference = abs(modes%omega2(j) - modes%page%omega2(j))
-        if (abs(modes%page%omega2(j)) > 0.0_dp) difference = difference/abs(modes%page%omega2(j))
+        associate (omega2 => modes%analytic%omega2(j))
+            difference = abs(modes%omega2(j) - omega2)
+            if (abs(omega2) > 0.0_dp) difference = difference/abs(omega2)
+        end associate
     end function relative
 
     pure function point(d, at) result(text)
@@ -250,8 +252,8 @@ contains
             json = json//json_string(trim(labels(modes%label(j))))
         end do
         json = json//'], "shapes": '//rows(transpose(modes%shapes))//', "closed_form": '
-        if (allocated(modes%page%omega2)) then
-            json = json//json_list(modes%page%omega2)
+        if (allocated(modes%analytic%omega2)) then
+            json = json//json_list(modes%analytic%omega2)
         else
             json = json//"null"
         end if

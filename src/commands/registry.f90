@@ -74,7 +74,7 @@ contains
         do which = 1, size(commands)
             if (is_same(trim(commands(which)%name), line%command)) exit
         end do
-        if (line%strange /= "") call refuse_option(line%strange, which, error)
+        if (line%unknown_option /= "") call refuse_option(line%unknown_option, which, error)
         if (allocated(error)) return
         if (which > size(commands)) then
             near = nearest_name(line%command, [character(18) :: commands(2:)%name, &

@@ -7,12 +7,11 @@ module lagrangia_namelist
     !! lower case; `key` is given to these procedures without its group.
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_namelist_diagnostics, only: decimal_points, refuse_missing, refuse_picked, &
-                                              refuse_unknown_groups, refuse_unknown_keys
     use lagrangia_namelist_lexer, only: stray, truth_of
     use lagrangia_namelist_parser, only: apply_override, parse_namelist
-    use lagrangia_namelist_tree, only: fail_at, find_entry, find_group, in_override, &
-                                       kind_number, kind_word, label, namelist_t, raw_text, &
+    use lagrangia_namelist_tree, only: fail_at, find_entry, find_group, in_override, kind_number, &
+                                       kind_word, label, namelist_t, raw_text, refuse_missing, &
+                                       refuse_picked, refuse_unknown_groups, refuse_unknown_keys, &
                                        text_of
     use lagrangia_number_reader, only: misread, read_number, to_integer
     use lagrangia_text, only: escaped, lower, quoted, to_text
@@ -24,34 +23,32 @@ module lagrangia_namelist
 
 contains
 
-    pure subroutine get_real(tree, group, key, value, error, required, found)
+    pure subroutine get_real(tree, group, key, value, error, required)
         !! The number at `key`.
-        type(namelist_t), intent(inout) :: tree    !! its key is marked as used
-        character(*), intent(in) :: group, key
-        real(dp), intent(inout) :: value           !! stays as it was where the key is absent
-        type(error_t), allocatable, intent(out) :: error
-        logical, intent(in), optional :: required  !! fail when the key is absent
-        logical, intent(out), optional :: found    !! was the key there?
+        type(namelist_t), intent(inout) :: tree           !! its key is marked as used
+        character(*), intent(in) :: group, key            !! in lower case
+        real(dp), intent(inout) :: value                  !! stays as it was where the key is absent
+        type(error_t), allocatable, intent(out) :: error  !! status 2: the place, and what is needed
+        logical, intent(in), optional :: required         !! fail when the key is absent
         integer, allocatable :: picked(:)
 
-        call pick(tree, group, key, picked, error, required=required, found=found)
+        call pick(tree, group, key, picked, error, required=required)
         if (size(picked) == 1) call convert_real(tree, picked(1), value, error)
     end subroutine get_real
 
-    pure subroutine get_reals(tree, group, key, least, most, values, error, required, found)
+    pure subroutine get_reals(tree, group, key, least, most, values, error, required)
         !! The numbers at `key`, written in a row, with repeat counts or with indices.
         type(namelist_t), intent(inout) :: tree    !! its key is marked as used
-        character(*), intent(in) :: group, key
+        character(*), intent(in) :: group, key  !! in lower case
         integer, intent(in) :: least, most         !! how many there may be
         real(dp), allocatable, intent(inout) :: values(:)  !! stay where the key is absent
-        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable, intent(out) :: error  !! status 2: the place, and what is needed
         logical, intent(in), optional :: required  !! fail when the key is absent
-        logical, intent(out), optional :: found    !! was the key there?
         integer, allocatable :: picked(:)
         real(dp), allocatable :: numbers(:)
         integer :: i
 
-        call pick(tree, group, key, picked, error, least, most, required, found)
+        call pick(tree, group, key, picked, error, least, most, required)
         if (size(picked) == 0) return
         allocate (numbers(size(picked)))
         do i = 1, size(picked)
@@ -61,19 +58,17 @@ contains
         call move_alloc(numbers, values)
     end subroutine get_reals
 
-    pure subroutine get_integer(tree, group, key, value, error, required, found)
+    pure subroutine get_integer(tree, group, key, value, error)
         !! The whole number at `key`; `1e6` is one.
-        type(namelist_t), intent(inout) :: tree    !! its key is marked as used
-        character(*), intent(in) :: group, key
-        integer(i8), intent(inout) :: value        !! stays as it was where the key is absent
-        type(error_t), allocatable, intent(out) :: error
-        logical, intent(in), optional :: required  !! fail when the key is absent
-        logical, intent(out), optional :: found    !! was the key there?
+        type(namelist_t), intent(inout) :: tree           !! its key is marked as used
+        character(*), intent(in) :: group, key            !! in lower case
+        integer(i8), intent(inout) :: value               !! stays as it was where the key is absent
+        type(error_t), allocatable, intent(out) :: error  !! status 2: the place, and what is needed
         character(:), allocatable :: problem
         integer, allocatable :: picked(:)
         integer(i8) :: number
 
-        call pick(tree, group, key, picked, error, required=required, found=found)
+        call pick(tree, group, key, picked, error)
         if (size(picked) == 0) return
         problem = "a whole number is needed"
         if (tree%values(picked(1))%kind == kind_number) then
@@ -86,18 +81,16 @@ contains
         end if
     end subroutine get_integer
 
-    pure subroutine get_logical(tree, group, key, value, error, required, found)
+    pure subroutine get_logical(tree, group, key, value, error)
         !! The truth at `key`: `.true.`, `.t.`, `true` or `t`, or their opposites.
-        type(namelist_t), intent(inout) :: tree    !! its key is marked as used
-        character(*), intent(in) :: group, key
-        logical, intent(inout) :: value            !! stays as it was where the key is absent
-        type(error_t), allocatable, intent(out) :: error
-        logical, intent(in), optional :: required  !! fail when the key is absent
-        logical, intent(out), optional :: found    !! was the key there?
+        type(namelist_t), intent(inout) :: tree           !! its key is marked as used
+        character(*), intent(in) :: group, key            !! in lower case
+        logical, intent(inout) :: value                   !! stays as it was where the key is absent
+        type(error_t), allocatable, intent(out) :: error  !! status 2: the place, and what is needed
         integer, allocatable :: picked(:)
         integer :: truth
 
-        call pick(tree, group, key, picked, error, required=required, found=found)
+        call pick(tree, group, key, picked, error)
         if (size(picked) == 0) return
         truth = truth_of(raw_text(tree, tree%values(picked(1))))
         if (truth < 0) then
@@ -107,36 +100,33 @@ contains
         end if
     end subroutine get_logical
 
-    pure subroutine get_string(tree, group, key, value, error, required, found)
+    pure subroutine get_string(tree, group, key, value, error, required)
         !! The text at `key`.
-        type(namelist_t), intent(inout) :: tree    !! its key is marked as used
-        character(*), intent(in) :: group, key
+        type(namelist_t), intent(inout) :: tree  !! its key is marked as used
+        character(*), intent(in) :: group, key   !! in lower case
         ! allow(assumed-size-character-intent): nothing is cut
         character(*), intent(inout) :: value       !! stays where the key is absent; must hold it
-        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable, intent(out) :: error  !! status 2: the place, and what is needed
         logical, intent(in), optional :: required  !! fail when the key is absent
-        logical, intent(out), optional :: found    !! was the key there?
         integer, allocatable :: picked(:)
 
-        call pick(tree, group, key, picked, error, required=required, found=found)
+        call pick(tree, group, key, picked, error, required=required)
         if (size(picked) == 1) call convert_string(tree, picked(1), value, error)
     end subroutine get_string
 
-    pure subroutine get_strings(tree, group, key, least, most, values, error, required, found)
+    pure subroutine get_strings(tree, group, key, least, most, values, error)
         !! The texts at `key`.
-        type(namelist_t), intent(inout) :: tree    !! its key is marked as used
-        character(*), intent(in) :: group, key
-        integer, intent(in) :: least, most         !! how many there may be
+        type(namelist_t), intent(inout) :: tree  !! its key is marked as used
+        character(*), intent(in) :: group, key   !! in lower case
+        integer, intent(in) :: least, most       !! how many there may be
         ! allow(assumed-size-character-intent): nothing is cut
         character(*), allocatable, intent(inout) :: values(:)  !! as `value` of `get_string`
-        type(error_t), allocatable, intent(out) :: error
-        logical, intent(in), optional :: required  !! fail when the key is absent
-        logical, intent(out), optional :: found    !! was the key there?
+        type(error_t), allocatable, intent(out) :: error  !! status 2: the place, and what is needed
         integer, allocatable :: picked(:)
         character(len(values)), allocatable :: texts(:)
         integer :: i
 
-        call pick(tree, group, key, picked, error, least, most, required, found)
+        call pick(tree, group, key, picked, error, least, most)
         if (size(picked) == 0) return
         allocate (texts(size(picked)))
         do i = 1, size(picked)
@@ -148,8 +138,8 @@ contains
 
     pure function has_group(tree, group) result(yes)
         !! Is there such a group?
-        type(namelist_t), intent(in) :: tree
-        character(*), intent(in) :: group
+        type(namelist_t), intent(in) :: tree  !! of a file
+        character(*), intent(in) :: group     !! in lower case
         logical :: yes
 
         yes = find_group(tree, group) > 0
@@ -157,14 +147,14 @@ contains
 
     pure function has_key(tree, group, key) result(yes)
         !! Is there such a key in such a group?
-        type(namelist_t), intent(in) :: tree
-        character(*), intent(in) :: group, key
+        type(namelist_t), intent(in) :: tree    !! of a file
+        character(*), intent(in) :: group, key  !! in lower case
         logical :: yes
 
         yes = find_entry(tree, group, key) > 0
     end function has_key
 
-    pure subroutine pick(tree, group, key, picked, error, least, most, required, found)
+    pure subroutine pick(tree, group, key, picked, error, least, most, required)
         !! Find the values of `key`, element by element, and mark it as used; none on failure.
         type(namelist_t), intent(inout) :: tree
         character(*), intent(in) :: group, key
@@ -172,11 +162,9 @@ contains
         type(error_t), allocatable, intent(out) :: error
         integer, intent(in), optional :: least, most         !! absent: one value, no array
         logical, intent(in), optional :: required
-        logical, intent(out), optional :: found
         integer :: i, owner, position
 
         allocate (picked(0))
-        if (present(found)) found = .false.
         owner = find_group(tree, group)
         if (owner > 0) tree%groups(owner)%used = .true.
         position = 0
@@ -193,7 +181,6 @@ contains
             end associate
         end do
         if (position > 0) then
-            if (present(found)) found = .true.
             picked = elements(tree, group, key)
             call check_elements(tree, picked, position, label(group, key), error, least, most)
             if (allocated(error)) picked = [integer ::]
@@ -267,12 +254,53 @@ contains
                                 any(tree%values(picked)%repeats > 1))), error)
     end subroutine check_elements
 
+    pure function decimal_points(tree, picked, low, high) result(remedy)
+        !! What to write if the values at the positions `picked` came apart at decimal commas, and
+        !! together would be from `low` to `high`; otherwise nothing.
+        type(namelist_t), intent(in) :: tree
+        integer, intent(in) :: picked(:), low, high
+        character(:), allocatable :: remedy
+        character(:), allocatable :: behind, number
+        integer :: i, n
+
+        remedy = ""
+        behind = ""
+        if (any(picked == 0)) return
+        if (any(tree%values(picked)%kind /= kind_number)) return
+        n = 0
+        i = 1
+        do while (i <= size(picked))
+            number = raw_text(tree, tree%values(picked(i)))
+            i = i + 1
+            if (i <= size(picked)) then
+                associate (left => tree%values(picked(i - 1)), right => tree%values(picked(i)))
+                    behind = tree%text(left%last + 1:right%first - 1)
+                    if (behind//"|" == ",|" .and. verify(number, "+-0123456789") == 0) then
+                        behind = raw_text(tree, right)
+                        if (verify(behind, "0123456789") == 0 .and. len(behind) == 3 .and. &
+                            scan(number, "123456789") > 0) behind = behind//" (or "// &
+                            number//behind//")"
+                        number = number//"."//behind
+                        i = i + 1
+                    end if
+                end associate
+            end if
+            n = n + 1
+            remedy = remedy//", "//number
+        end do
+        if (n == size(picked) .or. n < low .or. n > high) then
+            remedy = ""
+        else
+            remedy = "; a decimal point, no comma: "//escaped(remedy(3:))
+        end if
+    end function decimal_points
+
     pure function point_advice(tree, group, key, count) result(remedy)
         !! What a caller who needs `count` values of `key`, and got another number of them, may add
         !! to its message: `; a decimal point, no comma: 0.01`, or nothing.
-        type(namelist_t), intent(in) :: tree
-        character(*), intent(in) :: group, key
-        integer, intent(in) :: count
+        type(namelist_t), intent(in) :: tree    !! of a file
+        character(*), intent(in) :: group, key  !! in lower case
+        integer, intent(in) :: count            !! values that are needed
         character(:), allocatable :: remedy
 
         remedy = decimal_points(tree, elements(tree, group, key), count, count)
@@ -334,11 +362,11 @@ contains
     pure subroutine refuse_value(tree, group, key, problem, error, element)
         !! For checks that only the caller can make: refuse the value of `key` (or of one
         !! `element`) with its place, as in `a.nml:3:8: &scene: dt = -1: must be positive`.
-        type(namelist_t), intent(in) :: tree
-        character(*), intent(in) :: group, key
-        character(*), intent(in) :: problem        !! what is wrong with it
-        type(error_t), allocatable, intent(out) :: error
-        integer, intent(in), optional :: element   !! from 1
+        type(namelist_t), intent(in) :: tree              !! of a file
+        character(*), intent(in) :: group, key            !! in lower case
+        character(*), intent(in) :: problem               !! what is wrong with it
+        type(error_t), allocatable, intent(out) :: error  !! status 2: that message
+        integer, intent(in), optional :: element          !! from 1
         integer, allocatable :: picked(:)
         integer :: i, position
 

@@ -24,10 +24,10 @@ contains
 
     pure subroutine refuse(tree, position, message, error)
         !! Fail with where, the group and key being read, and `message`.
-        type(namelist_t), intent(in) :: tree
-        integer, intent(in) :: position      !! in the tree's text
-        character(*), intent(in) :: message  !! one line
-        type(error_t), allocatable, intent(out) :: error
+        type(namelist_t), intent(in) :: tree              !! being read
+        integer, intent(in) :: position                   !! in the tree's text
+        character(*), intent(in) :: message               !! one line
+        type(error_t), allocatable, intent(out) :: error  !! status 2
 
         if (tree%context == "") then
             call fail_at(tree, position, message, error)
@@ -38,9 +38,9 @@ contains
 
     pure subroutine refuse_byte(tree, position, error)
         !! Refuse what stands at `position`, saying what it is.
-        type(namelist_t), intent(in) :: tree
-        integer, intent(in) :: position      !! in the tree's text
-        type(error_t), allocatable, intent(out) :: error
+        type(namelist_t), intent(in) :: tree              !! being read
+        integer, intent(in) :: position                   !! in the tree's text
+        type(error_t), allocatable, intent(out) :: error  !! status 2
         character(:), allocatable :: problem, what
         character(1) :: byte
 
@@ -71,7 +71,7 @@ contains
 
     pure function next_byte(tree) result(byte)
         !! The byte to be parsed next, a blank behind the end.
-        type(namelist_t), intent(in) :: tree
+        type(namelist_t), intent(in) :: tree  !! being read
         character(1) :: byte
 
         byte = character_at(tree%text, tree%at)
@@ -87,8 +87,8 @@ contains
 
     pure subroutine skip_space(tree, error)
         !! Step over blanks, tabs, line ends and comments to the next thing, or behind the end.
-        type(namelist_t), intent(inout) :: tree
-        type(error_t), allocatable, intent(out) :: error
+        type(namelist_t), intent(inout) :: tree           !! moves on
+        type(error_t), allocatable, intent(out) :: error  !! status 2: a control character
         integer :: next
 
         do while (tree%at <= len(tree%text))
@@ -116,10 +116,10 @@ contains
 
     pure subroutine read_name(tree, what, name, error)
         !! Read the name of `what` ("group" or "key").
-        type(namelist_t), intent(inout) :: tree
-        character(*), intent(in) :: what
+        type(namelist_t), intent(inout) :: tree           !! moves behind it
+        character(*), intent(in) :: what                  !! for the message
         character(name_length), intent(out) :: name       !! in lower case
-        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable, intent(out) :: error  !! status 2: none, or too long
         integer :: last
 
         name = ""
@@ -148,8 +148,8 @@ contains
 
     pure function token_end(text, first) result(last)
         !! The last byte of the bare token beginning at `first`; before it where none begins.
-        character(*), intent(in) :: text     !! of the tree
-        integer, intent(in) :: first         !! position in it
+        character(*), intent(in) :: text  !! of the tree
+        integer, intent(in) :: first      !! position in it
         integer :: last
 
         do last = first, len(text)
@@ -161,9 +161,9 @@ contains
 
     pure subroutine read_value(tree, value, error)
         !! Read a text between quotes, a number, a word, or `3*` one of them.
-        type(namelist_t), intent(inout) :: tree   !! steps behind it
-        type(value_t), intent(out) :: value
-        type(error_t), allocatable, intent(out) :: error
+        type(namelist_t), intent(inout) :: tree           !! steps behind it
+        type(value_t), intent(out) :: value               !! what was read
+        type(error_t), allocatable, intent(out) :: error  !! status 2: it is none
         character(:), allocatable :: problem
         integer :: last, star
 
@@ -247,9 +247,9 @@ contains
 
     pure subroutine check_separation(tree, kind, error)
         !! Refuse what directly follows a value and does not separate it from the next.
-        type(namelist_t), intent(in) :: tree      !! behind the value
-        integer, intent(in) :: kind               !! of the value
-        type(error_t), allocatable, intent(out) :: error
+        type(namelist_t), intent(in) :: tree              !! behind the value
+        integer, intent(in) :: kind                       !! of the value
+        type(error_t), allocatable, intent(out) :: error  !! status 2: something follows
 
         if (index(separators//",/", next_byte(tree)) > 0) return
         if (kind == kind_string .and. scan(next_byte(tree), letters) == 1) then
@@ -343,8 +343,8 @@ contains
 
     pure subroutine look_for_key(tree, found)
         !! Does `key =`, `key(` or `key%` come next, rather than a value?
-        type(namelist_t), intent(inout) :: tree   !! stays where it is
-        logical, intent(out) :: found
+        type(namelist_t), intent(inout) :: tree  !! stays where it is
+        logical, intent(out) :: found            !! a key comes next
         type(error_t), allocatable :: error
         integer :: at
 

@@ -18,10 +18,10 @@ contains
 
     pure subroutine parse_namelist(text, source, tree, error)
         !! Read the whole text of a file; nothing doubtful is passed over.
-        character(*), intent(in) :: text         !! all bytes of the file
-        character(*), intent(in) :: source       !! its name, for messages
-        type(namelist_t), intent(out) :: tree    !! what it says
-        type(error_t), allocatable, intent(out) :: error
+        character(*), intent(in) :: text                  !! all bytes of the file
+        character(*), intent(in) :: source                !! its name, for messages
+        type(namelist_t), intent(out) :: tree             !! what it says
+        type(error_t), allocatable, intent(out) :: error  !! status 2: the first doubtful thing
         character(3), parameter :: byte_order_mark = char(239)//char(187)//char(191)
         integer :: behind
 
@@ -61,7 +61,7 @@ contains
         !! next comma. After a failure the tree is good for nothing but the message.
         type(namelist_t), intent(inout) :: tree  !! of a file, perhaps with earlier overrides
         character(*), intent(in) :: text         !! the override, in any case
-        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable, intent(out) :: error  !! status 2: what it is not
         character(name_length) :: name
         integer :: first, group
 

@@ -1,14 +1,17 @@
 module lagrangia_namelist_tree
     !! What a namelist file and its overrides say, as plain data: groups, their entries, the
-    !! entries' values; and where each of them was written.
+    !! entries' values; where each of them was written; and the refusal of those that are unknown,
+    !! missing or cannot be taken, with what was probably meant.
     use lagrangia_errors, only: error_t, fail, status_usage
     use lagrangia_kinds, only: dp
-    use lagrangia_text, only: escaped, short_source, source_length, to_text
+    use lagrangia_names, only: abbreviation, nearest_name
+    use lagrangia_text, only: escaped, join, quoted, short_source, source_length, to_text
     implicit none (type, external)
     private
     public :: entry_t, group_t, namelist_t, value_t
     public :: add_entry, add_group, add_value, fail_at, find_entry, find_group, in_override, &
-              label, line_of, new_namelist, raw_text, settle_twins, text_of
+              label, line_of, new_namelist, raw_text, refuse_missing, refuse_picked, &
+              refuse_unknown_groups, refuse_unknown_keys, settle_twins, text_of
     public :: kind_number, kind_string, kind_word, max_values, name_length
 
     integer, parameter :: name_length = 63    !! of a group or key, as in Fortran
@@ -32,20 +35,20 @@ module lagrangia_namelist_tree
     type :: entry_t
         !! `key = values` or `key(index) = values`.
         character(name_length) :: key = ""
-        integer :: at = 0                             !! where the tree's text has the key
-        integer :: group = 0                          !! position among the groups
-        integer :: index = 0                          !! 0 where none was written
-        integer :: first_value = 1, last_value = 0    !! positions among the values
-        integer :: count = 0                          !! of values, repeats counted
-        logical :: replaced = .false.                 !! by a later override
-        logical :: used = .false.                     !! somebody asked for it
+        integer :: at = 0                           !! where the tree's text has the key
+        integer :: group = 0                        !! position among the groups
+        integer :: index = 0                        !! 0 where none was written
+        integer :: first_value = 1, last_value = 0  !! positions among the values
+        integer :: count = 0                        !! of values, repeats counted
+        logical :: replaced = .false.               !! by a later override
+        logical :: used = .false.                   !! somebody asked for it
     end type entry_t
 
     type :: group_t
         !! `&name ... /`
         character(name_length) :: name = ""
-        integer :: at = 0                             !! where the tree's text has it
-        logical :: used = .false.                     !! somebody asked for a key of it
+        integer :: at = 0          !! where the tree's text has it
+        logical :: used = .false.  !! somebody asked for a key of it
     end type group_t
 
     type :: namelist_t
@@ -57,18 +60,18 @@ module lagrangia_namelist_tree
         type(entry_t), allocatable :: entries(:)  !! the first `entry_count` are in use
         type(value_t), allocatable :: values(:)   !! the first `value_count` are in use
         integer :: group_count = 0, entry_count = 0, value_count = 0
-        integer :: repeats_count = 0              !! values with their repeats
-        integer :: at = 1                         !! the byte of the text to be parsed next
-        character(100) :: context = ""            !! what the parser is in: `&scene: dt:`
+        integer :: repeats_count = 0    !! values with their repeats
+        integer :: at = 1               !! the byte of the text to be parsed next
+        character(100) :: context = ""  !! what the parser is in: `&scene: dt:`
     end type namelist_t
 
 contains
 
     pure subroutine new_namelist(tree, text, source)
         !! A tree of nothing yet.
-        type(namelist_t), intent(out) :: tree
-        character(*), intent(in) :: text          !! of the file
-        character(*), intent(in) :: source        !! its name
+        type(namelist_t), intent(out) :: tree  !! empty, but for the text
+        character(*), intent(in) :: text       !! of the file
+        character(*), intent(in) :: source     !! its name
 
         tree%text = text
         tree%starts = [1]
@@ -78,10 +81,10 @@ contains
 
     pure subroutine fail_at(tree, position, message, error)
         !! Fail with `source:line:column: message`, `source: message`, or `--set ...: message`.
-        type(namelist_t), intent(in) :: tree
+        type(namelist_t), intent(in) :: tree  !! of a file
         integer, intent(in) :: position           !! in the tree's text; 0: the file as a whole
         character(*), intent(in) :: message       !! one line
-        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable, intent(out) :: error  !! status 2
         character(:), allocatable :: place
         integer :: last, part
 
@@ -101,8 +104,8 @@ contains
 
     pure function in_override(tree, position) result(yes)
         !! Does what stands there come from the command line?
-        type(namelist_t), intent(in) :: tree
-        integer, intent(in) :: position           !! in the tree's text; 0: the file as a whole
+        type(namelist_t), intent(in) :: tree  !! of a file
+        integer, intent(in) :: position       !! in the tree's text; 0: the file as a whole
         logical :: yes
 
         yes = .false.
@@ -111,8 +114,8 @@ contains
 
     pure function line_of(tree, position) result(line)
         !! The line of the file that holds this byte, from 1.
-        type(namelist_t), intent(in) :: tree
-        integer, intent(in) :: position           !! in the tree's text
+        type(namelist_t), intent(in) :: tree  !! of a file
+        integer, intent(in) :: position       !! in the tree's text
         integer :: line
         integer :: i
 
@@ -132,8 +135,8 @@ contains
 
     pure function find_group(tree, name) result(position)
         !! The position of group `name`, 0 when there is none.
-        type(namelist_t), intent(in) :: tree
-        character(*), intent(in) :: name          !! in lower case
+        type(namelist_t), intent(in) :: tree  !! of a file
+        character(*), intent(in) :: name      !! in lower case
         integer :: position
 
         do position = tree%group_count, 1, -1
@@ -143,8 +146,8 @@ contains
 
     pure function find_entry(tree, group, key) result(position)
         !! The position of the last entry that gives `key`, 0 when there is none.
-        type(namelist_t), intent(in) :: tree
-        character(*), intent(in) :: group, key    !! in lower case
+        type(namelist_t), intent(in) :: tree    !! of a file
+        character(*), intent(in) :: group, key  !! in lower case
         integer :: position
         integer :: owner
 
@@ -156,10 +159,10 @@ contains
 
     pure subroutine add_group(tree, name, first, error)
         !! Begin a group.
-        type(namelist_t), intent(inout) :: tree
-        character(*), intent(in) :: name          !! in lower case
-        integer, intent(in) :: first              !! where it begins in the tree's text
-        type(error_t), allocatable, intent(out) :: error
+        type(namelist_t), intent(inout) :: tree           !! grows
+        character(*), intent(in) :: name                  !! in lower case
+        integer, intent(in) :: first                      !! where it begins in the tree's text
+        type(error_t), allocatable, intent(out) :: error  !! status 2: too many
 
         if (tree%group_count == max_groups) then
             call fail_at(tree, first, "more than "//to_text(max_groups)//" groups", error)
@@ -171,9 +174,9 @@ contains
 
     pure subroutine add_entry(tree, item, error)
         !! Append an entry, whose values are still to come.
-        type(namelist_t), intent(inout) :: tree
-        type(entry_t), intent(in) :: item         !! without values
-        type(error_t), allocatable, intent(out) :: error
+        type(namelist_t), intent(inout) :: tree           !! grows
+        type(entry_t), intent(in) :: item                 !! without values
+        type(error_t), allocatable, intent(out) :: error  !! status 2: too many
         type(entry_t), allocatable :: more(:)
 
         if (tree%entry_count == max_entries) then
@@ -192,9 +195,9 @@ contains
 
     pure subroutine add_value(tree, value, error)
         !! Append a value to the last entry.
-        type(namelist_t), intent(inout) :: tree
-        type(value_t), intent(in) :: value
-        type(error_t), allocatable, intent(out) :: error
+        type(namelist_t), intent(inout) :: tree           !! grows
+        type(value_t), intent(in) :: value                !! to be copied
+        type(error_t), allocatable, intent(out) :: error  !! status 2: too many
         type(value_t), allocatable :: more(:)
 
         if (value%repeats > max_values - tree%repeats_count) then
@@ -218,8 +221,8 @@ contains
     pure subroutine settle_twins(tree, error)
         !! See that the last entry gives no element that an earlier one gives. An override may:
         !! its values come last, and without an index it replaces the whole of earlier entries.
-        type(namelist_t), intent(inout) :: tree
-        type(error_t), allocatable, intent(out) :: error
+        type(namelist_t), intent(inout) :: tree           !! its last entry is complete
+        type(error_t), allocatable, intent(out) :: error  !! status 2: given twice
         integer :: i
 
         associate (new => tree%entries(tree%entry_count))
@@ -243,8 +246,8 @@ contains
 
     pure function raw_text(tree, value) result(text)
         !! The value as it was written, with its quotes.
-        type(namelist_t), intent(in) :: tree
-        type(value_t), intent(in) :: value        !! of this tree
+        type(namelist_t), intent(in) :: tree  !! of a file
+        type(value_t), intent(in) :: value    !! of this tree
         character(:), allocatable :: text
 
         text = tree%text(value%first:value%last)
@@ -252,8 +255,8 @@ contains
 
     pure function text_of(tree, value) result(text)
         !! The text a value stands for: doubled quotes of a string are one quote.
-        type(namelist_t), intent(in) :: tree
-        type(value_t), intent(in) :: value        !! of this tree
+        type(namelist_t), intent(in) :: tree  !! of a file
+        type(value_t), intent(in) :: value    !! of this tree
         character(:), allocatable :: text
         integer :: i, length
 
@@ -269,4 +272,125 @@ contains
         end do
         text = text(:length)
     end function text_of
+
+    pure subroutine refuse_picked(tree, position, problem, error)
+        !! Fail with the place, group, key and text of the value at `position`, and `problem`.
+        type(namelist_t), intent(in) :: tree              !! of a file
+        integer, intent(in) :: position                   !! among its values
+        character(*), intent(in) :: problem               !! what is wrong with it
+        type(error_t), allocatable, intent(out) :: error  !! status 2
+        integer :: i
+
+        do i = 1, tree%entry_count - 1
+            if (tree%entries(i)%last_value >= position) exit
+        end do
+        associate (item => tree%entries(i), value => tree%values(position))
+            call fail_at(tree, value%first, label(tree%groups(item%group)%name, item%key)// &
+                         " = "//escaped(raw_text(tree, value))//": "//problem, error)
+        end associate
+    end subroutine refuse_picked
+
+    pure subroutine refuse_missing(tree, owner, group, key, error)
+        !! Demand `key`, or its whole group, if nothing there seems to be a slip for it.
+        type(namelist_t), intent(in) :: tree              !! of a file
+        integer, intent(in) :: owner                      !! position of the group, 0: it is missing
+        character(*), intent(in) :: group, key            !! in lower case
+        type(error_t), allocatable, intent(out) :: error  !! status 2
+        character(name_length), allocatable :: keys(:)
+        character(:), allocatable :: near
+        integer :: i
+
+        if (owner == 0) then
+            allocate (keys, source=[(tree%groups(i)%name, i=1, tree%group_count)])
+            near = nearest_name(group, keys)
+            i = find_group(tree, near)
+            if (i > 0) then
+                call fail_at(tree, tree%groups(i)%at, advice("group ", near, [group]), error)
+                return
+            end if
+            call fail_at(tree, 0, "group &"//escaped(group, 30)// &
+                         " is missing; it must give "//escaped(key, 30), error)
+        else
+            associate (items => tree%entries(:tree%entry_count))
+                allocate (keys, source=pack( &
+                    [(items(i)%key, i=1, size(items))], &
+                    [(items(i)%group == owner .and. .not. items(i)%used, i=1, size(items))]))
+            end associate
+            near = nearest_name(key, keys)
+            if (near /= "") then
+                i = find_entry(tree, group, near)
+                call fail_at(tree, tree%entries(i)%at, "&"//escaped(group, 30)//": "// &
+                             advice("key ", near, [key]), error)
+                return
+            end if
+            call fail_at(tree, tree%groups(owner)%at, label(group, key)// &
+                         " is missing; write "//escaped(key, 30)//" = value", error)
+        end if
+    end subroutine refuse_missing
+
+    pure subroutine refuse_unknown_keys(tree, group, allowed, error, early)
+        !! Refuse the first key of `group` that nobody has asked for, naming the nearest of the
+        !! `allowed` ones, or those that are not given. `early`: somebody may still ask for those.
+        type(namelist_t), intent(in) :: tree              !! of a file
+        character(*), intent(in) :: group, allowed(:)     !! in lower case
+        type(error_t), allocatable, intent(out) :: error  !! status 2
+        logical, intent(in), optional :: early            !! false unless given
+        character(len(allowed)), allocatable :: absent(:)
+        logical :: spared
+        integer :: i, k, owner
+
+        spared = .false.
+        if (present(early)) spared = early
+        owner = find_group(tree, group)
+        do i = 1, tree%entry_count
+            associate (item => tree%entries(i))
+                if (item%group /= owner .or. item%used .or. item%replaced) cycle
+                if (spared .and. any(allowed == item%key)) cycle
+                allocate (absent, source=pack(allowed, &
+                    [(in_override(tree, item%at) .or. item%key == allowed(k) .or. &
+                      find_entry(tree, group, allowed(k)) == 0, k=1, size(allowed))]))
+                call fail_at(tree, item%at, "&"//escaped(trim(group), 30)//": "// &
+                             advice("key ", trim(item%key), absent), error)
+                return
+            end associate
+        end do
+    end subroutine refuse_unknown_keys
+
+    pure subroutine refuse_unknown_groups(tree, allowed, error)
+        !! Refuse the first group from which nobody has asked for a key, naming the nearest of the
+        !! `allowed` ones.
+        type(namelist_t), intent(in) :: tree              !! of a file
+        character(*), intent(in) :: allowed(:)            !! in lower case
+        type(error_t), allocatable, intent(out) :: error  !! status 2
+        character(:), allocatable :: text
+        integer :: i
+
+        do i = 1, tree%group_count
+            if (tree%groups(i)%used) cycle
+            text = advice("group ", trim(tree%groups(i)%name), allowed)
+            if (in_override(tree, tree%groups(i)%at)) text = text//" (in "//trim(tree%source)//")"
+            call fail_at(tree, tree%groups(i)%at, text, error)
+            return
+        end do
+    end subroutine refuse_unknown_groups
+
+    pure function advice(what, name, allowed) result(text)
+        !! What to do about a `name` that is of no use.
+        character(*), intent(in) :: what, name, allowed(:)
+        character(:), allocatable :: text
+        character(:), allocatable :: near
+
+        near = nearest_name(name, allowed)
+        if (near == "") near = abbreviation(name, allowed)
+        if (any(allowed == name)) then
+            text = what//quoted(name)//" has no meaning here"
+        else if (near /= "") then
+            text = "unknown "//what//quoted(name)//"; did you mean "//quoted(near)//"?"
+        else if (size(allowed) == 0) then
+            text = "unknown "//what//quoted(name)//"; none is allowed here"
+        else
+            text = "unknown "//what//quoted(name)//"; allowed: "// &
+                   escaped(join(allowed, ", "), 160)
+        end if
+    end function advice
 end module lagrangia_namelist_tree

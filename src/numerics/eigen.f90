@@ -27,11 +27,11 @@ contains
         !! the digits that the elements of \(K\) and \(M\) leave them: see `lagrangia_jacobi`.
         !!
         !! Source: Landau & Lifshitz, *Mechanics*, 3rd ed., sec. 23; LAPACK `dsygv`, `dsygvd`.
-        real(dp), intent(in) :: stiffness(:, :)             !! \(K\), symmetric, (n, n)
-        real(dp), intent(in) :: inertia(:, :)               !! \(M\), positive definite, (n, n)
-        real(dp), allocatable, intent(out) :: omega2(:)     !! squared frequencies, (n), s^-2
-        real(dp), allocatable, intent(out) :: modes(:, :)   !! column j belongs to `omega2(j)`
-        type(error_t), allocatable, intent(out) :: error    !! what is wrong with K or M
+        real(dp), intent(in) :: stiffness(:, :)            !! \(K\), symmetric, (n, n)
+        real(dp), intent(in) :: inertia(:, :)              !! \(M\), positive definite, (n, n)
+        real(dp), allocatable, intent(out) :: omega2(:)    !! squared frequencies, (n), s^-2
+        real(dp), allocatable, intent(out) :: modes(:, :)  !! column j belongs to `omega2(j)`
+        type(error_t), allocatable, intent(out) :: error   !! what is wrong with K or M
         real(dp), allocatable :: factor(:, :), work(:)
         integer, allocatable :: iwork(:)
         real(dp) :: size_wanted(1)
@@ -167,10 +167,11 @@ contains
         !! `dsygv` loses the small ones. Rows that `S` lacks are zero modes, exactly.
         !!
         !! Source: Drmač & Veselić, SIAM J. Matrix Anal. Appl. 29 (2008) 1322; LAPACK `dgejsv`.
-        real(dp), intent(in) :: root(:, :)                  !! \(S\), (rank, n), rank <= n
-        real(dp), intent(in) :: inverse(:, :)               !! \(W\), (n, n): \(W^\top M W = 1\)
+        real(dp), intent(in) :: root(:, :)     !! \(S\), (rank, n), rank <= n
+        real(dp), intent(in) :: inverse(:, :)  !! \(W\), (n, n): \(W^\top M W = 1\)
         real(dp), allocatable, intent(out) :: omega2(:), modes(:, :)
-        type(error_t), allocatable, intent(out) :: error
+        !! squares, ascending, (n); \(U\), a column each
+        type(error_t), allocatable, intent(out) :: error  !! status 4: not finite, no convergence
         real(dp), allocatable :: product(:, :), sigma(:), u(:, :), v(:, :), work(:)
         integer, allocatable :: iwork(:)
         real(dp) :: scale
@@ -221,6 +222,7 @@ contains
         !! LAPACK's own measure \(\|KZ - MZ\Lambda\|/(\|K\|\,\|Z\|\,n\,\epsilon)\) in the 1-norm:
         !! below 30 or so where all is well.
         real(dp), intent(in) :: stiffness(:, :), inertia(:, :), omega2(:), modes(:, :)
+        !! \(K\), \(M\), \(\omega^2\), \(U\)
         real(dp) :: ratio, scale
         real(dp), dimension(size(modes, 1), size(modes, 2)) :: residual
 

@@ -19,7 +19,7 @@ contains
         !! Arithmetic-geometric mean of two non-negative numbers; NaN for others.
         !!
         !! Source: DLMF 19.8.1.
-        real(dp), intent(in) :: a, b
+        real(dp), intent(in) :: a, b  !! not negative
         real(dp) :: mean
         real(dp) :: scale, geometric, next
 
@@ -59,9 +59,9 @@ contains
         !!
         !! Source: R. Bulirsch, Numer. Math. 7, 78 (1965), procedure `sncndn`, with sine and cosine
         !! in place of the cotangent, which overflows for small `u`.
-        real(dp), intent(in) :: u   !! argument
-        real(dp), intent(in) :: kc  !! complementary modulus \(k'\), 0 to 1; NaN outside
-        real(dp), intent(out) :: sn, cn, dn
+        real(dp), intent(in) :: u            !! argument
+        real(dp), intent(in) :: kc           !! complementary modulus \(k'\), 0 to 1; NaN outside
+        real(dp), intent(out) :: sn, cn, dn  !! NaN where the arguments are not allowed
         real(dp) :: phase
 
         call jacobi_with_phase(u, kc, sn, cn, dn, phase)

@@ -115,10 +115,10 @@ contains
         !! \(1 - m\) is all GSL sees of \(k'^2\): errors grow as \(\epsilon/k'^2\), and within
         !! \(2\epsilon\) of \(m = 1\) they reach 2, which is refused. `lagrangia_elliptic` has
         !! neither limit.
-        real(dp), intent(in) :: u  !! argument
-        real(dp), intent(in) :: k  !! modulus, -1 to 1
-        real(dp), intent(out) :: sn, cn, dn
-        type(error_t), allocatable, intent(out) :: error
+        real(dp), intent(in) :: u                         !! argument
+        real(dp), intent(in) :: k                         !! modulus, -1 to 1
+        real(dp), intent(out) :: sn, cn, dn               !! zero after an error
+        type(error_t), allocatable, intent(out) :: error  !! status 3: arguments; 4: GSL refuses
         real(dp) :: m
         integer(c_int) :: status
 
@@ -142,10 +142,11 @@ contains
     subroutine brent_root(f, lower, upper, root, error)
         !! Where `f` vanishes between `lower` and `upper`, by Brent's method, as far as the rounding
         !! of `f` allows; fails unless its signs at the two ends differ.
-        class(scalar_function_t), target, intent(inout) :: f
-        real(dp), intent(in) :: lower, upper
-        real(dp), intent(out) :: root
+        class(scalar_function_t), target, intent(inout) :: f  !! its `value` is called
+        real(dp), intent(in) :: lower, upper                  !! the bracket, lower < upper
+        real(dp), intent(out) :: root                         !! zero without a bracket
         type(error_t), allocatable, intent(out) :: error
+        !! status 3: no bracket, no convergence; 4: GSL refuses
         type(box_t), target :: box
         type(gsl_function_t), target :: function  ! GSL keeps its address until it is freed
         type(c_ptr) :: solver
@@ -214,7 +215,7 @@ contains
 
     function gsl_reason(status) result(message)
         !! GSL's own words for a status.
-        integer(c_int), intent(in) :: status
+        integer(c_int), intent(in) :: status  !! what a GSL function returned
         character(:), allocatable :: message
 
         message = fortran_text(gsl_strerror(status))

@@ -111,13 +111,14 @@ contains
         !! Get `method` (of `gsl_methods`) ready for \(\dot y = f(t, y)\) with `n` unknowns. The
         !! local error is held to `tolerance`, absolute and relative.
         class(gsl_driver_t), intent(inout) :: self
-        character(*), intent(in) :: method
-        integer, intent(in) :: n
+        character(*), intent(in) :: method  !! GSL's name of it
+        integer, intent(in) :: n  !! number of equations
         type(c_funptr), intent(in) :: rates     !! `int f(double t, double *y, double *f, void *)`
         type(c_funptr), intent(in) :: jacobian  !! of `f`, by rows; `bsimp` alone calls it
         type(c_ptr), intent(in) :: context      !! what both get as their last argument
-        real(dp), intent(in) :: first_step, tolerance
+        real(dp), intent(in) :: first_step, tolerance  !! s, positive; of the local error
         type(error_t), allocatable, intent(out) :: error
+        !! status 2: no such method; 3: step; 4: GSL
         type(c_funptr) :: address
         type(c_ptr), pointer :: stepper
 
@@ -149,8 +150,8 @@ contains
     subroutine restart(self, first_step, error)
         !! Forget the past: the next call starts anywhere, with a step of this length at first.
         class(gsl_driver_t), intent(inout) :: self
-        real(dp), intent(in) :: first_step
-        type(error_t), allocatable, intent(out) :: error
+        real(dp), intent(in) :: first_step                !! s
+        type(error_t), allocatable, intent(out) :: error  !! status 4: GSL refuses
 
         call judge(gsl_odeiv2_driver_reset_hstart(self%driver, first_step), error)
     end subroutine restart
@@ -159,10 +160,10 @@ contains
         !! `steps` steps of length `h` each; `t` and `y` move. GSL estimates the error of each and
         !! fails where it is above the tolerance: give it a very large one. Then they stay.
         class(gsl_driver_t), intent(inout) :: self
-        real(dp), intent(inout) :: t, y(:)
-        real(dp), intent(in) :: h
-        integer(i8), intent(in) :: steps
-        type(error_t), allocatable, intent(out) :: error
+        real(dp), intent(inout) :: t, y(:)                !! s, becomes the end; state, (n)
+        real(dp), intent(in) :: h                         !! s
+        integer(i8), intent(in) :: steps                  !! how many
+        type(error_t), allocatable, intent(out) :: error  !! status 4: GSL's reason
         real(dp) :: t_new, y_new(size(y))
 
         t_new = t
@@ -177,9 +178,9 @@ contains
     subroutine integrate(self, t, t_end, y, error)
         !! Go to `t_end` with steps of GSL's choice; where that fails `t` and `y` stay.
         class(gsl_driver_t), intent(inout) :: self
-        real(dp), intent(inout) :: t, y(:)
-        real(dp), intent(in) :: t_end
-        type(error_t), allocatable, intent(out) :: error
+        real(dp), intent(inout) :: t, y(:)                !! s, becomes `t_end`; state, (n)
+        real(dp), intent(in) :: t_end                     !! s
+        type(error_t), allocatable, intent(out) :: error  !! status 4: GSL's reason
         real(dp) :: t_new, y_new(size(y))
 
         t_new = t

@@ -29,9 +29,9 @@ contains
         !! fastest.
         !!
         !! Source: Tisseur & Meerbergen, SIAM Review 43 (2001) 235, sec. 3; LAPACK `dgeev`.
-        real(dp), intent(in) :: stiffness(:, :)    !! \(K\), symmetric, (n, n)
-        real(dp), intent(in) :: gyroscopic(:, :)   !! \(G\), antisymmetric, (n, n)
-        real(dp), intent(in) :: inertia(:, :)      !! \(M\), positive definite, (n, n)
+        real(dp), intent(in) :: stiffness(:, :)               !! \(K\), symmetric, (n, n)
+        real(dp), intent(in) :: gyroscopic(:, :)              !! \(G\), antisymmetric, (n, n)
+        real(dp), intent(in) :: inertia(:, :)                 !! \(M\), positive definite, (n, n)
         complex(dp), allocatable, intent(out) :: lambda(:)    !! (n), s^-1
         complex(dp), allocatable, intent(out) :: modes(:, :)  !! column j belongs to `lambda(j)`
         type(error_t), allocatable, intent(out) :: error      !! what is wrong with K, G or M
@@ -74,7 +74,7 @@ contains
 
     elemental function is_steady(lambda) result(yes)
         !! Whether the motion neither grows nor decays.
-        complex(dp), intent(in) :: lambda
+        complex(dp), intent(in) :: lambda  !! eigenvalue, s^-1
         logical :: yes
 
         yes = abs(real(lambda)) <= blur*abs(lambda)
@@ -253,7 +253,8 @@ contains
         !! The largest \(\|(\lambda^2M + \lambda G + K)u\|\) over \((\rho^2\|M\| +
         !! \rho\|G\| + \|K\|)\,\|u\|\,n\,\epsilon\), \(\rho = \max|\lambda|\), in the 1-norm.
         real(dp), intent(in) :: stiffness(:, :), gyroscopic(:, :), inertia(:, :)
-        complex(dp), intent(in) :: lambda(:), modes(:, :)
+        !! \(K\), \(G\), \(M\), (n, n)
+        complex(dp), intent(in) :: lambda(:), modes(:, :)  !! s^-1; a column each
         real(dp) :: ratio, scale, rho
         complex(dp) :: residual(size(lambda))
         integer :: i, j

@@ -148,14 +148,14 @@ contains
 
     elemental function abs_h(x) result(r)
         !! At 0 the derivative of the side that the sign of the zero names.
-        type(hyperdual_t), intent(in) :: x
+        type(hyperdual_t), intent(in) :: x  !! any
         type(hyperdual_t) :: r
 
         r = x*sign(1.0_dp, x%re)
     end function abs_h
 
     elemental function atan_h(x) result(r)
-        type(hyperdual_t), intent(in) :: x
+        type(hyperdual_t), intent(in) :: x  !! any
         type(hyperdual_t) :: r
         real(dp) :: slope
 
@@ -164,49 +164,49 @@ contains
     end function atan_h
 
     elemental function cos_h(x) result(r)
-        type(hyperdual_t), intent(in) :: x
+        type(hyperdual_t), intent(in) :: x  !! rad
         type(hyperdual_t) :: r
 
         r = chain(x, cos(x%re), -sin(x%re), -cos(x%re))
     end function cos_h
 
     elemental function cosh_h(x) result(r)
-        type(hyperdual_t), intent(in) :: x
+        type(hyperdual_t), intent(in) :: x  !! any
         type(hyperdual_t) :: r
 
         r = chain(x, cosh(x%re), sinh(x%re), cosh(x%re))
     end function cosh_h
 
     elemental function exp_h(x) result(r)
-        type(hyperdual_t), intent(in) :: x
+        type(hyperdual_t), intent(in) :: x  !! any
         type(hyperdual_t) :: r
 
         r = chain(x, exp(x%re), exp(x%re), exp(x%re))
     end function exp_h
 
     elemental function log_h(x) result(r)
-        type(hyperdual_t), intent(in) :: x
+        type(hyperdual_t), intent(in) :: x  !! positive
         type(hyperdual_t) :: r
 
         r = chain(x, log(x%re), 1.0_dp/x%re, -1.0_dp/x%re**2)
     end function log_h
 
     elemental function sin_h(x) result(r)
-        type(hyperdual_t), intent(in) :: x
+        type(hyperdual_t), intent(in) :: x  !! rad
         type(hyperdual_t) :: r
 
         r = chain(x, sin(x%re), cos(x%re), -sin(x%re))
     end function sin_h
 
     elemental function sinh_h(x) result(r)
-        type(hyperdual_t), intent(in) :: x
+        type(hyperdual_t), intent(in) :: x  !! any
         type(hyperdual_t) :: r
 
         r = chain(x, sinh(x%re), cosh(x%re), sinh(x%re))
     end function sinh_h
 
     elemental function sqrt_h(x) result(r)
-        type(hyperdual_t), intent(in) :: x
+        type(hyperdual_t), intent(in) :: x  !! positive
         type(hyperdual_t) :: r
         real(dp) :: root
 
@@ -215,7 +215,7 @@ contains
     end function sqrt_h
 
     elemental function tan_h(x) result(r)
-        type(hyperdual_t), intent(in) :: x
+        type(hyperdual_t), intent(in) :: x  !! rad
         type(hyperdual_t) :: r
         real(dp) :: slope
 
@@ -225,7 +225,7 @@ contains
 
     elemental function tanh_h(x) result(r)
         !! The slope is \(\cosh^{-2}\), because \(1 - \tanh^2\) cancels.
-        type(hyperdual_t), intent(in) :: x
+        type(hyperdual_t), intent(in) :: x  !! any
         type(hyperdual_t) :: r
         real(dp) :: slope
 
@@ -234,30 +234,30 @@ contains
     end function tanh_h
 
     pure function sum_h(x) result(r)
-        type(hyperdual_t), intent(in) :: x(:)
+        type(hyperdual_t), intent(in) :: x(:)  !! any number of terms
         type(hyperdual_t) :: r
 
         r = hyperdual_t(sum(x%re), sum(x%d1), sum(x%d2), sum(x%d12))
     end function sum_h
 
     pure function dot_hh(a, b) result(r)
-        type(hyperdual_t), intent(in) :: a(:), b(:)
+        type(hyperdual_t), intent(in) :: a(:), b(:)  !! of one size
         type(hyperdual_t) :: r
 
         r = sum(a*b)
     end function dot_hh
 
     pure function dot_rh(a, b) result(r)
-        real(dp), intent(in) :: a(:)
-        type(hyperdual_t), intent(in) :: b(:)
+        real(dp), intent(in) :: a(:)           !! (n)
+        type(hyperdual_t), intent(in) :: b(:)  !! (n)
         type(hyperdual_t) :: r
 
         r = sum(a*b)
     end function dot_rh
 
     pure function dot_hr(a, b) result(r)
-        type(hyperdual_t), intent(in) :: a(:)
-        real(dp), intent(in) :: b(:)
+        type(hyperdual_t), intent(in) :: a(:)  !! (n)
+        real(dp), intent(in) :: b(:)           !! (n)
         type(hyperdual_t) :: r
 
         r = sum(a*b)

@@ -54,7 +54,7 @@ contains
 
     elemental function hyperdual(x) result(r)
         !! A constant: all its derivatives vanish.
-        real(dp), intent(in) :: x
+        real(dp), intent(in) :: x  !! its value
         type(hyperdual_t) :: r
 
         r = hyperdual_t(re=x)

@@ -16,7 +16,7 @@ contains
         !!
         !! Source: Golub & Welsch, Math. Comp. 23 (1969) 221; Parlett & Dhillon, Linear Algebra
         !! Appl. 309 (2000) 121, `dstqds`; DLMF 18.9.23 for the derivative.
-        integer, intent(in) :: n
+        integer, intent(in) :: n  !! degree, from 1
         real(dp) :: x(n), low, high, middle, last
         logical :: alone  !! no other zero from `low` to `high`
         integer :: k, step, below

@@ -137,8 +137,8 @@ contains
         !! The number of singular values above noise, 1e-10 of the largest.
         !!
         !! Source: LAPACK Users' Guide, 3rd ed., sec. 2.3.4.3; `dgesvd`.
-        real(dp), intent(in) :: matrix(:, :)
-        integer, intent(out) :: rank
+        real(dp), intent(in) :: matrix(:, :)              !! (m, n), not changed
+        integer, intent(out) :: rank                      !! 0 after an error
         type(error_t), allocatable, intent(out) :: error  !! NaN, no convergence
         real(dp) :: a(size(matrix, 1), size(matrix, 2)), values(minval(shape(matrix)))
         real(dp) :: work(8*sum(shape(matrix))), u(1, 1), vt(1, 1)
@@ -165,7 +165,7 @@ contains
         !! The `x` that makes \(\lVert Ax - c\rVert\) least; \(A\) of full rank, (m, n), m >= n.
         !!
         !! Source: LAPACK Users' Guide, 3rd ed., sec. 2.3.2; `dgels`.
-        real(dp), intent(in) :: a(:, :), c(:)
+        real(dp), intent(in) :: a(:, :), c(:)             !! \(A\), (m, n); \(c\), (m)
         real(dp), intent(out) :: x(:)                     !! (n); zero after an error
         type(error_t), allocatable, intent(out) :: error  !! shapes, NaN, rank
         real(dp) :: a_work(size(a, 1), size(a, 2)), c_work(size(c), 1), work(64*(size(a) + 1))
@@ -197,7 +197,7 @@ contains
         !! it is diagonal, at most 0 if it is not positive definite; also if it is not finite.
         !!
         !! Source: LAPACK Users' Guide, 3rd ed., sec. 2.4.1; `dpotrf`.
-        real(dp), intent(in) :: matrix(:, :)
+        real(dp), intent(in) :: matrix(:, :)  !! symmetric, (n, n)
         real(dp) :: pivot
         real(dp), dimension(size(matrix, 1), size(matrix, 1)) :: a
         integer :: i, j, n, info
@@ -260,9 +260,9 @@ contains
         !! The number of negative eigenvalues of a symmetric tridiagonal matrix.
         !!
         !! Source: LAPACK Users' Guide, 3rd ed., sec. 2.4.4; `dstebz` counts sign changes (Sturm).
-        real(dp), intent(in) :: diagonal(:)  !! (n)
-        real(dp), intent(in) :: off(:)       !! (n - 1)
-        integer, intent(out) :: negative
+        real(dp), intent(in) :: diagonal(:)               !! (n)
+        real(dp), intent(in) :: off(:)                    !! (n - 1)
+        integer, intent(out) :: negative                  !! how many
         type(error_t), allocatable, intent(out) :: error  !! shapes, NaN
         real(dp) :: lowest, d(size(diagonal)), e(size(diagonal))
         real(dp) :: values(size(diagonal)), work(4*size(diagonal))
@@ -294,10 +294,10 @@ contains
         !! The lowest eigenvalue of a symmetric tridiagonal matrix, and its eigenvector.
         !!
         !! Source: LAPACK Users' Guide, 3rd ed., sec. 2.4.4; `dstevx`.
-        real(dp), intent(in) :: diagonal(:)  !! (n), n > 0
-        real(dp), intent(in) :: off(:)       !! (n - 1)
-        real(dp), intent(out) :: value       !! zero after an error
-        real(dp), intent(out) :: vector(:)   !! (n), of length 1; zero after an error
+        real(dp), intent(in) :: diagonal(:)               !! (n), n > 0
+        real(dp), intent(in) :: off(:)                    !! (n - 1)
+        real(dp), intent(out) :: value                    !! zero after an error
+        real(dp), intent(out) :: vector(:)                !! (n), of length 1; zero after an error
         type(error_t), allocatable, intent(out) :: error  !! shapes, NaN
         real(dp) :: d(size(diagonal)), e(size(diagonal)), w(size(diagonal)), z(size(diagonal), 1)
         real(dp) :: work(5*size(diagonal))

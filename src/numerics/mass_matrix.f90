@@ -70,7 +70,7 @@ contains
 
     pure function list_of(x) result(text)
         !! The first four numbers of a state, as a message has them.
-        real(dp), intent(in) :: x(:)
+        real(dp), intent(in) :: x(:)  !! of any length
         character(:), allocatable :: text
         integer :: i
 

@@ -12,7 +12,7 @@ contains
         !! a series in \(h^2\).
         !!
         !! Source: Richardson & Gaunt, Phil. Trans. A 226, 299 (1927); Romberg's scheme.
-        real(dp), intent(in) :: values(:)
+        real(dp), intent(in) :: values(:)  !! in this order, one at least
         real(dp) :: limit
         real(dp) :: row(size(values))
         integer :: i, k

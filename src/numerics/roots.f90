@@ -26,7 +26,7 @@ module lagrangia_roots
             import :: scalar_function_t, dp
             implicit none (type, external)
             class(scalar_function_t), intent(inout) :: self
-            real(dp), intent(in) :: x
+            real(dp), intent(in) :: x  !! where it is wanted
             real(dp) :: y
         end function value_i
     end interface
@@ -37,10 +37,10 @@ contains
         !! The root of `f` in \([from, to]\), in either order, to two neighbours in the grid of
         !! numbers: `root` is the one on the side of `from`, where `f` has the sign of `f(from)`
         !! or is zero. Fails where the signs at the ends do not differ.
-        class(scalar_function_t), intent(inout) :: f
-        real(dp), intent(in) :: from, to
-        real(dp), intent(out) :: root
-        type(error_t), allocatable, intent(out) :: error
+        class(scalar_function_t), intent(inout) :: f      !! its `value` is called
+        real(dp), intent(in) :: from, to                  !! the ends
+        real(dp), intent(out) :: root                     !! `from` after an error
+        type(error_t), allocatable, intent(out) :: error  !! status 3: no change of sign
         real(dp) :: a, b, c, fa, fb, fc, least, share, side, x, y
         integer :: i
 

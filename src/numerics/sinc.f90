@@ -12,7 +12,7 @@ contains
 
     elemental function sinc(x) result(f)
         !! \(\sin x/x\), and 1 at 0.
-        real(dp), intent(in) :: x
+        real(dp), intent(in) :: x  !! any
         real(dp) :: f
 
         f = 1.0_dp
@@ -21,7 +21,7 @@ contains
 
     elemental function sinhc(x) result(f)
         !! \(\sinh x/x\), and 1 at 0.
-        real(dp), intent(in) :: x
+        real(dp), intent(in) :: x  !! any
         real(dp) :: f
 
         f = 1.0_dp
@@ -31,7 +31,7 @@ contains
     elemental function sinc_lag(x) result(f)
         !! \((x - \sin x)/x^2 = x/6 - x^3/120 + \dots\): the power series for \(|x| < 1\), where
         !! the difference cancels; its first term left out is \(x^{19}/21! < 2\cdot10^{-20}\).
-        real(dp), intent(in) :: x
+        real(dp), intent(in) :: x  !! any
         real(dp) :: f
         integer :: k
 

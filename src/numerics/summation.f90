@@ -12,8 +12,8 @@ contains
         !! place of `x`; exact but for the rounding of `low + term`.
         !!
         !! Source: Knuth, *The Art of Computer Programming*, vol. 2, 3rd ed., sec. 4.2.2, thm. B.
-        real(dp), intent(inout) :: x, low
-        real(dp), intent(in) :: term
+        real(dp), intent(inout) :: x, low  !! the number's two parts
+        real(dp), intent(in) :: term       !! any size
         real(dp) :: increment, total, taken
 
         increment = low + term
@@ -25,8 +25,8 @@ contains
 
     elemental subroutine add_pair(x, low, term, rest)
         !! Add `term + rest`, the product of a number and a sum `x + low` like this one.
-        real(dp), intent(inout) :: x, low
-        real(dp), intent(in) :: term, rest
+        real(dp), intent(inout) :: x, low   !! the number's two parts
+        real(dp), intent(in) :: term, rest  !! high and low part
 
         low = low + rest
         call add(x, low, term)

@@ -35,7 +35,7 @@ contains
         !! is empty.
         real(dp), intent(in) :: stiffness(:, :)           !! \(K\), symmetric, (n, n)
         real(dp), intent(in) :: inertia(:, :)             !! \(M\), positive definite, (n, n)
-        type(normal_modes_t), intent(out) :: modes
+        type(normal_modes_t), intent(out) :: modes        !! (n), ascending
         type(error_t), allocatable, intent(out) :: error  !! what is wrong with K or M
 
         call normal_modes(stiffness, inertia, modes%omega2, modes%shapes, error)
@@ -46,10 +46,10 @@ contains
 
     pure subroutine put_labels(vanishes, omega2, omega, label)
         !! A negative square is a growth rate; what `vanishes` becomes 0.
-        logical, intent(in) :: vanishes(:)
-        real(dp), intent(inout) :: omega2(:)
-        real(dp), allocatable, intent(out) :: omega(:)
-        integer, allocatable, intent(out) :: label(:)
+        logical, intent(in) :: vanishes(:)              !! (n): a zero mode
+        real(dp), intent(inout) :: omega2(:)            !! (n), s^-2; 0 of a zero mode
+        real(dp), allocatable, intent(out) :: omega(:)  !! (n), rad/s; NaN of an unstable mode
+        integer, allocatable, intent(out) :: label(:)   !! (n), which of the three
 
         label = merge(is_unstable, is_oscillation, omega2 < 0.0_dp)
         where (vanishes) label = is_zero_mode

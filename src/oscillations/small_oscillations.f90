@@ -3,7 +3,8 @@ module lagrangia_small_oscillations
     !!
     !! Linearised about an equilibrium, Lagrange's equations are
     !! \(M\ddot\delta + G\dot\delta + K\delta = 0\) with \(M = L_{vv}\), \(G = L_{vq} - L_{qv}\) and
-    !! \(K = -L_{qq}\): once from the page, once from the Lagrangian's exact second derivatives.
+    !! \(K = -L_{qq}\): once as derived by hand, once from exact second
+    !! derivatives of the Lagrangian.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_description, only: description_t, name_length
     use lagrangia_eigen, only: modes_from_factors, residual_ratio
@@ -28,9 +29,9 @@ module lagrangia_small_oscillations
 
     type, extends(normal_modes_t) :: modes_t
         real(dp), allocatable :: at(:)             !! the equilibrium
-        type(linearised_t) :: page                 !! as derived by hand, where it was
+        type(linearised_t) :: analytic                 !! as derived by hand, where it was
         real(dp), allocatable :: mass(:, :), stiffness(:, :), gyroscopic(:, :)  !! what was solved
-        real(dp) :: difference = -1.0_dp           !! of the page from L, relative; < 0: unknown
+        real(dp) :: difference = -1.0_dp           !! of `analytic` from L, relative; < 0: unknown
         real(dp), allocatable :: quadrature(:, :)  !! with \(G\): shape cos - quadrature sin
         real(dp) :: ratio = -1.0_dp                !! LAPACK's residual ratio
         character(40) :: method = ""
@@ -41,11 +42,12 @@ contains
     subroutine find_modes(system, start, wanted, modes, error)
         !! The modes about the equilibrium `start`; where that is only a guess (not `wanted`), about
         !! the nearest equilibrium. Fails (status 2) where there is none.
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: start(:)
-        logical, intent(in) :: wanted
-        type(modes_t), intent(out) :: modes
+        class(system_t), intent(in) :: system  !! configured
+        real(dp), intent(in) :: start(:)       !! (ndof)
+        logical, intent(in) :: wanted          !! a start that is no equilibrium is refused
+        type(modes_t), intent(out) :: modes    !! incomplete after an error
         type(error_t), allocatable, intent(out) :: error
+        !! status 2: no equilibrium; 4: mass matrix, LAPACK
         real(dp), dimension(system%ndof, system%ndof) :: m, k, g
 
         call check_system(system, start, error)
@@ -53,18 +55,18 @@ contains
         modes%at = start
         call settle(system, wanted, modes%at, error)
         if (allocated(error)) return
-        call system%linearise(modes%at, modes%page)
-        if (system%ndof <= largest_expansion .or. .not. allocated(modes%page%mass)) then
+        call system%linearise(modes%at, modes%analytic)
+        if (system%ndof <= largest_expansion .or. .not. allocated(modes%analytic%mass)) then
             call expand(system, modes%at, m, k, g)
-            if (allocated(modes%page%mass)) call compare(modes, m, k, g)
+            if (allocated(modes%analytic%mass)) call compare(modes, m, k, g)
         end if
-        if (allocated(modes%page%mass)) then
-            m = modes%page%mass
-            k = modes%page%stiffness
+        if (allocated(modes%analytic%mass)) then
+            m = modes%analytic%mass
+            k = modes%analytic%stiffness
             g = 0.0_dp
-            if (allocated(modes%page%gyroscopic)) g = modes%page%gyroscopic
+            if (allocated(modes%analytic%gyroscopic)) g = modes%analytic%gyroscopic
         end if
-        if (.not. allocated(modes%page%mass)) call check_mass_matrix(m, error)
+        if (.not. allocated(modes%analytic%mass)) call check_mass_matrix(m, error)
         if (allocated(error)) then
             call error%add_context("at q = "//list_of(modes%at)//", v = 0")
             return
@@ -74,9 +76,9 @@ contains
         modes%gyroscopic = g
         if (any(abs(g) > 0.0_dp)) then
             call solve_gyroscopic(modes, error)
-        else if (allocated(modes%page%root)) then
+        else if (allocated(modes%analytic%root)) then
             modes%method = "dgejsv on the factors of K and M"
-            call modes_from_factors(modes%page%root, modes%page%inverse, modes%omega2, &
+            call modes_from_factors(modes%analytic%root, modes%analytic%inverse, modes%omega2, &
                                     modes%shapes, error)
         else
             modes%method = merge("dsygv ", "dsygvd", system%ndof <= 32)
@@ -228,13 +230,14 @@ contains
     end subroutine expand
 
     pure subroutine compare(modes, m, k, g)
-        !! The page against the Lagrangian.
+        !! The derivation by hand against the Lagrangian.
         type(modes_t), intent(inout) :: modes
         real(dp), intent(in) :: m(:, :), k(:, :), g(:, :)
 
-        modes%difference = max(relative(modes%page%mass, m), relative(modes%page%stiffness, k))
-        if (allocated(modes%page%gyroscopic)) then
-            modes%difference = max(modes%difference, relative(modes%page%gyroscopic, g))
+        modes%difference = max(relative(modes%analytic%mass, m), &
+                               relative(modes%analytic%stiffness, k))
+        if (allocated(modes%analytic%gyroscopic)) then
+            modes%difference = max(modes%difference, relative(modes%analytic%gyroscopic, g))
         else
             modes%difference = max(modes%difference, relative(0.0_dp*g, g))
         end if
@@ -293,7 +296,7 @@ contains
                 vanishes(j) = .true.
                 free = free - 1
             end do
-        else if (allocated(modes%page%root)) then
+        else if (allocated(modes%analytic%root)) then
             vanishes = abs(modes%omega2) <= 0.0_dp
         else
             vanishes = zero_modes(modes%stiffness, modes%shapes)

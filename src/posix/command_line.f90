@@ -27,7 +27,7 @@ module lagrangia_command_line
         character(:), allocatable :: command              !! "" where there is none
         type(word_t), allocatable :: arguments(:)
         type(word_t), allocatable :: names(:), values(:)  !! of the options, in order
-        character(:), allocatable :: strange              !! the first option that is none, or ""
+        character(:), allocatable :: unknown_option       !! the first one that is none, or ""
     contains
         procedure :: has
         procedure :: value_of
@@ -68,7 +68,7 @@ contains
 
         named = .false.
         line%command = ""
-        line%strange = ""
+        line%unknown_option = ""
         allocate (line%arguments(0), line%names(0), line%values(0))
         literal = .false.
         i = 0
@@ -126,7 +126,7 @@ contains
             if (name == "--"//trim(options(k)%name)) exit
         end do
         if (k > size(options)) then
-            if (line%strange == "") line%strange = name
+            if (line%unknown_option == "") line%unknown_option = name
             return
         end if
         value = ""

@@ -31,7 +31,7 @@ contains
         real(dp), intent(in) :: t, q(system%ndof), v(system%ndof), a(system%ndof)
         type(point_motion_t), intent(out) :: motion
         type(description_t) :: d
-        type(hyperdual_t), allocatable :: x(:), held(:), u(:)
+        type(hyperdual_t), allocatable :: x(:), constraint_residual(:), u(:)
         type(hyperdual_t) :: tt, qq(system%ndof)
         integer :: j, n, points, rotors
 
@@ -77,8 +77,8 @@ contains
         allocate (u, source=hyperdual(motion%velocity))
         j = 0
         if (allocated(d%reactions)) j = size(d%reactions)
-        allocate (held(j))
-        call system%newton(tt, x, u, motion%force, held)
+        allocate (constraint_residual(j))
+        call system%newton(tt, x, u, motion%force, constraint_residual)
     end subroutine expand_points
 
     pure subroutine place(system, t, q, points, x)

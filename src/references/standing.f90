@@ -19,9 +19,9 @@ contains
 
     pure subroutine start_standing(self, title, q0)
         !! Stand at `q0`.
-        type(standing_t), intent(out) :: self
-        character(*), intent(in) :: title
-        real(dp), intent(in) :: q0(:)
+        type(standing_t), intent(out) :: self  !! as the system stands
+        character(*), intent(in) :: title      !! of the closed form
+        real(dp), intent(in) :: q0(:)          !! (ndof)
 
         self%title = title
         self%ndof = size(q0)
@@ -31,7 +31,7 @@ contains
     pure function near(angle, equilibrium)
         !! Equal to rounding. At an unstable equilibrium what is rounded away grows: the
         !! motion leaves it after some \(36/\lambda\), \(\lambda\) the growth rate.
-        real(dp), intent(in) :: angle, equilibrium
+        real(dp), intent(in) :: angle, equilibrium  !! rad
         logical :: near
 
         near = abs(angle - equilibrium) <= 4.0_dp*epsilon(1.0_dp)*max(1.0_dp, abs(angle))
@@ -39,7 +39,7 @@ contains
 
     pure function half_turns(angle) result(nearest)
         !! The multiple of \(\pi\) that is nearest to `angle`: bottom or top.
-        real(dp), intent(in) :: angle
+        real(dp), intent(in) :: angle  !! rad
         real(dp) :: nearest
 
         nearest = pi*anint(angle/pi)

@@ -18,9 +18,9 @@ contains
 
     pure subroutine start_uniform_acceleration(self, title, t0, q0, v0, a)
         !! Through `(q0, v0)` at `t0` with the accelerations `a`.
-        type(uniform_acceleration_t), intent(out) :: self
-        character(*), intent(in) :: title
-        real(dp), intent(in) :: t0, q0(:), v0(:), a(:)
+        type(uniform_acceleration_t), intent(out) :: self  !! the motion
+        character(*), intent(in) :: title  !! of the closed form
+        real(dp), intent(in) :: t0, q0(:), v0(:), a(:)  !! s; state and accelerations, (ndof) each
 
         self%title = title
         self%ndof = size(q0)

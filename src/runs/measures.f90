@@ -80,9 +80,9 @@ contains
         do j = 1, size(modes%omega2)
             if (modes%label(j) /= is_oscillation) cycle
             if (outcome%omega <= 0.0_dp) outcome%omega = sqrt(modes%omega2(j))
-            if (.not. allocated(modes%page%omega2)) cycle
+            if (.not. allocated(modes%analytic%omega2)) cycle
             outcome%omega_error = max(outcome%omega_error, &
-                                      abs(sqrt(modes%page%omega2(j)/modes%omega2(j)) - 1.0_dp))
+                                      abs(sqrt(modes%analytic%omega2(j)/modes%omega2(j)) - 1.0_dp))
         end do
     end subroutine take_modes
 end module lagrangia_measures

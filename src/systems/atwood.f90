@@ -3,7 +3,7 @@ module lagrangia_atwood
     !!
     !! Source: Hamilton's Principle, case I. The notes write \((m_1+m_2)\,d\dot x^2/dt^2\) for
     !! \((m_1+m_2)\,\ddot x\). The pulley's inertia \(I\) and the support's upward acceleration
-    !! \(a_s\), both zero on the page, are added: \(a_s\) makes the constraint rheonomic.
+    !! \(a_s\), both zero in the notes, are added: \(a_s\) makes the constraint rheonomic.
     use lagrangia_description, only: conserved, coordinate, description_t, nonnegative, number, &
                                      point, positive, quantity
     use lagrangia_errors, only: error_t
@@ -240,30 +240,30 @@ contains
         phi(1) = (1.0_dp/self%radius)*q(1)
     end subroutine angles
 
-    pure subroutine newton(self, t, x, u, force, held)
+    pure subroutine newton(self, t, x, u, force, constraint_residual)
         !! Gravity on both masses; each string from the pulley with its axle at \(a_s t^2/2\).
         class(atwood_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, x(:), u(:)
         real(dp), intent(out) :: force(:)
-        type(hyperdual_t), intent(out) :: held(:)
+        type(hyperdual_t), intent(out) :: constraint_residual(:)
         type(hyperdual_t) :: axle
 
         force = 0.0_dp
         force(2) = -self%m1*self%g
         force(5) = -self%m2*self%g
         axle = 0.5_dp*self%support_acceleration*t**2
-        held(1) = x(2) - axle + self%radius*x(7)
-        held(2) = x(5) - axle - self%radius*x(7)
+        constraint_residual(1) = x(2) - axle + self%radius*x(7)
+        constraint_residual(2) = x(5) - axle - self%radius*x(7)
     end subroutine newton
 
-    pure subroutine linearise(self, q, page)
+    pure subroutine linearise(self, q, analytic)
         !! \(M = m_1 + m_2 + I/R^2\), \(K = 0\): balanced, it stays anywhere.
         class(atwood_t), intent(in) :: self
         real(dp), intent(in) :: q(self%ndof)
-        type(linearised_t), intent(out) :: page
+        type(linearised_t), intent(out) :: analytic
 
-        page%mass = reshape([self%m1 + self%m2 + self%pulley_inertia/self%radius**2], [1, 1])
-        page%stiffness = reshape([0.0_dp], [1, 1])
-        page%omega2 = [0.0_dp]
+        analytic%mass = reshape([self%m1 + self%m2 + self%pulley_inertia/self%radius**2], [1, 1])
+        analytic%stiffness = reshape([0.0_dp], [1, 1])
+        analytic%omega2 = [0.0_dp]
     end subroutine linearise
 end module lagrangia_atwood

@@ -190,14 +190,14 @@ contains
         r(2, 1) = q(1)
     end subroutine positions
 
-    pure subroutine newton(self, t, x, u, force, held)
+    pure subroutine newton(self, t, x, u, force, constraint_residual)
         !! Gravity; in flight nothing holds the ball.
         class(bouncing_ball_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, x(:), u(:)
         real(dp), intent(out) :: force(:)
-        type(hyperdual_t), intent(out) :: held(:)
+        type(hyperdual_t), intent(out) :: constraint_residual(:)
 
-        held = hyperdual_t()
+        constraint_residual = hyperdual_t()
         force = 0.0_dp
         force(2) = -self%m*self%g
     end subroutine newton

@@ -246,41 +246,41 @@ contains
         end associate
     end subroutine accelerations_lanes
 
-    pure subroutine linearise(self, q, page)
+    pure subroutine linearise(self, q, analytic)
         !! At rest \(M = (m_1+m_2, m_2\ell; m_2\ell, m_2\ell^2)\), \(K = (0, 0; 0, m_2g\ell)\),
         !! \(\omega^2 = 0, (m_1+m_2)g/(m_1\ell)\). Upside down \(\theta\) and \(g\) change sign.
         class(cart_pendulum_t), intent(in) :: self
         real(dp), intent(in) :: q(self%ndof)
-        type(linearised_t), intent(out) :: page
-        real(dp) :: way, w2
+        type(linearised_t), intent(out) :: analytic
+        real(dp) :: orientation, w2
 
         associate (m1 => self%m1, m2 => self%m2, l => self%l, g => self%g)
-            way = sign(1.0_dp, cos(q(2)))
-            page%mass = reshape([m1 + m2, way*m2*l, way*m2*l, m2*l**2], [2, 2])
-            page%stiffness = reshape([0.0_dp, 0.0_dp, 0.0_dp, way*m2*g*l], [2, 2])
-            w2 = way*(m1 + m2)*g/(m1*l)
-            page%omega2 = [min(0.0_dp, w2), max(0.0_dp, w2)]
-            if (way < 0.0_dp) return
-            page%root = reshape([0.0_dp, sqrt(m2*g*l)], [1, 2])
-            page%inverse = reshape([1.0_dp/sqrt(m1), -1.0_dp/(sqrt(m1)*l), &
+            orientation = sign(1.0_dp, cos(q(2)))
+            analytic%mass = reshape([m1 + m2, orientation*m2*l, orientation*m2*l, m2*l**2], [2, 2])
+            analytic%stiffness = reshape([0.0_dp, 0.0_dp, 0.0_dp, orientation*m2*g*l], [2, 2])
+            w2 = orientation*(m1 + m2)*g/(m1*l)
+            analytic%omega2 = [min(0.0_dp, w2), max(0.0_dp, w2)]
+            if (orientation < 0.0_dp) return
+            analytic%root = reshape([0.0_dp, sqrt(m2*g*l)], [1, 2])
+            analytic%inverse = reshape([1.0_dp/sqrt(m1), -1.0_dp/(sqrt(m1)*l), &
                                     0.0_dp, 1.0_dp/(sqrt(m2)*l)], [2, 2])
         end associate
     end subroutine linearise
 
-    pure subroutine newton(self, t, x, u, force, held)
+    pure subroutine newton(self, t, x, u, force, constraint_residual)
         !! Gravity on both; the track under the cart; the rod.
         class(cart_pendulum_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, x(:), u(:)
         real(dp), intent(out) :: force(:)
-        type(hyperdual_t), intent(out) :: held(:)
+        type(hyperdual_t), intent(out) :: constraint_residual(:)
         type(hyperdual_t) :: rod(3)
 
         force = 0.0_dp
         force(2) = -self%m1*self%g
         force(5) = -self%m2*self%g
         rod = x(4:6) - x(1:3)
-        held(1) = x(2)
-        held(2) = 0.5_dp/self%l*(self%l**2 - dot_product(rod, rod))
+        constraint_residual(1) = x(2)
+        constraint_residual(2) = 0.5_dp/self%l*(self%l**2 - dot_product(rod, rod))
     end subroutine newton
 
     subroutine reduce(self, reduced)

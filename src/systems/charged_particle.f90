@@ -21,11 +21,11 @@ module lagrangia_charged_particle
 
     type, extends(gyrating_system_t) :: charged_particle_t
         !! The coordinates are \(x\), \(y\), \(z\), m, from the centre of the trap.
-        real(dp) :: m = 1.0_dp                                  !! kg
-        real(dp) :: charge = 1.0_dp                             !! e, C
-        real(dp) :: electric(3) = [0.2_dp, 0.1_dp, 0.0_dp]      !! E, V/m
-        real(dp) :: magnetic(3) = [0.0_dp, 0.0_dp, 1.0_dp]      !! B, T
-        real(dp) :: trap = 0.0_dp                               !! isotropic, N/m
+        real(dp) :: m = 1.0_dp                              !! kg
+        real(dp) :: charge = 1.0_dp                         !! e, C
+        real(dp) :: electric(3) = [0.2_dp, 0.1_dp, 0.0_dp]  !! E, V/m
+        real(dp) :: magnetic(3) = [0.0_dp, 0.0_dp, 1.0_dp]  !! B, T
+        real(dp) :: trap = 0.0_dp                           !! isotropic, N/m
     contains
         procedure :: describe
         procedure :: configure
@@ -143,7 +143,7 @@ contains
     pure function is_cyclic(self, i) result(cyclic)
         !! \(L\) does not contain coordinate `i`: no trap, no field along it, B only along it.
         class(charged_particle_t), intent(in) :: self
-        integer, intent(in) :: i
+        integer, intent(in) :: i  !! 1, 2, 3: x, y, z
         logical :: cyclic
         real(dp) :: b(3)
 
@@ -281,40 +281,40 @@ contains
         end associate
     end subroutine accelerations_lanes
 
-    pure subroutine linearise(self, q, page)
+    pure subroutine linearise(self, q, analytic)
         !! In the trap: \(M = m\), \(K\) = trap, \(G\dot r = eB\times\dot r\); with
         !! \(\omega_0^2\) = trap/m and \(\omega_c = e|B|/m\) the frequencies are \(\omega_0\) and
         !! \(\sqrt{\omega_0^2 + \omega_c^2/4} \pm \omega_c/2\).
         class(charged_particle_t), intent(in) :: self
         real(dp), intent(in) :: q(self%ndof)
-        type(linearised_t), intent(out) :: page
+        type(linearised_t), intent(out) :: analytic
         real(dp), parameter :: unit(3, 3) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, &
                                                      0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp], [3, 3])
         real(dp) :: w2, fast
         integer :: i
 
-        page%mass = self%m*unit
-        page%stiffness = self%trap*unit
-        allocate (page%gyroscopic(3, 3))
+        analytic%mass = self%m*unit
+        analytic%stiffness = self%trap*unit
+        allocate (analytic%gyroscopic(3, 3))
         do i = 1, 3
-            page%gyroscopic(:, i) = self%charge*cross(self%magnetic, unit(:, i))
+            analytic%gyroscopic(:, i) = self%charge*cross(self%magnetic, unit(:, i))
         end do
         w2 = self%trap/self%m
         fast = 0.5_dp*abs(self%charge/self%m)*length(self%magnetic)
         fast = fast + hypot(sqrt(w2), fast)
-        page%omega2 = [0.0_dp, w2, fast**2]
-        if (fast > 0.0_dp) page%omega2(1) = (w2/fast)**2
+        analytic%omega2 = [0.0_dp, w2, fast**2]
+        if (fast > 0.0_dp) analytic%omega2(1) = (w2/fast)**2
     end subroutine linearise
 
-    pure subroutine newton(self, t, x, u, force, held)
+    pure subroutine newton(self, t, x, u, force, constraint_residual)
         !! $$ F = e\,(E + v\times B) - kr $$ Nothing holds the particle.
         class(charged_particle_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, x(:), u(:)
         real(dp), intent(out) :: force(:)
-        type(hyperdual_t), intent(out) :: held(:)
+        type(hyperdual_t), intent(out) :: constraint_residual(:)
         real(dp) :: velocity(3)
 
-        held = hyperdual_t()
+        constraint_residual = hyperdual_t()
         velocity = u%re
         force = self%charge*(self%electric + cross(velocity, self%magnetic)) - self%trap*x%re
     end subroutine newton

@@ -55,14 +55,14 @@ module lagrangia_description
         type(point_t), allocatable :: points(:)
         type(point_t), allocatable :: rotors(:)        !! what turns besides, "mass" in kg m^2
         type(quantity_t), allocatable :: reactions(:)  !! of `newton`; none: it is not given
-        integer :: dimensions = 2                     !! of the space that the points move in
-        real(dp) :: energy_scale = 0.0_dp             !! J
-        character(line_length) :: energy = ""         !! its formula
+        integer :: dimensions = 2                      !! of the space that the points move in
+        real(dp) :: energy_scale = 0.0_dp              !! J
+        character(line_length) :: energy = ""          !! its formula
         character(line_length), allocatable :: lagrangian(:)
         character(line_length), allocatable :: equations(:)
-        character(line_length) :: constraint = ""     !! class and equation of its constraints
+        character(line_length) :: constraint = ""        !! class and equation of its constraints
         character(line_length), allocatable :: notes(:)  !! slips corrected, limits, remarks
-        character(line_length) :: source = ""         !! where in the lecture notes
+        character(line_length) :: source = ""            !! where in the lecture notes
     end type description_t
 
 contains
@@ -70,6 +70,7 @@ contains
     pure function coordinate(name, unit, meaning) result(item)
         !! A generalised coordinate.
         character(*), intent(in) :: name, unit, meaning
+        !! as scenes and files have it; SI unit; a few words
         type(quantity_t) :: item
 
         item = quantity(name, unit, meaning)
@@ -78,6 +79,7 @@ contains
     pure function quantity(name, unit, meaning) result(item)
         !! A function of the state that may change.
         character(*), intent(in) :: name, unit, meaning
+        !! as scenes and files have it; SI unit; a few words
         type(quantity_t) :: item
 
         item%name = name
@@ -88,6 +90,7 @@ contains
     pure function conserved(name, unit, meaning, scale) result(item)
         !! A function of the state that the motion conserves.
         character(*), intent(in) :: name, unit, meaning
+        !! as scenes and files have it; SI unit; a few words
         real(dp), intent(in) :: scale  !! a natural size, from the parameters
         type(quantity_t) :: item
 
@@ -99,7 +102,8 @@ contains
     pure function number(name, unit, meaning, value) result(item)
         !! A parameter that may be any finite number.
         character(*), intent(in) :: name, unit, meaning
-        real(dp), intent(in) :: value
+        !! as scenes and files have it; SI unit; a few words
+        real(dp), intent(in) :: value  !! the default, in `unit`
         type(parameter_t) :: item
 
         item%name = name
@@ -111,8 +115,10 @@ contains
     pure function positive(name, unit, meaning, value, computed) result(item)
         !! A parameter that must be greater than zero.
         character(*), intent(in) :: name, unit, meaning
-        real(dp), intent(in) :: value
+        !! as scenes and files have it; SI unit; a few words
+        real(dp), intent(in) :: value  !! the default, in `unit`
         character(*), intent(in), optional :: computed
+        !! formula of the default, where others determine it
         type(parameter_t) :: item
 
         item = nonnegative(name, unit, meaning, value, computed)
@@ -122,8 +128,10 @@ contains
     pure function nonnegative(name, unit, meaning, value, computed) result(item)
         !! A parameter that must not be negative.
         character(*), intent(in) :: name, unit, meaning
-        real(dp), intent(in) :: value
+        !! as scenes and files have it; SI unit; a few words
+        real(dp), intent(in) :: value  !! the default, in `unit`
         character(*), intent(in), optional :: computed
+        !! formula of the default, where others determine it
         type(parameter_t) :: item
 
         item = number(name, unit, meaning, value)
@@ -134,7 +142,8 @@ contains
     pure function between(name, unit, meaning, value, lower, upper) result(item)
         !! A parameter from `lower` to `upper`, both allowed.
         character(*), intent(in) :: name, unit, meaning
-        real(dp), intent(in) :: value, lower, upper
+        !! as scenes and files have it; SI unit; a few words
+        real(dp), intent(in) :: value, lower, upper  !! the default, and its bounds, in `unit`
         type(parameter_t) :: item
 
         item = number(name, unit, meaning, value)
@@ -144,8 +153,8 @@ contains
 
     pure function count_of(name, meaning, value, most) result(item)
         !! A parameter that must be a whole number from 1 to `most`.
-        character(*), intent(in) :: name, meaning
-        integer, intent(in) :: value, most
+        character(*), intent(in) :: name, meaning  !! as scenes have it; a few words
+        integer, intent(in) :: value, most         !! the default, and the largest allowed
         type(parameter_t) :: item
 
         item = between(name, "1", meaning, real(value, dp), 1.0_dp, real(most, dp))
@@ -155,7 +164,8 @@ contains
     pure function vector(name, unit, meaning, value) result(item)
         !! A parameter of three components.
         character(*), intent(in) :: name, unit, meaning
-        real(dp), intent(in) :: value(3)
+        !! as scenes and files have it; SI unit; a few words
+        real(dp), intent(in) :: value(3)  !! the default, in `unit`
         type(parameter_t) :: item
 
         item = number(name, unit, meaning, 0.0_dp)
@@ -165,8 +175,8 @@ contains
 
     pure function point(name, mass) result(item)
         !! A point of mass `mass`, kg.
-        character(*), intent(in) :: name
-        real(dp), intent(in) :: mass
+        character(*), intent(in) :: name  !! as columns have it
+        real(dp), intent(in) :: mass      !! kg; of a rotor its moment of inertia, kg m^2
         type(point_t) :: item
 
         item%name = name
@@ -204,8 +214,9 @@ contains
 
     pure subroutine check_parameter(p, error)
         !! Refuse a parameter whose value is outside its domain or not finite.
-        type(parameter_t), intent(in) :: p
+        type(parameter_t), intent(in) :: p  !! with its value and what is allowed
         type(error_t), allocatable, intent(out) :: error
+        !! status 2: names it, its value and its domain
         logical :: good
         integer :: i
 
@@ -228,7 +239,7 @@ contains
 
     pure function default_values(d) result(values)
         !! The parameters of a description as the flat list that `configure` takes.
-        type(description_t), intent(in) :: d
+        type(description_t), intent(in) :: d  !! of a fresh system
         real(dp), allocatable :: values(:)
         integer :: i
 

@@ -270,55 +270,57 @@ contains
         end associate
     end subroutine accelerations_lanes
 
-    pure subroutine linearise(self, q, page)
+    pure subroutine linearise(self, q, analytic)
         !! \(M = ((m_1+m_2)\ell_1^2, m_2\ell_1\ell_2; m_2\ell_1\ell_2, m_2\ell_2^2)\) and
         !! \(K = \mathrm{diag}((m_1+m_2)g\ell_1, m_2g\ell_2)\), with signs where a rod stands on its
         !! head. With \(p = 1+m_2/m_1\) the sum of \(\omega^2\) is \(\pm pg/\ell_1 \pm pg/\ell_2\),
         !! the product \(\pm pg^2/(\ell_1\ell_2)\): the root that does not cancel gives the other.
         class(double_pendulum_t), intent(in) :: self
         real(dp), intent(in) :: q(self%ndof)
-        type(linearised_t), intent(out) :: page
-        real(dp) :: way(2), a, b, c, w2(2)
+        type(linearised_t), intent(out) :: analytic
+        real(dp) :: orientation(2), a, b, c, w2(2)
 
         associate (m1 => self%m1, m2 => self%m2, l1 => self%l1, l2 => self%l2, g => self%g)
-            way = sign(1.0_dp, cos(q))
-            c = m2*l1*l2*way(1)*way(2)
-            page%mass = reshape([(m1 + m2)*l1**2, c, c, m2*l2**2], [2, 2])
-            a = (m1 + m2)*g*l1*way(1)
-            page%stiffness = reshape([a, 0.0_dp, 0.0_dp, m2*g*l2*way(2)], [2, 2])
+            orientation = sign(1.0_dp, cos(q))
+            c = m2*l1*l2*orientation(1)*orientation(2)
+            analytic%mass = reshape([(m1 + m2)*l1**2, c, c, m2*l2**2], [2, 2])
+            a = (m1 + m2)*g*l1*orientation(1)
+            analytic%stiffness = reshape([a, 0.0_dp, 0.0_dp, m2*g*l2*orientation(2)], [2, 2])
             a = (1.0_dp + m2/m1)*g/l1
             b = g/l2
             c = (1.0_dp + m2/m1)*g/l2
-            if (way(1)*way(2) > 0.0_dp) then
+            if (orientation(1)*orientation(2) > 0.0_dp) then
                 ! (a + c)^2 - 4 a b = (a - c)^2 + 4 a (c - b), and c - b = (m2/m1) g/l2
                 w2(2) = 0.5_dp*(a + c + hypot(a - c, 2.0_dp*sqrt(a*(m2/m1)*b)))
             else
                 w2(2) = 0.5_dp*(abs(a - c) + hypot(a - c, 2.0_dp*sqrt(a*b)))
             end if
-            w2(1) = way(1)*way(2)*b*(a/max(w2(2), tiny(a)))
-            page%omega2 = [minval(w2), maxval(w2)]
-            if (way(1)*a + way(2)*c < 0.0_dp) page%omega2 = [-maxval(w2), -minval(w2)]
-            if (any(way < 0.0_dp)) return
-            page%root = reshape([sqrt((m1 + m2)*g*l1), 0.0_dp, 0.0_dp, sqrt(m2*g*l2)], [2, 2])
-            page%inverse = reshape([1.0_dp/(sqrt(m1)*l1), -1.0_dp/(sqrt(m1)*l2), &
+            w2(1) = orientation(1)*orientation(2)*b*(a/max(w2(2), tiny(a)))
+            analytic%omega2 = [minval(w2), maxval(w2)]
+            if (orientation(1)*a + orientation(2)*c < 0.0_dp) then
+                analytic%omega2 = [-maxval(w2), -minval(w2)]
+            end if
+            if (any(orientation < 0.0_dp)) return
+            analytic%root = reshape([sqrt((m1 + m2)*g*l1), 0.0_dp, 0.0_dp, sqrt(m2*g*l2)], [2, 2])
+            analytic%inverse = reshape([1.0_dp/(sqrt(m1)*l1), -1.0_dp/(sqrt(m1)*l2), &
                                     0.0_dp, 1.0_dp/(sqrt(m2)*l2)], [2, 2])
         end associate
     end subroutine linearise
 
-    pure subroutine newton(self, t, x, u, force, held)
+    pure subroutine newton(self, t, x, u, force, constraint_residual)
         !! Gravity; the rods, \((\ell_1^2 - r_1^2)/2\ell_1 = 0\) and
         !! \((\ell_2^2 - (r_2-r_1)^2)/2\ell_2 = 0\).
         class(double_pendulum_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, x(:), u(:)
         real(dp), intent(out) :: force(:)
-        type(hyperdual_t), intent(out) :: held(:)
+        type(hyperdual_t), intent(out) :: constraint_residual(:)
         type(hyperdual_t) :: rod(3)
 
         force = 0.0_dp
         force(2) = -self%m1*self%g
         force(5) = -self%m2*self%g
         rod = x(4:6) - x(1:3)
-        held(1) = 0.5_dp/self%l1*(self%l1**2 - dot_product(x(1:3), x(1:3)))
-        held(2) = 0.5_dp/self%l2*(self%l2**2 - dot_product(rod, rod))
+        constraint_residual(1) = 0.5_dp/self%l1*(self%l1**2 - dot_product(x(1:3), x(1:3)))
+        constraint_residual(2) = 0.5_dp/self%l2*(self%l2**2 - dot_product(rod, rod))
     end subroutine newton
 end module lagrangia_double_pendulum

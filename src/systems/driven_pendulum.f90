@@ -229,30 +229,30 @@ contains
         end associate
     end subroutine accelerations_lanes
 
-    pure subroutine newton(self, t, x, u, force, held)
+    pure subroutine newton(self, t, x, u, force, constraint_residual)
         !! Gravity; the rod from the moving pivot, \((\ell^2 - x^2 - (y - y_p)^2)/2\ell = 0\).
         class(driven_pendulum_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, x(:), u(:)
         real(dp), intent(out) :: force(:)
-        type(hyperdual_t), intent(out) :: held(:)
+        type(hyperdual_t), intent(out) :: constraint_residual(:)
         type(hyperdual_t) :: y
 
         force = 0.0_dp
         force(2) = -self%m*self%g
         y = x(2) - self%amplitude*cos(self%drive_frequency*t)
-        held(1) = 0.5_dp/self%l*(self%l**2 - x(1)**2 - y**2)
+        constraint_residual(1) = 0.5_dp/self%l*(self%l**2 - x(1)**2 - y**2)
     end subroutine newton
 
-    pure subroutine linearise(self, q, page)
+    pure subroutine linearise(self, q, analytic)
         !! The pivot at rest: \(M = m\ell^2\), \(K = \pm mg\ell\).
         class(driven_pendulum_t), intent(in) :: self
         real(dp), intent(in) :: q(self%ndof)
-        type(linearised_t), intent(out) :: page
-        real(dp) :: way
+        type(linearised_t), intent(out) :: analytic
+        real(dp) :: orientation
 
-        way = sign(1.0_dp, cos(q(1)))
-        page%mass = reshape([self%m*self%l**2], [1, 1])
-        page%stiffness = reshape([way*self%m*self%g*self%l], [1, 1])
-        page%omega2 = [way*self%g/self%l]
+        orientation = sign(1.0_dp, cos(q(1)))
+        analytic%mass = reshape([self%m*self%l**2], [1, 1])
+        analytic%stiffness = reshape([orientation*self%m*self%g*self%l], [1, 1])
+        analytic%omega2 = [orientation*self%g/self%l]
     end subroutine linearise
 end module lagrangia_driven_pendulum

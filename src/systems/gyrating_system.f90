@@ -20,7 +20,7 @@ module lagrangia_gyrating_system
             import :: gyrating_system_t, dp
             implicit none (type, external)
             class(gyrating_system_t), intent(in) :: self
-            real(dp), intent(in) :: t, q(3)
+            real(dp), intent(in) :: t, q(3)    !! time, s; position, m
             real(dp), intent(out) :: a(3)      !! m s^-2
             real(dp), intent(out) :: omega(3)  !! rad s^-1
         end subroutine split_accelerations_i

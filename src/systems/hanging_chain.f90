@@ -264,12 +264,12 @@ contains
         end associate
     end subroutine positions
 
-    pure subroutine newton(self, t, x, u, force, held)
+    pure subroutine newton(self, t, x, u, force, constraint_residual)
         !! Gravity; each rod, \((\ell^2 - (\mathbf r_k - \mathbf r_{k-1})^2)/2\ell = 0\).
         class(hanging_chain_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, x(:), u(:)
         real(dp), intent(out) :: force(:)
-        type(hyperdual_t), intent(out) :: held(:)
+        type(hyperdual_t), intent(out) :: constraint_residual(:)
         type(hyperdual_t) :: rod(3)
         integer :: k
 
@@ -279,41 +279,41 @@ contains
             do k = 1, self%n
                 rod = x(3*k - 2:3*k)
                 if (k > 1) rod = rod - x(3*k - 5:3*k - 3)
-                held(k) = 0.5_dp/l*(l**2 - dot_product(rod, rod))
+                constraint_residual(k) = 0.5_dp/l*(l**2 - dot_product(rod, rod))
             end do
         end associate
     end subroutine newton
 
-    pure subroutine linearise(self, q, page)
+    pure subroutine linearise(self, q, analytic)
         !! \(M_{ij} = m\ell^2\,(n + 1 - \max(i, j))\), \(K_{ii} = mg\ell\,(n + 1 - i)\), with signs
         !! where a rod stands on its head. Hanging, \(W\) takes differences of neighbours, and
         !! \(SW(SW)^\top\) is \(g/\ell\) times the Jacobi matrix of Laguerre's polynomials.
         class(hanging_chain_t), intent(in) :: self
         real(dp), intent(in) :: q(self%ndof)
-        type(linearised_t), intent(out) :: page
-        real(dp) :: way(self%ndof)
+        type(linearised_t), intent(out) :: analytic
+        real(dp) :: orientation(self%ndof)
         integer :: i, j
 
         associate (n => self%n, m => self%m, g => self%g, l => self%l/self%n)
-            way = sign(1.0_dp, cos(q))
-            allocate (page%mass(n, n), page%stiffness(n, n))
-            page%stiffness = 0.0_dp
+            orientation = sign(1.0_dp, cos(q))
+            allocate (analytic%mass(n, n), analytic%stiffness(n, n))
+            analytic%stiffness = 0.0_dp
             do j = 1, n
                 do i = 1, n
-                    page%mass(i, j) = m*l**2*(n + 1 - max(i, j))*way(i)*way(j)
+                    analytic%mass(i, j) = m*l**2*(n + 1 - max(i, j))*orientation(i)*orientation(j)
                 end do
-                page%stiffness(j, j) = m*g*l*(n + 1 - j)*way(j)
+                analytic%stiffness(j, j) = m*g*l*(n + 1 - j)*orientation(j)
             end do
-            if (any(way < 0.0_dp)) return
-            allocate (page%root(n, n), page%inverse(n, n))
-            page%root = 0.0_dp
-            page%inverse = 0.0_dp
+            if (any(orientation < 0.0_dp)) return
+            allocate (analytic%root(n, n), analytic%inverse(n, n))
+            analytic%root = 0.0_dp
+            analytic%inverse = 0.0_dp
             do j = 1, n
-                page%root(j, j) = sqrt(m*g*l)*sqrt(real(n + 1 - j, dp))
-                page%inverse(j, j) = 1.0_dp/(sqrt(m)*l)
-                if (j < n) page%inverse(j + 1, j) = -page%inverse(j, j)
+                analytic%root(j, j) = sqrt(m*g*l)*sqrt(real(n + 1 - j, dp))
+                analytic%inverse(j, j) = 1.0_dp/(sqrt(m)*l)
+                if (j < n) analytic%inverse(j + 1, j) = -analytic%inverse(j, j)
             end do
-            page%omega2 = g/l*laguerre_zeros(n)
+            analytic%omega2 = g/l*laguerre_zeros(n)
         end associate
     end subroutine linearise
 end module lagrangia_hanging_chain

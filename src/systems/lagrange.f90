@@ -23,18 +23,18 @@ module lagrangia_lagrange
         !! The Lagrangian's derivatives at one state.
         real(dp) :: l = 0.0_dp
         real(dp) :: dl_dt = 0.0_dp
-        real(dp), allocatable :: dl_dq(:), dl_dv(:)        !! generalised force and momentum
-        real(dp), allocatable :: mass(:, :)                !! \(\partial^2L/\partial v\partial v\)
-        real(dp), allocatable :: force(:)                  !! right-hand side of \(M\ddot q\)
+        real(dp), allocatable :: dl_dq(:), dl_dv(:)  !! generalised force and momentum
+        real(dp), allocatable :: mass(:, :)          !! \(\partial^2L/\partial v\partial v\)
+        real(dp), allocatable :: force(:)            !! right-hand side of \(M\ddot q\)
     end type euler_lagrange_t
 
 contains
 
     pure subroutine expand_lagrangian(system, t, q, v, terms)
         !! All first derivatives of `L` and the second ones that the equations of motion need.
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
-        type(euler_lagrange_t), intent(out) :: terms
+        class(system_t), intent(in) :: system                      !! gives L
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)  !! time, s; state
+        type(euler_lagrange_t), intent(out) :: terms               !! the derivatives, allocated
         type(hyperdual_t) :: tt, qq(system%ndof), vv(system%ndof), l
         integer :: i, j, n
 
@@ -76,11 +76,11 @@ contains
     pure subroutine equations_of_motion(system, t, q, v, terms, matrix, right)
         !! Lagrange's equations and the rates of the non-holonomic constraints as one linear
         !! system for \((\ddot q, \lambda)\), `n` coordinates and `k` constraints.
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
-        type(euler_lagrange_t), intent(in) :: terms  !! of L at this state
-        real(dp), intent(out) :: matrix(:, :)        !! (n + k, n + k)
-        real(dp), intent(out) :: right(:)            !! (n + k)
+        class(system_t), intent(in) :: system                      !! gives L
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)  !! time, s; state
+        type(euler_lagrange_t), intent(in) :: terms                !! of L at this state
+        real(dp), intent(out) :: matrix(:, :)                      !! (n + k, n + k)
+        real(dp), intent(out) :: right(:)                          !! (n + k)
         type(hyperdual_t) :: tt, qq(system%ndof)
         type(hyperdual_t) :: rows(system%constraints, system%ndof), drift(system%constraints)
         real(dp) :: rate(system%constraints, system%ndof)
@@ -104,10 +104,12 @@ contains
 
     pure subroutine accelerations_from_lagrangian(system, t, q, v, a, multipliers, error)
         !! Accelerations, and the multipliers \(\lambda\) of the non-holonomic constraints.
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        class(system_t), intent(in) :: system                      !! gives L
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)  !! time, s; state
         real(dp), intent(out) :: a(system%ndof), multipliers(system%constraints)
+        !! zero after an error
         type(error_t), allocatable, intent(out) :: error
+        !! status 4: the equations cannot be solved for them
         type(euler_lagrange_t) :: terms
         real(dp), dimension(system%ndof + system%constraints, &
                             system%ndof + system%constraints) :: matrix
@@ -125,8 +127,8 @@ contains
 
     pure function energy_from_lagrangian(system, t, q, v) result(energy)
         !! \(\dot q\,\partial L/\partial\dot q - L\).
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        class(system_t), intent(in) :: system                      !! gives L
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)  !! time, s; state
         real(dp) :: energy
         type(euler_lagrange_t) :: terms
 

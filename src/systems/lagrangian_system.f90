@@ -39,7 +39,7 @@ module lagrangia_lagrangian_system
             import :: lagrangian_system_t, description_t
             implicit none (type, external)
             class(lagrangian_system_t), intent(in) :: self
-            type(description_t), intent(out) :: d
+            type(description_t), intent(out) :: d  !! as far as you fill it in
         end subroutine outline_i
     end interface
 
@@ -49,8 +49,8 @@ contains
         !! Value `i` of the parameters, for what `outline` makes of them (the mass of a point,
         !! the scale of a drift); the default as long as none was given.
         class(lagrangian_system_t), intent(in) :: self
-        integer, intent(in) :: i
-        real(dp), intent(in) :: default
+        integer, intent(in) :: i  !! in the order of `outline`; of a vector each component counts
+        real(dp), intent(in) :: default  !! that of `outline`
         real(dp) :: value
 
         value = default

@@ -1,12 +1,12 @@
 module lagrangia_linearised
-    !! What the page says of the small oscillations about an equilibrium: plain data.
+    !! The small oscillations about an equilibrium as derived by hand: plain data.
     use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
     public :: linearised_t
 
     type :: linearised_t
-        !! \(M\ddot\delta + G\dot\delta + K\delta = 0\). What the page omits is not allocated.
+        !! \(M\ddot\delta + G\dot\delta + K\delta = 0\). What is not derived is not allocated.
         real(dp), allocatable :: mass(:, :)        !! \(M\)
         real(dp), allocatable :: stiffness(:, :)   !! \(K\)
         real(dp), allocatable :: gyroscopic(:, :)  !! \(G\), antisymmetric; not allocated: none

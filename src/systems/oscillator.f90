@@ -1,5 +1,5 @@
 module lagrangia_oscillator
-    !! A mass on a spring: the example of the page on Hamilton's principle ("HSM").
+    !! A mass on a spring: the example of the lecture notes on Hamilton's principle ("HSM").
     !!
     !! The notes write \(\partial L/\partial\dot x = m\,d\dot x/dt\), one derivative too many:
     !! the momentum is \(m\dot x\), and only its time derivative is \(m\ddot x\).
@@ -150,27 +150,27 @@ contains
         a(:, 1) = -self%k/self%m*q(:, 1)
     end subroutine accelerations_lanes
 
-    pure subroutine linearise(self, q, page)
+    pure subroutine linearise(self, q, analytic)
         !! \(M = m\), \(K = k\).
         class(oscillator_t), intent(in) :: self
         real(dp), intent(in) :: q(self%ndof)
-        type(linearised_t), intent(out) :: page
+        type(linearised_t), intent(out) :: analytic
 
-        page%mass = reshape([self%m], [1, 1])
-        page%stiffness = reshape([self%k], [1, 1])
-        page%root = reshape([sqrt(self%k)], [1, 1])
-        page%inverse = reshape([1.0_dp/sqrt(self%m)], [1, 1])
-        page%omega2 = [self%k/self%m]
+        analytic%mass = reshape([self%m], [1, 1])
+        analytic%stiffness = reshape([self%k], [1, 1])
+        analytic%root = reshape([sqrt(self%k)], [1, 1])
+        analytic%inverse = reshape([1.0_dp/sqrt(self%m)], [1, 1])
+        analytic%omega2 = [self%k/self%m]
     end subroutine linearise
 
-    pure subroutine newton(self, t, x, u, force, held)
+    pure subroutine newton(self, t, x, u, force, constraint_residual)
         !! The spring along x; nothing holds the mass.
         class(oscillator_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, x(:), u(:)
         real(dp), intent(out) :: force(:)
-        type(hyperdual_t), intent(out) :: held(:)
+        type(hyperdual_t), intent(out) :: constraint_residual(:)
 
-        held = hyperdual_t()
+        constraint_residual = hyperdual_t()
         force = 0.0_dp
         force(1) = -self%k*x(1)%re
     end subroutine newton

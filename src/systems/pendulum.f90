@@ -186,33 +186,33 @@ contains
         a(:, 1) = -self%g/self%l*sin(q(:, 1))
     end subroutine accelerations_lanes
 
-    pure subroutine linearise(self, q, page)
+    pure subroutine linearise(self, q, analytic)
         !! \(M = m\ell^2\), \(K = \pm mg\ell\): hanging, or upside down.
         class(pendulum_t), intent(in) :: self
         real(dp), intent(in) :: q(self%ndof)
-        type(linearised_t), intent(out) :: page
-        real(dp) :: way
+        type(linearised_t), intent(out) :: analytic
+        real(dp) :: orientation
 
         associate (m => self%m, l => self%l, g => self%g)
-            way = sign(1.0_dp, cos(q(1)))
-            page%mass = reshape([m*l**2], [1, 1])
-            page%stiffness = reshape([way*m*g*l], [1, 1])
-            page%omega2 = [way*g/l]
-            if (way < 0.0_dp) return
-            page%root = reshape([sqrt(m*g*l)], [1, 1])
-            page%inverse = reshape([1.0_dp/(sqrt(m)*l)], [1, 1])
+            orientation = sign(1.0_dp, cos(q(1)))
+            analytic%mass = reshape([m*l**2], [1, 1])
+            analytic%stiffness = reshape([orientation*m*g*l], [1, 1])
+            analytic%omega2 = [orientation*g/l]
+            if (orientation < 0.0_dp) return
+            analytic%root = reshape([sqrt(m*g*l)], [1, 1])
+            analytic%inverse = reshape([1.0_dp/(sqrt(m)*l)], [1, 1])
         end associate
     end subroutine linearise
 
-    pure subroutine newton(self, t, x, u, force, held)
+    pure subroutine newton(self, t, x, u, force, constraint_residual)
         !! Gravity; the rod, \((\ell^2 - x^2 - y^2)/2\ell = 0\).
         class(pendulum_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, x(:), u(:)
         real(dp), intent(out) :: force(:)
-        type(hyperdual_t), intent(out) :: held(:)
+        type(hyperdual_t), intent(out) :: constraint_residual(:)
 
         force = 0.0_dp
         force(2) = -self%m*self%g
-        held(1) = 0.5_dp/self%l*(self%l**2 - dot_product(x, x))
+        constraint_residual(1) = 0.5_dp/self%l*(self%l**2 - dot_product(x, x))
     end subroutine newton
 end module lagrangia_pendulum

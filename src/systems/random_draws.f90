@@ -35,8 +35,8 @@ contains
         !!
         !! Source: Park & Miller, Comm. ACM 31, 1192 (1988), with the multiplier of 1993.
         class(random_t), intent(inout) :: self
-        real(dp), intent(in) :: lower, upper
-        real(dp), intent(out) :: x
+        real(dp), intent(in) :: lower, upper  !! the ends, in the unit of `x`
+        real(dp), intent(out) :: x            !! between them
         integer(i8), parameter :: modulus = 2147483647_i8
 
         self%seed = mod(48271_i8*self%seed, modulus)
@@ -48,12 +48,12 @@ contains
         !! domain, or are zero, and some that have a formula are left to it. The `fixed` ones are
         !! as `given`.
         class(random_t), intent(inout) :: self
-        class(system_t), intent(inout) :: system
-        logical, intent(in) :: edges
+        class(system_t), intent(inout) :: system          !! is configured with them
+        logical, intent(in) :: edges                      !! also those on the edge of their domain
         real(dp), allocatable, intent(out) :: values(:)   !! what `system` was given
         type(error_t), allocatable, intent(out) :: error  !! it refused them
-        logical, intent(in), optional :: fixed(:)
-        real(dp), intent(in), optional :: given(:)
+        logical, intent(in), optional :: fixed(:)         !! one for each value
+        real(dp), intent(in), optional :: given(:)        !! as many, in their units
         type(description_t) :: d
         real(dp) :: lowest, chance
         integer :: i, j, k
@@ -89,9 +89,9 @@ contains
         !! A time, coordinates, and velocities that the constraints allow. Where L is no number,
         !! other coordinates are drawn, closer and closer to 0.
         class(random_t), intent(inout) :: self
-        class(system_t), intent(in) :: system
-        real(dp), intent(out) :: t
-        real(dp), allocatable, intent(out) :: q(:), v(:)
+        class(system_t), intent(in) :: system             !! configured
+        real(dp), intent(out) :: t                        !! -2 to 3 s
+        real(dp), allocatable, intent(out) :: q(:), v(:)  !! (ndof)
         type(error_t), allocatable, intent(out) :: error  !! there are none
         integer, parameter :: tries = 100
         real(dp) :: given(system%ndof - system%constraints), widest

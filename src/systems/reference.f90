@@ -9,9 +9,9 @@ module lagrangia_reference
     type, abstract :: reference_t
         character(line_length) :: title = ""  !! which closed form, and its source
         integer :: ndof = 0
-        logical :: has_state = .true.         !! `state_at` is known; otherwise only the period
-        real(dp) :: period = 0.0_dp           !! s; 0 where none is known
-        real(dp) :: small_period = 0.0_dp     !! of small oscillations, s; 0 where none is known
+        logical :: has_state = .true.      !! `state_at` is known; otherwise only the period
+        real(dp) :: period = 0.0_dp        !! s; 0 where none is known
+        real(dp) :: small_period = 0.0_dp  !! of small oscillations, s; 0 where none is known
     contains
         procedure(state_at_i), deferred :: state_at
     end type reference_t
@@ -23,8 +23,8 @@ module lagrangia_reference
             implicit none (type, external)
             class(reference_t), intent(in) :: self
             real(dp), intent(in) :: t              !! s
-            real(dp), intent(out) :: q(self%ndof)
-            real(dp), intent(out) :: v(self%ndof)
+            real(dp), intent(out) :: q(self%ndof)  !! coordinates then
+            real(dp), intent(out) :: v(self%ndof)  !! velocities then
         end subroutine state_at_i
     end interface
 end module lagrangia_reference

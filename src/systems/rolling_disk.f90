@@ -352,18 +352,18 @@ contains
         phi = q(3:4)
     end subroutine angles
 
-    pure subroutine newton(self, t, x, u, force, held)
+    pure subroutine newton(self, t, x, u, force, constraint_residual)
         !! Gravity, in axes along the plane and off it; the plane under the disk; rolling.
         class(rolling_disk_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, x(:), u(:)
         real(dp), intent(out) :: force(:)
-        type(hyperdual_t), intent(out) :: held(:)
+        type(hyperdual_t), intent(out) :: constraint_residual(:)
 
         force = 0.0_dp
         force(1) = self%m*self%pull()
         force(3) = -self%m*self%g*cos(self%incline)
-        held(1) = x(3) - self%r
-        held(2) = u(1) - self%r*sin(x(5))*u(4)
-        held(3) = u(2) + self%r*cos(x(5))*u(4)
+        constraint_residual(1) = x(3) - self%r
+        constraint_residual(2) = u(1) - self%r*sin(x(5))*u(4)
+        constraint_residual(3) = u(2) + self%r*cos(x(5))*u(4)
     end subroutine newton
 end module lagrangia_rolling_disk

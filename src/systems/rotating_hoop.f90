@@ -193,12 +193,12 @@ contains
         a(:, 1) = s*(self%omega**2*c - self%g/self%r)
     end subroutine accelerations_lanes
 
-    pure subroutine linearise(self, q, page)
+    pure subroutine linearise(self, q, analytic)
         !! \(M = mr^2\); \(\Omega^2 = g/r - \omega^2\) at the bottom, \(-g/r - \omega^2\) at the
         !! top, \(\omega^2 - g^2/(\omega r)^2\) tilted: where \(\cos\theta = g/(\omega^2 r)\).
         class(rotating_hoop_t), intent(in) :: self
         real(dp), intent(in) :: q(self%ndof)
-        type(linearised_t), intent(out) :: page
+        type(linearised_t), intent(out) :: analytic
         real(dp) :: w2
 
         associate (m => self%m, r => self%r, g => self%g, w => self%omega)
@@ -207,23 +207,23 @@ contains
             else
                 w2 = (w - g/(w*r))*(w + g/(w*r))
             end if
-            page%mass = reshape([m*r**2], [1, 1])
-            page%stiffness = reshape([m*r**2*w2], [1, 1])
-            page%omega2 = [w2]
-            if (w**2*r > g) page%elsewhere = [acos(g/(w**2*r))]
+            analytic%mass = reshape([m*r**2], [1, 1])
+            analytic%stiffness = reshape([m*r**2*w2], [1, 1])
+            analytic%omega2 = [w2]
+            if (w**2*r > g) analytic%elsewhere = [acos(g/(w**2*r))]
         end associate
     end subroutine linearise
 
-    pure subroutine newton(self, t, x, u, force, held)
+    pure subroutine newton(self, t, x, u, force, constraint_residual)
         !! Gravity; the hoop's plane, which turns; the hoop.
         class(rotating_hoop_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, x(:), u(:)
         real(dp), intent(out) :: force(:)
-        type(hyperdual_t), intent(out) :: held(:)
+        type(hyperdual_t), intent(out) :: constraint_residual(:)
 
         force = 0.0_dp
         force(3) = -self%m*self%g
-        held(1) = x(2)*cos(self%omega*t) - x(1)*sin(self%omega*t)
-        held(2) = 0.5_dp/self%r*(self%r**2 - dot_product(x, x))
+        constraint_residual(1) = x(2)*cos(self%omega*t) - x(1)*sin(self%omega*t)
+        constraint_residual(2) = 0.5_dp/self%r*(self%r**2 - dot_product(x, x))
     end subroutine newton
 end module lagrangia_rotating_hoop

@@ -165,25 +165,25 @@ contains
         a(:, 1) = self%omega**2*q(:, 1)
     end subroutine accelerations_lanes
 
-    pure subroutine linearise(self, q, page)
+    pure subroutine linearise(self, q, analytic)
         !! On the axis: \(M = m\), \(K = -m\omega^2\): thrown out.
         class(rotating_wire_t), intent(in) :: self
         real(dp), intent(in) :: q(self%ndof)
-        type(linearised_t), intent(out) :: page
+        type(linearised_t), intent(out) :: analytic
 
-        page%mass = reshape([self%m], [1, 1])
-        page%stiffness = reshape([-self%m*self%omega**2], [1, 1])
-        page%omega2 = [-self%omega**2]
+        analytic%mass = reshape([self%m], [1, 1])
+        analytic%stiffness = reshape([-self%m*self%omega**2], [1, 1])
+        analytic%omega2 = [-self%omega**2]
     end subroutine linearise
 
-    pure subroutine newton(self, t, x, u, force, held)
+    pure subroutine newton(self, t, x, u, force, constraint_residual)
         !! No force but the wire's, across it: \(y\cos\omega t - x\sin\omega t = 0\).
         class(rotating_wire_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, x(:), u(:)
         real(dp), intent(out) :: force(:)
-        type(hyperdual_t), intent(out) :: held(:)
+        type(hyperdual_t), intent(out) :: constraint_residual(:)
 
         force = 0.0_dp
-        held(1) = x(2)*cos(self%omega*t) - x(1)*sin(self%omega*t)
+        constraint_residual(1) = x(2)*cos(self%omega*t) - x(1)*sin(self%omega*t)
     end subroutine newton
 end module lagrangia_rotating_wire

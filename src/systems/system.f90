@@ -2,8 +2,8 @@ module lagrangia_system
     !! The contract of a lecture system: what a file in `src/systems` says, and others may ask.
     !!
     !! The state is the pair \((q, v)\), \(v = \dot q\). A system says what it is (`describe`),
-    !! takes its parameters (`configure`), and gives its equations of motion twice: as the page
-    !! has them (`accelerations`), and as the Lagrangian that they were derived from.
+    !! takes its parameters (`configure`), and gives its equations of motion twice: as derived by
+    !! hand (`accelerations`), and as the Lagrangian from which they were derived.
     use lagrangia_description, only: check_parameter, default_values, description_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
@@ -67,7 +67,7 @@ module lagrangia_system
             import :: system_t, description_t
             implicit none (type, external)
             class(system_t), intent(in) :: self
-            type(description_t), intent(out) :: d
+            type(description_t), intent(out) :: d  !! complete, in the units that it names
         end subroutine describe_i
 
         pure subroutine configure_i(self, values, error)
@@ -76,8 +76,9 @@ module lagrangia_system
             import :: system_t, dp, error_t
             implicit none (type, external)
             class(system_t), intent(inout) :: self
-            real(dp), intent(in) :: values(:)
+            real(dp), intent(in) :: values(:)  !! in SI units, a vector's components in a row
             type(error_t), allocatable, intent(out) :: error
+            !! status 2: names the parameter and its domain
         end subroutine configure_i
 
         pure subroutine accelerations_i(self, t, q, v, a)
@@ -96,7 +97,7 @@ module lagrangia_system
             import :: system_t, hyperdual_t
             implicit none (type, external)
             class(system_t), intent(in) :: self
-            type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+            type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)  !! time, s; state
             type(hyperdual_t) :: l
         end function lagrangian_i
 
@@ -106,7 +107,7 @@ module lagrangia_system
             import :: system_t, dp
             implicit none (type, external)
             class(system_t), intent(in) :: self
-            real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+            real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)  !! time, s; state
             real(dp) :: e
         end function energy_i
 
@@ -115,7 +116,7 @@ module lagrangia_system
             import :: reduced_t, dp
             implicit none (type, external)
             class(reduced_t), intent(inout) :: self
-            real(dp), intent(in) :: q(:), v(:)                              !! the whole state
+            real(dp), intent(in) :: q(:), v(:)                             !! the whole state
             real(dp), intent(out) :: q_left(self%ndof), v_left(self%ndof)  !! what is left of it
         end subroutine leave_i
 
@@ -125,9 +126,9 @@ module lagrangia_system
             import :: reduced_t, dp
             implicit none (type, external)
             class(reduced_t), intent(in) :: self
-            real(dp), intent(in) :: elapsed                                 !! s
-            real(dp), intent(in) :: q_left(self%ndof), v_left(self%ndof)   !! the reduced state
-            real(dp), intent(out) :: q(:), v(:)                             !! the whole one
+            real(dp), intent(in) :: elapsed                               !! s
+            real(dp), intent(in) :: q_left(self%ndof), v_left(self%ndof)  !! the reduced state
+            real(dp), intent(out) :: q(:), v(:)                           !! the whole one
         end subroutine complete_i
     end interface
 
@@ -136,8 +137,8 @@ contains
     pure subroutine momenta_of_lagrangian(self, t, q, v, p)
         !! Canonical momenta \(p = \partial L/\partial\dot q\). A system may give its own formulae.
         class(system_t), intent(in) :: self
-        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
-        real(dp), intent(out) :: p(self%ndof)
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)  !! time, s; state
+        real(dp), intent(out) :: p(self%ndof)                  !! kg m/s, or kg m^2/s of an angle
         type(hyperdual_t) :: tt, qq(self%ndof), vv(self%ndof), l
         integer :: i
 
@@ -156,8 +157,8 @@ contains
         !! The inverse of `momenta`. \(L\) is of degree two in the velocities, as it is in all
         !! the lectures: \(p = M\dot q + b\), solved by elimination; \(M\) is positive definite.
         class(system_t), intent(in) :: self
-        real(dp), intent(in) :: t, q(self%ndof), p(self%ndof)
-        real(dp), intent(out) :: v(self%ndof)
+        real(dp), intent(in) :: t, q(self%ndof), p(self%ndof)  !! time, s; coordinates; momenta
+        real(dp), intent(out) :: v(self%ndof)                  !! velocities with these momenta
         type(hyperdual_t) :: tt, qq(self%ndof), vv(self%ndof), l
         real(dp) :: mass(self%ndof, self%ndof)
         integer :: i, j
@@ -181,8 +182,8 @@ contains
     pure subroutine forces_of_lagrangian(self, t, q, v, f)
         !! Generalised forces \(\partial L/\partial q\), which change the momenta.
         class(system_t), intent(in) :: self
-        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
-        real(dp), intent(out) :: f(self%ndof)
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)  !! time, s; state
+        real(dp), intent(out) :: f(self%ndof)                  !! N, or N m on an angle
         type(hyperdual_t) :: tt, qq(self%ndof), vv(self%ndof), l
         integer :: i
 
@@ -203,7 +204,8 @@ contains
         !! compiler calls the vector ones. Those are good to 4 ulp, so the last digits differ.
         class(system_t), intent(in) :: self
         real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
-        real(dp), intent(out) :: a(lanes, self%ndof)
+        !! times, s; states
+        real(dp), intent(out) :: a(lanes, self%ndof)  !! accelerations
         real(dp) :: x(self%ndof), x_dot(self%ndof), x_ddot(self%ndof)
         integer :: i
 
@@ -215,18 +217,18 @@ contains
         end do
     end subroutine each_lane
 
-    pure subroutine nothing_by_hand(self, q, page)
+    pure subroutine nothing_by_hand(self, q, analytic)
         !! The small oscillations about the equilibrium `q`, as derived by hand: here nothing is.
         class(system_t), intent(in) :: self
-        real(dp), intent(in) :: q(self%ndof)
-        type(linearised_t), intent(out) :: page
+        real(dp), intent(in) :: q(self%ndof)         !! an equilibrium
+        type(linearised_t), intent(out) :: analytic  !! what is known in closed form
     end subroutine nothing_by_hand
 
     pure function no_quantity(self, i, t, q, v) result(value)
         !! Entry `i` of the quantities in the description: here there are none.
         class(system_t), intent(in) :: self
-        integer, intent(in) :: i
-        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        integer, intent(in) :: i                               !! from 1
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)  !! time, s; state
         real(dp) :: value
 
         value = 0.0_dp
@@ -235,8 +237,8 @@ contains
     pure subroutine no_positions(self, t, q, r)
         !! Cartesian positions, m, of the points in the description, `r(3, points)`: here none.
         class(system_t), intent(in) :: self
-        type(hyperdual_t), intent(in) :: t, q(self%ndof)
-        type(hyperdual_t), intent(out) :: r(:, :)
+        type(hyperdual_t), intent(in) :: t, q(self%ndof)  !! time, s; coordinates
+        type(hyperdual_t), intent(out) :: r(:, :)         !! (3, points), m
 
         r = hyperdual_t()
     end subroutine no_positions
@@ -245,8 +247,8 @@ contains
         !! The non-holonomic constraints \(A(t,q)\,\dot q + b(t,q) = 0\), `rows(constraints, ndof)`
         !! and `drift(constraints)`: here there are none.
         class(system_t), intent(in) :: self
-        type(hyperdual_t), intent(in) :: t, q(self%ndof)
-        type(hyperdual_t), intent(out) :: rows(:, :), drift(:)
+        type(hyperdual_t), intent(in) :: t, q(self%ndof)        !! time, s; coordinates
+        type(hyperdual_t), intent(out) :: rows(:, :), drift(:)  !! \(A\), \(b\)
 
         rows = hyperdual_t()
         drift = hyperdual_t()
@@ -256,8 +258,10 @@ contains
         !! All velocities from those that a scene gives: here every one must be given.
         class(system_t), intent(in) :: self
         real(dp), intent(in) :: t, q(self%ndof), given(:)
-        real(dp), intent(out) :: v(self%ndof)
+        !! time, s; coordinates; velocities of a scene
+        real(dp), intent(out) :: v(self%ndof)  !! all of them
         type(error_t), allocatable, intent(out) :: error
+        !! status 2: too many, too few, or not allowed
 
         v = 0.0_dp
         if (size(given) /= self%ndof) then
@@ -271,34 +275,37 @@ contains
     pure subroutine no_angles(self, t, q, phi)
         !! The angles, rad, of the rotors in the description: here none.
         class(system_t), intent(in) :: self
-        type(hyperdual_t), intent(in) :: t, q(:)
-        type(hyperdual_t), intent(out) :: phi(:)
+        type(hyperdual_t), intent(in) :: t, q(:)  !! time, s; coordinates, (ndof)
+        type(hyperdual_t), intent(out) :: phi(:)  !! (rotors)
 
         phi = hyperdual_t()
     end subroutine no_angles
 
-    pure subroutine no_newton(self, t, x, u, force, held)
-        !! What acts on the Cartesian coordinates `x` with the velocities `u`: here nothing.
+    pure subroutine no_newton(self, t, x, u, force, constraint_residual)
+        !! Newton's equations, without L and generalised coordinates: here there are none.
         !!
-        !! `force` is applied (N; N m on an angle). Each of `held` stays zero by itself: first
-        !! functions of t and x alone, at the end, as many as `constraints`, non-holonomic ones,
-        !! linear in `u`. What keeps it at zero is the reaction of that name times its slope:
-        !! write it as a length that grows along the reaction, and the reaction is a force in N.
+        !! The Cartesian coordinates are three of each point of the description, then one angle of
+        !! each rotor, whose "mass" is its moment of inertia. With reactions \(\lambda_k\) and
+        !! residuals \(f_k\), which vanish,
+        !! \(m_i\ddot x_i = F_i + \sum_k\lambda_k\,\partial f_k/\partial x_i\). First come
+        !! \(f_k(t, x)\), then the `constraints` non-holonomic ones, linear in \(u\), with
+        !! \(\partial f_k/\partial u_i\) instead. A residual in m has a reaction in N.
         class(system_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, x(:), u(:)
-        real(dp), intent(out) :: force(:)
-        type(hyperdual_t), intent(out) :: held(:)
+        !! time, s; coordinates, m or rad; their rates
+        real(dp), intent(out) :: force(:)  !! applied, as many as `x`: N, or N m on an angle
+        type(hyperdual_t), intent(out) :: constraint_residual(:)  !! (reactions), zero
 
         force = 0.0_dp
-        held = hyperdual_t()
+        constraint_residual = hyperdual_t()
     end subroutine no_newton
 
     pure function no_gap(self, i, t, q, v) result(value)
         !! Unilateral constraint `i` is \(gap \ge 0\): where the gap falls through zero there is
         !! an impact. Here there are none.
         class(system_t), intent(in) :: self
-        integer, intent(in) :: i
-        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        integer, intent(in) :: i                               !! from 1 to `contacts`
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)  !! time, s; state
         real(dp) :: value
 
         value = 1.0_dp
@@ -309,15 +316,15 @@ contains
         !! set onto the constraint, which rounding may have missed. A system that would go on to
         !! meet it ever sooner must stay there, with accelerations that hold it.
         class(system_t), intent(in) :: self
-        integer, intent(in) :: i
-        real(dp), intent(in) :: t
-        real(dp), intent(inout) :: q(self%ndof), v(self%ndof)
+        integer, intent(in) :: i                               !! from 1 to `contacts`
+        real(dp), intent(in) :: t                              !! of the impact, s
+        real(dp), intent(inout) :: q(self%ndof), v(self%ndof)  !! before it; becomes that after it
     end subroutine no_impact
 
     subroutine not_reduced(self, reduced)
         !! The same without its cyclic coordinate; not allocated if none is known.
         class(system_t), intent(in) :: self
-        class(reduced_t), allocatable, intent(out) :: reduced
+        class(reduced_t), allocatable, intent(out) :: reduced  !! of one coordinate less, configured
     end subroutine not_reduced
 
     subroutine no_closed_form(self, t0, q0, v0, reference)
@@ -332,9 +339,10 @@ contains
 
     pure subroutine check_parameters(self, values, error)
         !! Refuse `values` that are too many, too few or outside their domains.
-        class(system_t), intent(in) :: self
-        real(dp), intent(in) :: values(:)
+        class(system_t), intent(in) :: self  !! says what is allowed
+        real(dp), intent(in) :: values(:)    !! in the order of `describe`
         type(error_t), allocatable, intent(out) :: error
+        !! status 2: names the system and the parameter
         type(description_t) :: d
         integer :: i, first
 

@@ -223,31 +223,31 @@ contains
         end associate
     end subroutine accelerations_lanes
 
-    pure subroutine newton(self, t, x, u, force, held)
+    pure subroutine newton(self, t, x, u, force, constraint_residual)
         !! Gravity on both; the plane under the wedge; the incline under the block.
         class(wedge_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, x(:), u(:)
         real(dp), intent(out) :: force(:)
-        type(hyperdual_t), intent(out) :: held(:)
+        type(hyperdual_t), intent(out) :: constraint_residual(:)
 
         force = 0.0_dp
         force(2) = -self%m_block*self%g
         force(5) = -self%m_wedge*self%g
-        held(1) = x(5)
-        held(2) = sin(self%alpha)*(x(1) - x(4)) + cos(self%alpha)*(x(2) - x(5))
+        constraint_residual(1) = x(5)
+        constraint_residual(2) = sin(self%alpha)*(x(1) - x(4)) + cos(self%alpha)*(x(2) - x(5))
     end subroutine newton
 
-    pure subroutine linearise(self, q, page)
+    pure subroutine linearise(self, q, analytic)
         !! \(M = (m, m\cos\alpha; m\cos\alpha, M + m)\), \(K = 0\): with \(\alpha = 0\) or without
         !! gravity it stays anywhere.
         class(wedge_t), intent(in) :: self
         real(dp), intent(in) :: q(self%ndof)
-        type(linearised_t), intent(out) :: page
+        type(linearised_t), intent(out) :: analytic
         real(dp) :: mixed
 
         mixed = self%m_block*cos(self%alpha)
-        page%mass = reshape([self%m_block, mixed, mixed, self%m_wedge + self%m_block], [2, 2])
-        page%stiffness = reshape([0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], [2, 2])
-        page%omega2 = [0.0_dp, 0.0_dp]
+        analytic%mass = reshape([self%m_block, mixed, mixed, self%m_wedge + self%m_block], [2, 2])
+        analytic%stiffness = reshape([0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], [2, 2])
+        analytic%omega2 = [0.0_dp, 0.0_dp]
     end subroutine linearise
 end module lagrangia_wedge
