@@ -149,13 +149,13 @@ contains
         if (self%lie == 11) r(2, 2) = (1.0_dp + self%bias)*r(2, 2)
     end subroutine positions_biased
 
-    pure subroutine newton_biased(self, t, x, u, force, held)
+    pure subroutine newton_biased(self, t, x, u, force, constraint_residual)
         class(biased_cart_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, x(:), u(:)
         real(dp), intent(out) :: force(:)
-        type(hyperdual_t), intent(out) :: held(:)
+        type(hyperdual_t), intent(out) :: constraint_residual(:)
 
-        call self%cart_pendulum_t%newton(t, x, u, force, held)
+        call self%cart_pendulum_t%newton(t, x, u, force, constraint_residual)
         if (self%lie == 10) force(1) = force(1) + self%bias
     end subroutine newton_biased
 

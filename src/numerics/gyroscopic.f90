@@ -1,5 +1,5 @@
 module lagrangia_gyroscopic
-    !! Small oscillations that velocities bend: \(M\ddot u + G\dot u + Ku = 0\), \(G^\top = -G\).
+    !! Small oscillations with gyroscopic forces: \(M\ddot u + G\dot u + Ku = 0\), \(G^\top = -G\).
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_eigen, only: normal_modes
     use lagrangia_errors, only: error_t, fail, status_library
@@ -150,8 +150,9 @@ contains
     end subroutine solve_first_order
 
     pure function fast_modes(size_of) result(fast)
-        !! How many are solved from the matrix itself: the largest ratio of a frequency to the
-        !! outermost of its half is least, and no two that are alike are torn apart.
+        !! How many, \(k\), are solved from the matrix itself: the \(k\) that makes
+        !! \(\max(\lambda_1/\lambda_k, \lambda_{k+1}/\lambda_n)\) least, if
+        !! \(\lambda_k > 2\lambda_{k+1}\); \(n\) where none is better than \(k = n\).
         real(dp), intent(in) :: size_of(:)  !! \(|\lambda|\), descending
         integer :: fast, k, n
         real(dp) :: worst, least

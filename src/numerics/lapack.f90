@@ -92,8 +92,8 @@ contains
         !! Solve \(A x = b\) for a small dense \(A\).
         !!
         !! LAPACK's expert driver: unlike `dgesv` it balances rows and columns first, so masses of
-        !! 1e-24 and 1e24 may meet in one matrix, and it refuses a matrix that only rounding keeps
-        !! from being singular.
+        !! 1e-24 and 1e24 may meet in one matrix, and it refuses a matrix whose reciprocal
+        !! condition number is below \(\epsilon\).
         !!
         !! Source: LAPACK Users' Guide, 3rd ed., sec. 2.3.1 and 4.4; `dgesvx`.
         real(dp), intent(in) :: matrix(:, :)              !! \(A\), (n, n)
@@ -134,7 +134,7 @@ contains
     end subroutine solve_linear
 
     pure subroutine matrix_rank(matrix, rank, error)
-        !! The number of singular values above noise, 1e-10 of the largest.
+        !! The number of singular values \(\sigma_i > 10^{-10}\sigma_1\).
         !!
         !! Source: LAPACK Users' Guide, 3rd ed., sec. 2.3.4.3; `dgesvd`.
         real(dp), intent(in) :: matrix(:, :)              !! (m, n), not changed

@@ -3,8 +3,7 @@ module lagrangia_small_oscillations
     !!
     !! Linearised about an equilibrium, Lagrange's equations are
     !! \(M\ddot\delta + G\dot\delta + K\delta = 0\) with \(M = L_{vv}\), \(G = L_{vq} - L_{qv}\) and
-    !! \(K = -L_{qq}\): once as derived by hand, once from exact second
-    !! derivatives of the Lagrangian.
+    !! \(K = -L_{qq}\): once as derived by hand, once from the exact second derivatives of L.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_description, only: description_t, name_length
     use lagrangia_eigen, only: modes_from_factors, residual_ratio
@@ -29,7 +28,7 @@ module lagrangia_small_oscillations
 
     type, extends(normal_modes_t) :: modes_t
         real(dp), allocatable :: at(:)             !! the equilibrium
-        type(linearised_t) :: analytic                 !! as derived by hand, where it was
+        type(linearised_t) :: analytic             !! as derived by hand, where it was
         real(dp), allocatable :: mass(:, :), stiffness(:, :), gyroscopic(:, :)  !! what was solved
         real(dp) :: difference = -1.0_dp           !! of `analytic` from L, relative; < 0: unknown
         real(dp), allocatable :: quadrature(:, :)  !! with \(G\): shape cos - quadrature sin
@@ -92,7 +91,8 @@ contains
     end subroutine find_modes
 
     subroutine check_system(system, start, error)
-        !! Refuse what has no small oscillations in this sense.
+        !! Refuse a system without a constant \(M\), \(G\) and \(K\): not configured, with
+        !! non-holonomic constraints, or with the time in L.
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: start(:)
         type(error_t), allocatable, intent(out) :: error
@@ -141,7 +141,8 @@ contains
     end function force
 
     subroutine settle(system, wanted, q, error)
-        !! Newton from `q` to an equilibrium; a `wanted` one must be there already.
+        !! Newton's method from `q` to an equilibrium, \(|F_i| \le 8\epsilon\sum_j|K_{ij}|
+        !! \max(1, |q_j|)\); a `wanted` one must be there already, to a relative 1e-12.
         class(system_t), intent(in) :: system
         logical, intent(in) :: wanted
         real(dp), intent(inout) :: q(:)
@@ -165,7 +166,7 @@ contains
                 near = ""
                 exit
             end if
-            ! least squares, damped a little: K may be singular (a zero mode)
+            ! least squares with a damping of 1e-12 max|K^T K|: K may be singular (a zero mode)
             m = matmul(transpose(k), k)
             damping = 1e-12_dp*maxval(abs(m))
             do worst = 1, size(q)
@@ -269,9 +270,11 @@ contains
     end subroutine solve_gyroscopic
 
     pure subroutine label_modes(modes)
-        !! A zero mode is what stiffness does not hold, to the rounding of its own terms; of exact
-        !! factors, exactly. With gyroscopic forces a mode may be slow because the fast one is
-        !! fast: then its spring is there. There are never more than \(K\) alone has.
+        !! A zero mode has \(u^\top Ku = 0\) to rounding (see `zero_modes`), and \(\omega = 0\)
+        !! exactly where \(K = S^\top S\) is known. With gyroscopic forces its
+        !! \(|\omega^2| \le 16n\epsilon\,\max\omega^2\) and \(|u^\dagger Ku| \le
+        !! 16n\epsilon\,\max|K|\,|u|^2\): a mode that is slow only beside a fast one fails the
+        !! second test. At most as many modes are zero modes as \(K\) has without \(G\).
         type(modes_t), intent(inout) :: modes
         logical :: vanishes(size(modes%omega2))
         real(dp), allocatable :: omega2(:), shapes(:, :)

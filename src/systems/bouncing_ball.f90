@@ -168,8 +168,9 @@ contains
     end function gap
 
     pure subroutine impact(self, i, t, q, v)
-        !! \(\dot y \to -e\dot y\), with the speed that the ball has when it has fallen the last
-        !! rounding error to the floor. What would fly for less than the time's last digit rests.
+        !! \(\dot y \to e\sqrt{\dot y^2 + 2gy}\): \(y\), a rounding error above the floor or below,
+        !! adds what the fall to \(y = 0\) gives. The ball rests where the next flight would take
+        !! \(2\dot y/g\), not more than the spacing of doubles at \(t\).
         class(bouncing_ball_t), intent(in) :: self
         integer, intent(in) :: i
         real(dp), intent(in) :: t

@@ -47,17 +47,18 @@ module lagrangia_description
     end type point_t
 
     type :: description_t
+        !! All that a system says of itself, in SI units.
         character(name_length) :: name = ""
         character(line_length) :: title = ""          !! a few words for a list
         type(quantity_t), allocatable :: coordinates(:)
         type(parameter_t), allocatable :: parameters(:)
         type(quantity_t), allocatable :: quantities(:)   !! beside the energy
         type(point_t), allocatable :: points(:)
-        type(point_t), allocatable :: rotors(:)        !! what turns besides, "mass" in kg m^2
-        type(quantity_t), allocatable :: reactions(:)  !! of `newton`; none: it is not given
-        integer :: dimensions = 2                      !! of the space that the points move in
-        real(dp) :: energy_scale = 0.0_dp              !! J
-        character(line_length) :: energy = ""          !! its formula
+        type(point_t), allocatable :: rotors(:)          !! bodies that turn; "mass" in kg m^2
+        type(quantity_t), allocatable :: reactions(:)    !! of `newton`; empty: none is given
+        integer :: dimensions = 2                        !! of the space that the points move in
+        real(dp) :: energy_scale = 0.0_dp                !! J
+        character(line_length) :: energy = ""            !! its formula
         character(line_length), allocatable :: lagrangian(:)
         character(line_length), allocatable :: equations(:)
         character(line_length) :: constraint = ""        !! class and equation of its constraints

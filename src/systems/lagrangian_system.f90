@@ -106,8 +106,8 @@ contains
 
     pure subroutine find_structure(self)
         !! Whether accelerations depend on the velocities, whether L depends on the time, and the
-        !! first cyclic coordinate: as four states of no particular kind have it, where L is a
-        !! number (closer and closer to q = 0). Where there are none, the worst is assumed.
+        !! first cyclic coordinate, from up to four states at which L is finite: of state \(k\),
+        !! \(|q| \le 0.8^k\). Without any, L counts as dependent on everything.
         class(lagrangian_system_t), intent(inout) :: self
         type(euler_lagrange_t) :: terms
         real(dp), dimension(self%ndof) :: q, v, a, b

@@ -44,9 +44,9 @@ contains
     end subroutine uniform
 
     subroutine parameters(self, system, edges, values, error, fixed, given)
-        !! Parameters unlike 1 and unlike each other; with `edges` some lie on the edge of their
-        !! domain, or are zero, and some that have a formula are left to it. The `fixed` ones are
-        !! as `given`.
+        !! Parameters drawn uniformly, 4 wide, from their lower bound (-2 if that is lower) on.
+        !! With `edges` two in five lie on the edge of their domain, or are zero, or, where they
+        !! have a formula, are left to it. The `fixed` ones are as `given`.
         class(random_t), intent(inout) :: self
         class(system_t), intent(inout) :: system          !! is configured with them
         logical, intent(in) :: edges                      !! also those on the edge of their domain
@@ -86,8 +86,8 @@ contains
     end subroutine parameters
 
     subroutine state(self, system, t, q, v, error)
-        !! A time, coordinates, and velocities that the constraints allow. Where L is no number,
-        !! other coordinates are drawn, closer and closer to 0.
+        !! A time, coordinates, and velocities that the constraints allow. Where L is not finite
+        !! at \(q\) and at \(1.2q\), other coordinates are drawn, from a range 0.8 times as wide.
         class(random_t), intent(inout) :: self
         class(system_t), intent(in) :: system             !! configured
         real(dp), intent(out) :: t                        !! -2 to 3 s
@@ -117,7 +117,7 @@ contains
     end subroutine state
 
     pure function is_inside(system, t, q, v) result(yes)
-        !! L is a number here and a little farther out: the state is not on the edge either.
+        !! L is finite at \(q\) and at \(1.2q\): the state is not on the edge of its domain.
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t, q(:), v(:)
         logical :: yes

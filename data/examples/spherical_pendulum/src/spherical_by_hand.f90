@@ -79,14 +79,14 @@ contains
         r(3, 1) = -self%p(2)*cos(q(1))
     end subroutine positions
 
-    pure subroutine newton(self, t, x, u, force, held)
+    pure subroutine newton(self, t, x, u, force, constraint_residual)
         !! Gravity; the rod.
         class(spherical_by_hand_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, x(:), u(:)
         real(dp), intent(out) :: force(:)
-        type(hyperdual_t), intent(out) :: held(:)
+        type(hyperdual_t), intent(out) :: constraint_residual(:)
 
         force = [0.0_dp, 0.0_dp, -self%p(1)*self%p(3)]
-        held(1) = 0.5_dp/self%p(2)*(self%p(2)**2 - dot_product(x, x))
+        constraint_residual(1) = 0.5_dp/self%p(2)*(self%p(2)**2 - dot_product(x, x))
     end subroutine newton
 end module spherical_by_hand
