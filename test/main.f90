@@ -26,6 +26,7 @@ module suites
     use test_constant_accelerations, only: constant_accelerations_suite
     use test_constraints, only: constraints_suite
     use test_coupled_orders, only: coupled_orders_suite
+    use test_decimal, only: decimal_suite
     use test_dense_orders, only: dense_orders_suite
     use test_dense_powers, only: dense_powers_suite
     use test_dense_run, only: dense_run_suite
@@ -161,6 +162,7 @@ contains
         call suite%addTest(constant_accelerations_suite())
         call suite%addTest(constraints_suite())
         call suite%addTest(coupled_orders_suite())
+        call suite%addTest(decimal_suite())
         call suite%addTest(dense_orders_suite())
         call suite%addTest(dense_powers_suite())
         call suite%addTest(dense_run_suite())

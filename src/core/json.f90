@@ -1,7 +1,9 @@
 module lagrangia_json
     !! Pieces of JSON text (RFC 8259): strings, numbers, lists.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use, intrinsic :: iso_fortran_env, only: real64
     use lagrangia_characters, only: decode, is_control, printable
+    use lagrangia_decimal, only: decimal_width, write_decimal
     use lagrangia_kinds, only: dp, i8
     use lagrangia_text, only: lower
     implicit none (type, external)
@@ -45,11 +47,11 @@ contains
         !! A number with 17 digits; JSON has no NaN or Infinity, so they are `null`.
         real(dp), intent(in) :: value  !! any double
         character(:), allocatable :: json
-        character(24) :: text
+        character(decimal_width) :: text
 
         json = "null"
         if (.not. ieee_is_finite(value)) return
-        write (text, "(ss, es24.16e3)") value
+        call write_decimal(real(value, real64), text)
         json = trim(adjustl(text))
     end function json_real
 

@@ -1,12 +1,13 @@
 module lagrangia_number_text
-    !! Numbers as text: rows of a data file, cells of a table. libgfortran formats them (correctly
-    !! rounded; about half a microsecond a number); C's stdio carries them to the file.
+    !! Numbers as text: rows of a data file, cells of a table.
+    use, intrinsic :: iso_fortran_env, only: real64
+    use lagrangia_decimal, only: decimal_width, write_decimal
     use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
     public :: field_width, fixed, scientific, write_csv_row, write_row
 
-    integer, parameter :: field_width = 24  !! of `es24.16e3`: a double survives the trip
+    integer, parameter :: field_width = decimal_width  !! a double survives the trip
 
 contains
 
@@ -46,8 +47,13 @@ contains
         real(dp), intent(in) :: values(:)                              !! one for each column
         character((field_width + 1)*size(values)), intent(out) :: row  !! room for the longest line
         integer, intent(out) :: length                                 !! `row(:length)` is the line
+        integer :: column, first
 
-        write (row, "(ss, *(es24.16e3, :, 1x))") values
+        do column = 1, size(values)
+            first = (field_width + 1)*(column - 1)
+            call write_decimal(real(values(column), real64), row(first + 1:first + field_width))
+            row(first + field_width + 1:first + field_width + 1) = " "
+        end do
         length = len(row)
         row(length:) = new_line("a")
     end subroutine write_row
@@ -57,16 +63,15 @@ contains
         real(dp), intent(in) :: values(:)                              !! one for each column
         character((field_width + 1)*size(values)), intent(out) :: row  !! room for the longest line
         integer, intent(out) :: length                                 !! `row(:length)` is the line
-        character((field_width + 1)*size(values)) :: padded
-        integer :: column, first, last
+        character(field_width) :: field
+        integer :: column, first
 
-        write (padded, "(ss, *(es24.16e3, :, ','))") values
         length = 0
         do column = 1, size(values)
-            last = (field_width + 1)*column - 1
-            first = last - field_width + verify(padded(last - field_width + 1:last), " ")
-            row(length + 1:length + last - first + 1) = padded(first:last)
-            length = length + last - first + 2
+            call write_decimal(real(values(column), real64), field)
+            first = verify(field, " ")
+            row(length + 1:length + field_width + 1 - first) = field(first:)
+            length = length + field_width + 2 - first
             row(length:length) = ","
         end do
         row(length:length) = new_line("a")
