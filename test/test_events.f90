@@ -111,7 +111,8 @@ contains
         call assertEqual([2, 4, 1, 3], reorder(record%event(:4)), message="order")
         call assertTrue(all(record%event_t(2:4) >= record%event_t(:3)), "times do not fall")
         call assertEqual(times(record%event(:4)), record%event_t(:4), 1e-5_dp, "times")
-        call assertLessThan(maxval(abs(record%event_q(1, 3:4) - 0.2_dp)), 1e-14_dp, message="x = 0.2")
+        call assertLessThan(maxval(abs(record%event_q(1, 3:4) - 0.2_dp)), 1e-14_dp, &
+                            message="x = 0.2")
         call assertEqual(0.25_dp, record%event_q(1, 1), 1e-15_dp, "x = 0.25")
         call assertEqual(-0.97_dp, record%event_v(1, 2), 1e-15_dp, "x_dot = -0.97")
     contains

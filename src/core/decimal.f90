@@ -3,9 +3,10 @@ module lagrangia_decimal
     !! `es24.16e3`, twenty times faster.
     !!
     !! With \(x = m\,2^e\), \(2^{52} \le m < 2^{53}\), and \(k = \lfloor\log_{10} x\rfloor\) the 17
-    !! digits are \(y = x\,10^{16-k}\), rounded to the nearest integer. The power of ten is known to
-    !! 118 bits, as \(10^{26c}\) from a table times \(10^r\), so \(y\) is known to \(2^{-54}\). Where it
-    !! lies closer than that to the middle between two integers, as a tie does, libgfortran decides.
+    !! digits are \(y = x\,10^{16-k}\), rounded to the nearest integer. The power of ten is known
+    !! to 118 bits, as \(10^{26c}\) from a table times \(10^r\), so \(y\) is known to \(2^{-54}\).
+    !! Where it lies closer than that to the middle between two integers, as a tie does,
+    !! libgfortran decides.
     use, intrinsic :: iso_fortran_env, only: real64
     use lagrangia_kinds, only: i8
     implicit none (type, external)
