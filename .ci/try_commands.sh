@@ -176,6 +176,9 @@ for row in json.load(open(sys.argv[2])):
     assert any(near(w[2], row["difference"]) and near(w[3], row["bound"]) for w in words if len(w) > 4), row' "$work/out" "$work/rows"
 run run cart_pendulum_small --output "$work/o"
 check "a period beside 2 pi/omega is marked small" eval 'grep -q "E-07 small  *3.83601" "$work/out" && grep -q "^small: against 2 pi/omega" "$work/out"'
+check "what no scene has stated is not explained" eval '! grep -q "give or take" "$work/out"'
+run run pendulum oscillator --error-estimate --output "$work/o"
+check "two scenes state their ends, and what brackets mean is said once" eval '[ "$(grep -c "^    at the end: " "$work/out")" -eq 2 ] && [ "$(grep -c "give or take" "$work/out")" -eq 1 ] && ! grep -q "^small:" "$work/out"'
 run run cart_pendulum_small --json --set cart_pendulum%g=981 --output "$work/o"
 check "a period far below a second is beside 2 pi/omega" json '0 < d[0]["small_period_error"] < 1e-6'
 run run pendulum --json --set pendulum%g=981 --output "$work/o"

@@ -38,6 +38,7 @@ module suites
     use test_echo, only: echo_suite
     use test_elliptic, only: elliptic_suite
     use test_errata, only: errata_suite
+    use test_errata_ledger, only: errata_ledger_suite
     use test_errors, only: errors_suite
     use test_events, only: events_suite
     use test_exact_maps, only: exact_maps_suite
@@ -63,6 +64,7 @@ module suites
     use test_lapack_band, only: lapack_band_suite
     use test_least_time, only: least_time_suite
     use test_library_arguments, only: library_arguments_suite
+    use test_machine, only: machine_suite
     use test_method_refusals, only: method_refusals_suite
     use test_method_structure, only: method_structure_suite
     use test_methods, only: methods_suite
@@ -118,6 +120,7 @@ module suites
     use test_stress_texts, only: stress_texts_suite
     use test_swings, only: swings_suite
     use test_systems, only: systems_suite
+    use test_term_sizes, only: term_sizes_suite
     use test_text, only: text_suite
     use test_unfinished, only: unfinished_suite
     use test_virtual_work, only: virtual_work_suite
@@ -174,6 +177,7 @@ contains
         call suite%addTest(echo_suite())
         call suite%addTest(elliptic_suite())
         call suite%addTest(errata_suite())
+        call suite%addTest(errata_ledger_suite())
         call suite%addTest(errors_suite())
         call suite%addTest(events_suite())
         call suite%addTest(exact_maps_suite())
@@ -196,6 +200,7 @@ contains
         call suite%addTest(lapack_band_suite())
         call suite%addTest(least_time_suite())
         call suite%addTest(library_arguments_suite())
+        call suite%addTest(machine_suite())
         call suite%addTest(method_refusals_suite())
         call suite%addTest(method_structure_suite())
         call suite%addTest(methods_suite())
@@ -249,6 +254,7 @@ contains
         call suite%addTest(statement_suite())
         call suite%addTest(swings_suite())
         call suite%addTest(systems_suite())
+        call suite%addTest(term_sizes_suite())
         call suite%addTest(text_suite())
         call suite%addTest(unfinished_suite())
         call suite%addTest(virtual_work_suite())

@@ -5,8 +5,9 @@ module test_audit
     use extremes, only: audit_at_random, coordinate_of, differs, show_parameters
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_audit, only: audit_system, draws
+    use lagrangia_audit_newton, only: say_reactions
     use lagrangia_catalogue, only: new_system, system_names
-    use lagrangia_description, only: description_t
+    use lagrangia_description, only: description_t, name_length
     use lagrangia_diagnosis, only: factor_text
     use lagrangia_errors, only: error_t
     use lagrangia_findings, only: audit_t
@@ -40,6 +41,7 @@ contains
                                       slips_are_named_over_twelve_decades))
         call suite%addTest(TestMethod("given_parameters_stay", given_parameters_stay))
         call suite%addTest(TestMethod("findings_keep_the_worst", findings_keep_the_worst))
+        call suite%addTest(TestMethod("reactions_are_said_by_name", reactions_are_said_by_name))
     end function audit_suite
 
     subroutine wrong_equations_are_named()
@@ -279,6 +281,59 @@ contains
         if (anyExceptions()) return
         call assertEqual(draws, audit%findings(row)%states)
     end subroutine given_parameters_stay
+
+    subroutine reactions_are_said_by_name()
+        !! Of every system that has some: names, numbers to six decimals, a comma between two; the
+        !! numbers are those of the quantities of the same names.
+        character(*), parameter :: claim = "Gauss's least constraint"
+        character(name_length), allocatable :: names(:)
+        class(system_t), allocatable :: system
+        type(audit_t) :: audit
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+        character(:), allocatable :: said, expected
+        real(dp), allocatable :: q(:), v(:)
+        real(dp) :: number
+        integer :: i, k, n, several, status
+
+        allocate (names, source=system_names())
+        several = 0
+        do k = 1, size(names)
+            call new_system(trim(names(k)), system, error)
+            call system%describe(d)
+            if (.not. allocated(d%reactions)) cycle
+            if (size(d%reactions) > 1) several = several + 1
+            q = spread(0.5_dp, 1, system%ndof)
+            v = spread(1.0_dp, 1, system%ndof)
+            call audit%begin(names(k))
+            call audit%judge(claim, 0.0_dp, 1.0_dp, 1.0_dp)
+            call say_reactions(audit, system, 0.0_dp, q, v)
+            said = trim(audit%findings(audit%row_of(claim))%remark)
+            if (size(d%reactions) == 0) then
+                call assertEqual("", said, names(k))
+                cycle
+            end if
+            call assertEqual("at q = 0.5, v = 1:", said(:min(18, len(said))), names(k))
+            said = said(19:)
+            do i = 1, size(d%reactions)
+                expected = merge(", ", "  ", i > 1)
+                expected = trim(expected)//" "//trim(d%reactions(i)%name)//" "
+                call assertEqual(expected, said(:min(len(said), len(expected))), names(k))
+                said = said(len(expected) + 1:)
+                n = index(said, " N")
+                read (said(:n), *, iostat=status) number
+                call assertEqual(0, status, names(k)//said)
+                said = said(n + 2:)
+                do n = 1, size(d%quantities)
+                    if (d%quantities(n)%name /= d%reactions(i)%name) cycle
+                    call assertEqual(system%quantity(n, 0.0_dp, q, v), number, 0.6e-6_dp, &
+                                     trim(names(k))//", "//d%reactions(i)%name)
+                end do
+            end do
+            call assertEqual("", said, "behind the last of "//names(k))
+        end do
+        call assertEqual(7, several, "systems with several reactions")
+    end subroutine reactions_are_said_by_name
 
     subroutine findings_keep_the_worst()
         !! Beside the noise; NaN is the worst of all.

@@ -230,6 +230,10 @@ contains
         call assertTrue(index(text, "plot data using 2:5 with lines lw 1.5 title ""y [m]"", "// &
                         "data using 2:4 with lines lw 1.5 title ""x_dot [m/s]""") > 0, text)
         call assertTrue(index(text, "set ylabel """"; set key") > 0, "units that differ")
+        text = script("", [character(12) :: "x+y"])
+        call assertTrue(index(text, "set ylabel ""[m]""; set key above right") > 0, "one unit")
+        text = script("", [character(12) :: "x+y+theta"])
+        call assertTrue(index(text, "set ylabel """"; set key") > 0, "only the last differs")
     end subroutine columns_are_drawn_with_units
 
     subroutine lengths_share_a_scale()

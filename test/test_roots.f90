@@ -11,12 +11,13 @@ module test_roots
     public :: roots_suite
 
     integer, parameter :: parabola = 1, cosine = 2, flat = 3, jump = 4, tiny_slope = 5, pole = 6, &
-                          kinked = 7, line = 8
+                          kinked = 7, line = 8, square_root = 9
 
     type, extends(scalar_function_t) :: sample_t
         integer :: kind = parabola
         integer :: calls = 0
         logical :: twice = .false.     !! a point was asked for again
+        real(dp) :: of = 0.0_dp        !! the number whose square root is taken off
         real(dp) :: asked(2000) = huge(1.0_dp)
     contains
         procedure :: value
@@ -30,6 +31,7 @@ contains
         suite = TestSuite("roots")
         call suite%addTest(TestMethod("a root has its neighbour on the other side", neighbours))
         call suite%addTest(TestMethod("smooth functions take few calls", few_calls))
+        call suite%addTest(TestMethod("no point is asked for twice", no_point_twice))
         call suite%addTest(TestMethod("zeros at the ends are roots", ends))
         call suite%addTest(TestMethod("no change of sign is refused", refusal))
     end function roots_suite
@@ -50,6 +52,7 @@ contains
         case (tiny_slope); y = 1e-200_dp*(x - 3.0_dp)
         case (pole); y = 1.0_dp/(x - 0.123_dp)
         case (kinked); y = merge(x - 1.1_dp, 1e6_dp*(x - 1.1_dp), x < 1.1_dp)
+        case (square_root); y = sqrt(x) - sqrt(self%of)
         case default; y = x
         end select
     end function value
@@ -103,6 +106,28 @@ contains
         call assertEqual(acos(0.0_dp), root, epsilon(1.0_dp), "half of pi")
         call assertLessThan(f%calls, 15, message="calls for the cosine")
     end subroutine few_calls
+
+    subroutine no_point_twice()
+        !! The next point differs from both ends, also where these are of other sizes and the
+        !! interpolation meets the root to less than half a spacing of numbers.
+        real(dp), parameter :: of(3) = [23.55846318160282_dp, 2404.4083600552212_dp, &
+                                        0.003301270367182451_dp]
+        real(dp), parameter :: from(3) = [6159.6415543173125_dp, 1.951600691574451e-07_dp, &
+                                          0.0001219647723705439_dp]
+        real(dp), parameter :: to(3) = [4.670562755371814_dp, 2284723934.2045717_dp, &
+                                        1079.8660656016382_dp]
+        type(sample_t) :: f
+        type(error_t), allocatable :: error
+        real(dp) :: root
+        integer :: i
+
+        do i = 1, size(of)
+            f = sample_t(kind=square_root, of=of(i))
+            call find_root(f, from(i), to(i), root, error)
+            call assertEqual(of(i), root, spacing(of(i)), "the root")
+            call assertFalse(f%twice, "a point asked for twice")
+        end do
+    end subroutine no_point_twice
 
     subroutine ends()
         type(sample_t) :: f

@@ -103,15 +103,15 @@ contains
         self%y0 = self%y
         self%inside = 0.0_dp
         call slope(system, system%ndof, t0, self%y, self%k(:, 1))
-        size_y = norm(self%tolerance, self%y, self%y, self%y)
-        size_slope = norm(self%tolerance, self%k(:, 1), self%y, self%y)
+        size_y = norm(self%tolerance, self%y, self%y)
+        size_slope = norm(self%tolerance, self%k(:, 1), self%y)
         self%h = 1e-6_dp
         if (min(size_y, size_slope) > 1e-5_dp) self%h = 0.01_dp*size_y/size_slope
         self%h = min(self%h, self%t_end - t0)
         self%work = self%y + self%h*self%k(:, 1)
         call slope(system, system%ndof, t0 + self%h, self%work, self%k(:, 2))
         self%k(:, 3) = self%k(:, 2) - self%k(:, 1)
-        change = max(norm(self%tolerance, self%k(:, 3), self%y, self%y)/self%h, size_slope)
+        change = max(norm(self%tolerance, self%k(:, 3), self%y)/self%h, size_slope)
         if (change > 1e-15_dp) then
             self%h = min(100.0_dp*self%h, (0.01_dp/change)**(1.0_dp/8.0_dp))
         else
@@ -169,15 +169,15 @@ contains
                   "the tolerance too small", status_numbers)
     end subroutine step
 
-    pure function norm(tolerance, x, y0, y) result(size_x)
-        !! Root mean square of `x`, in units of the tolerance at states `y0` and `y`.
-        real(dp), intent(in) :: tolerance, x(:), y0(:), y(:)
+    pure function norm(tolerance, x, y) result(size_x)
+        !! Root mean square of `x`, in units of the tolerance at the state `y`.
+        real(dp), intent(in) :: tolerance, x(:), y(:)
         real(dp) :: size_x
         integer :: i
 
         size_x = 0.0_dp
         do i = 1, size(x)
-            size_x = size_x + (x(i)/max(1.0_dp, abs(y0(i)), abs(y(i))))**2
+            size_x = size_x + (x(i)/max(1.0_dp, abs(y(i))))**2
         end do
         size_x = sqrt(size_x/size(x))/tolerance
     end function norm

@@ -1,0 +1,85 @@
+module test_term_sizes
+    !! What rounding may do to a formula is not less than its terms, whatever their signs.
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
+    use lagrangia_cart_pendulum, only: cart_pendulum_t
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_term_sizes, only: motion_t, nearby_t, neighbours, new_nearby, size_of_solution, &
+                                    solve_motion, term_size
+    implicit none (type, external)
+    private
+    public :: term_sizes_suite
+
+contains
+
+    function term_sizes_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("term_sizes")
+        call suite%addTest(TestMethod("terms_that_cancel_are_seen", terms_that_cancel_are_seen))
+        call suite%addTest(TestMethod("solutions_spread_what_rows_have", &
+                                      solutions_spread_what_rows_have))
+        call suite%addTest(TestMethod("equations_are_as_large_as_their_terms", &
+                                      equations_are_as_large_as_their_terms))
+    end function term_sizes_suite
+
+    subroutine terms_that_cancel_are_seen()
+        !! Values at neighbours that are above and below by one step: what is known to a step of
+        !! both signs is twice a step, over the step, beside the value itself.
+        real(dp), parameter :: step = 16.0_dp*epsilon(1.0_dp)
+        real(dp) :: values(0:neighbours)
+        integer :: k
+
+        values = [(merge(-1.0_dp, 1.0_dp, mod(k, 2) == 0)*step, k=0, neighbours)]
+        values(0) = 0.0_dp
+        call assertEqual(2.0_dp, term_size(values), 1e-15_dp, "of zero")
+        values = -1.0_dp
+        call assertEqual(1.0_dp, term_size(values), 1e-15_dp, "of a constant")
+    end subroutine terms_that_cancel_are_seen
+
+    subroutine solutions_spread_what_rows_have()
+        !! \(|K^{-1}|w\), by hand for a matrix of both signs; 1e4 epsilon of the largest are added.
+        real(dp), parameter :: matrix(2, 2) = reshape([2.0_dp, -1.0_dp, -3.0_dp, 5.0_dp], [2, 2])
+        real(dp), parameter :: rows(2) = [0.5_dp, 0.25_dp]
+        type(error_t), allocatable :: error
+        real(dp) :: found(2)
+
+        call size_of_solution(matrix, rows, found, error)
+        call assertFalse(allocated(error), "regular")
+        ! the inverse is (5 3; 1 2)/7
+        call assertEqual([3.25_dp, 1.0_dp]/7.0_dp, found, 1e4_dp*epsilon(1.0_dp), "|K^-1| w")
+        call size_of_solution(0.0_dp*matrix, rows, found, error)
+        call assertTrue(allocated(error), "singular")
+    end subroutine solutions_spread_what_rows_have
+
+    subroutine equations_are_as_large_as_their_terms()
+        !! The cart at rest with its pendulum beyond the horizontal: \((m_1+m_2)\ddot x\) and
+        !! \(m_2\ell\ddot\theta\cos\theta\) cancel, and are two terms of one size. Accelerations by
+        !! hand: \(\ddot x = m_2 g\sin\theta\cos\theta/(m_1+m_2\sin^2\theta)\).
+        real(dp), parameter :: m1 = 1.3_dp, m2 = 0.7_dp, l = 0.9_dp, g = 9.81_dp
+        real(dp), parameter :: zero(2) = 0.0_dp
+        type(cart_pendulum_t) :: system
+        type(nearby_t) :: nearby
+        type(motion_t) :: motion
+        type(error_t), allocatable :: error
+        real(dp) :: theta, x_ddot
+        integer :: i
+
+        call system%configure([m1, m2, l, g], error)
+        do i = 1, 2
+            theta = merge(3.0_dp, -3.0_dp, i == 1)
+            call new_nearby(nearby, system, [m1, m2, l, g], 0.0_dp, [0.0_dp, theta], zero)
+            call solve_motion(nearby, motion, error)
+            call assertFalse(allocated(error), "solved")
+            if (anyExceptions()) return
+            x_ddot = m2*g*sin(theta)*cos(theta)/(m1 + m2*sin(theta)**2)
+            call assertEqual(x_ddot, motion%accelerations(1), 1e-13_dp, "of the cart")
+            call assertTrue(motion%equation_size(1) >= 2.0_dp*(m1 + m2)*abs(x_ddot), &
+                            "two terms at least")
+            call assertTrue(motion%equation_size(1) <= 8.0_dp*(m1 + m2)*abs(x_ddot), &
+                            "what cancels is counted once more, not often")
+            call assertTrue(all(motion%size >= abs(motion%accelerations)), "of accelerations")
+        end do
+    end subroutine equations_are_as_large_as_their_terms
+end module test_term_sizes
