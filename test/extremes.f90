@@ -6,8 +6,8 @@ module extremes
     use lagrangia_catalogue, only: new_system
     use lagrangia_description, only: description_t, parameter_t
     use lagrangia_errors, only: error_t
-    use lagrangia_findings, only: audit_t
     use lagrangia_kinds, only: dp
+    use lagrangia_ledger, only: ledger_t
     use lagrangia_random_draws, only: random_t
     use lagrangia_system, only: default_values, system_t
     use lagrangia_text, only: to_text
@@ -23,7 +23,7 @@ contains
         !! One set of parameters, at many states.
         class(system_t), intent(inout) :: system
         type(random_t), intent(inout) :: random
-        type(audit_t), intent(inout) :: audit
+        type(ledger_t), intent(inout) :: audit
         real(dp), allocatable, intent(out) :: values(:)  !! what was drawn
         type(description_t) :: d
         integer :: i, j, k

@@ -7,7 +7,7 @@ module system_checks
     use lagrangia_audit, only: audit_system, draws
     use lagrangia_audit_equations, only: claim_accelerations, claim_energy
     use lagrangia_audit_newton, only: claim_gauss
-    use lagrangia_findings, only: audit_t
+    use lagrangia_ledger, only: ledger_t
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -19,7 +19,7 @@ contains
         !! All that a system claims. On return it has parameters of the last draw.
         class(system_t), intent(inout) :: system
         integer, intent(out), optional :: claims  !! how many were judged
-        type(audit_t) :: audit
+        type(ledger_t) :: audit
         integer :: i
 
         if (present(claims)) claims = 0
@@ -28,26 +28,26 @@ contains
         call check_refusals(system)
         if (anyExceptions()) return
         call audit_system(system, audit)
-        do i = 1, size(audit%findings)
-            associate (row => audit%findings(i))
-                call assertTrue(row%holds, trim(row%system)//": "//trim(row%claim)//" "// &
+        do i = 1, size(audit%rows)
+            associate (row => audit%rows(i))
+                call assertTrue(row%holds, trim(row%group)//": "//trim(row%name)//" "// &
                                 row%remark)
             end associate
         end do
         call check_states(audit, claim_accelerations)
         call check_states(audit, claim_energy)
         call check_states(audit, claim_gauss)
-        if (present(claims)) claims = size(audit%findings)
+        if (present(claims)) claims = size(audit%rows)
     end subroutine check_system
 
     subroutine check_states(audit, claim)
         !! The claim was judged at every state.
-        type(audit_t), intent(in) :: audit
+        type(ledger_t), intent(in) :: audit
         character(*), intent(in) :: claim
         integer :: row
 
         row = audit%row_of(claim)
         call assertTrue(row > 0, claim)
-        if (row > 0) call assertEqual(draws, audit%findings(row)%states, claim)
+        if (row > 0) call assertEqual(draws, audit%rows(row)%states, claim)
     end subroutine check_states
 end module system_checks

@@ -3,8 +3,9 @@ module test_action
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
                      assertGreaterThan, assertLessThan, assertRelativelyEqual, assertTrue
     use lagrangia_action_paths, only: extrapolated_action, extrapolated_change, &
-                                      oscillator_action, oscillator_path, straight, swing, &
-                                      swing_period
+                                      oscillator_action, oscillator_path, straight, pendulum_path, &
+                                      pendulum_period
+    use lagrangia_computed_path, only: compute_path
     use lagrangia_discrete_action, only: action_gradient, action_of, expand_action, find_path, &
                                          negative_curvatures
     use lagrangia_double_pendulum, only: double_pendulum_t
@@ -15,7 +16,6 @@ module test_action
     use lagrangia_pendulum, only: pendulum_t
     use lagrangia_rk4, only: new_rk4, rk4_t
     use lagrangia_system, only: system_t
-    use lagrangia_walker, only: walker_t
     implicit none (type, external)
     private
     public :: action_suite
@@ -37,7 +37,7 @@ contains
         call suite%addTest(TestMethod("signs_change_at_conjugate_points", &
                                       signs_change_at_conjugate_points))
         call suite%addTest(TestMethod("hopeless_paths_are_refused", hopeless_paths_are_refused))
-        call suite%addTest(TestMethod("walker_starts_at_the_start", walker_starts_at_the_start))
+        call suite%addTest(TestMethod("paths_start_at_the_start", paths_start_at_the_start))
     end function action_suite
 
     subroutine build(system, values)
@@ -54,9 +54,10 @@ contains
         !! 22-digit arithmetic: the action (m = k = 1, T = 2), the period and swing of 2 rad.
         call assertEqual(-0.835911056622486836_dp, &
                          oscillator_action(1.0_dp, 1.0_dp, 2.0_dp, 1.0_dp, 0.5_dp), 4e-16_dp)
-        call assertRelativelyEqual(8.3497529269184947344_dp, swing_period(2.0_dp, 1.0_dp), 4e-15_dp)
-        call assertEqual(-1.6841244365668093504_dp, swing(5.0_dp, 2.0_dp, 1.0_dp), 1e-14_dp)
-        call assertEqual(1.532727506038253442_dp, swing(0.5_dp, 2.0_dp, 4.0_dp), 1e-14_dp)
+        call assertRelativelyEqual(8.3497529269184947344_dp, pendulum_period(2.0_dp, 1.0_dp), &
+                                   4e-15_dp)
+        call assertEqual(-1.6841244365668093504_dp, pendulum_path(5.0_dp, 2.0_dp, 1.0_dp), 1e-14_dp)
+        call assertEqual(1.532727506038253442_dp, pendulum_path(0.5_dp, 2.0_dp, 4.0_dp), 1e-14_dp)
         call assertEqual(0.7_dp, oscillator_path(0.0_dp, 1.9_dp, 1.3_dp, 0.7_dp, -0.4_dp), 1e-15_dp)
         call assertEqual(-0.4_dp, oscillator_path(1.9_dp, 1.9_dp, 1.3_dp, 0.7_dp, -0.4_dp), &
                          1e-15_dp)
@@ -142,17 +143,17 @@ contains
         !! \(m\ell^2\theta/h^2\)); those of the position form half a step on, where it kicks, and
         !! not at whole steps; with another step in L none do.
         type(pendulum_t) :: system
-        type(walker_t) :: walker
         type(error_t), allocatable :: error
         real(dp), parameter :: h = 0.05_dp
         real(dp) :: q(1, 200), v(1, 200), points(1, 200), rounding
 
         call build(system, [1.3_dp, 0.7_dp, 9.81_dp])
-        call walker%make("verlet", system, 0.0_dp, h, [0.4_dp], [5.0_dp], q, v, error)
+        call compute_path("verlet", system, 0.0_dp, h, [0.4_dp], [5.0_dp], q, v, error)
         call assertFalse(allocated(error), "no error: verlet is stationary")
         rounding = 16.0_dp*epsilon(h)*1.3_dp*0.49_dp*maxval(abs(q))/h**2
         call assertLessThan(action_gradient(system, 0.0_dp, h, q + 0.5_dp*h*v), rounding)
-        call walker%make("velocity_verlet", system, 0.0_dp, h, [0.4_dp], [5.0_dp], points, v, error)
+        call compute_path("velocity_verlet", system, 0.0_dp, h, [0.4_dp], [5.0_dp], points, v, &
+                          error)
         call assertFalse(allocated(error), "no error: verlet is stationary")
         call assertLessThan(action_gradient(system, 0.0_dp, h, points), rounding)
         call assertGreaterThan(action_gradient(system, 0.0_dp, h, q), 1e9_dp*rounding)
@@ -164,7 +165,6 @@ contains
         !! The double pendulum between two points of a computed motion: that motion is found, from
         !! a straight line, with an error of order 2.
         type(double_pendulum_t) :: system
-        type(walker_t) :: walker
         type(error_t), allocatable :: error
         real(dp), parameter :: time = 0.4_dp
         real(dp) :: q(2, 801), v(2, 801), away(3)
@@ -172,8 +172,8 @@ contains
         integer :: i, n
 
         call build(system, [1.3_dp, 0.7_dp, 0.9_dp, 1.7_dp, 9.81_dp])
-        call walker%make("rk4", system, 0.0_dp, time/800.0_dp, [1.2_dp, -0.7_dp], &
-                         [0.5_dp, 1.5_dp], q, v, error)
+        call compute_path("rk4", system, 0.0_dp, time/800.0_dp, [1.2_dp, -0.7_dp], &
+                          [0.5_dp, 1.5_dp], q, v, error)
         call assertFalse(allocated(error), "no error: paths of two coordinates")
         do i = 1, 3
             n = 25*2**(i - 1)
@@ -243,24 +243,23 @@ contains
         call assertEqual(straight(1.0_dp, 2.0_dp, 2), path, message="a guess as it was")
     end subroutine hopeless_paths_are_refused
 
-    subroutine walker_starts_at_the_start()
+    subroutine paths_start_at_the_start()
         !! Sample 1 is the start, sample 2 one step on, also where the time matters; an unknown
         !! method is refused.
         type(oscillator_t) :: system
-        type(walker_t) :: walker
         type(error_t), allocatable :: error
         type(driven_pendulum_t) :: driven
         type(rk4_t) :: rk4
         real(dp) :: q(1, 3), v(1, 3), angle(1), rate(1)
 
         call build(system, [1.0_dp, 4.0_dp])
-        call walker%make("rk4", system, 0.0_dp, 0.01_dp, [0.3_dp], [0.7_dp], q, v, error)
-        call assertFalse(allocated(error), "no error: walker starts at the start")
+        call compute_path("rk4", system, 0.0_dp, 0.01_dp, [0.3_dp], [0.7_dp], q, v, error)
+        call assertFalse(allocated(error), "no error: paths start at the start")
         call assertEqual([0.3_dp, 0.3_dp*cos(0.02_dp) + 0.35_dp*sin(0.02_dp), &
                           0.3_dp*cos(0.04_dp) + 0.35_dp*sin(0.04_dp)], q(1, :), 1e-9_dp)
         call driven%configure([0.5_dp, 0.8_dp, 9.81_dp, 0.1_dp, 5.0_dp], error)
-        call assertFalse(allocated(error), "no error: walker starts at the start")
-        call walker%make("rk4", driven, 0.3_dp, 0.05_dp, [0.3_dp], [0.7_dp], q, v, error)
+        call assertFalse(allocated(error), "no error: paths start at the start")
+        call compute_path("rk4", driven, 0.3_dp, 0.05_dp, [0.3_dp], [0.7_dp], q, v, error)
         call new_rk4(rk4)
         call rk4%prepare(driven, error)
         angle = 0.3_dp
@@ -268,7 +267,7 @@ contains
         call rk4%start(driven, 0.3_dp, angle, rate)
         call rk4%advance(driven, 0.3_dp, 0.05_dp, 0_i8, 2_i8, angle, rate)
         call assertEqual([angle(1), rate(1)], [q(1, 3), v(1, 3)], 0.0_dp)
-        call walker%make("rk5", system, 0.0_dp, 0.01_dp, [0.3_dp], [0.7_dp], q, v, error)
-        call assertTrue(allocated(error), "an error: walker starts at the start")
-    end subroutine walker_starts_at_the_start
+        call compute_path("rk5", system, 0.0_dp, 0.01_dp, [0.3_dp], [0.7_dp], q, v, error)
+        call assertTrue(allocated(error), "an error: paths start at the start")
+    end subroutine paths_start_at_the_start
 end module test_action

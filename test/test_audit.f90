@@ -10,8 +10,8 @@ module test_audit
     use lagrangia_description, only: description_t, name_length
     use lagrangia_diagnosis, only: factor_text
     use lagrangia_errors, only: error_t
-    use lagrangia_findings, only: audit_t
     use lagrangia_kinds, only: dp
+    use lagrangia_ledger, only: ledger_t
     use lagrangia_random_draws, only: random_t
     use lagrangia_system, only: system_t
     use liars, only: liars_known, new_liar
@@ -49,22 +49,22 @@ contains
         !! being any the worse.
         class(system_t), allocatable :: system
         character(:), allocatable :: expected
-        type(audit_t) :: audit
+        type(ledger_t) :: audit
         integer :: k, row
 
         do k = 1, mutants_known
-            audit = audit_t()
+            audit = ledger_t()
             call new_mutant(k, system, expected)
             call audit_system(system, audit)
             row = audit%row_of("accelerations as from L")
-            call assertFalse(audit%findings(row)%holds, expected)
-            call assertEqual(expected, audit%findings(row)%remark(:len(expected)))
+            call assertFalse(audit%rows(row)%holds, expected)
+            call assertEqual(expected, audit%rows(row)%remark(:len(expected)))
             row = audit%row_of("Gauss's least constraint")
-            call assertFalse(audit%findings(row)%holds, "Gauss: "//expected)
-            call assertTrue(names_what_moves(audit%findings(row)%remark, system), &
-                            "Gauss: "//audit%findings(row)%remark)
+            call assertFalse(audit%rows(row)%holds, "Gauss: "//expected)
+            call assertTrue(names_what_moves(audit%rows(row)%remark, system), &
+                            "Gauss: "//audit%rows(row)%remark)
             row = audit%row_of("energy is v dL/dv - L")
-            call assertTrue(audit%findings(row)%holds, "energy: "//expected)
+            call assertTrue(audit%rows(row)%holds, "energy: "//expected)
         end do
     end subroutine wrong_equations_are_named
 
@@ -111,21 +111,21 @@ contains
         !! The very claim fails, and those that have nothing to do with it hold.
         class(system_t), allocatable :: system
         character(:), allocatable :: expected, unharmed
-        type(audit_t) :: audit
+        type(ledger_t) :: audit
         integer :: k, row
 
         do k = 1, liars_known
-            audit = audit_t()
+            audit = ledger_t()
             call new_liar(k, system, expected, unharmed)
             call audit_system(system, audit)
             row = audit%row_of(expected)
             call assertTrue(row > 0, expected//": claim")
             if (anyExceptions()) return
-            call assertFalse(audit%findings(row)%holds, expected)
+            call assertFalse(audit%rows(row)%holds, expected)
             row = audit%row_of(unharmed)
             call assertTrue(row > 0, unharmed//": claim")
             if (anyExceptions()) return
-            call assertTrue(audit%findings(row)%holds, unharmed//", although not "//expected)
+            call assertTrue(audit%rows(row)%holds, unharmed//", although not "//expected)
         end do
     end subroutine wrong_claims_are_named
 
@@ -133,19 +133,19 @@ contains
         !! A thousandth too much, and a thousandth too little, at every state.
         class(system_t), allocatable :: system
         character(:), allocatable :: claim
-        type(audit_t) :: audit
+        type(ledger_t) :: audit
         integer :: k, way, row
 
         do k = 1, biased_claims
             do way = -1, 1, 2
-                audit = audit_t()
+                audit = ledger_t()
                 if (allocated(system)) deallocate (system)
                 call new_biased_liar(k, way, system, claim)
                 call audit_system(system, audit)
                 row = audit%row_of(claim)
                 call assertTrue(row > 0, claim//": claim")
                 if (row == 0) cycle
-                call assertFalse(audit%findings(row)%holds, &
+                call assertFalse(audit%rows(row)%holds, &
                                  claim//trim(merge(": above", ": below", way > 0)))
             end do
         end do
@@ -157,7 +157,7 @@ contains
         type(error_t), allocatable :: error
         character(:), allocatable :: claim
         character(32), allocatable :: names(:)
-        type(audit_t) :: audit
+        type(ledger_t) :: audit
         integer :: i, k, row
         logical :: covered
 
@@ -166,8 +166,8 @@ contains
             call new_system(trim(names(i)), system, error)
             call audit_system(system, audit)
         end do
-        do row = 1, size(audit%findings)
-            associate (asked => audit%findings(row)%claim)
+        do row = 1, size(audit%rows)
+            associate (asked => audit%rows(row)%name)
                 covered = index(asked, "says what is true") > 0  ! flags_are_judged_both_ways
                 do k = 1, biased_claims
                     call new_biased_liar(k, 1, system, claim)
@@ -201,7 +201,7 @@ contains
         subroutine expect(name, flag, claim, remark)
             character(*), intent(in) :: name, flag, claim, remark
             class(system_t), allocatable :: liar
-            type(audit_t) :: audit
+            type(ledger_t) :: audit
             integer :: row
 
             call new_turned(name, flag, liar)
@@ -209,8 +209,8 @@ contains
             row = audit%row_of(claim)
             call assertTrue(row > 0, name//": "//flag//" is judged")
             if (row == 0) return
-            call assertFalse(audit%findings(row)%holds, name//": "//flag)
-            call assertEqual(remark, audit%findings(row)%remark(:len(remark)), name//": "//flag)
+            call assertFalse(audit%rows(row)%holds, name//": "//flag)
+            call assertEqual(remark, audit%rows(row)%remark(:len(remark)), name//": "//flag)
         end subroutine expect
     end subroutine flags_are_judged_both_ways
 
@@ -220,7 +220,7 @@ contains
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
         type(random_t) :: random
-        type(audit_t) :: audit
+        type(ledger_t) :: audit
         real(dp), allocatable :: values(:)
         integer :: i, k
 
@@ -228,7 +228,7 @@ contains
         do i = 1, size(names)
             do k = 1, 4
                 call new_system(trim(names(i)), system, error)
-                audit = audit_t()
+                audit = ledger_t()
                 call audit_at_random(system, random, audit, values)
                 call assertEqual(0, audit%broken(), "check "//show_parameters(system, values))
             end do
@@ -240,7 +240,7 @@ contains
         class(system_t), allocatable :: system
         character(:), allocatable :: expected
         type(random_t) :: random
-        type(audit_t) :: audit
+        type(ledger_t) :: audit
         real(dp), allocatable :: values(:)
         real(dp) :: difference
         integer :: i, k, row, seen
@@ -250,15 +250,15 @@ contains
             do k = 1, 30
                 if (allocated(system)) deallocate (system)
                 call new_mutant(i, system, expected)
-                audit = audit_t()
+                audit = ledger_t()
                 call audit_at_random(system, random, audit, values)
                 call differs(system, values, difference)
                 if (.not. difference > 1e-6_dp) cycle
                 seen = seen + 1
                 row = audit%row_of("accelerations as from L")
-                call assertFalse(audit%findings(row)%holds, show_parameters(system, values))
+                call assertFalse(audit%rows(row)%holds, show_parameters(system, values))
                 call assertEqual(coordinate_of(expected), &
-                                 coordinate_of(audit%findings(row)%remark), &
+                                 coordinate_of(audit%rows(row)%remark), &
                                  show_parameters(system, values))
                 if (seen == 3) exit
             end do
@@ -270,7 +270,7 @@ contains
         !! With g = 0 in all draws the pendulum's angular momentum is conserved in all of them.
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
-        type(audit_t) :: audit
+        type(ledger_t) :: audit
         integer :: row
 
         call new_system("pendulum", system, error)
@@ -279,7 +279,7 @@ contains
         row = audit%row_of("L_z is conserved")
         call assertTrue(row > 0, "row > 0")
         if (anyExceptions()) return
-        call assertEqual(draws, audit%findings(row)%states)
+        call assertEqual(draws, audit%rows(row)%states)
     end subroutine given_parameters_stay
 
     subroutine reactions_are_said_by_name()
@@ -337,32 +337,32 @@ contains
 
     subroutine findings_keep_the_worst()
         !! Beside the noise; NaN is the worst of all.
-        type(audit_t) :: audit
+        type(ledger_t) :: audit
         real(dp) :: nan
 
         nan = 0.0_dp
         nan = nan/nan
-        call audit%begin("here")
-        call audit%judge("claim", 1.0_dp, 1.0_dp, 10.0_dp)
-        call audit%judge("claim", 5.0_dp, 10.0_dp, 10.0_dp)
-        call audit%judge("claim", 0.3_dp, 0.1_dp, 10.0_dp)
-        call audit%judge("claim", 0.1_dp, 0.1_dp, 10.0_dp)
+        call audit%section("here")
+        call audit%try("claim", 1.0_dp, 1.0_dp, 10.0_dp)
+        call audit%try("claim", 5.0_dp, 10.0_dp, 10.0_dp)
+        call audit%try("claim", 0.3_dp, 0.1_dp, 10.0_dp)
+        call audit%try("claim", 0.1_dp, 0.1_dp, 10.0_dp)
         call assertEqual(0, audit%broken())
-        call assertEqual(0.3_dp, audit%findings(1)%worst)
-        call assertEqual(1.0_dp, audit%findings(1)%bound)
-        call assertEqual(4, audit%findings(1)%states)
-        call audit%judge("claim", nan, 1.0_dp, 10.0_dp)
+        call assertEqual(0.3_dp, audit%rows(1)%value)
+        call assertEqual(1.0_dp, audit%rows(1)%most)
+        call assertEqual(4, audit%rows(1)%states)
+        call audit%try("claim", nan, 1.0_dp, 10.0_dp)
         call assertEqual(1, audit%broken())
-        call audit%judge("claim", 0.1_dp, 0.1_dp, 10.0_dp)
-        call assertTrue(ieee_is_nan(audit%findings(1)%worst), &
-                        "ieee_is_nan(audit%findings(1)%worst)")
-        call audit%begin("there")
-        call audit%judge("claim", 2.0_dp, 1.0_dp, 1.0_dp)
-        call assertEqual(2, size(audit%findings))
+        call audit%try("claim", 0.1_dp, 0.1_dp, 10.0_dp)
+        call assertTrue(ieee_is_nan(audit%rows(1)%value), &
+                        "ieee_is_nan(audit%rows(1)%value)")
+        call audit%section("there")
+        call audit%try("claim", 2.0_dp, 1.0_dp, 1.0_dp)
+        call assertEqual(2, size(audit%rows))
         call assertEqual(2, audit%broken())
         call audit%say("claim", "first")
         call audit%say("claim", "second")
-        call assertEqual("first", trim(audit%findings(2)%remark))
-        call assertEqual("", trim(audit%findings(1)%remark))
+        call assertEqual("first", trim(audit%rows(2)%remark))
+        call assertEqual("", trim(audit%rows(1)%remark))
     end subroutine findings_keep_the_worst
 end module test_audit

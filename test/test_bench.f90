@@ -3,10 +3,8 @@ module test_bench
     !! looks at a time.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_bench, only: check_build
-    use lagrangia_bench_choice, only: bench_choice_t, read_choice
+    use lagrangia_bench_options, only: bench_options_t, read_options
     use lagrangia_bench_problems, only: bench_problem_t, problem_names, read_problems
-    use lagrangia_bench_table, only: bench_table_t, count_cell, new_bench_table, number_cell, &
-                                     short, word_cell
     use lagrangia_command_line, only: command_line_t, parse_words, word_t
     use lagrangia_contestant, only: contestant_box_t, set_by_tolerance
     use lagrangia_contestants, only: new_contestants
@@ -14,6 +12,7 @@ module test_bench
     use lagrangia_errors, only: error_t, status_usage
     use lagrangia_kinds, only: dp, i8
     use lagrangia_precision_curve, only: not_known
+    use lagrangia_printed_table, only: printed_table_t, count_cell, number_cell, short, word_cell
     use lagrangia_registry, only: options
     implicit none (type, external)
     private
@@ -136,10 +135,10 @@ contains
     subroutine tables_are_lines_and_objects()
         !! Words to the left, numbers to the right; in JSON all digits, and null for what is not
         !! known. More rows than there was room for.
-        type(bench_table_t) :: table
+        type(printed_table_t) :: table
         integer :: i
 
-        call new_bench_table(table, "demo", "a title", [character(8) :: "method", "us", "count"])
+        call table%begin("demo", "a title", [character(8) :: "method", "us", "count"])
         call table%add([word_cell("rk4"), number_cell(1.5_dp, 3), count_cell(12_i8)])
         call table%add([word_cell("gauss16"), number_cell(not_known(), 3), count_cell(1_i8)])
         call assertEqual("method     us  count", table%head())
@@ -171,7 +170,7 @@ contains
 
     subroutine choices_are_checked()
         !! Names that do not exist come back with the nearest; good ones are taken.
-        type(bench_choice_t) :: choice
+        type(bench_options_t) :: choice
         type(error_t), allocatable :: error
 
         call choose([character(24) :: "bench", "precision", "--problems", "P1,P3", "--methods", &
@@ -216,7 +215,7 @@ contains
                 words(i)%text = trim(texts(i))
             end do
             call parse_words(words, options, line, error)
-            if (.not. allocated(error)) call read_choice(line, choice, error)
+            if (.not. allocated(error)) call read_options(line, choice, error)
         end subroutine choose
 
         subroutine refused(word, message)

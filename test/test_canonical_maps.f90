@@ -5,13 +5,13 @@ module test_canonical_maps
     use coupled_problems, only: new_problem, problems, start
     use funit, only: assertEqual, assertFalse, assertGreaterThan, assertLessThan, TestMethod, &
                      TestSuite
-    use lagrangia_canonical_defect, only: canonical_defect, differentiate_step
     use lagrangia_dop853, only: dop853_t, new_dop853
     use lagrangia_errors, only: error_t
     use lagrangia_gauss, only: gauss_t, new_gauss16
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_method_problems, only: new_charge => new_problem, charge => problems, refuses
+    use lagrangia_method_orders, only: new_charge => new_problem, charge => problems, refuses
+    use lagrangia_method_promises, only: canonical_defect, differentiate_step
     use lagrangia_methods, only: new_integrator, nth_integrator
     use lagrangia_rk4, only: new_rk4, rk4_t
     use lagrangia_system, only: system_t

@@ -10,7 +10,6 @@ module test_constraints
                                              lecture_constraint_t, new_constraint, radius, turning
     use lagrangia_pfaffian, only: pfaffian_t
     use lagrangia_rolling_disk, only: rolling_disk_t
-    use lagrangia_walker, only: walker_t
     implicit none (type, external)
     private
     public :: constraints_suite
@@ -198,18 +197,17 @@ contains
 
     subroutine loops()
         !! The closed form for other angles; rolled by nothing, nothing moves.
-        type(walker_t) :: walker
         type(error_t), allocatable :: error
         real(dp), allocatable :: path(:, :)
 
-        call loop_of_disk(walker, [-0.7_dp, 2.1_dp], -3.0_dp, path, error)
+        call loop_of_disk([-0.7_dp, 2.1_dp], -3.0_dp, path, error)
         call assertFalse(allocated(error), "no error: loops")
         call assertEqual([0.3_dp*3.0_dp*(sin(2.1_dp) + sin(0.7_dp)), &
                           -0.3_dp*3.0_dp*(cos(2.1_dp) - cos(0.7_dp)), 0.0_dp, -0.7_dp], &
                          path(2:, size(path, 2)), 1e-13_dp)
         call assertEqual(0.0_dp, path(1, 1), 0.0_dp)
         call assertEqual(4.0_dp, path(1, size(path, 2)), 1e-15_dp)
-        call loop_of_disk(walker, [0.3_dp, 1.1_dp], 0.0_dp, path, error)
+        call loop_of_disk([0.3_dp, 1.1_dp], 0.0_dp, path, error)
         call assertEqual(0.0_dp, maxval(abs(path(2:3, :))), 1e-15_dp)
     end subroutine loops
 

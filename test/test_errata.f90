@@ -3,9 +3,8 @@ module test_errata
     !! are what it claims.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_errata_command, only: slip_report
-    use lagrangia_errata_ledger, only: slips_of_the_notes
-    use lagrangia_errata_slip, only: kind_lecture, kind_none, kind_scan, kind_terminology, &
-                                     line_length, quote_t, slip_t
+    use lagrangia_errata_ledger, only: kind_lecture, kind_none, kind_scan, kind_terminology, &
+                                       line_length, quote_t, slip_t, slips_of_the_notes
     use lagrangia_errors, only: error_t
     use lagrangia_report, only: report_t
     use lagrangia_text, only: to_text
@@ -199,7 +198,7 @@ contains
         do k = 1, size(slips)
             call slip_report(slips(k), report, error)
             call assertFalse(allocated(error), slips(k)%id)
-            call assertEqual(0, report%misses(), slips(k)%id)
+            call assertEqual(0, report%broken(), slips(k)%id)
             call assertTrue((size(report%rows) == 0) .eqv. &
                             index(without, " "//trim(slips(k)%id)//" ") > 0, slips(k)%id)
             if (slips(k)%kind == kind_terminology .or. size(report%rows) == 0) cycle

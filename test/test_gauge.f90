@@ -3,9 +3,9 @@ module test_gauge
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertGreaterThan
     use lagrangia_charged_particle, only: charged_particle_t
     use lagrangia_errors, only: error_t
-    use lagrangia_gauge_examples, only: chi_t, landau_charge_t, pendulum_with_q, &
-                                        pendulum_with_q_q_dot
-    use lagrangia_gauged_system, only: family_t, gauge_t, gauged_system_t, member_names
+    use lagrangia_gauged_system, only: chi_t, family_t, gauge_t, gauged_system_t, &
+                                       landau_charge_t, member_names, pendulum_with_q, &
+                                       pendulum_with_q_q_dot
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: accelerations_from_lagrangian, energy_from_lagrangian

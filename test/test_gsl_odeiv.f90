@@ -4,7 +4,7 @@ module test_gsl_odeiv
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_catalogue, only: new_system
     use lagrangia_errors, only: error_t, status_library, status_numbers, status_usage
-    use lagrangia_gsl_mechanics, only: gsl_context_t, gsl_jacobian, gsl_rates
+    use lagrangia_gsl_contestants, only: gsl_context_t, gsl_jacobian, gsl_rates
     use lagrangia_gsl_odeiv, only: gsl_driver_t, gsl_methods
     use lagrangia_kinds, only: dp, i8
     use lagrangia_reference, only: reference_t

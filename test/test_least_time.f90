@@ -3,12 +3,12 @@ module test_least_time
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertGreaterThan, &
                      assertLessThan, assertRelativelyEqual
     use lagrangia_errors, only: error_t
-    use lagrangia_graded_medium, only: graded_medium_t
     use lagrangia_gsl, only: brent_root
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: accelerations_from_lagrangian, energy_from_lagrangian
     use lagrangia_optical_paths, only: concave_mirror_t, elliptic_mirror_t, flat_mirror_t, &
-                                       quartic_t, second_derivative, stationary_point, surface_t
+                                       graded_medium_t, quartic_t, second_derivative, &
+                                       stationary_point, surface_t
     use random_states, only: draw_parameters, draw_state, restart_random, uniform
     implicit none (type, external)
     private

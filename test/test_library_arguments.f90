@@ -7,7 +7,7 @@ module test_library_arguments
                          plan_t, run, system_t
     use lagrangia_audit, only: audit_system
     use lagrangia_errors, only: status_library, status_numbers, status_usage
-    use lagrangia_findings, only: audit_t
+    use lagrangia_ledger, only: ledger_t
     use lagrangia_run, only: new_sampled_plan
     use singular_systems, only: blind_t, fading_t, light_t, skew_t
     implicit none (type, external)
@@ -246,7 +246,7 @@ contains
         type(light_t) :: light
         type(skew_t) :: skew
         type(blind_t) :: blind
-        type(audit_t) :: audit
+        type(ledger_t) :: audit
 
         call audit_system(light, audit)
         call remarked(audit, "mass matrix is positive definite", &
@@ -255,25 +255,25 @@ contains
         call remarked(audit, "accelerations as from L", &
                       ": the mass matrix d2L/dv dv is singular: it has the eigenvalue 0.0 "// &
                       "beside 1.0")
-        audit = audit_t()
+        audit = ledger_t()
         call audit_system(skew, audit)
         call remarked(audit, "mass matrix is positive definite", ": the mass matrix d2L/dv dv "// &
                       "is not positive definite: it has the eigenvalue -1.0")
-        audit = audit_t()
+        audit = ledger_t()
         call audit_system(blind, audit)
         call remarked(audit, "parameters and states are taken", "L is no number at any state tried")
     end subroutine the_audit_names_the_mass_matrix
 
     subroutine remarked(audit, claim, words)
         !! The claim does not hold, and these words are behind the state.
-        type(audit_t), intent(in) :: audit
+        type(ledger_t), intent(in) :: audit
         character(*), intent(in) :: claim, words
         integer :: row
 
         row = audit%row_of(claim)
         call assertTrue(row > 0, message=claim//" is judged")
         if (row == 0) return
-        associate (finding => audit%findings(row))
+        associate (finding => audit%rows(row))
             call assertFalse(finding%holds, message=claim)
             call assertTrue(index(finding%remark, "q = ") > 0 .and. &
                             index(finding%remark, words) > 0, message=finding%remark)

@@ -3,13 +3,13 @@ module test_method_structure
     !! not declare a property is seen not to have it.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertGreaterThan, &
                      assertLessThan
-    use lagrangia_canonical_defect, only: canonical_defect
     use lagrangia_catalogue, only: nth_system
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_method_problems, only: new_problem, problems, refuses
+    use lagrangia_method_orders, only: new_problem, problems, refuses
+    use lagrangia_method_promises, only: canonical_defect
     use lagrangia_methods, only: method_names, nth_integrator
     use lagrangia_system, only: system_t
     use random_states, only: draw_parameters, draw_state, restart_random

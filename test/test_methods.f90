@@ -6,11 +6,10 @@ module test_methods
     use lagrangia_catalogue, only: new_system
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
-    use lagrangia_findings, only: audit_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_method_orders, only: audit_methods, method_run
-    use lagrangia_method_problems, only: new_problem, problems, refuses
+    use lagrangia_ledger, only: ledger_t
+    use lagrangia_method_orders, only: audit_methods, method_run, new_problem, problems, refuses
     use lagrangia_methods, only: method_names, new_integrator, nth_integrator
     use lagrangia_reference, only: reference_t
     use lagrangia_system, only: system_t
@@ -36,18 +35,18 @@ contains
     subroutine orders_are_as_declared()
         !! On every problem that a method takes; and every method takes one.
         character(name_length), allocatable :: names(:)
-        type(audit_t) :: audit
+        type(ledger_t) :: audit
         integer :: i
 
         call audit_methods(audit)
-        do i = 1, size(audit%findings)
-            associate (row => audit%findings(i))
-                call assertTrue(row%holds, trim(row%claim)//": "//row%remark)
+        do i = 1, size(audit%rows)
+            associate (row => audit%rows(i))
+                call assertTrue(row%holds, trim(row%name)//": "//row%remark)
             end associate
         end do
         allocate (names, source=method_names())
         do i = 1, size(names)
-            call assertTrue(any(index(audit%findings%claim, trim(names(i))//": order") == 1), &
+            call assertTrue(any(index(audit%rows%name, trim(names(i))//": order") == 1), &
                             trim(names(i))//": problems taken")
         end do
     end subroutine orders_are_as_declared

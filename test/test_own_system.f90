@@ -8,8 +8,8 @@ module test_own_system
     use lagrangia_description, only: description_t
     use lagrangia_double_pendulum, only: double_pendulum_t
     use lagrangia_errors, only: error_t
-    use lagrangia_findings, only: audit_t
     use lagrangia_kinds, only: dp
+    use lagrangia_ledger, only: ledger_t
     use lagrangia_pendulum, only: pendulum_t
     use lagrangia_small_oscillations, only: find_modes, modes_t
     use lagrangia_system, only: default_values, system_t
@@ -194,7 +194,7 @@ contains
         type(own_skin_t) :: skin
         type(own_double_t) :: double
         type(own_slope_t) :: slope
-        type(audit_t) :: audit
+        type(ledger_t) :: audit
         integer :: k
 
         call audit_system(double, audit)
@@ -204,16 +204,16 @@ contains
             skin%kind = k
             call audit_system(skin, audit)
         end do
-        do k = 1, size(audit%findings)
-            associate (row => audit%findings(k))
-                call assertTrue(row%holds, trim(row%system)//": "//trim(row%claim)//" "// &
+        do k = 1, size(audit%rows)
+            associate (row => audit%rows(k))
+                call assertTrue(row%holds, trim(row%group)//": "//trim(row%name)//" "// &
                                 row%remark)
             end associate
         end do
-        call assertEqual(37, size(audit%findings), message="claims")
+        call assertEqual(37, size(audit%rows), message="claims")
         skin%kind = 3
         call audit_system(skin, audit)
-        associate (row => audit%findings(size(audit%findings)))
+        associate (row => audit%rows(size(audit%rows)))
             call assertEqual("L is no number at any state tried, such as t = ", row%remark(:47))
         end associate
     end subroutine audits_hold

@@ -48,7 +48,7 @@ contains
         found = 0
         do i = 1, size(report%rows)
             associate (row => report%rows(i))
-                if (row%name /= name .or. index(row%heading, section) /= 1) cycle
+                if (row%name /= name .or. index(row%group, section) /= 1) cycle
                 if (.not. row%control) cycle
                 found = found + 1
                 call assertEqual(left, row%left, bound, page//": "//name//", left")

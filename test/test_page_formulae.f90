@@ -4,14 +4,14 @@ module test_page_formulae
     use formula, only: formula_value, names_t
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_errata_command, only: slip_report
-    use lagrangia_errata_ledger, only: slips_of_the_notes
-    use lagrangia_errata_slip, only: slip_t
+    use lagrangia_errata_ledger, only: slip_t, slips_of_the_notes
     use lagrangia_errors, only: error_t
     use lagrangia_gauged_system, only: family_t, member_names
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
+    use lagrangia_ledger, only: claim_t
     use lagrangia_principle, only: principle_report
-    use lagrangia_report, only: report_t, statement_t
+    use lagrangia_report, only: report_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -185,10 +185,10 @@ contains
                 call letters%set("T", time)
                 call letters%set("cos wT", cos(omega*time))
                 call letters%set("sin wT", sin(omega*time))
-                if (index(row%heading, "the oscillator's action, ") == 1) then
-                    call judge(row, row%heading(26:), letters, read_of, rounding)
-                else if (index(row%heading, "S[x + a sin(pi t/T)] - S[x] = ") == 1) then
-                    call judge(row, row%heading(31:index(row%heading, ", a = ") - 1), letters, &
+                if (index(row%group, "the oscillator's action, ") == 1) then
+                    call judge(row, row%group(26:), letters, read_of, rounding)
+                else if (index(row%group, "S[x + a sin(pi t/T)] - S[x] = ") == 1) then
+                    call judge(row, row%group(31:index(row%group, ", a = ") - 1), letters, &
                                read_of, rounding)
                 end if
             end associate
@@ -251,7 +251,7 @@ contains
         integer :: i, cut
 
         do i = 1, size(report%rows)
-            if (index(report%rows(i)%heading, heading) /= 1) cycle
+            if (index(report%rows(i)%group, heading) /= 1) cycle
             text = trim(report%rows(i)%name)
             text = text(:index(text//"  [", "  [") - 1)
             if (index(text, "is that ") == 1) text = " = "//text(9:index(text, "?") - 1)
@@ -270,7 +270,7 @@ contains
     subroutine judge(row, text, letters, read_of, within)
         !! If the text can be read it is the row's right side; the left one of a control that is
         !! written as the notes have it is not.
-        type(statement_t), intent(in) :: row
+        type(claim_t), intent(in) :: row
         character(*), intent(in) :: text
         type(names_t), intent(in) :: letters
         integer, intent(inout) :: read_of

@@ -5,9 +5,8 @@ module test_precision_curve
     use lagrangia_contestant, only: source_gsl, source_ours
     use lagrangia_kinds, only: dp
     use lagrangia_precision_curve, only: best, confirmed, median, not_known, ratio, time_to_error
-    use lagrangia_precision_tables, only: best_time
     use lagrangia_stopwatch, only: repetitions
-    use lagrangia_work_precision, only: curve_t
+    use lagrangia_work_precision, only: best_time, curve_t
     implicit none (type, external)
     private
     public :: precision_curve_suite

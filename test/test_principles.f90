@@ -4,8 +4,10 @@ module test_principles
                      assertGreaterThan, assertLessThanOrEqual, assertTrue
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
-    use lagrangia_principle, only: principle_names, principle_report, statement_line
-    use lagrangia_report, only: report_t, statement_t
+    use lagrangia_ledger, only: claim_t
+    use lagrangia_ledger_text, only: statement_line
+    use lagrangia_principle, only: principle_names, principle_report
+    use lagrangia_report, only: report_t
     implicit none (type, external)
     private
     public :: principles_suite
@@ -82,13 +84,13 @@ contains
             do k = 1, size(report%rows)
                 associate (row => report%rows(k))
                     call assertTrue(row%as_it_must(), trim(names(i))//": "//row%name)
-                    if (row%control) call assertGreaterThan(row%difference, &
-                        max(1e3_dp*row%bound, 1e-6_dp), message="control: "//row%name)
+                    if (row%control) call assertGreaterThan(row%value, &
+                        max(1e3_dp*row%most, 1e-6_dp), message="control: "//row%name)
                     call assertLessThanOrEqual(len(statement_line(row)), 100, message=row%name)
                     call assertLessThanOrEqual(len_trim(row%name), len(row%name) - 1, &
                                                message=row%name)
-                    call assertLessThanOrEqual(len_trim(row%heading), len(row%heading) - 1, &
-                                               message=row%heading)
+                    call assertLessThanOrEqual(len_trim(row%group), len(row%group) - 1, &
+                                               message=row%group)
                 end associate
             end do
             do k = 1, size(report%notes)
@@ -162,14 +164,14 @@ contains
             first = 1
             do k = 2, size(report%rows) + 1
                 if (k <= size(report%rows)) then
-                    if (report%rows(k)%heading == report%rows(first)%heading) cycle
+                    if (report%rows(k)%group == report%rows(first)%group) cycle
                 end if
                 call assertTrue(next <= size(sections), trim(names(i))//": a section more: "// &
-                                report%rows(first)%heading)
+                                report%rows(first)%group)
                 if (next > size(sections)) return
                 section = sections(next)
                 call assertEqual(section%page, names(i), "page of "//section%heading)
-                call assertEqual(trim(section%heading), report%rows(first)%heading( &
+                call assertEqual(trim(section%heading), report%rows(first)%group( &
                                  :len_trim(section%heading)), trim(names(i))//": section")
                 call assertEqual(section%statements, &
                                  count(.not. report%rows(first:k - 1)%control), &
@@ -204,8 +206,8 @@ contains
         call assertTrue(all(report%rows%as_it_must() .eqv. [.true., .false., .false., .false., &
                                                              .false., .true., .true., .true., &
                                                              .false.]), "verdicts")
-        call assertEqual(5, report%misses())
-        differences = report%rows(7:)%difference
+        call assertEqual(5, report%broken())
+        differences = report%rows(7:)%value
         call assertEqual([0.0_dp, 0.25_dp, 1.0_dp], differences, 1e-15_dp)
         call assertTrue(index(statement_line(report%rows(1)), "  holds") > 0, &
                         "index(statement_line(report%rows(1)), '  holds') > 0")

@@ -5,10 +5,10 @@ module test_processes
     use lagrangia_c_library, only: c_exit, c_signal
     use lagrangia_console, only: finish_console, put_line
     use lagrangia_errors, only: error_t, status_file, status_interrupted, status_terminated
-    use lagrangia_giving_up, only: give_up
     use lagrangia_interrupt, only: catch_interrupts, interrupt_status
     use lagrangia_output_file, only: output_file_t
     use lagrangia_processes, only: run_program
+    use lagrangia_program, only: give_up
     use lagrangia_text, only: word_t
     use test_scratch, only: c_dup2, c_raise, contents, exit_status, new_folder, remove_file, &
         send_stdout_to

@@ -7,9 +7,9 @@ module test_reduced_motion
     use lagrangia_cart_swing, only: cart_swing_t
     use lagrangia_command_line, only: word_t
     use lagrangia_errors, only: error_t
-    use lagrangia_findings, only: audit_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t, not_started
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_ledger, only: ledger_t
     use lagrangia_methods, only: new_adaptive, new_integrator
     use lagrangia_outcome, only: outcome_t
     use lagrangia_pendulum, only: pendulum_t
@@ -46,17 +46,17 @@ contains
     subroutine rouths_function_gives_its_equations()
         !! Accelerations, lanes and energy against \(R\), by exact derivatives.
         type(cart_swing_t) :: system
-        type(audit_t) :: audit
+        type(ledger_t) :: audit
         integer :: i
 
         call audit_system(system, audit)
-        do i = 1, size(audit%findings)
-            associate (row => audit%findings(i))
-                call assertTrue(row%holds, trim(row%claim)//" "//row%remark)
+        do i = 1, size(audit%rows)
+            associate (row => audit%rows(i))
+                call assertTrue(row%holds, trim(row%name)//" "//row%remark)
             end associate
         end do
-        call assertEqual(draws, audit%findings(audit%row_of(claim_accelerations))%states)
-        call assertEqual(draws, audit%findings(audit%row_of(claim_energy))%states)
+        call assertEqual(draws, audit%rows(audit%row_of(claim_accelerations))%states)
+        call assertEqual(draws, audit%rows(audit%row_of(claim_energy))%states)
     end subroutine rouths_function_gives_its_equations
 
     subroutine states_leave_and_come_back()

@@ -6,8 +6,8 @@ module test_register
     use lagrangia_command_line, only: word_t
     use lagrangia_description, only: conserved, description_t, name_length, quantity
     use lagrangia_errors, only: error_t, status_usage
-    use lagrangia_findings, only: audit_t
     use lagrangia_kinds, only: dp
+    use lagrangia_ledger, only: ledger_t
     use lagrangia_scene, only: scene_t
     use lagrangia_system, only: system_t
     use own_systems, only: own_named_t, own_pendulum_t
@@ -37,7 +37,7 @@ contains
         character(name_length), allocatable :: before(:), after(:)
         class(system_t), allocatable :: system
         type(scene_t) :: scene
-        type(audit_t) :: audit
+        type(ledger_t) :: audit
         type(description_t) :: d
         type(error_t), allocatable :: error
         real(dp) :: a(1), values(3)
@@ -67,7 +67,7 @@ contains
         call assertEqual([0.5_dp, 2.0_dp, 9.81_dp], scene%parameters)
         call nth_system(size(after), system)
         call audit_system(system, audit)
-        call assertEqual(12, size(audit%findings), message="claims")
+        call assertEqual(12, size(audit%rows), message="claims")
         call assertEqual(0, audit%broken(), "claims that do not hold")
         call refused(own, "system 'own_pendulum': there is a system of that name: give yours "// &
                      "another one")

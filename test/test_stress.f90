@@ -2,17 +2,16 @@ module test_stress
     !! The verdicts of `lagrangia stress` on methods: each is seen to hold, and to fail.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_edges_of_numbers, only: judge_edges
-    use lagrangia_energy_growth, only: judge_energy_growth
+    use lagrangia_energy_growth, only: growth_t, judge_energy_growth, judge_rounding
     use lagrangia_errors, only: error_t
-    use lagrangia_growth_law, only: growth_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_ledger, only: ledger_t
+    use lagrangia_ledger_text, only: allowed, measured_json, verdict
     use lagrangia_method_promises, only: judge_bytes, judge_reversal, judge_scaling, &
                                          judge_symplectic, judge_text
     use lagrangia_methods, only: method_names, new_integrator, nth_integrator
-    use lagrangia_rounding, only: judge_rounding
     use lagrangia_step_limits, only: judge_step_limit
-    use lagrangia_verdicts, only: verdicts_t
     use spoiled_methods, only: new_spoiled, spoiled_t
     implicit none (type, external)
     private
@@ -42,10 +41,10 @@ contains
         type(spoiled_t) :: spoiled
         class(integrator_t), allocatable :: method
         type(error_t), allocatable :: error
-        type(verdicts_t) :: verdicts
+        type(ledger_t) :: verdicts
         integer :: i
 
-        call verdicts%begin("promises")
+        call verdicts%section("promises")
         call new_integrator("verlet", method, error)
         call judge_reversal(method, verdicts)
         call judge_symplectic(method, verdicts)
@@ -61,11 +60,11 @@ contains
         call new_spoiled(spoiled, "verlet", push=1e-12_dp)
         call judge_scaling(spoiled, verdicts)
         do i = 6, 9
-            call assertFalse(verdicts%list(i)%holds, verdicts%list(i)%measured)
+            call assertFalse(verdicts%rows(i)%holds, verdicts%rows(i)%measured)
         end do
         call new_integrator("rk4", method, error)
         call judge_reversal(method, verdicts)
-        call assertEqual("stated", verdicts%list(10)%word())
+        call assertEqual("stated", verdict(verdicts%rows(10)))
     end subroutine promises_are_held
 
     subroutine rounding_is_told_apart()
@@ -73,9 +72,9 @@ contains
         !! another energy.
         class(integrator_t), allocatable :: method
         type(error_t), allocatable :: error
-        type(verdicts_t) :: verdicts
+        type(ledger_t) :: verdicts
 
-        call verdicts%begin("rounding")
+        call verdicts%section("rounding")
         call new_integrator("verlet", method, error)
         call judge_rounding(method, "plain", 1000000_i8, verdicts)
         call judge_rounding(method, "compensated", 1000000_i8, verdicts)
@@ -83,7 +82,7 @@ contains
         call judge_rounding(method, "compensated", 100000_i8, verdicts)
         call new_integrator("velocity_verlet", method, error)
         call judge_rounding(method, "plain", 10000_i8, verdicts)
-        call assertTrue(all(verdicts%list%holds .eqv. [.true., .false., .true., .false.]), &
+        call assertTrue(all(verdicts%rows%holds .eqv. [.true., .false., .true., .false.]), &
                         "plain, compensated")
     end subroutine rounding_is_told_apart
 
@@ -92,28 +91,28 @@ contains
         class(integrator_t), allocatable :: method
         type(spoiled_t) :: spoiled
         type(error_t), allocatable :: error
-        type(verdicts_t) :: verdicts
+        type(ledger_t) :: verdicts
 
-        call verdicts%begin("edges")
+        call verdicts%section("edges")
         call new_integrator("rk4", method, error)
         call judge_edges(method, verdicts)
         call assertEqual(0, verdicts%broken())
         call new_spoiled(spoiled, "rk4", push=1e-3_dp)
         call judge_edges(spoiled, verdicts)
-        call assertFalse(verdicts%list(6)%holds .or. verdicts%list(7)%holds, "amplitudes")
+        call assertFalse(verdicts%rows(6)%holds .or. verdicts%rows(7)%holds, "amplitudes")
         call new_spoiled(spoiled, "rk4", damping=0.5_dp)
         call judge_edges(spoiled, verdicts)
-        call assertFalse(verdicts%list(13)%holds .or. verdicts%list(14)%holds, "overflow")
+        call assertFalse(verdicts%rows(13)%holds .or. verdicts%rows(14)%holds, "overflow")
     end subroutine edges_of_numbers_are_seen
 
     subroutine verdicts_hold_within_bounds()
         !! From both sides; NaN never; a statement has no bounds.
-        type(verdicts_t) :: verdicts
+        type(ledger_t) :: verdicts
         real(dp) :: nan
 
         nan = 0.0_dp
         nan = nan/nan
-        call verdicts%begin("a_row")
+        call verdicts%section("a_row")
         call verdicts%judge("small", "x", 1.0_dp, most=1.0_dp)
         call verdicts%judge("large", "x", 1.5_dp, most=1.0_dp)
         call verdicts%judge("low", "x", 0.5_dp, 1.0_dp, 2.0_dp)
@@ -121,17 +120,17 @@ contains
         call verdicts%judge("nothing", "x", nan, most=1.0_dp)
         call verdicts%judge("no bounds", "x", 3.0_dp)
         call verdicts%judge("no number", "x", nan)
-        call assertTrue(all(verdicts%list%holds .eqv. [.true., .false., .false., .true., .false., &
+        call assertTrue(all(verdicts%rows%holds .eqv. [.true., .false., .false., .true., .false., &
                                                        .true., .false.]), "verdicts")
         call assertEqual(4, verdicts%broken())
-        call assertEqual("<= 1.0", verdicts%list(1)%allowed())
-        call assertEqual("1.000 .. 2.000", verdicts%list(4)%allowed())
-        call assertEqual("-", verdicts%list(6)%allowed())
-        call assertEqual("FAILS", verdicts%list(2)%word())
-        call assertEqual("stated", verdicts%list(6)%word())
+        call assertEqual("<= 1.0", allowed(verdicts%rows(1)))
+        call assertEqual("1.000 .. 2.000", allowed(verdicts%rows(4)))
+        call assertEqual("-", allowed(verdicts%rows(6)))
+        call assertEqual("FAILS", verdict(verdicts%rows(2)))
+        call assertEqual("stated", verdict(verdicts%rows(6)))
         call assertEqual('{"row": "a_row", "case": "nothing", "measured": "x", "value": null, '// &
                          '"least": null, "most": 1.0000000000000000E+000, "holds": false, '// &
-                         '"remark": ""}', verdicts%list(5)%object())
+                         '"remark": ""}', measured_json(verdicts%rows(5)))
     end subroutine verdicts_hold_within_bounds
 
     subroutine laws_are_named()
@@ -162,39 +161,39 @@ contains
         class(integrator_t), allocatable :: method
         type(spoiled_t) :: spoiled
         type(error_t), allocatable :: error
-        type(verdicts_t) :: verdicts
+        type(ledger_t) :: verdicts
 
-        call verdicts%begin("step_limits")
+        call verdicts%section("step_limits")
         call new_integrator("verlet", method, error)
         call judge_step_limit(method, 2000_i8, verdicts)
-        call assertEqual(2.0_dp, verdicts%list(1)%value, 1e-3_dp, "verlet")
+        call assertEqual(2.0_dp, verdicts%rows(1)%value, 1e-3_dp, "verlet")
         call new_integrator("rk4", method, error)
         call judge_step_limit(method, 20000_i8, verdicts)
-        call assertEqual(2.0_dp*sqrt(2.0_dp), verdicts%list(3)%value, 1e-3_dp, "rk4")
+        call assertEqual(2.0_dp*sqrt(2.0_dp), verdicts%rows(3)%value, 1e-3_dp, "rk4")
         call assertEqual(0, verdicts%broken())
         method%step_limit = 2.9_dp
         call judge_step_limit(method, 1000_i8, verdicts)
-        call assertFalse(verdicts%list(5)%holds, "another claim")
+        call assertFalse(verdicts%rows(5)%holds, "another claim")
         call new_spoiled(spoiled, "verlet", damping=-1e-2_dp)
         call judge_step_limit(spoiled, 1000_i8, verdicts)
-        call assertFalse(verdicts%list(7)%holds, "energy is fed in at every step")
+        call assertFalse(verdicts%rows(7)%holds, "energy is fed in at every step")
     end subroutine step_limits_are_measured
 
     subroutine declared_step_limits_are_right()
         !! To all six digits of every table: there two eigenvalues meet, and part with the root
         !! of what the step is longer. That of `rk4` leaves the circle more slowly.
         class(integrator_t), allocatable :: method
-        type(verdicts_t) :: verdicts
+        type(ledger_t) :: verdicts
         integer :: i, declared
 
-        call verdicts%begin("step_limits")
+        call verdicts%section("step_limits")
         declared = 0
         do i = 1, size(method_names())
             call nth_integrator(i, method)
             if (.not. method%step_limit > 0.0_dp) cycle
             declared = declared + 1
             call judge_step_limit(method, 1_i8, verdicts)
-            call assertEqual(verdicts%list(2*declared - 1)%value, method%step_limit, &
+            call assertEqual(verdicts%rows(2*declared - 1)%value, method%step_limit, &
                              merge(1e-5_dp, 7e-7_dp, method%name == "rk4"), trim(method%name))
         end do
         call assertEqual(12, declared, message="methods with a limit")
@@ -206,20 +205,20 @@ contains
         class(integrator_t), allocatable :: method
         type(spoiled_t) :: spoiled
         type(error_t), allocatable :: error
-        type(verdicts_t) :: verdicts
+        type(ledger_t) :: verdicts
 
-        call verdicts%begin("energy_growth")
+        call verdicts%section("energy_growth")
         call new_integrator("verlet", method, error)
         call judge_energy_growth(method, 100000_i8, verdicts)
-        call assertTrue(verdicts%list(1)%holds, "verlet")
-        call assertEqual("bounded", verdicts%list(1)%remark(:7))
+        call assertTrue(verdicts%rows(1)%holds, "verlet")
+        call assertEqual("bounded", verdicts%rows(1)%remark(:7))
         call new_integrator("rk4", method, error)
         call judge_energy_growth(method, 400000_i8, verdicts)
-        call assertTrue(verdicts%list(2)%holds, "rk4")
-        call assertEqual("linear", verdicts%list(2)%remark(:6))
+        call assertTrue(verdicts%rows(2)%holds, "rk4")
+        call assertEqual("linear", verdicts%rows(2)%remark(:6))
         call new_spoiled(spoiled, "suzuki4", damping=1e-7_dp)
         call judge_energy_growth(spoiled, 500000_i8, verdicts)
-        call assertFalse(verdicts%list(3)%holds, "friction")
-        call assertEqual("linear", verdicts%list(3)%remark(:6))
+        call assertFalse(verdicts%rows(3)%holds, "friction")
+        call assertEqual("linear", verdicts%rows(3)%remark(:6))
     end subroutine energy_growth_is_named
 end module test_stress

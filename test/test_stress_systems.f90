@@ -9,16 +9,16 @@ module test_stress_systems
     use lagrangia_chaos, only: judge_chaos
     use lagrangia_double_pendulum, only: double_pendulum_t
     use lagrangia_errors, only: error_t
-    use lagrangia_extreme_masses, only: exact_omega2, judge_mass_ratios, judge_massless
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp
+    use lagrangia_ledger, only: ledger_t
     use lagrangia_limits_of_systems, only: judge_slow_disk, judge_slow_wire, judge_wedge, &
                                            judge_weak_field
     use lagrangia_methods, only: new_adaptive
     use lagrangia_pendulum, only: pendulum_t
-    use lagrangia_pendulum_extremes, only: exact_period, judge_large_angles, judge_separatrix
+    use lagrangia_pendulum_extremes, only: exact_omega2, exact_period, judge_large_angles, &
+                                           judge_mass_ratios, judge_massless, judge_separatrix
     use lagrangia_system, only: system_t
-    use lagrangia_verdicts, only: verdicts_t
     use lagrangia_wedge, only: wedge_t
     use plain_system, only: plain_system_t
     implicit none (type, external)
@@ -50,7 +50,7 @@ contains
 
     subroutine check_all(verdicts, hold, what, cases)
         !! All lines hold, or none of those of `what` does; then start anew.
-        type(verdicts_t), intent(inout) :: verdicts
+        type(ledger_t), intent(inout) :: verdicts
         logical, intent(in) :: hold
         character(*), intent(in) :: what
         character(*), intent(in), optional :: cases  !! what the lines are of, in this order
@@ -58,24 +58,24 @@ contains
         integer :: i
 
         if (present(cases)) then
-            found = trim(verdicts%list(1)%of)
-            do i = 2, size(verdicts%list)
-                if (verdicts%list(i)%of == verdicts%list(i - 1)%of) cycle
-                found = found//"; "//trim(verdicts%list(i)%of)
+            found = trim(verdicts%rows(1)%name)
+            do i = 2, size(verdicts%rows)
+                if (verdicts%rows(i)%name == verdicts%rows(i - 1)%name) cycle
+                found = found//"; "//trim(verdicts%rows(i)%name)
             end do
             call assertEqual(cases, found, "cases")
         end if
 
-        do i = 1, size(verdicts%list)
-            associate (line => verdicts%list(i))
-                if (hold) call assertTrue(line%holds, trim(line%of)//" "//line%measured)
+        do i = 1, size(verdicts%rows)
+            associate (line => verdicts%rows(i))
+                if (hold) call assertTrue(line%holds, trim(line%name)//" "//line%measured)
                 if (.not. hold .and. index(line%measured, what) > 0) call assertFalse(line%holds, &
-                    "careless: "//trim(line%of)//" "//line%measured)
+                    "careless: "//trim(line%name)//" "//line%measured)
             end associate
         end do
-        call assertTrue(any(index(verdicts%list%measured, what) > 0), what)
-        deallocate (verdicts%list)
-        call verdicts%begin("next")
+        call assertTrue(any(index(verdicts%rows%measured, what) > 0), what)
+        deallocate (verdicts%rows)
+        call verdicts%section("next")
     end subroutine check_all
 
     subroutine new_method(name, tolerance, method)
@@ -93,14 +93,14 @@ contains
         type(pendulum_t) :: system
         type(careless_pendulum_t) :: careless
         type(error_t), allocatable :: error
-        type(verdicts_t) :: verdicts
+        type(ledger_t) :: verdicts
 
         call system%configure([1.0_dp, 1.0_dp, 1.0_dp], error)
         call assertEqual(8.3497529269184947344_dp, exact_period(system, 2.0_dp), 2e-15_dp, "2 rad")
         call assertEqual(16.155539372393374764_dp, exact_period(system, 3.0_dp), 4e-15_dp, "3 rad")
         call careless%configure([1.0_dp, 1.0_dp, 9.81_dp], error)
         call new_method("gauss16", 1e-13_dp, method)
-        call verdicts%begin("near_separatrix")
+        call verdicts%section("near_separatrix")
         call judge_separatrix(system, method, verdicts)
         call check_all(verdicts, .true., "run", "pi - 1e-1; pi - 1e-3; pi - 1e-6; pi - 1e-9; "// &
                        "pi - 1e-12; pi - 1e-15")
@@ -108,7 +108,7 @@ contains
         call check_all(verdicts, .true., "last digits", &
                        "theta = 1000.0; theta = 1000000.0; theta = 1000000000.0")
         call judge_separatrix(careless, method, verdicts)
-        call assertFalse(verdicts%list(2)%holds .or. verdicts%list(4)%holds, "a careless run")
+        call assertFalse(verdicts%rows(2)%holds .or. verdicts%rows(4)%holds, "a careless run")
         call check_all(verdicts, .false., "closed form")
         call judge_large_angles(careless, method, verdicts)
         call check_all(verdicts, .false., "last digits")
@@ -120,19 +120,19 @@ contains
         class(dense_integrator_t), allocatable :: method
         type(double_pendulum_t) :: system
         type(careless_double_t) :: careless
-        type(verdicts_t) :: verdicts
+        type(ledger_t) :: verdicts
         real(dp) :: omega2(2)
 
         omega2 = exact_omega2(3.0_dp, 2.0_dp)
         call assertEqual(9.81_dp**2*5.0_dp/(3.0_dp*0.7_dp), product(omega2), 1e-12_dp, "product")
         call assertEqual(9.81_dp*5.0_dp*1.7_dp/(3.0_dp*0.7_dp), sum(omega2), 1e-13_dp, "sum")
         call new_method("gauss16", 1e-11_dp, method)
-        call verdicts%begin("mass_ratios")
+        call verdicts%section("mass_ratios")
         call judge_massless(system, verdicts)
         call check_all(verdicts, .true., "refused", "m1 = 1e-3; m1 = 1e-6; m1 = 1e-12; "// &
                        "m1 = 1e-100; m1 = 1e-300; m1 = 0")
         call judge_massless(careless, verdicts)
-        call assertFalse(verdicts%list(7)%holds, "slow mode, 1e-100")
+        call assertFalse(verdicts%rows(7)%holds, "slow mode, 1e-100")
         call check_all(verdicts, .false., "refused")
         call judge_mass_ratios(careless, method, 0.0_dp, verdicts)
         call check_all(verdicts, .false., "frequencies")
@@ -146,9 +146,9 @@ contains
         !! Both ends; a constant that is far below the last digit elsewhere is not there.
         type(wedge_t) :: system
         type(careless_wedge_t) :: careless
-        type(verdicts_t) :: verdicts
+        type(ledger_t) :: verdicts
 
-        call verdicts%begin("wedge")
+        call verdicts%section("wedge")
         call judge_wedge(system, verdicts)
         call check_all(verdicts, .true., "accelerations", "alpha = 0.6; alpha = 0.0001; "// &
                        "alpha = 1e-8; alpha = 1e-300; alpha = 0.0; alpha = pi/2 - 1e-4; "// &
@@ -161,14 +161,14 @@ contains
         !! Closed forms hold; a system that has none, or takes other parameters, does not.
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
-        type(verdicts_t) :: verdicts
+        type(ledger_t) :: verdicts
         integer :: i
         character(13), parameter :: turns(3) = [character(13) :: "wire, omega", "disk, omega", &
                                                 "charge, B"]
         character(16), parameter :: names(4) = [character(16) :: "rotating_wire", "rolling_disk", &
                                                 "charged_particle", "oscillator"]
 
-        call verdicts%begin("slow_rotation")
+        call verdicts%section("slow_rotation")
         do i = 1, 4
             call new_system(trim(names(i)), system, error)
             select case (i)
@@ -178,7 +178,7 @@ contains
             case default; call judge_slow_wire(system, verdicts)
             end select
             if (i < 4) call check_all(verdicts, .true., "after 2 s", cases_of(trim(turns(i))))
-            if (i == 4) call assertFalse(any(verdicts%list(:2)%holds), "another system")
+            if (i == 4) call assertFalse(any(verdicts%rows(:2)%holds), "another system")
         end do
     contains
         pure function cases_of(turn) result(text)
@@ -196,10 +196,10 @@ contains
         class(dense_integrator_t), allocatable :: method
         type(bouncing_ball_t) :: system
         type(careless_ball_t) :: careless
-        type(verdicts_t) :: verdicts
+        type(ledger_t) :: verdicts
 
         call new_method("dop853", 1e-12_dp, method)
-        call verdicts%begin("bounces")
+        call verdicts%section("bounces")
         call judge_elastic(system, method, verdicts)
         call check_all(verdicts, .true., "20 bounces", "e = 1 - 1e-1; e = 1 - 1e-4; "// &
                        "e = 1 - 1e-8; e = 1 - 1e-12; e = 1 - 1e-15; e = 1")
@@ -216,12 +216,12 @@ contains
         class(dense_integrator_t), allocatable :: method, other
         type(double_pendulum_t) :: system
         type(error_t), allocatable :: error
-        type(verdicts_t) :: verdicts
+        type(ledger_t) :: verdicts
 
         call new_method("gauss16", 1e-13_dp, method)
         call new_method("dop853", 1e-13_dp, other)
         call system%configure([1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 9.81_dp], error)
-        call verdicts%begin("chaos")
+        call verdicts%section("chaos")
         call judge_chaos(system, method, other, 40.0_dp, verdicts)
         call check_all(verdicts, .true., "part")
         call system%configure([1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 0.0_dp], error)
@@ -235,16 +235,16 @@ contains
         !! seen at 36.5 s. The bounds are half and twice of that.
         class(dense_integrator_t), allocatable :: method, other
         type(saddle_t) :: system
-        type(verdicts_t) :: verdicts
+        type(ledger_t) :: verdicts
         type(error_t), allocatable :: error
 
         call system%configure([real(dp) ::], error)
         call new_method("gauss16", 1e-13_dp, method)
         call new_method("dop853", 1e-13_dp, other)
-        call verdicts%begin("saddle")
+        call verdicts%section("saddle")
         call judge_chaos(system, method, other, 40.0_dp, verdicts)
-        call assertEqual(18.25_dp, verdicts%list(2)%least, 0.0_dp, "half of it")
-        call assertEqual(73.0_dp, verdicts%list(2)%most, 0.0_dp, "twice of it")
+        call assertEqual(18.25_dp, verdicts%rows(2)%least, 0.0_dp, "half of it")
+        call assertEqual(73.0_dp, verdicts%rows(2)%most, 0.0_dp, "twice of it")
     end subroutine the_time_of_no_digit_is_predicted
 
     pure subroutine pushed(self, t, q, v, a)

@@ -7,10 +7,10 @@ module test_stress_texts
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_ledger, only: ledger_t
     use lagrangia_methods, only: new_adaptive, new_integrator
     use lagrangia_pendulum, only: pendulum_t
     use lagrangia_stress_rows, only: rows
-    use lagrangia_verdicts, only: verdicts_t
     use lobatto_3b, only: energy_of, walk
     implicit none (type, external)
     private
@@ -132,21 +132,21 @@ contains
         class(dense_integrator_t), allocatable :: method, other
         type(double_pendulum_t) :: system
         type(error_t), allocatable :: error
-        type(verdicts_t) :: verdicts
+        type(ledger_t) :: verdicts
         real(dp) :: uncertain
 
         call new_adaptive("gauss16", method)
         call new_adaptive("dop853", other)
         call system%configure([1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 9.81_dp], error)
-        call verdicts%begin("chaos")
+        call verdicts%section("chaos")
         call judge_chaos(system, method, other, 40.0_dp, verdicts)
-        associate (remark => verdicts%list(1)%remark)
+        associate (remark => verdicts%rows(1)%remark)
             call assertEqual("+- ", remark(:3))
             call assertGreaterThan(index(remark, "from 16 windows of 40.0 s"), 0, message=remark)
             read (remark(4:), *) uncertain
             call assertLessThan(len_trim(remark), len(remark), message=remark)
         end associate
         call assertLessThan(uncertain, 0.1_dp)
-        call assertEqual(1.087_dp, verdicts%list(1)%value, 4.0_dp*uncertain, "exponent")
+        call assertEqual(1.087_dp, verdicts%rows(1)%value, 4.0_dp*uncertain, "exponent")
     end subroutine the_exponent_has_an_error
 end module test_stress_texts

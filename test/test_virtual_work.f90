@@ -3,14 +3,14 @@ module test_virtual_work
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertGreaterThan, &
                      assertLessThanOrEqual
     use lagrangia_catalogue, only: nth_system, system_names
-    use lagrangia_dalembert, only: conservative_forces, dalembert
     use lagrangia_description, only: description_t
     use lagrangia_driven_pendulum, only: driven_pendulum_t
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: accelerations_from_lagrangian, energy_from_lagrangian
-    use lagrangia_point_motion, only: expand_points, point_motion_t
+    use lagrangia_point_motion, only: conservative_forces, dalembert, expand_points, &
+                                      point_motion_t
     use lagrangia_rotating_hoop, only: rotating_hoop_t
     use lagrangia_system, only: system_t
     use lagrangia_test_potentials, only: test_charge_t
@@ -122,7 +122,7 @@ contains
             do k = -2, 2
                 x(:, k) = place(system, t + k*step, q)
             end do
-            call compare(8.0_dp*(x(:, 1) - x(:, -1)) - x(:, 2) + x(:, -2), motion%drift, 1)
+            call compare(8.0_dp*(x(:, 1) - x(:, -1)) - x(:, 2) + x(:, -2), motion%x_t, 1)
             do k = -2, 2
                 moved = q + k*step
                 x(:, k) = place(system, t, moved)

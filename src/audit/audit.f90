@@ -6,16 +6,16 @@ module lagrangia_audit
     !! Velocities of a non-holonomic system are completed from the free ones.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use lagrangia_audit_equations, only: audit_accelerations, audit_constraints, audit_energy, &
-                                         audit_lanes, audit_momenta, claim_accelerations
-    use lagrangia_audit_motion, only: audit_rates
+                                         audit_lanes, audit_momenta, audit_rates, &
+                                         claim_accelerations
     use lagrangia_audit_newton, only: audit_gauss, audit_inertia, say_reactions
     use lagrangia_audit_structure, only: audit_cyclic, audit_flags, audit_mass
     use lagrangia_description, only: description_t
     use lagrangia_diagnosis, only: diagnose
     use lagrangia_errors, only: error_t
-    use lagrangia_findings, only: audit_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: euler_lagrange_t
+    use lagrangia_ledger, only: ledger_t
     use lagrangia_mass_matrix, only: check_mass_matrix, list_of
     use lagrangia_random_draws, only: random_t
     use lagrangia_system, only: default_values, system_t
@@ -32,7 +32,7 @@ contains
     subroutine audit_system(system, audit, fixed, given)
         !! Add a row for each claim. On return `system` has the parameters of the last draw.
         class(system_t), intent(inout) :: system
-        type(audit_t), intent(inout) :: audit
+        type(ledger_t), intent(inout) :: audit
         logical, intent(in), optional :: fixed(:)    !! parameters that stay as `given`
         real(dp), intent(in), optional :: given(:)
         type(random_t) :: random
@@ -44,7 +44,7 @@ contains
         integer :: i, row
 
         call system%describe(d)
-        call audit%begin(trim(d%name))
+        call audit%section(trim(d%name))
         all_free = .true.
         if (present(fixed)) all_free = .not. any(fixed)
         do i = 1, draws
@@ -53,13 +53,13 @@ contains
                 call audit_state(system, values, random, mod(i, 2) == 1, all_free, audit, error)
             end if
             if (allocated(error)) then
-                call audit%judge("parameters and states are taken", 1.0_dp, 0.0_dp, 1.0_dp)
+                call audit%try("parameters and states are taken", 1.0_dp, 0.0_dp, 1.0_dp)
                 call audit%say("parameters and states are taken", error%message)
                 return
             end if
             call audit_parameters(audit, system, values)
             row = audit%row_of(claim_accelerations)
-            if (audit%findings(row)%holds .or. allocated(culprit)) cycle
+            if (audit%rows(row)%holds .or. allocated(culprit)) cycle
             allocate (culprit, source=values)
         end do
         if (allocated(culprit)) then
@@ -72,7 +72,7 @@ contains
 
     subroutine audit_parameters(audit, system, values)
         !! Each parameter goes where it belongs: the description reads them back.
-        type(audit_t), intent(inout) :: audit
+        type(ledger_t), intent(inout) :: audit
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: values(:)
         type(description_t) :: d
@@ -82,8 +82,8 @@ contains
         call system%describe(d)
         allocate (read_back, source=default_values(d))
         same = all(abs(read_back - values) <= 0.0_dp .or. ieee_is_nan(values))
-        call audit%judge("parameters are what was given", merge(0.0_dp, 1.0_dp, same), &
-                         epsilon(1.0_dp), 1.0_dp)
+        call audit%try("parameters are what was given", merge(0.0_dp, 1.0_dp, same), &
+                       epsilon(1.0_dp), 1.0_dp)
     end subroutine audit_parameters
 
     subroutine show_reactions(system, values, d, audit, given)
@@ -91,7 +91,7 @@ contains
         class(system_t), intent(inout) :: system
         real(dp), intent(in) :: values(:)           !! what `system` has
         type(description_t), intent(in) :: d        !! with the defaults
-        type(audit_t), intent(inout) :: audit
+        type(ledger_t), intent(inout) :: audit
         real(dp), intent(in), optional :: given(:)
         type(error_t), allocatable :: error
         real(dp), allocatable :: q(:), v(:), free(:)
@@ -116,7 +116,7 @@ contains
         type(random_t), intent(inout) :: random
         logical, intent(in) :: inside    !! no parameter was put on the edge of its domain
         logical, intent(in) :: all_free  !! nor was one given
-        type(audit_t), intent(inout) :: audit
+        type(ledger_t), intent(inout) :: audit
         type(error_t), allocatable, intent(out) :: error
         type(nearby_t) :: nearby
         type(motion_t) :: motion
@@ -132,7 +132,7 @@ contains
         call solve_motion(nearby, motion, unsolved)
         if (allocated(unsolved)) then
             call say_why(nearby%terms(0), t, q, v, unsolved)
-            call audit%judge(claim_accelerations, 1.0_dp, 0.0_dp, 1.0_dp)
+            call audit%try(claim_accelerations, 1.0_dp, 0.0_dp, 1.0_dp)
             call audit%say(claim_accelerations, unsolved%message)
         else
             call audit_accelerations(audit, system, nearby, motion)

@@ -1,17 +1,21 @@
 module lagrangia_audit_equations
-    !! Hand-written formulae against what the Lagrangian says, at one state.
+    !! Hand-written formulae against what the Lagrangian says, at one state, and how fast conserved
+    !! quantities change there along the motion.
     !!
     !! Each component by itself. Its residual is relative to the size of the terms behind it
     !! (`lagrangia_term_sizes`), of which rounding makes an epsilon.
+    use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
-    use lagrangia_findings, only: audit_t
+    use lagrangia_flow, only: flow_derivative, quantity_of
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
+    use lagrangia_ledger, only: ledger_t
     use lagrangia_system, only: lanes, system_t
     use lagrangia_term_sizes, only: motion_t, nearby_t, neighbours, size_of_solution, term_size
     implicit none (type, external)
     private
-    public :: audit_accelerations, audit_constraints, audit_energy, audit_momenta, audit_lanes
+    public :: audit_accelerations, audit_constraints, audit_energy, audit_momenta, audit_lanes, &
+              audit_rates
     public :: claim_accelerations, claim_energy, compare, rounding
 
     character(*), parameter :: claim_accelerations = "accelerations as from L"
@@ -19,13 +23,15 @@ module lagrangia_audit_equations
     real(dp), parameter :: rounding = 100.0_dp
     !! what some ten operations on each side may make of an epsilon of their terms
     real(dp), parameter :: last_digit = epsilon(1.0_dp)
+    real(dp), parameter :: differencing = 100.0_dp
+    !! what the sum of eight values, each of some ten operations, may make of the noise
 
 contains
 
     subroutine compare(audit, claim, one, other, size_of_terms)
         !! Values that are the same but for rounding, if the claim holds at this state: the worst
         !! of them counts, and what is not a number is worst.
-        type(audit_t), intent(inout) :: audit
+        type(ledger_t), intent(inout) :: audit
         character(*), intent(in) :: claim
         real(dp), intent(in) :: one(:), other(:)   !! of the same shape
         real(dp), intent(in) :: size_of_terms(:)   !! of the terms behind each
@@ -38,12 +44,12 @@ contains
             if (.not. residual <= 0.0_dp) residual = residual/(size_of_terms(i) + residual)
             if (.not. residual <= worst) worst = residual
         end do
-        call audit%judge(claim, worst, last_digit, rounding)
+        call audit%try(claim, worst, last_digit, rounding)
     end subroutine compare
 
     subroutine audit_accelerations(audit, system, nearby, motion)
         !! \(\ddot q\).
-        type(audit_t), intent(inout) :: audit
+        type(ledger_t), intent(inout) :: audit
         class(system_t), intent(in) :: system
         type(nearby_t), intent(in) :: nearby
         type(motion_t), intent(in) :: motion
@@ -55,11 +61,11 @@ contains
 
     subroutine audit_constraints(audit, system, nearby, motion)
         !! The velocities and the accelerations keep the non-holonomic constraints.
-        type(audit_t), intent(inout) :: audit
+        type(ledger_t), intent(inout) :: audit
         class(system_t), intent(in) :: system
         type(nearby_t), intent(in) :: nearby
         type(motion_t), intent(in) :: motion
-        type(hyperdual_t) :: rows(system%constraints, system%ndof), drift(system%constraints)
+        type(hyperdual_t) :: rows(system%constraints, system%ndof), b(system%constraints)
         type(hyperdual_t) :: path(system%ndof)
         real(dp), dimension(system%constraints, system%ndof) :: row, row_dot
         real(dp) :: a(system%ndof)
@@ -69,20 +75,20 @@ contains
             call system%accelerations(t, q, v, a)
             path%re = q
             path%d1 = v
-            call system%constraint_rows(hyperdual_t(re=t, d1=1.0_dp), path, rows, drift)
+            call system%constraint_rows(hyperdual_t(re=t, d1=1.0_dp), path, rows, b)
             row = rows%re
             row_dot = rows%d1
-            call compare(audit, "velocities keep the constraints", matmul(row, v), -drift%re, &
-                         matmul(abs(row), abs(v)) + abs(drift%re))
+            call compare(audit, "velocities keep the constraints", matmul(row, v), -b%re, &
+                         matmul(abs(row), abs(v)) + abs(b%re))
             call compare(audit, "accelerations keep the constraints", matmul(row, a), &
-                         -matmul(row_dot, v) - drift%d1, matmul(abs(row), motion%size) &
-                         + matmul(abs(row_dot), abs(v)) + abs(drift%d1))
+                         -matmul(row_dot, v) - b%d1, matmul(abs(row), motion%size) &
+                         + matmul(abs(row_dot), abs(v)) + abs(b%d1))
         end associate
     end subroutine audit_constraints
 
     subroutine audit_energy(audit, system, nearby)
         !! \(h = \dot q\,\partial L/\partial\dot q - L\).
-        type(audit_t), intent(inout) :: audit
+        type(ledger_t), intent(inout) :: audit
         class(system_t), intent(in) :: system
         type(nearby_t), intent(in) :: nearby
         real(dp) :: from_l(0:neighbours)
@@ -103,7 +109,7 @@ contains
     subroutine audit_momenta(audit, system, nearby)
         !! \(p = \partial L/\partial\dot q\), the way back from p to \(\dot q\), and
         !! \(\partial L/\partial q\).
-        type(audit_t), intent(inout) :: audit
+        type(ledger_t), intent(inout) :: audit
         class(system_t), intent(in) :: system
         type(nearby_t), intent(in) :: nearby
         type(error_t), allocatable :: error
@@ -135,7 +141,7 @@ contains
     subroutine audit_lanes(audit, system, nearby, motion)
         !! The vector form of the accelerations says the same; sin and cos there are good to four
         !! last digits.
-        type(audit_t), intent(inout) :: audit
+        type(ledger_t), intent(inout) :: audit
         class(system_t), intent(in) :: system
         type(nearby_t), intent(in) :: nearby
         type(motion_t), intent(in) :: motion
@@ -151,4 +157,55 @@ contains
                      reshape(spread(a, 1, lanes), [size(a_lanes)]), &
                      reshape(spread(motion%size, 1, lanes), [size(a_lanes)]))
     end subroutine audit_lanes
+
+    subroutine audit_rates(audit, system, nearby, motion)
+        !! \(\dot h = -\partial L/\partial t - b\cdot\lambda\), and declared invariants stay.
+        type(ledger_t), intent(inout) :: audit
+        class(system_t), intent(in) :: system
+        type(nearby_t), intent(in) :: nearby
+        type(motion_t), intent(in) :: motion
+        type(description_t) :: d
+        type(hyperdual_t) :: rows(system%constraints, system%ndof), b(system%constraints)
+        type(hyperdual_t) :: place(system%ndof)
+        real(dp) :: expected, rounded, with_time(0:neighbours)
+        integer :: k
+
+        place%re = nearby%q(:, 0)
+        call system%constraint_rows(hyperdual_t(re=nearby%t(0)), place, rows, b)
+        with_time = nearby%terms%dl_dt
+        expected = -with_time(0) - dot_product(b%re, motion%multipliers)
+        rounded = epsilon(1.0_dp)*(term_size(with_time) &
+                                   + dot_product(abs(b%re), motion%multiplier_size))
+        call try_rate("energy changes by -dL/dt", 0)
+        call system%describe(d)
+        if (.not. allocated(d%quantities)) return
+        expected = 0.0_dp
+        rounded = 0.0_dp
+        do k = 1, size(d%quantities)
+            if (.not. d%quantities(k)%conserved) cycle
+            call try_rate(trim(d%quantities(k)%name)//" is conserved", k)
+        end do
+    contains
+        subroutine try_rate(claim, quantity)
+            character(*), intent(in) :: claim
+            integer, intent(in) :: quantity
+            real(dp) :: values(0:neighbours), rate, scale, noise
+            integer :: i
+
+            do i = 0, neighbours
+                associate (near => nearby%systems(i)%item)
+                    values(i) = quantity_of(near, quantity, nearby%t(i), nearby%q(:, i), &
+                                            nearby%v(:, i))
+                end associate
+            end do
+            ! beyond, differences and squares overflow: of infinity nothing can be said
+            if (abs(values(0)) > sqrt(huge(rate))) return
+            call flow_derivative(system, quantity, nearby%t(0), nearby%q(:, 0), nearby%v(:, 0), &
+                                 rate, scale, noise, term_size(values), &
+                                 epsilon(rate)*motion%size)
+            scale = scale + abs(expected)
+            call audit%try(claim, abs(rate - expected)/scale, (noise + rounded)/scale, &
+                           differencing)
+        end subroutine try_rate
+    end subroutine audit_rates
 end module lagrangia_audit_equations

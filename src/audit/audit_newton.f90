@@ -3,11 +3,11 @@ module lagrangia_audit_newton
     use lagrangia_audit_equations, only: compare
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
-    use lagrangia_findings, only: audit_t
     use lagrangia_gauss_principle, only: cartesian_t, gauss_equations, least_constraint, &
-                                         linearise, new_cartesian
+                                         linearise, masses_of, new_cartesian, place_points
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
+    use lagrangia_ledger, only: ledger_t
     use lagrangia_number_text, only: fixed, scientific
     use lagrangia_random_draws, only: random_t
     use lagrangia_system, only: system_t
@@ -26,14 +26,14 @@ contains
     subroutine audit_gauss(audit, system, nearby, motion)
         !! Accelerations of the points from masses, forces and constraints alone, and each
         !! reaction against the formula of the same name.
-        type(audit_t), intent(inout) :: audit
+        type(ledger_t), intent(inout) :: audit
         class(system_t), intent(in) :: system
         type(nearby_t), intent(in) :: nearby
         type(motion_t), intent(in) :: motion
         type(description_t) :: d
         type(cartesian_t) :: here
         type(error_t), allocatable :: error
-        real(dp), allocatable :: acceleration_size(:), reaction_size(:), held_size(:)
+        real(dp), allocatable :: acceleration_size(:), reaction_size(:), residual_size(:)
         integer :: i, k
 
         call system%describe(d)
@@ -41,17 +41,17 @@ contains
         call least_constraint(system, nearby%t(0), nearby%q(:, 0), nearby%v(:, 0), here, error)
         if (.not. allocated(error)) then
             call size_cartesian(nearby, motion, here, acceleration_size, reaction_size, &
-                                held_size, error)
+                                residual_size, error)
         end if
         if (allocated(error)) then
-            call audit%judge(claim_gauss, 1.0_dp, 0.0_dp, 1.0_dp)
+            call audit%try(claim_gauss, 1.0_dp, 0.0_dp, 1.0_dp)
             call audit%say(claim_gauss, error%message)
             return
         end if
         call compare(audit, "positions keep the constraints", here%constraint_residual, &
-                     0.0_dp*here%constraint_residual, held_size)
+                     0.0_dp*here%constraint_residual, residual_size)
         call compare(audit, claim_gauss, here%x_ddot, here%acceleration, acceleration_size)
-        if (.not. audit%findings(audit%row_of(claim_gauss))%holds) then
+        if (.not. audit%rows(audit%row_of(claim_gauss))%holds) then
             i = maxloc(abs(here%acceleration - here%x_ddot)/(acceleration_size + tiny(1.0_dp)), 1)
             call audit%say(claim_gauss, "the accelerations of "//name_of(d, i)// &
                            " are not those of least constraint")
@@ -67,14 +67,15 @@ contains
         end do
     end subroutine audit_gauss
 
-    subroutine size_cartesian(nearby, motion, here, acceleration_size, reaction_size, held_size, &
-                              error)
+    subroutine size_cartesian(nearby, motion, here, acceleration_size, reaction_size, &
+                              residual_size, error)
         !! Sizes of the terms behind accelerations, both Gauss's and the system's own, behind
         !! reactions and behind the constraints.
         type(nearby_t), intent(in) :: nearby
         type(motion_t), intent(in) :: motion
         type(cartesian_t), intent(in) :: here
-        real(dp), allocatable, intent(out) :: acceleration_size(:), reaction_size(:), held_size(:)
+        real(dp), allocatable, intent(out) :: acceleration_size(:), reaction_size(:)
+        real(dp), allocatable, intent(out) :: residual_size(:)
         type(error_t), allocatable, intent(out) :: error
         type(cartesian_t) :: near
         type(description_t) :: d
@@ -113,27 +114,27 @@ contains
         end do
         call size_of_solution(matrix, row_size, unknowns, error)
         if (allocated(error)) return
-        allocate (acceleration_size(n), reaction_size(size(x) - n), held_size(size(x) - n))
+        allocate (acceleration_size(n), reaction_size(size(x) - n), residual_size(size(x) - n))
         reaction_size = unknowns(n + 1:)
         call nearby%systems(0)%item%describe(d)
         allocate (slope, source=slopes_of_positions(nearby%systems(0)%item, d, nearby%t(0), &
                                                     nearby%q(:, 0)))
         acceleration_size = unknowns(:n) + matmul(abs(slope), motion%size)
-        holonomic = size(held_size) - nearby%systems(0)%item%constraints
+        holonomic = size(residual_size) - nearby%systems(0)%item%constraints
         do i = 1, n
             acceleration_size(i) = acceleration_size(i) + term_size(carried(i, :))
             size_of(i) = term_size(place(i, :))
         end do
-        held_size = matmul(abs(here%slope), size_of)
+        residual_size = matmul(abs(here%slope), size_of)
         do i = 1, n
             size_of(i) = term_size(speed(i, :))
         end do
-        held_size(holonomic + 1:) = matmul(abs(here%slope(holonomic + 1:, :)), size_of)
+        residual_size(holonomic + 1:) = matmul(abs(here%slope(holonomic + 1:, :)), size_of)
     end subroutine size_cartesian
 
     subroutine say_reactions(audit, system, t, q, v)
         !! What the reactions are at one state.
-        type(audit_t), intent(inout) :: audit
+        type(ledger_t), intent(inout) :: audit
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t, q(:), v(:)
         type(description_t) :: d
@@ -186,7 +187,7 @@ contains
         !! \(\sum_k m_k\,\partial x_k/\partial q_i\,\partial x_k/\partial q_j\) over all Cartesian
         !! coordinates is the mass matrix of the Lagrangian; no entry is larger than the root of
         !! the product of the two on the diagonal.
-        type(audit_t), intent(inout) :: audit
+        type(ledger_t), intent(inout) :: audit
         class(system_t), intent(in) :: system
         type(nearby_t), intent(in) :: nearby
         type(description_t) :: d
@@ -198,10 +199,7 @@ contains
         if (.not. has_masses(d)) return
         n = system%ndof
         allocate (slope, source=slopes_of_positions(system, d, nearby%t(0), nearby%q(:, 0)))
-        allocate (weighed, source=slope)
-        do i = 1, size(slope, 1)
-            weighed(i, :) = mass_of(d, i)*slope(i, :)
-        end do
+        allocate (weighed, source=slope*spread(masses_of(d), 2, n))
         mass = matmul(transpose(slope), weighed)
         do j = 1, n
             do i = 1, n
@@ -218,40 +216,19 @@ contains
         type(description_t), intent(in) :: d
         real(dp), intent(in) :: t, q(:)
         real(dp), allocatable :: slope(:, :)
-        type(hyperdual_t) :: place(size(q)), r(3, size(d%points))
-        type(hyperdual_t), allocatable :: angles(:)
-        integer :: i, k, points
+        type(hyperdual_t) :: place(size(q))
+        type(hyperdual_t), allocatable :: x(:)
+        real(dp), allocatable :: mass(:)
+        integer :: i
 
-        points = 3*size(d%points)
-        if (allocated(d%rotors)) then
-            allocate (angles(size(d%rotors)))
-        else
-            allocate (angles(0))
-        end if
-        allocate (slope(points + size(angles), size(q)))
+        allocate (mass, source=masses_of(d))
+        allocate (x(size(mass)), slope(size(mass), size(q)))
         do i = 1, size(q)
             place = hyperdual_t()
             place%re = q
             place(i)%d1 = 1.0_dp
-            call system%positions(hyperdual_t(re=t), place, r)
-            do k = 1, size(d%points)
-                slope(3*k - 2:3*k, i) = r(:, k)%d1
-            end do
-            call system%angles(hyperdual_t(re=t), place, angles)
-            slope(points + 1:, i) = angles%d1
+            call place_points(system, d, hyperdual_t(re=t), place, x)
+            slope(:, i) = x%d1
         end do
     end function slopes_of_positions
-
-    pure function mass_of(d, i) result(mass)
-        !! Of Cartesian coordinate `i`.
-        type(description_t), intent(in) :: d
-        integer, intent(in) :: i
-        real(dp) :: mass
-
-        if (i <= 3*size(d%points)) then
-            mass = d%points((i + 2)/3)%mass
-        else
-            mass = d%rotors(i - 3*size(d%points))%mass
-        end if
-    end function mass_of
 end module lagrangia_audit_newton

@@ -2,11 +2,11 @@ module lagrangia_audit_structure
     !! What a system says of its structure: integrators and small oscillations rely on it.
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_findings, only: audit_t
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
     use lagrangia_lapack, only: smallest_pivot
+    use lagrangia_ledger, only: ledger_t
     use lagrangia_mass_matrix, only: check_mass_matrix, list_of
     use lagrangia_system, only: system_t
     implicit none (type, external)
@@ -20,7 +20,7 @@ contains
     subroutine audit_flags(audit, system, t, q, v, other_t, other_v, generic)
         !! `velocity_forces` and `time_dependent` say what is true: one that is false always, one
         !! that is true for parameters off the edges of their domains. Equal means equal bits.
-        type(audit_t), intent(inout) :: audit
+        type(ledger_t), intent(inout) :: audit
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t, q(:), v(:), other_t, other_v(:)
         logical, intent(in) :: generic
@@ -55,7 +55,7 @@ contains
             logical, intent(in) :: good
             character(*), intent(in) :: flag, remark
 
-            call audit%judge(flag//" says what is true", merge(yes, no, good), epsilon(yes), 1.0_dp)
+            call audit%try(flag//" says what is true", merge(yes, no, good), epsilon(yes), 1.0_dp)
             if (.not. good) call audit%say(flag//" says what is true", remark)
         end subroutine verdict
     end subroutine audit_flags
@@ -74,7 +74,7 @@ contains
 
     subroutine audit_cyclic(audit, system, t, q, v)
         !! The slope of L along the cyclic coordinate is zero, and there is such a coordinate.
-        type(audit_t), intent(inout) :: audit
+        type(ledger_t), intent(inout) :: audit
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t, q(:), v(:)
         character(*), parameter :: claim = "the cyclic coordinate is cyclic"
@@ -83,13 +83,13 @@ contains
 
         if (system%cyclic == 0) return
         if (system%cyclic < 0 .or. system%cyclic > system%ndof) then
-            call audit%judge(claim, no, epsilon(no), 1.0_dp)
+            call audit%try(claim, no, epsilon(no), 1.0_dp)
             call audit%say(claim, "there is no coordinate of that number")
             return
         end if
         call expand_lagrangian(system, t, q, v, terms)
-        call audit%judge(claim, abs(terms%dl_dq(system%cyclic)) &
-                         /(maxval(abs(terms%dl_dq)) + tiny(no)), epsilon(no), 1.0_dp)
+        call audit%try(claim, abs(terms%dl_dq(system%cyclic)) &
+                       /(maxval(abs(terms%dl_dq)) + tiny(no)), epsilon(no), 1.0_dp)
         if (abs(terms%dl_dq(system%cyclic)) <= 0.0_dp) return
         call system%describe(d)
         call audit%say(claim, "L depends on "//d%coordinates(system%cyclic)%name)
@@ -100,20 +100,20 @@ contains
         !! the constraints \(A\dot q + b = 0\) leave: with a multiple of \(A^\top A\) added. By
         !! Cholesky, of the matrix scaled to a diagonal of ones. The number shown is what the
         !! smallest pivot lacks of 1.
-        type(audit_t), intent(inout) :: audit
+        type(ledger_t), intent(inout) :: audit
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t, q(:), v(:)
         character(*), parameter :: claim = "mass matrix is positive definite"
         type(euler_lagrange_t) :: terms
         type(hyperdual_t) :: place(size(q)), rows(system%constraints, size(q))
-        type(hyperdual_t) :: drift(system%constraints)
+        type(hyperdual_t) :: b(system%constraints)
         type(error_t), allocatable :: error
         real(dp) :: lack, weight, matrix(size(q), size(q))
         integer :: i, k
 
         call expand_lagrangian(system, t, q, v, terms)
         place%re = q
-        call system%constraint_rows(hyperdual_t(re=t), place, rows, drift)
+        call system%constraint_rows(hyperdual_t(re=t), place, rows, b)
         matrix = terms%mass
         do k = 1, system%constraints
             weight = 0.0_dp
@@ -127,7 +127,7 @@ contains
             end do
         end do
         lack = 1.0_dp - smallest_pivot(matrix)
-        call audit%judge(claim, lack, 1.0_dp - 100.0_dp*epsilon(lack), 1.0_dp)
+        call audit%try(claim, lack, 1.0_dp - 100.0_dp*epsilon(lack), 1.0_dp)
         if (lack < 1.0_dp) return
         call check_mass_matrix(matrix, error)
         if (.not. allocated(error)) call fail(error, "a pivot is zero or negative")

@@ -106,7 +106,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
         type(euler_lagrange_t) :: expanded
         type(hyperdual_t) :: path(system%ndof)
-        type(hyperdual_t) :: rows(system%constraints, system%ndof), drift(system%constraints)
+        type(hyperdual_t) :: rows(system%constraints, system%ndof), b(system%constraints)
         real(dp), allocatable :: forces(:, :), matrix(:, :), right(:), solution(:)
         integer :: j, k, n, all
 
@@ -119,7 +119,7 @@ contains
         terms = 0.0_dp
         path%re = q
         path%d1 = v
-        call system%constraint_rows(hyperdual_t(re=t, d1=1.0_dp), path, rows, drift)
+        call system%constraint_rows(hyperdual_t(re=t, d1=1.0_dp), path, rows, b)
         matrix = 0.0_dp
         matrix(:n, :n) = expanded%mass
         matrix(n + 1:, :n) = rows%re
@@ -131,7 +131,7 @@ contains
             if (allocated(error)) return
             if (j > n) then
                 terms(:, 1, n + 1) = terms(:, 1, n + 1) - solution(:n) &
-                                     *(dot_product(rows(j - n, :)%d1, v) + drift(j - n)%d1)
+                                     *(dot_product(rows(j - n, :)%d1, v) + b(j - n)%d1)
                 cycle
             end if
             do k = 1, size(forces, 2)

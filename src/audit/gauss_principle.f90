@@ -3,7 +3,7 @@ module lagrangia_gauss_principle
     !! actual ones make
     !! $$ Z = \sum_i m_i\left(\ddot x_i - \frac{F_i}{m_i}\right)^2 $$
     !! least. From Cartesian masses, forces and constraints alone, without a Lagrangian: an
-    !! independent witness of the equations of motion, also of non-holonomic systems.
+    !! independent test of the equations of motion, also of non-holonomic systems.
     !!
     !! Constraints \(c(t, x) = 0\), differentiated twice, and \(g(t, x, \dot x) = 0\), linear in
     !! \(\dot x\), differentiated once, are \(A\ddot x = b\). The force that they exert is
@@ -18,7 +18,8 @@ module lagrangia_gauss_principle
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: cartesian_t, gauss_equations, least_constraint, linearise, new_cartesian
+    public :: cartesian_t, gauss_equations, least_constraint, linearise, masses_of, new_cartesian, &
+              place_points
 
     type :: cartesian_t
         !! A state as Newton has it, and what Gauss makes of it. `n` Cartesian coordinates, `k`
@@ -29,7 +30,7 @@ module lagrangia_gauss_principle
         real(dp), allocatable :: force(:)          !! (n), applied, N
         real(dp), allocatable :: slope(:, :)       !! \(A\), (k, n)
         real(dp), allocatable :: right(:)          !! \(b\), (k)
-        real(dp), allocatable :: constraint_residual(:)  !! (k), zero if the state is one
+        real(dp), allocatable :: constraint_residual(:)   !! (k), zero if the state is one
         real(dp), allocatable :: acceleration(:)   !! (n), Gauss's
         real(dp), allocatable :: reaction(:)       !! \(\lambda\), (k)
     end type cartesian_t
@@ -59,31 +60,20 @@ contains
         type(error_t), allocatable, intent(out) :: error
         type(description_t) :: d
         type(hyperdual_t) :: path(system%ndof)
-        type(hyperdual_t), allocatable :: r(:, :), x(:)
-        integer :: i, points, rotors
+        type(hyperdual_t), allocatable :: x(:)
 
         call system%describe(d)
         if (.not. allocated(d%reactions)) then
             call fail(error, trim(d%name)//" does not say what acts on its points")
             return
         end if
-        points = size(d%points)
-        rotors = 0
-        if (allocated(d%rotors)) rotors = size(d%rotors)
-        allocate (r(3, points), x(3*points + rotors), c%mass(3*points + rotors))
+        allocate (c%mass, source=masses_of(d))
+        allocate (x(size(c%mass)))
         path%re = q
         path%d1 = v
         path%d2 = v
         path%d12 = a
-        call system%positions(hyperdual_t(t, 1.0_dp, 1.0_dp, 0.0_dp), path, r)
-        x(:3*points) = reshape(r, [3*points])
-        do i = 1, points
-            c%mass(3*i - 2:3*i) = d%points(i)%mass
-        end do
-        if (rotors > 0) then
-            call system%angles(hyperdual_t(t, 1.0_dp, 1.0_dp, 0.0_dp), path, x(3*points + 1:))
-            c%mass(3*points + 1:) = d%rotors%mass
-        end if
+        call place_points(system, d, hyperdual_t(t, 1.0_dp, 1.0_dp, 0.0_dp), path, x)
         allocate (c%x(size(x)), c%x_dot(size(x)), c%x_ddot(size(x)))
         c%x = x%re
         c%x_dot = x%d1
@@ -93,6 +83,42 @@ contains
         call linearise(system, t, c)
     end subroutine new_cartesian
 
+    pure function masses_of(d) result(mass)
+        !! Of the Cartesian coordinates, kg: three of each point, then one angle of each rotor,
+        !! kg m^2.
+        type(description_t), intent(in) :: d
+        real(dp), allocatable :: mass(:)
+        integer :: i, points, rotors
+
+        points = 0
+        rotors = 0
+        if (allocated(d%points)) points = size(d%points)
+        if (allocated(d%rotors)) rotors = size(d%rotors)
+        allocate (mass(3*points + rotors))
+        do i = 1, points
+            mass(3*i - 2:3*i) = d%points(i)%mass
+        end do
+        if (rotors > 0) mass(3*points + 1:) = d%rotors%mass
+    end function masses_of
+
+    pure subroutine place_points(system, d, t, q, x)
+        !! The Cartesian coordinates, in the order of `masses_of`.
+        class(system_t), intent(in) :: system
+        type(description_t), intent(in) :: d    !! the system's own
+        type(hyperdual_t), intent(in) :: t      !! s
+        type(hyperdual_t), intent(in) :: q(:)   !! (ndof)
+        type(hyperdual_t), intent(out) :: x(:)  !! (n), m and rad
+        type(hyperdual_t), allocatable :: r(:, :)
+        integer :: points
+
+        points = 0
+        if (allocated(d%points)) points = size(d%points)
+        allocate (r(3, points))
+        call system%positions(t, q, r)
+        x(:3*points) = reshape(r, [3*points])
+        call system%angles(t, q, x(3*points + 1:))
+    end subroutine place_points
+
     pure subroutine linearise(system, t, c)
         !! From `x` and `x_dot`: forces; slopes of the constraints, one coordinate after the
         !! other; their rates at constant velocity.
@@ -100,29 +126,28 @@ contains
         real(dp), intent(in) :: t                !! s
         type(cartesian_t), intent(inout) :: c    !! all of it allocated
         type(hyperdual_t), dimension(size(c%x)) :: x, u
-        type(hyperdual_t) :: constraint_residual(size(c%constraint_residual))
+        type(hyperdual_t) :: residual(size(c%constraint_residual))
         integer :: i, holonomic
 
-        holonomic = size(constraint_residual) - system%constraints
+        holonomic = size(residual) - system%constraints
         x%re = c%x
         u%re = c%x_dot
         do i = 1, size(c%x)
             x(i)%d1 = 1.0_dp
-            call system%newton(hyperdual_t(re=t), x, u, c%force, constraint_residual)
-            c%slope(:holonomic, i) = constraint_residual(:holonomic)%d1
+            call system%newton(hyperdual_t(re=t), x, u, c%force, residual)
+            c%slope(:holonomic, i) = residual(:holonomic)%d1
             x(i)%d1 = 0.0_dp
             u(i)%d1 = 1.0_dp
-            call system%newton(hyperdual_t(re=t), x, u, c%force, constraint_residual)
-            c%slope(holonomic + 1:, i) = constraint_residual(holonomic + 1:)%d1
+            call system%newton(hyperdual_t(re=t), x, u, c%force, residual)
+            c%slope(holonomic + 1:, i) = residual(holonomic + 1:)%d1
             u(i)%d1 = 0.0_dp
         end do
         x%d1 = c%x_dot
         x%d2 = c%x_dot
-        call system%newton(hyperdual_t(t, 1.0_dp, 1.0_dp, 0.0_dp), x, u, c%force, &
-                           constraint_residual)
-        c%constraint_residual = constraint_residual%re
-        c%right(:holonomic) = -constraint_residual(:holonomic)%d12
-        c%right(holonomic + 1:) = -constraint_residual(holonomic + 1:)%d1
+        call system%newton(hyperdual_t(t, 1.0_dp, 1.0_dp, 0.0_dp), x, u, c%force, residual)
+        c%constraint_residual = residual%re
+        c%right(:holonomic) = -residual(:holonomic)%d12
+        c%right(holonomic + 1:) = -residual(holonomic + 1:)%d1
     end subroutine linearise
 
     pure subroutine gauss_equations(c, matrix, right)

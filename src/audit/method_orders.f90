@@ -1,10 +1,11 @@
 module lagrangia_method_orders
     !! The order of each method, measured on nonlinear motions that are known in closed form.
+    use lagrangia_cart_pendulum, only: cart_pendulum_t
+    use lagrangia_charged_particle, only: charged_particle_t
     use lagrangia_errors, only: error_t
-    use lagrangia_findings, only: audit_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_method_problems, only: new_problem, problems, refuses
+    use lagrangia_ledger, only: ledger_t
     use lagrangia_methods, only: nth_integrator
     use lagrangia_number_text, only: fixed
     use lagrangia_pendulum, only: pendulum_t
@@ -14,7 +15,9 @@ module lagrangia_method_orders
     implicit none (type, external)
     private
     public :: audit_methods, measure_order, method_run
+    public :: new_problem, problems, refuses
 
+    integer, parameter :: problems = 3  !! the last has a magnetic field
     character(*), parameter :: problem_names(problems) = [character(16) :: &
         "pendulum", "cart_pendulum", "charged_particle"]
 
@@ -23,7 +26,7 @@ module lagrangia_method_orders
         real(dp) :: order = 0.0_dp
         real(dp) :: energy_order = 0.0_dp
         real(dp) :: error(2) = 0.0_dp       !! against the closed form
-        real(dp) :: swing(2) = 0.0_dp       !! largest relative change of the energy
+        real(dp) :: change(2) = 0.0_dp       !! largest relative change of the energy
         integer(i8) :: steps = 0
     end type measured_t
 
@@ -32,11 +35,11 @@ contains
     subroutine audit_methods(audit)
         !! A row for each method of fixed step, over the problems that it takes, and one for its
         !! energy error.
-        type(audit_t), intent(inout) :: audit
+        type(ledger_t), intent(inout) :: audit
         class(integrator_t), allocatable :: method
         integer :: i
 
-        call audit%begin("methods")
+        call audit%section("methods")
         i = 0
         do
             i = i + 1
@@ -50,7 +53,7 @@ contains
         !! One method. Beyond order 8 rounding hides the order on a single motion: there ten small
         !! swings of a pendulum are taken together, and the next term of the error is felt more.
         class(integrator_t), intent(inout) :: method
-        type(audit_t), intent(inout) :: audit
+        type(ledger_t), intent(inout) :: audit
         type(measured_t) :: m
         class(system_t), allocatable :: system
         real(dp), allocatable :: q(:), v(:)
@@ -61,7 +64,7 @@ contains
         if (method%order > 8) then
             call high_order(method, m)
             claim = trim(method%name)//": order "//to_text(method%order)
-            call audit%judge(claim, abs(m%order - method%order), 0.05_dp, 20.0_dp)
+            call audit%try(claim, abs(m%order - method%order), 0.05_dp, 20.0_dp)
             call audit%say(claim, "measured "//fixed(m%order, 3)//" on pendulum")
             return
         end if
@@ -70,14 +73,14 @@ contains
             if (refuses(method, system)) cycle
             call measure_order(method, system, q, v, m)
             claim = trim(method%name)//": order "//to_text(method%order)
-            call audit%judge(claim, abs(m%order - method%order), 0.02_dp, 5.0_dp)
+            call audit%try(claim, abs(m%order - method%order), 0.02_dp, 5.0_dp)
             call append(claim, m%order)
-            if (method%energy_order == 0 .or. m%swing(1) < rounding) cycle
+            if (method%energy_order == 0 .or. m%change(1) < rounding) cycle
             claim = trim(method%name)//": energy "//to_text(method%energy_order)
             ! near rounding the order is seen from one side only
-            if (m%swing(2) <= 10.0_dp*rounding) m%energy_order = &
+            if (m%change(2) <= 10.0_dp*rounding) m%energy_order = &
                 min(m%energy_order, real(method%energy_order, dp))
-            call audit%judge(claim, abs(m%energy_order - method%energy_order), 0.02_dp, 5.0_dp)
+            call audit%try(claim, abs(m%energy_order - method%energy_order), 0.02_dp, 5.0_dp)
             call append(claim, m%energy_order)
         end do
     contains
@@ -85,7 +88,7 @@ contains
             character(*), intent(in) :: claim
             real(dp), intent(in) :: order
 
-            associate (row => audit%findings(audit%row_of(claim)))
+            associate (row => audit%rows(audit%row_of(claim)))
                 row%remark = trim(row%remark)//merge("measured ", ",        ", row%remark == "")
                 row%remark = trim(row%remark)//" "//fixed(order, 3)//" on "//trim(problem_names(k))
             end associate
@@ -105,22 +108,22 @@ contains
         m%steps = 16
         do
             m%steps = 2*m%steps
-            call method_run(method, system, q, v, m%steps, m%error(1), m%swing(1))
+            call method_run(method, system, q, v, m%steps, m%error(1), m%change(1))
             if (m%error(1) < small .or. m%steps > 100000) exit
         end do
-        call method_run(method, system, q, v, 2*m%steps, m%error(2), m%swing(2))
+        call method_run(method, system, q, v, 2*m%steps, m%error(2), m%change(2))
         m%order = log(m%error(1)/m%error(2))/log(2.0_dp)
-        m%energy_order = log((m%swing(1) + tiny(small))/(m%swing(2) + tiny(small)))/log(2.0_dp)
+        m%energy_order = log((m%change(1) + tiny(small))/(m%change(2) + tiny(small)))/log(2.0_dp)
     end subroutine measure_order
 
-    subroutine method_run(method, system, q0, v0, steps, error, swing, time)
+    subroutine method_run(method, system, q0, v0, steps, error, change, time)
         !! From `t = 0` in `steps` steps to `time`, 3 s: distance from the closed form at the
         !! end, and largest relative change of the energy on the way.
         class(integrator_t), intent(inout) :: method
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: q0(:), v0(:)
         integer(i8), intent(in) :: steps
-        real(dp), intent(out) :: error, swing
+        real(dp), intent(out) :: error, change
         real(dp), intent(in), optional :: time
         class(reference_t), allocatable :: reference
         type(error_t), allocatable :: refusal
@@ -135,10 +138,10 @@ contains
         v = v0
         call method%start(system, 0.0_dp, q, v)
         e0 = system%energy(0.0_dp, q, v)
-        swing = 0.0_dp
+        change = 0.0_dp
         do k = 0, steps - 1
             call method%advance(system, 0.0_dp, duration/steps, k, 1_i8, q, v)
-            swing = max(swing, abs(system%energy(0.0_dp, q, v)/e0 - 1.0_dp))
+            change = max(change, abs(system%energy(0.0_dp, q, v)/e0 - 1.0_dp))
         end do
         call system%closed_form(0.0_dp, q0, v0, reference)
         call reference%state_at(duration, q_true, v_true)
@@ -152,7 +155,7 @@ contains
         type(measured_t), intent(out) :: m
         type(pendulum_t) :: system
         type(error_t), allocatable :: failure
-        real(dp) :: q(1), v(1), error, swing
+        real(dp) :: q(1), v(1), error, change
         integer :: i, k
 
         call system%configure([1.3_dp, 0.7_dp, 9.81_dp], failure)
@@ -161,10 +164,49 @@ contains
             q = 0.2_dp + 0.04_dp*k
             v = 0.3_dp
             do i = 1, 2
-                call method_run(method, system, q, v, i*m%steps, error, swing, 8.0_dp)
+                call method_run(method, system, q, v, i*m%steps, error, change, 8.0_dp)
                 m%error(i) = m%error(i) + error
             end do
         end do
         m%order = log(m%error(1)/m%error(2))/log(2.0_dp)
     end subroutine high_order
+
+    subroutine new_problem(k, system, q, v)
+        !! A pendulum with a large swing; a cart-pendulum, whose mass matrix changes; a charge
+        !! in electric and magnetic fields and a trap. Rates are about 3 rad/s at most.
+        integer, intent(in) :: k
+        class(system_t), allocatable, intent(out) :: system
+        real(dp), allocatable, intent(out) :: q(:), v(:)
+        type(error_t), allocatable :: error
+
+        select case (k)
+        case (1)
+            allocate (pendulum_t :: system)
+            call system%configure([1.3_dp, 1.7_dp, 9.81_dp], error)
+            allocate (q, source=[2.0_dp])
+            allocate (v, source=[0.3_dp])
+        case (2)
+            allocate (cart_pendulum_t :: system)
+            call system%configure([1.3_dp, 0.7_dp, 1.9_dp, 9.81_dp], error)
+            allocate (q, source=[0.1_dp, 1.2_dp])
+            allocate (v, source=[0.2_dp, -0.5_dp])
+        case default
+            allocate (charged_particle_t :: system)
+            call system%configure([1.3_dp, 0.7_dp, 0.2_dp, 0.1_dp, -0.3_dp, 0.6_dp, -0.7_dp, &
+                                   1.4_dp, 2.1_dp], error)
+            allocate (q, source=[0.5_dp, -0.2_dp, 0.3_dp])
+            allocate (v, source=[1.0_dp, 0.3_dp, -0.4_dp])
+        end select
+    end subroutine new_problem
+
+    function refuses(method, system)
+        !! Whether `method` is not for `system`; otherwise it is ready.
+        class(integrator_t), intent(inout) :: method
+        class(system_t), intent(in) :: system
+        logical :: refuses
+        type(error_t), allocatable :: error
+
+        call method%prepare(system, error)
+        refuses = allocated(error)
+    end function refuses
 end module lagrangia_method_orders

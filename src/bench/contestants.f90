@@ -1,17 +1,49 @@
 module lagrangia_contestants
     !! Everybody who takes part: all methods of the catalogue, GSL's, and the closed forms. What is
     !! listed in the catalogue tomorrow is measured tomorrow.
-    use lagrangia_contestant, only: contestant_box_t
+    !!
+    !! Our own methods take part by a fixed step, by a tolerance, and by a closed form.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_bench_problems, only: bench_problem_t
+    use lagrangia_contestant, only: contestant_box_t, contestant_t, set_by_nothing, set_by_step, &
+                                    set_by_tolerance, source_closed_form
     use lagrangia_description, only: name_length
+    use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_gsl_contestants, only: gsl_contestant_t, new_gsl_contestant
     use lagrangia_gsl_odeiv, only: gsl_methods
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
+    use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: nth_adaptive, nth_integrator
-    use lagrangia_our_contestants, only: adaptive_contestant_t, fixed_contestant_t, &
-        formula_contestant_t, new_adaptive_contestant, new_fixed_contestant, new_formula_contestant
+    use lagrangia_reduced_motion, only: leave_cyclic
     implicit none (type, external)
     private
     public :: contestant_names, new_contestants
+
+    type, extends(contestant_t) :: fixed_contestant_t
+        !! Equal steps, all in one block: `advance` and nothing else.
+        class(integrator_t), allocatable :: plain   !! the method
+        class(integrator_t), allocatable :: method  !! and what a scene would make of it
+        integer(i8) :: steps = 0
+    contains
+        procedure :: prepare => prepare_fixed
+        procedure :: solve => solve_fixed
+    end type fixed_contestant_t
+
+    type, extends(contestant_t) :: adaptive_contestant_t
+        !! Steps of the method's own choice; nobody asks what is between them.
+        class(dense_integrator_t), allocatable :: plain  !! the method
+        class(integrator_t), allocatable :: method       !! and what a scene would make of it
+    contains
+        procedure :: prepare => prepare_adaptive
+        procedure :: solve => solve_adaptive
+    end type adaptive_contestant_t
+
+    type, extends(contestant_t) :: formula_contestant_t
+        !! No steps: the problem's closed form, which is ready before the time is taken.
+    contains
+        procedure :: prepare => prepare_formula
+        procedure :: solve => solve_formula
+    end type formula_contestant_t
 
 contains
 
@@ -109,4 +141,128 @@ contains
         end do
         allocate (names, source=found(:n))
     end function contestant_names
+
+    subroutine new_fixed_contestant(self, method)
+        !! `method` at a fixed step.
+        type(fixed_contestant_t), intent(out) :: self
+        class(integrator_t), intent(in) :: method
+
+        allocate (self%plain, source=method)
+        self%name = method%name
+        self%set_by = set_by_step
+        self%order = method%order
+    end subroutine new_fixed_contestant
+
+    subroutine prepare_fixed(self, problem, setting, error)
+        !! The step is shortened so that whole steps end at the end.
+        class(fixed_contestant_t), intent(inout) :: self
+        type(bench_problem_t), target, intent(in) :: problem
+        real(dp), intent(in) :: setting
+        type(error_t), allocatable, intent(out) :: error
+
+        self%steps = ceiling(problem%duration/setting*(1.0_dp - epsilon(setting)), i8)
+        call prepare_method(self%plain, problem, self%method, error)
+    end subroutine prepare_fixed
+
+    subroutine solve_fixed(self, problem, q, v, error)
+        !! See `contestant_t`.
+        class(fixed_contestant_t), intent(inout) :: self
+        type(bench_problem_t), intent(in) :: problem
+        real(dp), intent(out) :: q(:), v(:)
+        type(error_t), allocatable, intent(out) :: error
+
+        q = problem%q
+        v = problem%v
+        call self%method%start(problem%system, 0.0_dp, q, v)
+        call self%method%advance(problem%system, 0.0_dp, problem%duration/self%steps, 0_i8, &
+                                 self%steps, q, v)
+        self%evaluations = self%method%evaluations
+        if (.not. all(ieee_is_finite(q))) call fail(error, "the state is not finite", &
+                                                    status_numbers)
+    end subroutine solve_fixed
+
+    subroutine new_adaptive_contestant(self, method)
+        !! `method` by its tolerance.
+        type(adaptive_contestant_t), intent(out) :: self
+        class(dense_integrator_t), intent(in) :: method
+
+        allocate (self%plain, source=method)
+        self%name = method%name
+        self%set_by = set_by_tolerance
+        self%order = method%order
+    end subroutine new_adaptive_contestant
+
+    subroutine prepare_adaptive(self, problem, setting, error)
+        !! See `contestant_t`.
+        class(adaptive_contestant_t), intent(inout) :: self
+        type(bench_problem_t), target, intent(in) :: problem
+        real(dp), intent(in) :: setting
+        type(error_t), allocatable, intent(out) :: error
+
+        self%plain%tolerance = setting
+        self%plain%dense = .false.
+        call prepare_method(self%plain, problem, self%method, error)
+    end subroutine prepare_adaptive
+
+    subroutine solve_adaptive(self, problem, q, v, error)
+        !! The choice of the first step is part of it.
+        class(adaptive_contestant_t), intent(inout) :: self
+        type(bench_problem_t), intent(in) :: problem
+        real(dp), intent(out) :: q(:), v(:)
+        type(error_t), allocatable, intent(out) :: error
+
+        q = problem%q
+        v = problem%v
+        select type (method => self%method)
+        class is (dense_integrator_t)
+            call method%start(problem%system, 0.0_dp, q, v, problem%duration)
+            do while (method%t_new < problem%duration)
+                call method%step(problem%system, error)
+                if (allocated(error)) return
+            end do
+            call method%state_at(method%t_new, q, v)
+        end select
+        self%evaluations = self%method%evaluations
+    end subroutine solve_adaptive
+
+    subroutine prepare_method(plain, problem, method, error)
+        !! What a scene would make of a method, ready for the problem.
+        class(integrator_t), intent(in) :: plain
+        type(bench_problem_t), intent(in) :: problem
+        class(integrator_t), allocatable, intent(out) :: method
+        type(error_t), allocatable, intent(out) :: error
+
+        allocate (method, source=plain)
+        call leave_cyclic(method, problem%system)
+        call method%prepare(problem%system, error)
+    end subroutine prepare_method
+
+    subroutine new_formula_contestant(self)
+        !! The closed form of whatever problem has one.
+        type(formula_contestant_t), intent(out) :: self
+
+        self%name = "closed_form"
+        self%source = source_closed_form
+        self%set_by = set_by_nothing
+    end subroutine new_formula_contestant
+
+    subroutine prepare_formula(self, problem, setting, error)
+        !! Refuses problems without one.
+        class(formula_contestant_t), intent(inout) :: self
+        type(bench_problem_t), target, intent(in) :: problem
+        real(dp), intent(in) :: setting
+        type(error_t), allocatable, intent(out) :: error
+
+        if (.not. allocated(problem%closed_form)) call fail(error, "no closed form is known")
+    end subroutine prepare_formula
+
+    subroutine solve_formula(self, problem, q, v, error)
+        !! See `contestant_t`.
+        class(formula_contestant_t), intent(inout) :: self
+        type(bench_problem_t), intent(in) :: problem
+        real(dp), intent(out) :: q(:), v(:)
+        type(error_t), allocatable, intent(out) :: error
+
+        call problem%closed_form%state_at(problem%duration, q, v)
+    end subroutine solve_formula
 end module lagrangia_contestants

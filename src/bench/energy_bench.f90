@@ -1,7 +1,5 @@
 module lagrangia_energy_bench
     !! A long run of every method: does its energy error stay, and how large is it?
-    use lagrangia_bench_table, only: bench_table_t, count_cell, new_bench_table, number_cell, &
-                                     word_cell
     use lagrangia_catalogue, only: new_system
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
@@ -9,6 +7,7 @@ module lagrangia_energy_bench
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: nth_integrator
     use lagrangia_observer, only: observer_t
+    use lagrangia_printed_table, only: printed_table_t, count_cell, number_cell, word_cell
     use lagrangia_stopwatch, only: effort_t, seconds_since, ticks_now
     use lagrangia_system, only: system_t
     use lagrangia_work_precision, only: look_around
@@ -27,14 +26,14 @@ contains
         character(*), intent(in) :: chosen(:)  !! names of methods; empty: all
         type(effort_t), intent(in) :: plan
         class(observer_t), pointer, intent(in) :: watcher
-        type(bench_table_t), intent(out) :: table
+        type(printed_table_t), intent(out) :: table
         type(error_t), allocatable, intent(out) :: error
         class(integrator_t), allocatable :: method, variant
         integer :: i
 
-        call new_bench_table(table, "energy", "pendulum from 2 rad, dt = 0.05 s: largest "// &
-                             "relative energy error", [character(name_length) :: "method", &
-                             "sums", "steps", "energy_error", "seconds"])
+        call table%begin("energy", "pendulum from 2 rad, dt = 0.05 s: largest "// &
+                         "relative energy error", [character(name_length) :: "method", &
+                         "sums", "steps", "energy_error", "seconds"])
         i = 0
         do
             i = i + 1
@@ -58,7 +57,7 @@ contains
         class(integrator_t), intent(inout) :: method
         character(*), intent(in) :: sums
         integer(i8), intent(in) :: steps
-        type(bench_table_t), intent(inout) :: table
+        type(printed_table_t), intent(inout) :: table
         type(error_t), allocatable, intent(out) :: error
         class(system_t), allocatable :: system
         type(error_t), allocatable :: refusal

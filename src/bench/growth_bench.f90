@@ -1,28 +1,35 @@
 module lagrangia_growth_bench
     !! How time and memory grow: with the steps, with the rows written, with the coordinates.
-    use lagrangia_bench_table, only: bench_table_t, count_cell, new_bench_table, number_cell, &
-                                     word_cell
+    !!
+    !! And what a row of a data file costs, in each format.
     use lagrangia_catalogue, only: new_system, system_names
     use lagrangia_columns, only: new_columns
+    use lagrangia_csv_table, only: csv_table_t
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_machine, only: forget_peak_memory, peak_memory
     use lagrangia_methods, only: new_integrator
+    use lagrangia_npy, only: npy_table_t
     use lagrangia_observer, only: observer_box_t
+    use lagrangia_precision_curve, only: median
+    use lagrangia_printed_table, only: count_cell, number_cell, printed_table_t, word_cell
     use lagrangia_record, only: record_t
     use lagrangia_run, only: new_plan, plan_t, run
     use lagrangia_stopwatch, only: effort_t, seconds_since, ticks_now
     use lagrangia_system, only: default_values, system_t
+    use lagrangia_table, only: table_t
     use lagrangia_text_table, only: text_table_t
     implicit none (type, external)
     private
-    public :: measure_growth
+    public :: measure_growth, measure_output
 
     real(dp), parameter :: dt = 1e-3_dp                           !! s
     character(*), parameter :: many_bodied = "hanging_chain"      !! grows by its first parameter
     integer, parameter :: bodies(4) = [1, 4, 16, 64]
+    integer, parameter :: columns = 4
+    character(4), parameter :: formats(3) = ["text", "csv ", "npy "]
 
 contains
 
@@ -30,13 +37,13 @@ contains
         !! RK4: 10^4 to 10^7 steps of a pendulum unseen, then 10^3 to 10^6 rows written.
         character(*), intent(in) :: folder  !! for the rows; nothing stays there
         type(effort_t), intent(in) :: plan
-        type(bench_table_t), intent(out) :: table
+        type(printed_table_t), intent(out) :: table
         type(error_t), allocatable, intent(out) :: error
         integer :: i, last
 
-        call new_bench_table(table, "growth", "RK4 on a pendulum; peak memory of the process, MB", &
-                             [character(name_length) :: "of", "count", "seconds", "ns_each", &
-                              "peak_mb"])
+        call table%begin("growth", "RK4 on a pendulum; peak memory of the process, MB", &
+                         [character(name_length) :: "of", "count", "seconds", "ns_each", &
+                          "peak_mb"])
         last = merge(6, 7, plan%quick)
         do i = 4, last
             call take_steps("steps", "pendulum", 10_i8**i, 10_i8**i, table, error)
@@ -58,7 +65,7 @@ contains
         !! One row: a run that nobody looks at. `count` is what grows.
         character(*), intent(in) :: what, name
         integer(i8), intent(in) :: steps, count
-        type(bench_table_t), intent(inout) :: table
+        type(printed_table_t), intent(inout) :: table
         type(error_t), allocatable, intent(out) :: error
         class(system_t), allocatable :: system
         class(integrator_t), allocatable :: method
@@ -96,7 +103,7 @@ contains
         !! One row: every step is a row of four columns in a text file.
         character(*), intent(in) :: folder
         integer(i8), intent(in) :: rows
-        type(bench_table_t), intent(inout) :: table
+        type(printed_table_t), intent(inout) :: table
         type(error_t), allocatable, intent(out) :: error
         character(name_length), parameter :: names(4) = [character(name_length) :: &
             "t", "theta", "theta_dot", "energy_drift"]
@@ -139,9 +146,67 @@ contains
         character(*), intent(in) :: what
         integer(i8), intent(in) :: count
         real(dp), intent(in) :: seconds
-        type(bench_table_t), intent(inout) :: table
+        type(printed_table_t), intent(inout) :: table
 
         call table%add([word_cell(what), count_cell(count), number_cell(seconds, 3), &
                         number_cell(1e9_dp*seconds/count, 3), number_cell(peak_memory(), 3)])
     end subroutine add_row
+
+    subroutine measure_output(folder, plan, table, error)
+        !! Rows of four columns; nothing stays in `folder`.
+        character(*), intent(in) :: folder
+        type(effort_t), intent(in) :: plan
+        type(printed_table_t), intent(out) :: table
+        type(error_t), allocatable, intent(out) :: error
+        class(table_t), allocatable :: file
+        real(dp) :: samples(plan%rounds, size(formats)), each
+        integer :: i, round
+
+        call table%begin("output", "rows of 4 columns", [character(name_length) :: &
+                         "format", "rows_per_second", "us_a_row"])
+        do round = 1, plan%rounds
+            do i = 1, size(formats)
+                if (allocated(file)) deallocate (file)
+                select case (i)
+                case (1); allocate (text_table_t :: file)
+                case (2); allocate (csv_table_t :: file)
+                case default; allocate (npy_table_t :: file)
+                end select
+                call time_rows(file, folder//"/bench_output.dat", &
+                                merge(5000, 50000, plan%quick)*merge(20, 1, i == 3), &
+                                samples(round, i), error)
+                if (allocated(error)) return
+            end do
+        end do
+        do i = 1, size(formats)
+            each = median(samples(:, i))
+            call table%add([word_cell(formats(i)), number_cell(1.0_dp/each, 3), &
+                            number_cell(1e6_dp*each, 3)])
+        end do
+    end subroutine measure_output
+
+    subroutine time_rows(file, path, rows, seconds, error)
+        !! Seconds a row; the file is then abandoned.
+        class(table_t), intent(inout) :: file
+        character(*), intent(in) :: path
+        integer, intent(in) :: rows
+        real(dp), intent(out) :: seconds
+        type(error_t), allocatable, intent(out) :: error
+        character(1), parameter :: names(columns) = ["t", "x", "y", "z"], unit(columns) = "1"
+        real(dp) :: values(columns)
+        integer(i8) :: start
+        integer :: k
+
+        seconds = 0.0_dp
+        call file%file%open(path, error)
+        if (allocated(error)) return
+        call file%begin(["output"], names, unit, error)
+        start = ticks_now()
+        do k = 1, rows
+            values = [1e-3_dp*k, 0.7_dp/k, -3.1_dp*k, 1e-13_dp/k]
+            call file%row(values)
+        end do
+        seconds = seconds_since(start)/rows
+        call file%file%abandon()
+    end subroutine time_rows
 end module lagrangia_growth_bench

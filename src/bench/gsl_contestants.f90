@@ -1,15 +1,18 @@
 module lagrangia_gsl_contestants
     !! GSL's methods in the benchmark, as its manual drives them.
-    use, intrinsic :: iso_c_binding, only: c_funloc, c_loc
+    !!
+    !! GSL wants a mechanical system as \(y = (q, v)\), \(\dot y = (v, a)\), in C functions.
+    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_funloc, c_int, c_loc, c_ptr
     use lagrangia_bench_problems, only: bench_problem_t
     use lagrangia_contestant, only: contestant_t, set_by_step, set_by_tolerance, source_gsl
     use lagrangia_errors, only: error_t
-    use lagrangia_gsl_mechanics, only: gsl_context_t, gsl_jacobian, gsl_rates
-    use lagrangia_gsl_odeiv, only: gsl_driver_t
+    use lagrangia_gsl_odeiv, only: gsl_driver_t, gsl_success
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_system, only: system_t
     implicit none (type, external)
     private
     public :: gsl_contestant_t, new_gsl_contestant
+    public :: gsl_context_t, gsl_jacobian, gsl_rates
 
     real(dp), parameter :: first_step = 1e-3_dp  !! s; GSL makes it longer as it likes
     real(dp), parameter :: any_error = 1e300_dp  !! at fixed steps GSL's estimate must not object
@@ -26,6 +29,15 @@ module lagrangia_gsl_contestants
         procedure :: solve
         final :: release
     end type gsl_contestant_t
+
+    type :: gsl_context_t
+        !! What GSL hands back to the functions below.
+        class(system_t), pointer :: system => null()
+        integer(i8) :: evaluations = 0  !! of accelerations
+        real(dp), allocatable :: work(:, :)  !! (2*ndof, 4), of the Jacobian
+    end type gsl_context_t
+
+    ! allow(assumed-size): C gives the address of the first element
 
 contains
 
@@ -97,4 +109,92 @@ contains
         call self%driver%free()
         if (associated(self%context)) deallocate (self%context)
     end subroutine release
+
+    function gsl_rates(t, y, rates, context) bind(c) result(status)
+        !! The right-hand side.
+        real(c_double), value :: t
+        real(c_double), intent(in) :: y(*)
+        real(c_double), intent(inout) :: rates(*)
+        type(c_ptr), value :: context
+        integer(c_int) :: status
+        type(gsl_context_t), pointer :: self
+        integer :: n
+
+        call c_f_pointer(context, self)
+        n = self%system%ndof
+        rates(1:n) = y(n + 1:2*n)
+        call self%system%accelerations(t, y(1), y(n + 1), rates(n + 1))
+        self%evaluations = self%evaluations + 1
+        status = gsl_success
+    end function gsl_rates
+
+    function gsl_jacobian(t, y, jacobian, time_rates, context) bind(c) result(status)
+        !! The matrix of the right-hand side by rows, and its derivative by the time, by central
+        !! differences: two evaluations for every unknown that the accelerations depend on. Their
+        !! error, some \(10^{-10}\), slows `bsimp` but spoils no result. Derivatives by hand, as
+        !! few users would write them, would be cheaper: so `bsimp` is measured as it would be used.
+        real(c_double), value :: t
+        real(c_double), intent(in) :: y(*)
+        real(c_double), intent(inout) :: jacobian(*), time_rates(*)
+        type(c_ptr), value :: context
+        integer(c_int) :: status
+        type(gsl_context_t), pointer :: self
+        integer :: i, k, n
+
+        call c_f_pointer(context, self)
+        n = self%system%ndof
+        if (.not. allocated(self%work)) allocate (self%work(2*n, 4))
+        jacobian(1:4*n**2) = 0.0_dp
+        time_rates(1:2*n) = 0.0_dp
+        do i = 1, n
+            jacobian(2*n*(i - 1) + n + i) = 1.0_dp
+        end do
+        do k = 1, merge(2*n, n, self%system%velocity_forces)
+            call add_column(self, n, k, t, y, self%work, jacobian)
+        end do
+        if (self%system%time_dependent) call add_time(self, n, t, y, self%work, time_rates)
+        status = gsl_success
+    end function gsl_jacobian
+
+    subroutine add_column(self, n, k, t, y, work, jacobian)
+        !! How the accelerations change with unknown `k`.
+        type(gsl_context_t), intent(inout) :: self
+        integer, intent(in) :: n, k
+        real(dp), intent(in) :: t, y(2*n)
+        real(dp), intent(inout) :: work(2*n, 4)
+        real(dp), intent(inout) :: jacobian(2*n, 2*n)  !! the transpose, since C has it by rows
+
+        work(:, 1) = y
+        work(:, 2) = y
+        work(k, 1) = y(k) - width(y(k))
+        work(k, 2) = y(k) + width(y(k))
+        call self%system%accelerations(t, work(:n, 1), work(n + 1:, 1), work(:n, 3))
+        call self%system%accelerations(t, work(:n, 2), work(n + 1:, 2), work(:n, 4))
+        jacobian(k, n + 1:) = (work(:n, 4) - work(:n, 3))/(work(k, 2) - work(k, 1))
+        self%evaluations = self%evaluations + 2
+    end subroutine add_column
+
+    subroutine add_time(self, n, t, y, work, time_rates)
+        !! How the accelerations change with the time.
+        type(gsl_context_t), intent(inout) :: self
+        integer, intent(in) :: n
+        real(dp), intent(in) :: t, y(2*n)
+        real(dp), intent(inout) :: work(2*n, 4), time_rates(2*n)
+        real(dp) :: below, above
+
+        below = t - width(t)
+        above = t + width(t)
+        call self%system%accelerations(below, y(:n), y(n + 1:), work(:n, 3))
+        call self%system%accelerations(above, y(:n), y(n + 1:), work(:n, 4))
+        time_rates(n + 1:) = (work(:n, 4) - work(:n, 3))/(above - below)
+        self%evaluations = self%evaluations + 2
+    end subroutine add_time
+
+    pure function width(x) result(h)
+        !! Of a central difference: its error of order \(h^2\) balances rounding.
+        real(dp), intent(in) :: x
+        real(dp) :: h
+
+        h = epsilon(x)**(1.0_dp/3.0_dp)*max(1.0_dp, abs(x))
+    end function width
 end module lagrangia_gsl_contestants

@@ -1,7 +1,5 @@
 module lagrangia_modes_bench
     !! What an eigenproblem costs, beside LAPACK's bare driver in the same rounds.
-    use lagrangia_bench_table, only: bench_table_t, count_cell, new_bench_table, number_cell, &
-                                     word_cell
     use lagrangia_description, only: name_length
     use lagrangia_eigen, only: normal_modes
     use lagrangia_errors, only: error_t
@@ -10,6 +8,7 @@ module lagrangia_modes_bench
     use lagrangia_lapack_eigen, only: dsygv, dsygvd
     use lagrangia_linearised, only: linearised_t
     use lagrangia_precision_curve, only: median
+    use lagrangia_printed_table, only: printed_table_t, count_cell, number_cell, word_cell
     use lagrangia_stopwatch, only: effort_t, repetitions, seconds_since, ticks_now
     implicit none (type, external)
     private
@@ -23,27 +22,27 @@ contains
     subroutine measure_modes(plan, table, error)
         !! Hanging chains of n bobs, \(K u = \omega^2 M u\) with full matrices.
         type(effort_t), intent(in) :: plan
-        type(bench_table_t), intent(out) :: table
+        type(printed_table_t), intent(out) :: table
         type(error_t), allocatable, intent(out) :: error
         type(hanging_chain_t) :: chain
-        type(linearised_t) :: page
+        type(linearised_t) :: analytic
         real(dp), allocatable :: q(:)
         real(dp) :: ours(plan%rounds), bare(plan%rounds)
         integer :: i, round, n
 
-        call new_bench_table(table, "modes", "n bobs of a hanging chain, K u = omega^2 M u", &
-                             [character(name_length) :: "n", "driver", "us", "driver_us", "ratio"])
+        call table%begin("modes", "n bobs of a hanging chain, K u = omega^2 M u", &
+                         [character(name_length) :: "n", "driver", "us", "driver_us", "ratio"])
         do i = 1, size(sizes) - merge(1, 0, plan%quick)
             n = sizes(i)
             call chain%configure([real(n, dp), 1.0_dp, 1.0_dp, 9.81_dp], error)
             if (allocated(error)) return
             allocate (q(n), source=0.0_dp)
-            call chain%linearise(q, page)
+            call chain%linearise(q, analytic)
             deallocate (q)
             do round = 1, plan%rounds
-                call time_ours(page%stiffness, page%mass, plan%shortest, ours(round), error)
+                call time_ours(analytic%stiffness, analytic%mass, plan%shortest, ours(round), error)
                 if (allocated(error)) return
-                call time_driver(page%stiffness, page%mass, plan%shortest, bare(round))
+                call time_driver(analytic%stiffness, analytic%mass, plan%shortest, bare(round))
             end do
             call table%add([count_cell(int(n, i8)), &
                             word_cell(merge("dsygv ", "dsygvd", n <= small)), &

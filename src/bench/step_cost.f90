@@ -1,7 +1,6 @@
 module lagrangia_step_cost
     !! What one step costs, of every method on every system.
     use lagrangia_bench_problems, only: bench_problem_t
-    use lagrangia_bench_table, only: cell_t, new_bench_table, number_cell, bench_table_t, word_cell
     use lagrangia_catalogue, only: new_system
     use lagrangia_contestant, only: contestant_box_t, contestant_t, set_by_step
     use lagrangia_description, only: name_length
@@ -9,6 +8,7 @@ module lagrangia_step_cost
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_t
     use lagrangia_precision_curve, only: median, not_known
+    use lagrangia_printed_table, only: cell_t, number_cell, printed_table_t, word_cell
     use lagrangia_stopwatch, only: effort_t, repetitions, seconds_since, ticks_now
     use lagrangia_work_precision, only: look_around
     implicit none (type, external)
@@ -26,7 +26,7 @@ contains
         type(contestant_box_t), intent(inout) :: contestants(:)
         type(effort_t), intent(in) :: plan
         class(observer_t), pointer, intent(in) :: watcher
-        type(bench_table_t), intent(out) :: table
+        type(printed_table_t), intent(out) :: table
         type(error_t), allocatable, intent(out) :: error
         type(bench_problem_t), target :: problem
         real(dp), allocatable :: cost(:, :)
@@ -51,9 +51,9 @@ contains
                     contestants(k)%item%evaluations*dt/duration
             end do
         end do
-        call new_bench_table(table, "step_ns", "one step, ns (dt = 1e-3 s; -: the method "// &
-                             "refuses the system)", [character(name_length) :: "method", &
-                             "evaluations", systems])
+        call table%begin("step_ns", "one step, ns (dt = 1e-3 s; -: the method "// &
+                         "refuses the system)", [character(name_length) :: "method", &
+                         "evaluations", systems])
         do k = 1, size(contestants)
             if (.not. any(cost(:, k) >= 0.0_dp)) cycle
             cells(1) = word_cell(contestants(k)%item%name)

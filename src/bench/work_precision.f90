@@ -1,23 +1,29 @@
 module lagrangia_work_precision
     !! Run time against error: each contestant over its steps or tolerances, on each problem.
+    !!
+    !! The curves become two tables: every point, and the time that an error takes.
     use lagrangia_bench_problems, only: bench_problem_t
-    use lagrangia_contestant, only: contestant_box_t, contestant_t, set_by_nothing, set_by_step
+    use lagrangia_contestant, only: contestant_box_t, contestant_t, set_by_names, set_by_nothing, &
+                                    set_by_step, source_gsl
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_t
-    use lagrangia_precision_curve, only: median, time_to_error
+    use lagrangia_precision_curve, only: best, median, not_known, ratio, time_to_error
+    use lagrangia_printed_table, only: printed_table_t, cell_t, count_cell, number_cell, word_cell
     use lagrangia_stopwatch, only: effort_t, repetitions, seconds_since, ticks_now
     implicit none (type, external)
     private
-    public :: curve_t, look_around, measure_curves
+    public :: curve_t, best_time, look_around, measure_curves, points_table, times_table
 
     integer, parameter :: most_rungs = 48, most_rounds = 9
     real(dp), parameter :: longest_step = 2.0_dp        !! s: every problem turns in a few seconds
     real(dp), parameter :: loosest = 1e-2_dp, tightest = 1e-15_dp
     integer, parameter :: attempts = 3                  !! before a run is called too long
     real(dp), parameter :: no_digit = 1.0_dp            !! an error that is not worth a point
+    real(dp), parameter :: microseconds = 1e6_dp
+    real(dp), parameter :: wanted(4) = [1e-3_dp, 1e-6_dp, 1e-9_dp, 1e-12_dp]
 
     type :: point_t
         real(dp) :: setting = 0.0_dp                !! step, s, or tolerance
@@ -217,4 +223,69 @@ contains
 
         error = minval(self%points(:self%count)%error)
     end function least_error
+
+    pure subroutine points_table(curves, table)
+        !! All that was measured: for programs.
+        type(curve_t), intent(in) :: curves(:)
+        type(printed_table_t), intent(out) :: table
+        integer :: i, k
+
+        call table%begin("work_precision", "run time against error", &
+                         [character(name_length) :: "problem", "method", "set_by", "setting", &
+                          "error", "us", "evaluations"])
+        table%silent = .true.
+        do i = 1, size(curves)
+            do k = 1, curves(i)%count
+                associate (c => curves(i), p => curves(i)%points(k))
+                    call table%add([word_cell(c%problem), word_cell(c%method), &
+                                    word_cell(set_by_names(c%set_by)), number_cell(p%setting, 3), &
+                                    number_cell(p%error, 3), &
+                                    number_cell(microseconds*p%seconds, 4), &
+                                    count_cell(p%evaluations)])
+                end associate
+            end do
+        end do
+    end subroutine points_table
+
+    pure subroutine times_table(curves, table)
+        !! Microseconds to an error, and how many times the best of GSL's methods takes of them.
+        type(curve_t), intent(in) :: curves(:)
+        type(printed_table_t), intent(out) :: table
+        type(cell_t) :: times(size(wanted)), ratios(size(wanted))
+        real(dp) :: time
+        integer :: i, k
+
+        call table%begin("time_to_error", "time to an error, us; over_gsl: divided "// &
+                         "by the best of GSL's methods there", [character(name_length) :: &
+                         "problem", "method", "set_by", "us_to_1e-3", "us_to_1e-6", &
+                         "us_to_1e-9", "us_to_1e-12", "over_gsl_1e-3", "over_gsl_1e-6", &
+                         "over_gsl_1e-9", "over_gsl_1e-12", "least_error"])
+        do i = 1, size(curves)
+            do k = 1, size(wanted)
+                time = curves(i)%time_to(wanted(k))
+                times(k) = number_cell(microseconds*time, 3)
+                ratios(k) = number_cell(ratio(time, best_time(curves, curves(i)%problem, &
+                                                              source_gsl, wanted(k))), 2)
+            end do
+            call table%add([word_cell(curves(i)%problem), word_cell(curves(i)%method), &
+                            word_cell(set_by_names(curves(i)%set_by)), times, ratios, &
+                            number_cell(curves(i)%least_error(), 2)])
+        end do
+    end subroutine times_table
+
+    pure function best_time(curves, problem, source, error) result(seconds)
+        !! The least time that one of `source` takes to `error` on `problem`.
+        type(curve_t), intent(in) :: curves(:)
+        character(*), intent(in) :: problem
+        integer, intent(in) :: source
+        real(dp), intent(in) :: error
+        real(dp) :: seconds
+        integer :: i
+
+        seconds = not_known()
+        do i = 1, size(curves)
+            if (curves(i)%problem /= problem .or. curves(i)%source /= source) cycle
+            seconds = best([seconds, curves(i)%time_to(error)])
+        end do
+    end function best_time
 end module lagrangia_work_precision

@@ -10,13 +10,13 @@ module lagrangia_catalogue
     use lagrangia_errors, only: error_t
     use lagrangia_hanging_chain, only: hanging_chain_t
     use lagrangia_names, only: refuse_name
-    use lagrangia_newcomer, only: check_newcomer
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_pendulum, only: pendulum_t
     use lagrangia_rolling_disk, only: rolling_disk_t
     use lagrangia_rotating_hoop, only: rotating_hoop_t
     use lagrangia_rotating_wire, only: rotating_wire_t
     use lagrangia_system, only: default_values, system_box_t, system_t
+    use lagrangia_system_validation, only: validate_system
     use lagrangia_wedge, only: wedge_t
     implicit none (type, external)
     private
@@ -35,11 +35,11 @@ contains
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
         type(system_box_t), allocatable :: longer(:)
-        class(system_t), allocatable :: newcomer
+        class(system_t), allocatable :: added
         integer :: i, n
 
-        allocate (newcomer, source=system)
-        call check_newcomer(newcomer, system_names(), error)
+        allocate (added, source=system)
+        call validate_system(added, system_names(), error)
         if (allocated(error)) return
         n = 0
         if (allocated(registered)) n = size(registered)
@@ -47,7 +47,7 @@ contains
         do i = 1, n
             call move_alloc(registered(i)%item, longer(i)%item)
         end do
-        call move_alloc(newcomer, longer(n + 1)%item)
+        call move_alloc(added, longer(n + 1)%item)
         call move_alloc(longer, registered)
     end subroutine register_system
 

@@ -1,26 +1,24 @@
 module lagrangia_bench
     !! `lagrangia bench [PART...]`: what the methods cost, beside GSL's, in one run.
-    use lagrangia_bench_choice, only: bench_choice_t, parts, read_choice
     use lagrangia_bench_files, only: check_bench_files, write_bench_files
+    use lagrangia_bench_options, only: bench_options_t, parts, read_options
     use lagrangia_bench_problems, only: bench_problem_t, read_problems
-    use lagrangia_bench_table, only: bench_table_t
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: console_failed, flush_console, put_line
     use lagrangia_contestant, only: contestant_box_t
     use lagrangia_contestants, only: new_contestants
     use lagrangia_energy_bench, only: measure_energy
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_growth_bench, only: measure_growth
+    use lagrangia_growth_bench, only: measure_growth, measure_output
     use lagrangia_machine, only: processor
     use lagrangia_modes_bench, only: measure_modes
     use lagrangia_observer, only: observer_t
-    use lagrangia_output_bench, only: measure_output
-    use lagrangia_precision_tables, only: points_table, times_table
+    use lagrangia_printed_table, only: printed_table_t
     use lagrangia_progress, only: progress_t
     use lagrangia_scene_files, only: draw
     use lagrangia_step_cost, only: measure_steps
     use lagrangia_version, only: build_text, is_optimised
-    use lagrangia_work_precision, only: curve_t, measure_curves
+    use lagrangia_work_precision, only: curve_t, measure_curves, points_table, times_table
     implicit none (type, external)
     private
     public :: bench_command, check_build
@@ -39,8 +37,8 @@ contains
         !! Measure the parts that are asked for, and print each table as soon as it is there.
         type(command_line_t), intent(in) :: line
         type(error_t), allocatable, intent(out) :: error
-        type(bench_choice_t) :: choice
-        type(bench_table_t) :: table
+        type(bench_options_t) :: options
+        type(printed_table_t) :: table
         type(output_t) :: output
         type(progress_t), target :: progress
         class(observer_t), pointer :: watcher
@@ -48,9 +46,9 @@ contains
 
         call check_build(is_optimised(), error)
         if (allocated(error)) return
-        call read_choice(line, choice, error)
+        call read_options(line, options, error)
         if (allocated(error)) return
-        if (any(choice%parts == "precision")) call check_bench_files(choice%folder, error)
+        if (any(options%parts == "precision")) call check_bench_files(options%folder, error)
         if (allocated(error)) return
         watcher => progress
         output%json = line%has("json")
@@ -59,7 +57,7 @@ contains
         call output%say("build: "//build_text(brief=.true.))
         call output%say("processor: "//processor())
         do i = 1, size(parts)
-            if (.not. any(choice%parts == parts(i))) cycle
+            if (.not. any(options%parts == parts(i))) cycle
             call flush_console()
             if (console_failed()) return  ! nobody would see the rest
             call progress%restart("bench "//trim(parts(i)), line%has("quiet"))
@@ -69,19 +67,19 @@ contains
             case ("steps")
                 call bench_steps()
             case ("energy")
-                call measure_energy(choice%methods, choice%plan, watcher, table, error)
+                call measure_energy(options%methods, options%plan, watcher, table, error)
                 if (allocated(error)) exit
                 call output%show(table, progress)
             case ("growth")
-                call measure_growth(choice%folder, choice%plan, table, error)
+                call measure_growth(options%folder, options%plan, table, error)
                 if (allocated(error)) exit
                 call output%show(table, progress)
             case ("modes")
-                call measure_modes(choice%plan, table, error)
+                call measure_modes(options%plan, table, error)
                 if (allocated(error)) exit
                 call output%show(table, progress)
             case default
-                call measure_output(choice%folder, choice%plan, table, error)
+                call measure_output(options%folder, options%plan, table, error)
                 if (allocated(error)) exit
                 call output%show(table, progress)
             end select
@@ -97,10 +95,10 @@ contains
             type(curve_t), allocatable :: curves(:)
             character(:), allocatable :: path
 
-            call read_problems(choice%problems, problems, error)
+            call read_problems(options%problems, problems, error)
             if (allocated(error)) return
-            call new_contestants(choice%methods, contestants)
-            call measure_curves(problems, contestants, choice%tolerances, choice%plan, watcher, &
+            call new_contestants(options%methods, contestants)
+            call measure_curves(problems, contestants, options%tolerances, options%plan, watcher, &
                                 curves, error)
             if (allocated(error)) return
             if (size(curves) == 0) call fail(error, "none of these methods solves any of these "// &
@@ -110,17 +108,17 @@ contains
             call output%show(table, progress)
             call times_table(curves, table)
             call output%show(table, progress)
-            call write_bench_files(choice%folder, problems, curves, path, error)
+            call write_bench_files(options%folder, problems, curves, path, error)
             if (allocated(error)) return
             call output%say("data file and gnuplot script: "//path)
-            if (line%has("plot")) call draw(path, choice%picture, error)
+            if (line%has("plot")) call draw(path, options%picture, error)
         end subroutine bench_precision
 
         subroutine bench_steps()
             type(contestant_box_t), allocatable :: contestants(:)
 
-            call new_contestants(choice%methods, contestants)
-            call measure_steps(choice%systems, contestants, choice%plan, watcher, table, error)
+            call new_contestants(options%methods, contestants)
+            call measure_steps(options%systems, contestants, options%plan, watcher, table, error)
             if (allocated(error)) return
             call output%show(table, progress)
         end subroutine bench_steps
@@ -138,7 +136,7 @@ contains
     subroutine show(self, table, progress)
         !! One table, as lines or as objects of the one array.
         class(output_t), intent(inout) :: self
-        type(bench_table_t), intent(in) :: table
+        type(printed_table_t), intent(in) :: table
         type(progress_t), intent(inout) :: progress
         integer :: i
 

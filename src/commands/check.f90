@@ -1,25 +1,33 @@
 module lagrangia_check
     !! `lagrangia check [SYSTEM...]`: the audit of systems and methods, a table each.
     use lagrangia_audit, only: audit_system
-    use lagrangia_audited, only: audited_t, read_audited
-    use lagrangia_catalogue, only: system_names
-    use lagrangia_command_line, only: command_line_t
+    use lagrangia_catalogue, only: new_system, system_names
+    use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: console_failed, flush_console, note, put_line
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail, status_not_held
-    use lagrangia_findings, only: audit_t, claim_length, finding_t
     use lagrangia_hyperdual, only: hyperdual_t
-    use lagrangia_json, only: json_number, json_string
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_ledger, only: ledger_t
+    use lagrangia_ledger_text, only: residual_head, residual_json, residual_line
     use lagrangia_method_orders, only: audit_methods
+    use lagrangia_namelist, only: apply_override, get_reals, has_key, namelist_t, &
+                                  parse_namelist, refuse_unknown_groups, refuse_unknown_keys, &
+                                  refuse_value
     use lagrangia_names, only: refuse_name
-    use lagrangia_number_text, only: scientific
     use lagrangia_progress, only: about
-    use lagrangia_system, only: system_t
+    use lagrangia_system, only: check_parameter, default_values, system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: check_command
+
+    type :: audited_t
+        !! A system, and which of its parameters were given.
+        class(system_t), allocatable :: system
+        logical, allocatable :: fixed(:)
+        real(dp), allocatable :: given(:)  !! all values, defaults where none was given
+    end type audited_t
 
 contains
 
@@ -28,7 +36,7 @@ contains
         type(command_line_t), intent(in) :: line
         type(error_t), allocatable, intent(out) :: error
         type(audited_t), allocatable :: audited(:)
-        type(audit_t) :: audit
+        type(ledger_t) :: audit
         type(description_t) :: d
         logical :: json, methods
         integer :: i, shown
@@ -38,7 +46,7 @@ contains
         json = line%has("json")
         shown = 0
         if (json) call put_line("[")
-        call audit%begin("")
+        call audit%section("")
         do i = 1, size(audited)
             call audited(i)%system%describe(d)
             call put_head(trim(d%name))
@@ -54,22 +62,24 @@ contains
             call put_rows()
         end if
         if (json) then
-            call put_json(audit)
+            do i = 1, size(audit%rows)
+                call put_line(residual_json(audit%rows(i))// &
+                              trim(merge(",", " ", i < size(audit%rows))))
+            end do
+            call put_line("]")
         else
             call put_summary(audit)
         end if
         if (audit%broken() > 0) call fail(error, to_text(audit%broken())//" of "// &
-            to_text(size(audit%findings))//" claims do not hold", status_not_held)
+            to_text(size(audit%rows))//" claims do not hold", status_not_held)
     contains
         subroutine put_head(name)
             !! Above the columns of a table, before it is computed: a stdout that takes nothing is
             !! noticed here.
             character(*), intent(in) :: name
-            character(claim_length + 2) :: wide
 
-            wide = name
             if (.not. json .and. shown > 0) call put_line("")
-            if (.not. json) call put_line(wide//"   worst   noise   bound states")
+            if (.not. json) call put_line(residual_head(name))
             call flush_console()
         end subroutine put_head
 
@@ -77,10 +87,11 @@ contains
             !! The rows that are new.
             integer :: k
 
-            do k = shown + 1, merge(shown, size(audit%findings), json)
-                call put_row(audit%findings(k))
+            do k = shown + 1, merge(shown, size(audit%rows), json)
+                call put_line(residual_line(audit%rows(k)))
+                if (audit%rows(k)%remark /= "") call put_line("      "//trim(audit%rows(k)%remark))
             end do
-            shown = size(audit%findings)
+            shown = size(audit%rows)
         end subroutine put_rows
     end subroutine check_command
 
@@ -146,21 +157,12 @@ contains
         call read_audited(names, line%values_of("set"), audited, error)
     end subroutine choose
 
-    subroutine put_row(row)
-        !! One claim, and what there is to say about it.
-        type(finding_t), intent(in) :: row
-
-        call put_line("  "//row%claim//short(row%worst)//short(row%noise)//short(row%bound)// &
-                      to_wide(row%states)//"  "//merge("holds", "FAILS", row%holds))
-        if (row%remark /= "") call put_line("      "//trim(row%remark))
-    end subroutine put_row
-
     subroutine put_summary(audit)
         !! Below all tables.
-        type(audit_t), intent(in) :: audit
+        type(ledger_t), intent(in) :: audit
 
         call put_line("")
-        call put_line(to_text(size(audit%findings))//" claims, "//to_text(audit%broken())// &
+        call put_line(to_text(size(audit%rows))//" claims, "//to_text(audit%broken())// &
                       " do not hold")
         call put_line("worst: the residual that is largest beside its noise, relative to the "// &
                       "terms that add up; noise: what")
@@ -168,47 +170,73 @@ contains
                       "states: random, as are parameters")
     end subroutine put_summary
 
-    pure function short(value) result(text)
-        !! Two digits, in eight columns at least.
-        real(dp), intent(in) :: value
-        character(:), allocatable :: text
-
-        text = "0"
-        if (abs(value) > 0.0_dp .or. .not. abs(value) <= 0.0_dp) text = scientific(value, 2)
-        text = repeat(" ", max(1, 8 - len(text)))//text
-    end function short
-
-    pure function to_wide(number) result(text)
-        !! In seven columns at least.
-        integer, intent(in) :: number
-        character(:), allocatable :: text
-
-        text = to_text(number)
-        text = repeat(" ", max(1, 7 - len(text)))//text
-    end function to_wide
-
-    subroutine put_json(audit)
-        !! The rows as objects of the array that was begun, and its end.
-        type(audit_t), intent(in) :: audit
+    subroutine read_audited(names, words, audited, error)
+        !! Fails on unknown systems, on groups and keys that are not theirs, and on values that
+        !! are not allowed.
+        character(*), intent(in) :: names(:)
+        type(word_t), intent(in) :: words(:)  !! `GROUP%KEY=VALUE`
+        type(audited_t), allocatable, intent(out) :: audited(:)
+        type(error_t), allocatable, intent(out) :: error
+        type(namelist_t) :: tree
         integer :: i
 
-        do i = 1, size(audit%findings)
-            call put_line(json_row(audit%findings(i))// &
-                          trim(merge(",", " ", i < size(audit%findings))))
+        allocate (audited(size(names)))
+        do i = 1, size(names)
+            call new_system(trim(names(i)), audited(i)%system, error)
+            if (allocated(error)) return
         end do
-        call put_line("]")
-    end subroutine put_json
+        if (size(names) == 0) return
+        call parse_namelist("&"//trim(names(1))//" /", "check", tree, error)
+        if (allocated(error)) return
+        do i = 1, size(words)
+            call apply_override(tree, words(i)%text, error)
+            if (allocated(error)) return
+        end do
+        do i = 1, size(names)
+            call read_parameters(tree, audited(i), error)
+            if (allocated(error)) return
+        end do
+        call refuse_unknown_groups(tree, names, error)
+    end subroutine read_audited
 
-    pure function json_row(row) result(json)
-        !! One claim.
-        type(finding_t), intent(in) :: row
-        character(:), allocatable :: json
+    subroutine read_parameters(tree, audited, error)
+        !! Those of one system.
+        type(namelist_t), intent(inout) :: tree
+        type(audited_t), intent(inout) :: audited
+        type(error_t), allocatable, intent(out) :: error
+        type(description_t) :: d
+        type(error_t), allocatable :: refusal
+        character(name_length), allocatable :: keys(:)
+        real(dp), allocatable :: values(:)
+        logical :: found
+        integer :: i, first
 
-        json = '{"system": '//json_string(row%system)//', "claim": '//json_string(row%claim)// &
-               ', "worst": '//json_number(row%worst)//', "noise": '//json_number(row%noise)// &
-               ', "bound": '//json_number(row%bound)//', "states": '// &
-               json_number(int(row%states, i8))//', "holds": '// &
-               trim(merge("true ", "false", row%holds))//', "remark": '// &
-               json_string(row%remark)//"}"
-    end function json_row
+        call audited%system%describe(d)
+        allocate (audited%given, source=default_values(d))
+        allocate (audited%fixed(size(audited%given)))
+        audited%fixed = .false.
+        first = 1
+        do i = 1, size(d%parameters)
+            associate (p => d%parameters(i), last => first + d%parameters(i)%count - 1)
+                allocate (values, source=p%value(:p%count))
+                call get_reals(tree, trim(d%name), trim(p%name), p%count, p%count, values, error)
+                found = has_key(tree, trim(d%name), trim(p%name))
+                if (allocated(error)) return
+                audited%given(first:last) = values
+                audited%fixed(first:last) = found
+                p%value(:p%count) = values
+                call check_parameter(p, refusal)
+                if (found .and. allocated(refusal)) then
+                    call refuse_value(tree, trim(d%name), trim(p%name), &
+                                      p%domain()//" is needed", error)
+                    return
+                end if
+            end associate
+            deallocate (values)
+            first = first + d%parameters(i)%count
+        end do
+        allocate (keys(size(d%parameters)))
+        keys = d%parameters%name
+        call refuse_unknown_keys(tree, trim(d%name), keys, error)
+    end subroutine read_parameters
 end module lagrangia_check

@@ -3,13 +3,12 @@ module lagrangia_errata_command
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_errata, only: slip_numbers
-    use lagrangia_errata_ledger, only: slips_of_the_notes
-    use lagrangia_errata_slip, only: kind_lecture, kind_none, kind_scan, kind_terminology, &
-                                     quote_t, slip_t
+    use lagrangia_errata_ledger, only: kind_lecture, kind_none, kind_scan, kind_terminology, &
+                                       quote_t, slip_t, slips_of_the_notes
     use lagrangia_errors, only: error_t, fail, status_not_held
-    use lagrangia_json, only: json_string
+    use lagrangia_json, only: json_item, json_object, json_pair
     use lagrangia_principle, only: principle_report, put_json, put_report
-    use lagrangia_report, only: report_t, statement_t
+    use lagrangia_report, only: report_t
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
     private
@@ -60,7 +59,7 @@ contains
         else
             call put_slip(slips(k), report)
         end if
-        if (report%misses() > 0) call fail(error, to_text(report%misses())//" of "// &
+        if (report%broken() > 0) call fail(error, to_text(report%broken())//" of "// &
             to_text(size(report%rows))//" numbers do not come out", status_not_held)
     end subroutine errata_command
 
@@ -70,7 +69,6 @@ contains
         type(report_t), intent(out) :: report
         type(error_t), allocatable, intent(out) :: error
         type(report_t) :: whole
-        integer :: k
 
         call report%begin("")
         if (slip%principle == "") then
@@ -79,37 +77,8 @@ contains
         end if
         call principle_report(trim(slip%principle), whole, error)
         if (allocated(error)) return
-        do k = 1, size(whole%rows)
-            if (belongs(slip%id, whole%rows(k))) report%rows = [report%rows, whole%rows(k)]
-        end do
+        report%rows = pack(whole%rows, whole%rows%slip == slip%id)
     end subroutine slip_report
-
-    pure function belongs(id, row) result(yes)
-        !! A row of a principle's report that shows this slip.
-        character(*), intent(in) :: id
-        type(statement_t), intent(in) :: row
-        logical :: yes
-
-        select case (id)
-        case ("E7")
-            yes = index(row%heading, "double pendulum, l1") == 1
-        case ("E9")
-            yes = index(row%name, "y dx - x dy") == 1 .or. index(row%name, "times 1/y") == 1 &
-                  .or. row%name == "is the disk integrable?"
-        case ("E10")
-            yes = index(row%name, "B = 0") == 1
-        case ("E14")
-            yes = index(row%name, "y > 0") == 1
-        case ("E15")
-            yes = index(row%heading, "S[x + a sin") == 1 &
-                  .or. index(row%name, "oscillator, omega T = 4: floor") == 1
-        case ("E16")
-            yes = index(row%heading, "concave mirror") == 1 &
-                  .or. index(row%heading, "elliptic mirror") == 1
-        case default
-            yes = .false.
-        end select
-    end function belongs
 
     subroutine put_slip(slip, report)
         !! The whole story.
@@ -186,7 +155,7 @@ contains
                 if (slips(k)%kind /= parts(part)%kind) cycle
                 call slip_report(slips(k), report, error)
                 if (allocated(error)) return
-                misses = misses + report%misses()
+                misses = misses + report%broken()
                 left = left - 1
                 ending = ","
                 if (left == 0) ending = ""
@@ -219,38 +188,36 @@ contains
 
         verdict = "shown"
         if (size(report%rows) == 0) verdict = "listed"
-        if (report%misses() > 0) verdict = "NOT SO!"
+        if (report%broken() > 0) verdict = "NOT SO!"
     end function verdict_on
 
     pure function object(slip, verdict) result(json)
         !! One slip.
         type(slip_t), intent(in) :: slip
         character(*), intent(in) :: verdict
-        character(:), allocatable :: json
+        character(:), allocatable :: json, quotes, elsewhere
         integer :: k
 
-        json = '{"id": '//json_string(trim(slip%id))//', "kind": '//json_string(trim(slip%kind))// &
-               ', "subject": '//json_string(trim(slip%subject))//', "place": '// &
-               json_string(place_text(slip))//', "quotes": ['//quote(slip%quotes(1))
+        quotes = quote(slip%quotes(1))
         do k = 2, count(slip%quotes%scan /= "")
-            json = json//", "//quote(slip%quotes(k))
+            quotes = quotes//", "//quote(slip%quotes(k))
         end do
-        json = json//'], "reads": '//json_string(trim(slip%reads))//', "derived": '// &
-               json_string(trim(slip%derived))//', "elsewhere": '
-        if (slip%elsewhere%scan == "") then
-            json = json//"null"
-        else
-            json = json//quote(slip%elsewhere)
-        end if
-        json = json//', "effect": '//json_string(trim(slip%effect))//', "numbers": '// &
-               json_string(verdict)//"}"
+        elsewhere = "null"
+        if (slip%elsewhere%scan /= "") elsewhere = quote(slip%elsewhere)
+        json = json_object(json_pair("id", slip%id)//json_pair("kind", slip%kind)// &
+                           json_pair("subject", slip%subject)// &
+                           json_pair("place", place_text(slip))// &
+                           json_item("quotes", "["//quotes//"]")// &
+                           json_pair("reads", slip%reads)//json_pair("derived", slip%derived)// &
+                           json_item("elsewhere", elsewhere)//json_pair("effect", slip%effect)// &
+                           json_pair("numbers", verdict))
     contains
         pure function quote(item) result(part)
             type(quote_t), intent(in) :: item
             character(:), allocatable :: part
 
-            part = '{"scan": '//json_string(item%scan)//', "line": '//to_text(item%line)// &
-                   ', "text": '//json_string(item%text)//"}"
+            part = json_object(json_pair("scan", item%scan)//json_pair("line", item%line)// &
+                               json_pair("text", item%text))
         end function quote
     end function object
 end module lagrangia_errata_command

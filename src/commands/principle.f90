@@ -1,5 +1,6 @@
 module lagrangia_principle
-    !! `lagrangia principle NAME`: both sides of a principle's statement, and their difference.
+    !! `lagrangia principle NAME`: both sides of a principle's statement, their difference,
+    !! and its picture as files: the data, and the gnuplot script beside it.
     use lagrangia_action, only: action_principle
     use lagrangia_catalogue, only: built_in, nth_system
     use lagrangia_command_line, only: command_line_t
@@ -7,22 +8,24 @@ module lagrangia_principle
     use lagrangia_constraints, only: constraints_principle
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_gauge, only: gauge_principle
-    use lagrangia_json, only: json_number, json_string
-    use lagrangia_kinds, only: dp
+    use lagrangia_gnuplot, only: gnuplot_script, new_panels, panel_t
     use lagrangia_least_time, only: least_time_principle
+    use lagrangia_ledger, only: group_length
+    use lagrangia_ledger_text, only: statement_head, statement_json, statement_line
     use lagrangia_names, only: refuse_name
-    use lagrangia_number_text, only: scientific
-    use lagrangia_picture_files, only: check_picture, write_picture
-    use lagrangia_report, only: report_t, statement_length, statement_t
-    use lagrangia_scene_files, only: draw
+    use lagrangia_output_file, only: commit_both, output_file_t, refuse_unwritable
+    use lagrangia_places, only: places_t
+    use lagrangia_report, only: picture_t, report_t
+    use lagrangia_scene_claims, only: claim_table
+    use lagrangia_scene_files, only: data_path, draw, script_path
     use lagrangia_system, only: system_box_t
     use lagrangia_text, only: quoted, to_text
+    use lagrangia_text_table, only: text_table_t
+    use lagrangia_version, only: build_text, version
     use lagrangia_virtual_work, only: virtual_work_principle
-    use lagrangia_walker, only: walker_t
     implicit none (type, external)
     private
-    public :: principle_command, principle_names, principle_report, put_json, put_report, &
-              statement_line
+    public :: principle_command, principle_names, principle_report, put_json, put_report
 
     type :: principle_t
         character(16) :: name = ""
@@ -75,7 +78,7 @@ contains
         end if
         if (line%has("plot") .and. file /= "") call draw(file, kind, error)
         if (allocated(error)) return
-        if (report%misses() > 0) call fail(error, to_text(report%misses())//" of "// &
+        if (report%broken() > 0) call fail(error, to_text(report%broken())//" of "// &
             to_text(size(report%rows))//" statements are not as they must be", status_not_held)
     end subroutine principle_command
 
@@ -96,22 +99,21 @@ contains
         character(*), intent(in) :: name
         type(report_t), intent(out) :: report
         type(error_t), allocatable, intent(out) :: error
-        type(walker_t) :: walker
         type(system_box_t), allocatable :: systems(:)
 
         select case (name)
         case ("action")
-            call action_principle(walker, report, error)
+            call action_principle(report, error)
         case ("constraints")
-            call constraints_principle(walker, report, error)
+            call constraints_principle(report, error)
         case ("gauge")
             call every_system(systems)
             call gauge_principle(systems, report, error)
         case ("least-time")
-            call least_time_principle(walker, report, error)
+            call least_time_principle(report, error)
         case ("virtual-work")
             call every_system(systems)
-            call virtual_work_principle(systems, walker, report, error)
+            call virtual_work_principle(systems, report, error)
         case default
             call refuse_name("principle", name, principle_names(), error)
         end select
@@ -148,18 +150,17 @@ contains
         !! The table, group by group.
         type(report_t), intent(in) :: report
         character(*), intent(in) :: file
-        character(98) :: heading
+        character(group_length) :: heading
         integer :: i, controls
 
         if (report%title /= "") call put_line(trim(report%title))
         heading = ""
         do i = 1, size(report%rows)
-            if (report%rows(i)%heading /= heading .or. i == 1) then
-                heading = report%rows(i)%heading
+            if (report%rows(i)%group /= heading .or. i == 1) then
+                heading = report%rows(i)%group
                 if (i > 1 .or. report%title /= "") call put_line("")
                 call put_line(trim(heading))
-                call put_line(repeat(" ", statement_length + 6)// &
-                              "left          right  differ   bound")
+                call put_line(statement_head())
             end if
             call put_line(statement_line(report%rows(i)))
         end do
@@ -170,48 +171,9 @@ contains
         controls = count(report%rows%control)
         call put_line(to_text(size(report%rows) - controls)//" statements, "//to_text(controls)// &
                       " negative controls (fails: as it must); "// &
-                      to_text(report%misses())//" not as they must be")
+                      to_text(report%broken())//" not as they must be")
         if (file /= "") call put_line("data and gnuplot script: "//file)
     end subroutine put_report
-
-    pure function statement_line(row) result(line)
-        !! One row: at most 100 columns.
-        type(statement_t), intent(in) :: row
-        character(:), allocatable :: line
-        character(7) :: verdict
-
-        if (row%as_it_must()) then
-            verdict = merge("fails  ", "holds  ", row%control)
-        else
-            verdict = merge("HOLDS !", "FAILS !", row%control)
-        end if
-        line = row%name//shown(row%left)//shown(row%right)//" "//short(row%difference)//" "// &
-               short(row%bound)//"  "//trim(verdict)
-    end function statement_line
-
-    pure function shown(value) result(text)
-        !! A number in 15 columns: whole ones as such, others with nine digits.
-        real(dp), intent(in) :: value
-        character(15) :: text
-
-        if (abs(value) < 1e6_dp .and. abs(value - anint(value)) <= 0.0_dp) then
-            write (text, "(ss, i15)") nint(value)
-        else if (abs(value) >= 1e-2_dp .and. abs(value) < 1e4_dp) then
-            write (text, "(ss, f15.9)") value
-        else
-            text = scientific(value, 8)
-            text = adjustr(text)
-        end if
-    end function shown
-
-    pure function short(value) result(text)
-        !! Two digits are enough for a difference.
-        real(dp), intent(in) :: value
-        character(:), allocatable :: text
-
-        text = "      0"
-        if (abs(value) > 0.0_dp) text = scientific(value, 2)
-    end function short
 
     subroutine put_json(report)
         !! The rows as an array of objects.
@@ -220,17 +182,61 @@ contains
 
         call put_line("[")
         do i = 1, size(report%rows)
-            associate (row => report%rows(i))
-                call put_line('{"group": '//json_string(row%heading)//', "statement": '// &
-                              json_string(row%name)//', "left": '//json_number(row%left)// &
-                              ', "right": '//json_number(row%right)//', "difference": '// &
-                              json_number(row%difference)//', "bound": '// &
-                              json_number(row%bound)//', "control": '// &
-                              trim(merge("true ", "false", row%control))//', "holds": '// &
-                              trim(merge("true ", "false", row%holds()))//"}"// &
-                              trim(merge(",", " ", i < size(report%rows))))
-            end associate
+            call put_line(statement_json(report%rows(i))// &
+                          trim(merge(",", " ", i < size(report%rows))))
         end do
         call put_line("]")
     end subroutine put_json
+
+    subroutine check_picture(name, folder, error)
+        !! Fails where `write_picture` could not write now: to be asked before a long computation.
+        character(*), intent(in) :: name  !! of the files, without ending
+        character(*), intent(in) :: folder
+        type(error_t), allocatable, intent(out) :: error
+        type(places_t) :: places
+        character(:), allocatable :: path
+
+        path = data_path(folder, name, "text")
+        call claim_table(path, "data", "", places, error)
+        if (.not. allocated(error)) call refuse_unwritable(path, error)
+        if (.not. allocated(error)) call refuse_unwritable(script_path(path), error)
+    end subroutine check_picture
+
+    subroutine write_picture(picture, folder, path, error)
+        !! Write `folder/NAME.dat` and `folder/NAME.gp`; `path` is the data file, "" without one.
+        type(picture_t), intent(in) :: picture
+        character(*), intent(in) :: folder
+        character(:), allocatable, intent(out) :: path
+        type(error_t), allocatable, intent(out) :: error
+        type(text_table_t) :: table
+        type(output_file_t) :: script
+        type(panel_t), allocatable :: panels(:)
+        character(2*group_length) :: header(2)
+        integer :: i
+
+        path = ""
+        if (picture%file == "") return
+        call new_panels(picture%panels, picture%names, picture%units, panels, error)
+        if (allocated(error)) return
+        path = data_path(folder, trim(picture%file), "text")
+        header(1) = "lagrangia "//version//": "//picture%title
+        header(2) = "build: "//build_text()
+        call table%file%open(path, error)
+        if (allocated(error)) return
+        call table%begin(header, picture%names, picture%units, error)
+        if (allocated(error)) return
+        do i = 1, size(picture%values, 2)
+            call table%row(picture%values(:, i))
+        end do
+        call table%finish("rows: "//to_text(size(picture%values, 2)), error)
+        if (allocated(error)) return
+        call script%open(script_path(path), error)
+        if (allocated(error)) call table%file%abandon()
+        if (allocated(error)) return
+        call script%write(gnuplot_script(trim(picture%file)//".dat", table%reading(), &
+                                         trim(picture%title), picture%names, picture%units, &
+                                         minval(picture%values, 2), maxval(picture%values, 2), &
+                                         panels))
+        call commit_both(table%file, script, error)
+    end subroutine write_picture
 end module lagrangia_principle

@@ -1,14 +1,30 @@
 module lagrangia_program
     !! The whole program: words in, one command, exit status out.
+    use, intrinsic :: iso_c_binding, only: c_funloc, c_int
+    use lagrangia_bench, only: bench_command
     use lagrangia_blas_threads, only: use_one_blas_thread
-    use lagrangia_commands, only: dispatch
-    use lagrangia_console, only: note
-    use lagrangia_errors, only: error_t, status_ok
+    use lagrangia_c_library, only: c_alarm, c_exit
+    use lagrangia_check, only: check_command
+    use lagrangia_command_line, only: command_line_t, command_words, parse_words, word_t
+    use lagrangia_console, only: finish_console, note, put, put_line, say_at_once
+    use lagrangia_describe, only: describe_command
+    use lagrangia_errata_command, only: errata_command
+    use lagrangia_errors, only: error_t, fail, status_ok
+    use lagrangia_interrupt, only: catch_interrupts, interrupt_status
     use lagrangia_kinds, only: dp
+    use lagrangia_list, only: list_command
+    use lagrangia_modes_command, only: modes_command
+    use lagrangia_principle, only: principle_command
+    use lagrangia_registry, only: check_line, commands, help_text, options
     use lagrangia_resources, only: check_memory, check_stack
+    use lagrangia_run_command, only: run_command
+    use lagrangia_stress, only: stress_command
+    use lagrangia_unfinished, only: is_creating, remove_unfinished
+    use lagrangia_version, only: build_text, version
     implicit none (type, external)
     private
     public :: lagrangia_main
+    public :: give_up
 
     integer, parameter :: least_stack = 256          !! kB, for all that is computed
     real(dp), parameter :: least_memory = 150e6_dp   !! bytes, most of them for OpenBLAS
@@ -39,4 +55,58 @@ contains
         end if
         stop status, quiet=.true.
     end subroutine lagrangia_main
+
+    subroutine dispatch(error)
+        !! Run what was typed; `error` carries the message and the exit status.
+        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable :: output_error
+        type(word_t), allocatable :: words(:)
+        type(command_line_t) :: line
+        integer :: which
+
+        call command_words(words, error)
+        if (allocated(error)) return
+        call parse_words(words, options, line, error)
+        if (allocated(error)) return
+        call check_line(line, which, error)
+        if (allocated(error)) return
+        call catch_interrupts(c_funloc(give_up))
+        if (line%has("version")) then
+            call put_line("lagrangia "//version)
+            call put_line(build_text())
+        else if (line%has("help")) then
+            call put(help_text(which))
+        else
+            select case (commands(which)%name)
+            case ("check"); call check_command(line, error)
+            case ("errata"); call errata_command(line, error)
+            case ("list"); call list_command(line, error)
+            case ("describe"); call describe_command(line, error)
+            case ("bench"); call bench_command(line, error)
+            case ("stress"); call stress_command(line, error)
+            case ("modes"); call modes_command(line, error)
+            case ("principle"); call principle_command(line, error)
+            case default; call run_command(line, error)
+            end select
+        end if
+        if (interrupt_status() /= 0) call fail(error, "interrupted", interrupt_status())
+        call remove_unfinished()
+        call finish_console(output_error)
+        if (allocated(error)) return
+        if (allocated(output_error)) call move_alloc(output_error, error)
+    end subroutine dispatch
+
+    subroutine give_up(number) bind(c)
+        !! Answers SIGALRM, for `catch_interrupts`. Runs at any moment: allocates nothing.
+        integer(c_int), value :: number
+
+        if (is_creating()) then
+            number = c_alarm(1_c_int)
+            return
+        end if
+        call remove_unfinished()
+        call say_at_once("lagrangia: interrupted"//new_line("a"))
+        number = int(interrupt_status(), c_int)
+        call c_exit(number)
+    end subroutine give_up
 end module lagrangia_program

@@ -1,16 +1,15 @@
 module lagrangia_stress
     !! `lagrangia stress [ROW...]`: numerical stability, a table for each row.
-    use lagrangia_bench_table, only: short
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: console_failed, flush_console, put_line
     use lagrangia_errors, only: error_t, fail, status_not_held
+    use lagrangia_ledger, only: claim_t, ledger_t
+    use lagrangia_ledger_text, only: measured_json, measured_line
     use lagrangia_names, only: refuse_name
     use lagrangia_observer, only: observer_t
     use lagrangia_progress, only: progress_t
-    use lagrangia_stress_measures, only: measure_row
-    use lagrangia_stress_rows, only: row_t, rows
+    use lagrangia_stress_rows, only: measure_row, row_t, rows
     use lagrangia_text, only: to_text
-    use lagrangia_verdicts, only: verdict_t, verdicts_t
     use lagrangia_version, only: build_text
     implicit none (type, external)
     private
@@ -22,7 +21,7 @@ contains
         !! Measure the rows named, or all; fails (status 1) if a bound does not hold.
         type(command_line_t), intent(in) :: line
         type(error_t), allocatable, intent(out) :: error
-        type(verdicts_t) :: verdicts
+        type(ledger_t) :: verdicts
         type(progress_t), target :: progress
         class(observer_t), pointer :: watcher
         logical :: chosen(size(rows)), json, quiet
@@ -48,11 +47,11 @@ contains
             call progress%clear()
             if (allocated(error)) return
             if (json) then
-                call put_objects(verdicts%list(last + 1:), last == 0)
+                call put_objects(verdicts%rows(last + 1:), last == 0)
             else if (.not. quiet) then
-                call put_table(rows(i), verdicts%list(last + 1:))
+                call put_table(rows(i), verdicts%rows(last + 1:))
             end if
-            last = size(verdicts%list)
+            last = size(verdicts%rows)
         end do
         if (json) then
             call put_line("]")
@@ -85,48 +84,26 @@ contains
     subroutine put_table(row, list)
         !! What is measured, what it means, and a line a case.
         type(row_t), intent(in) :: row
-        type(verdict_t), intent(in) :: list(:)
+        type(claim_t), intent(in) :: list(:)
         integer :: wide(2), i
 
-        wide = [maxval(len_trim(list%of)), maxval(len_trim(list%measured))]
+        wide = [maxval(len_trim(list%name)), maxval(len_trim(list%measured))]
         call put_line("")
         call put_line(trim(row%name)//": "//trim(row%title))
         call put_line("  "//trim(row%meaning))
         do i = 1, size(list)
-            associate (cells => list(i))
-                call put_line(trim("  "//left(cells%of, wide(1))//left(cells%measured, wide(2))// &
-                                   right(short(cells%value, 4), 10)//"  "// &
-                                   left(cells%allowed(), 14)//left(cells%word(), 6)//cells%remark))
-            end associate
+            call put_line(measured_line(list(i), wide))
         end do
     end subroutine put_table
 
-    pure function left(text, width) result(cell)
-        !! And two blanks behind.
-        character(*), intent(in) :: text
-        integer, intent(in) :: width
-        character(width + 2) :: cell
-
-        cell = text
-    end function left
-
-    pure function right(text, width) result(cell)
-        !! The end of the cell is that of the text.
-        character(*), intent(in) :: text
-        integer, intent(in) :: width
-        character(:), allocatable :: cell
-
-        cell = repeat(" ", max(0, width - len(text)))//text
-    end function right
-
     subroutine put_objects(list, first)
         !! Objects of the one array.
-        type(verdict_t), intent(in) :: list(:)
+        type(claim_t), intent(in) :: list(:)
         logical, intent(in) :: first
         integer :: i
 
         do i = 1, size(list)
-            call put_line(trim(merge(" ", ",", first .and. i == 1))//list(i)%object())
+            call put_line(trim(merge(" ", ",", first .and. i == 1))//measured_json(list(i)))
         end do
     end subroutine put_objects
 end module lagrangia_stress

@@ -1,5 +1,7 @@
 module lagrangia_json
-    !! Pieces of JSON text (RFC 8259): strings, numbers, lists.
+    !! Pieces of JSON text (RFC 8259): strings, numbers, lists, objects.
+    !!
+    !! An object is `json_object(json_pair(key, value)//json_pair(key, value)//...)`.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use, intrinsic :: iso_fortran_env, only: real64
     use lagrangia_characters, only: decode, is_control, printable
@@ -9,11 +11,21 @@ module lagrangia_json
     implicit none (type, external)
     private
     public :: json_string, json_number, json_list
+    public :: json_item, json_object, json_pair
 
     interface json_number
         module procedure json_real
         module procedure json_integer
     end interface json_number
+
+    interface json_pair
+        !! A member of an object, with a comma before it; the value a text, a number or a logical.
+        module procedure pair_string
+        module procedure pair_real
+        module procedure pair_integer
+        module procedure pair_default_integer
+        module procedure pair_logical
+    end interface json_pair
 
 contains
 
@@ -78,4 +90,66 @@ contains
         end do
         json = json//"]"
     end function json_list
+
+    pure function json_object(members) result(json)
+        !! An object of what `json_pair` and `json_item` made.
+        character(*), intent(in) :: members  !! one behind the other
+        character(:), allocatable :: json
+
+        json = "{"//members(3:)//"}"
+    end function json_object
+
+    pure function json_item(key, value) result(json)
+        !! A member of an object, with a comma before it.
+        character(*), intent(in) :: key    !! without quotes
+        character(*), intent(in) :: value  !! JSON itself: a list, an object, `null`
+        character(:), allocatable :: json
+
+        json = ", "//json_string(key)//": "//value
+    end function json_item
+
+    pure function pair_string(key, value) result(json)
+        !! A text.
+        character(*), intent(in) :: key
+        character(*), intent(in) :: value  !! trailing blanks do not count
+        character(:), allocatable :: json
+
+        json = json_item(key, json_string(value))
+    end function pair_string
+
+    pure function pair_real(key, value) result(json)
+        !! A number, or `null`.
+        character(*), intent(in) :: key
+        real(dp), intent(in) :: value
+        character(:), allocatable :: json
+
+        json = json_item(key, json_real(value))
+    end function pair_real
+
+    pure function pair_integer(key, value) result(json)
+        !! A whole number.
+        character(*), intent(in) :: key
+        integer(i8), intent(in) :: value
+        character(:), allocatable :: json
+
+        json = json_item(key, json_integer(value))
+    end function pair_integer
+
+    pure function pair_default_integer(key, value) result(json)
+        !! A whole number.
+        character(*), intent(in) :: key
+        integer, intent(in) :: value
+        character(:), allocatable :: json
+
+        json = json_item(key, json_integer(int(value, i8)))
+    end function pair_default_integer
+
+    pure function pair_logical(key, value) result(json)
+        !! `true` or `false`.
+        character(*), intent(in) :: key
+        logical, intent(in) :: value
+        character(:), allocatable :: json
+
+        json = json_item(key, trim(merge("true ", "false", value)))
+    end function pair_logical
 end module lagrangia_json

@@ -9,7 +9,7 @@ module lagrangia_action_paths
     implicit none (type, external)
     private
     public :: extrapolated_action, extrapolated_change
-    public :: oscillator_action, oscillator_path, straight, swing, swing_period
+    public :: oscillator_action, oscillator_path, straight, pendulum_path, pendulum_period
 
     real(dp), parameter :: pi = acos(-1.0_dp)
     integer, parameter :: levels = 6, coarsest = 16  !! of Richardson's extrapolation
@@ -89,20 +89,20 @@ contains
         s = 0.5_dp*mass*w/sin(w*time)*((start**2 + finish**2)*cos(w*time) - 2.0_dp*start*finish)
     end function oscillator_action
 
-    pure function swing(t, amplitude, g_over_l) result(theta)
+    pure function pendulum_path(t, amplitude, g_over_l) result(theta)
         !! A pendulum released at `amplitude`: \(2\arcsin(k\,\mathrm{cd}\,\omega_0t)\).
         real(dp), intent(in) :: t, amplitude, g_over_l
         real(dp) :: theta, sn, cn, dn
 
         call jacobi(sqrt(g_over_l)*t, cos(0.5_dp*amplitude), sn, cn, dn)
         theta = 2.0_dp*asin(sin(0.5_dp*amplitude)*cn/dn)
-    end function swing
+    end function pendulum_path
 
-    pure function swing_period(amplitude, g_over_l) result(period)
+    pure function pendulum_period(amplitude, g_over_l) result(period)
         !! \(4K/\omega_0\).
         real(dp), intent(in) :: amplitude, g_over_l
         real(dp) :: period
 
         period = 4.0_dp*elliptic_k(cos(0.5_dp*amplitude))/sqrt(g_over_l)
-    end function swing_period
+    end function pendulum_period
 end module lagrangia_action_paths

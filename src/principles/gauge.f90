@@ -6,9 +6,8 @@ module lagrangia_gauge
     use lagrangia_charged_particle, only: charged_particle_t
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
-    use lagrangia_gauge_examples, only: chi_t, landau_charge_t, pendulum_with_q, &
-                                        pendulum_with_q_q_dot
-    use lagrangia_gauged_system, only: family_t, gauged_system_t, member_names
+    use lagrangia_gauged_system, only: chi_t, family_t, gauged_system_t, landau_charge_t, &
+                                       member_names, pendulum_with_q, pendulum_with_q_q_dot
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: accelerations_from_lagrangian, energy_from_lagrangian, &
@@ -60,7 +59,7 @@ contains
         type(pendulum_with_q) :: with_q
         type(pendulum_with_q_q_dot) :: with_q_q_dot
         type(gauged_system_t) :: gauged
-        real(dp) :: page(1), a(1), none(0), worst
+        real(dp) :: analytic(1), a(1), none(0), worst
         character(name_length) :: where_worst
         integer :: i
 
@@ -69,20 +68,20 @@ contains
         if (.not. allocated(error)) call with_q%configure(values, error)
         if (.not. allocated(error)) call with_q_q_dot%configure(values, error)
         if (allocated(error)) return
-        call pendulum%accelerations(t, q, v, page)
+        call pendulum%accelerations(t, q, v, analytic)
         do i = 1, size(member_names)
             call gauged%set(pendulum, family_t(i))
             call accelerations_from_lagrangian(gauged, t, q, v, a, none, error)
             if (allocated(error)) return
-            call report%equal("F = "//member_names(i), a(1), page(1), rounding)
+            call report%equal("F = "//member_names(i), a(1), analytic(1), rounding)
         end do
         call accelerations_from_lagrangian(with_q_q_dot, t, q, v, a, none, error)
         if (allocated(error)) return
-        call report%equal("F = m l^2 theta theta_dot: see below", a(1), page(1), rounding, &
+        call report%equal("F = m l^2 theta theta_dot: see below", a(1), analytic(1), rounding, &
                           control=.true.)
         call accelerations_from_lagrangian(with_q, t, q, v, a, none, error)
         if (allocated(error)) return
-        call report%equal("L + theta: not a dF/dt", a(1), page(1), rounding, control=.true.)
+        call report%equal("L + theta: not a dF/dt", a(1), analytic(1), rounding, control=.true.)
         call report%section("every system, all three F, "//to_text(states)//" states: "// &
                             "q_ddot from L' less the page's, relative")
         worst = -1.0_dp
@@ -105,7 +104,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
         type(gauged_system_t) :: gauged
         type(description_t) :: d
-        real(dp) :: t, q(system%ndof), v(system%ndof), a(system%ndof), page(system%ndof)
+        real(dp) :: t, q(system%ndof), v(system%ndof), a(system%ndof), analytic(system%ndof)
         real(dp) :: given(system%ndof - system%constraints), lambda(system%constraints), off
         integer :: i, k, j
 
@@ -118,10 +117,10 @@ contains
                 given = [(1.4_dp*cos(2.3_dp*k + 1.1_dp*j), j=1, size(given))]
                 call system%complete_velocities(t, q, given, v, error)
                 if (allocated(error)) return
-                call system%accelerations(t, q, v, page)
+                call system%accelerations(t, q, v, analytic)
                 call accelerations_from_lagrangian(gauged, t, q, v, a, lambda, error)
                 if (allocated(error)) return
-                off = maxval(abs(a - page))/max(1.0_dp, maxval(abs(page)))
+                off = maxval(abs(a - analytic))/max(1.0_dp, maxval(abs(analytic)))
                 if (off <= worst) cycle
                 worst = off
                 where_worst = d%name
@@ -230,20 +229,20 @@ contains
         type(landau_charge_t) :: landau
         type(euler_lagrange_t) :: one, other
         type(hyperdual_t) :: chi, qq(3)
-        real(dp) :: page(3), a(3), none(0)
+        real(dp) :: analytic(3), a(3), none(0)
 
         call symmetric%configure(values, error)
         if (.not. allocated(error)) call landau%configure(values, error)
         if (allocated(error)) return
         call report%section("charge in B along z: A = B x r/2 or A = (0, B x, 0), Landau")
-        call symmetric%accelerations(t, q, v, page)
+        call symmetric%accelerations(t, q, v, analytic)
         call accelerations_from_lagrangian(symmetric, t, q, v, a, none, error)
         if (allocated(error)) return
-        call report%equal("symmetric: x_ddot = e (v x B)_x/m  [m/s^2]", a(1), page(1), rounding)
+        call report%equal("symmetric: x_ddot = e (v x B)_x/m  [m/s^2]", a(1), analytic(1), rounding)
         call accelerations_from_lagrangian(landau, t, q, v, a, none, error)
         if (allocated(error)) return
-        call report%equal("Landau: x_ddot  [m/s^2]", a(1), page(1), rounding)
-        call report%equal("Landau: y_ddot  [m/s^2]", a(2), page(2), rounding)
+        call report%equal("Landau: x_ddot  [m/s^2]", a(1), analytic(1), rounding)
+        call report%equal("Landau: y_ddot  [m/s^2]", a(2), analytic(2), rounding)
         qq = hyperdual(q)
         qq(2)%d1 = 1.0_dp
         associate (gauge => chi_t(values(2)*values(8)))
@@ -256,7 +255,7 @@ contains
         landau%factor = 2.0_dp
         call accelerations_from_lagrangian(landau, t, q, v, a, none, error)
         if (allocated(error)) return
-        call report%equal("x_ddot with A = (0, 2 B x, 0): another B", a(1), page(1), rounding, &
+        call report%equal("x_ddot with A = (0, 2 B x, 0): another B", a(1), analytic(1), rounding, &
                           control=.true.)
     end subroutine two_potentials
 end module lagrangia_gauge

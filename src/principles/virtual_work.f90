@@ -1,15 +1,15 @@
 module lagrangia_virtual_work
     !! D'Alembert's principle in numbers: \(\sum(m\ddot x - F)\cdot\delta x = 0\), and the
     !! generalized forces \(Q_j = \sum F\cdot\partial x/\partial q_j\).
-    use lagrangia_dalembert, only: conservative_forces, dalembert
+    use lagrangia_computed_path, only: compute_path
     use lagrangia_description, only: description_t
     use lagrangia_double_pendulum, only: double_pendulum_t
     use lagrangia_driven_pendulum, only: driven_pendulum_t
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
-    use lagrangia_path_maker, only: path_maker_t
-    use lagrangia_point_motion, only: expand_points, point_motion_t
+    use lagrangia_point_motion, only: conservative_forces, dalembert, expand_points, &
+                                      point_motion_t
     use lagrangia_report, only: report_t
     use lagrangia_rolling_disk, only: rolling_disk_t
     use lagrangia_rotating_wire, only: rotating_wire_t
@@ -24,10 +24,9 @@ module lagrangia_virtual_work
 
 contains
 
-    subroutine virtual_work_principle(systems, maker, report, error)
+    subroutine virtual_work_principle(systems, report, error)
         !! All statements; `systems` are those that are tried.
         type(system_box_t), intent(in) :: systems(:)
-        class(path_maker_t), intent(in) :: maker
         type(report_t), intent(out) :: report
         type(error_t), allocatable, intent(out) :: error
 
@@ -36,7 +35,7 @@ contains
         if (allocated(error)) return
         call moving_wire(report, error)
         if (allocated(error)) return
-        call along_motions(systems, maker, report, error)
+        call along_motions(systems, report, error)
         if (allocated(error)) return
         call generalized_forces(systems, report, error)
         if (allocated(error)) return
@@ -99,10 +98,9 @@ contains
                           0.0_dp, rounding, control=.true.)
     end subroutine moving_wire
 
-    subroutine along_motions(systems, maker, report, error)
+    subroutine along_motions(systems, report, error)
         !! D'Alembert's sum on computed motions, for each displacement that the constraints allow.
         type(system_box_t), intent(in) :: systems(:)
-        class(path_maker_t), intent(in) :: maker
         type(report_t), intent(inout) :: report
         type(error_t), allocatable, intent(out) :: error
         type(rolling_disk_t) :: disk
@@ -115,7 +113,7 @@ contains
         call report%section("sum of (m x_ddot - F).dx/dq on motions by RK4, relative, worst")
         do i = 1, size(systems)
             call systems(i)%item%describe(d)
-            call on_motion(systems(i)%item, maker, worst, error)
+            call on_motion(systems(i)%item, worst, error)
             if (allocated(error)) return
             call report%equal(d%name, worst, 0.0_dp, relative)
         end do
@@ -130,10 +128,9 @@ contains
                               *motion%jacobian(:, 1)), 0.0_dp, relative, control=.true.)
     end subroutine along_motions
 
-    subroutine on_motion(system, maker, worst, error)
+    subroutine on_motion(system, worst, error)
         !! A hundred states of one motion.
         class(system_t), intent(in) :: system
-        class(path_maker_t), intent(in) :: maker
         real(dp), intent(out) :: worst
         type(error_t), allocatable, intent(out) :: error
         real(dp), parameter :: step = 1e-3_dp
@@ -146,7 +143,7 @@ contains
         given = [(1.1_dp*cos(2.3_dp + 1.1_dp*j), j=1, size(given))]
         call system%complete_velocities(0.0_dp, start, given, speed, error)
         if (allocated(error)) return
-        call maker%make("rk4", system, 0.0_dp, step, start, speed, q, v, error)
+        call compute_path("rk4", system, 0.0_dp, step, start, speed, q, v, error)
         if (allocated(error)) return
         do k = 1, size(q, 2)
             now = q(:, k)
@@ -224,7 +221,8 @@ contains
                           e*slope(1) + e*induced(1), rounding)
         call report%equal("at rest, without dA/dt: -e dphi/dx", from_potential(1, still), &
                           e*slope(1), rounding, control=.true.)
-        call report%section("B = 0, made up: A = grad(chi), chi = x^2 y cos t + y z t; moving [N]")
+        call report%section("B = 0, made up: A = grad(chi), chi = x^2 y cos t + y z t; "// &
+                            "moving [N]", slip="E10")
         charge%curl_free = .true.
         call charge%fields(t, q, slope, induced, b)
         call report%equal("B = 0: largest component of rot A  [T]", maxval(abs(b)), 0.0_dp, &

@@ -1,16 +1,16 @@
 module lagrangia_bounces
     !! The bouncing ball: hardly any loss, and infinitely many bounces in a finite time.
-    use lagrangia_bench_table, only: short
     use lagrangia_dense_run, only: run_dense
     use lagrangia_errors, only: error_t
     use lagrangia_events, only: contact_event_t, event_box_t, new_contact_event
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8, qp
+    use lagrangia_ledger, only: ledger_t
     use lagrangia_observer, only: observer_box_t, observer_t
+    use lagrangia_printed_table, only: short
     use lagrangia_run, only: new_sampled_plan, plan_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
-    use lagrangia_verdicts, only: verdicts_t
     implicit none (type, external)
     private
     public :: judge_elastic, judge_zeno
@@ -34,7 +34,7 @@ contains
         !! \(\frac{2v_0}{g}\frac{1-e^n}{1-e}\) in quadruple precision.
         class(system_t), intent(inout) :: system
         class(dense_integrator_t), intent(inout) :: method
-        type(verdicts_t), intent(inout) :: verdicts
+        type(ledger_t), intent(inout) :: verdicts
         integer, parameter :: powers(*) = [1, 4, 8, 12, 15, 0]
         character(:), allocatable :: of
         type(counter_t), target :: counter
@@ -65,7 +65,7 @@ contains
         !! The bounces end at \(2v_0/[g(1-e)]\); from there on the ball lies on the floor, exactly.
         class(system_t), intent(inout) :: system
         class(dense_integrator_t), intent(inout) :: method
-        type(verdicts_t), intent(inout) :: verdicts
+        type(ledger_t), intent(inout) :: verdicts
         real(dp), parameter :: restitutions(*) = [0.1_dp, 0.5_dp, 0.8_dp, 0.95_dp]
         type(counter_t), target :: counter
         real(dp) :: e, zeno, q(1), v(1)

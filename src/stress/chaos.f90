@@ -1,12 +1,12 @@
 module lagrangia_chaos
     !! A chaotic double pendulum: how fast errors grow, and after which time no digit is left.
-    use lagrangia_bench_table, only: short
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_ledger, only: ledger_t
+    use lagrangia_printed_table, only: short
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
-    use lagrangia_verdicts, only: verdicts_t
     implicit none (type, external)
     private
     public :: judge_chaos
@@ -26,7 +26,7 @@ contains
         class(system_t), intent(in) :: system
         class(dense_integrator_t), intent(inout) :: method, other
         real(dp), intent(in) :: duration  !! s
-        type(verdicts_t), intent(inout) :: verdicts
+        type(ledger_t), intent(inout) :: verdicts
         real(dp), parameter :: loose = 1e-10_dp, tight = 1e-14_dp
         integer, parameter :: windows = 16
         real(dp), allocatable :: growth(:), distance(:)

@@ -4,12 +4,12 @@ module lagrangia_edges_of_numbers
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_ledger, only: ledger_t
     use lagrangia_observer, only: observer_box_t, observer_t
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_rotating_wire, only: rotating_wire_t
     use lagrangia_run, only: new_plan, plan_t, run
     use lagrangia_system, only: system_t
-    use lagrangia_verdicts, only: verdicts_t
     implicit none (type, external)
     private
     public :: judge_edges
@@ -29,7 +29,7 @@ contains
         !! A linear motion does not know its amplitude; one that grows without bound is stopped
         !! where it leaves the numbers, with status 3 and the last good state.
         class(integrator_t), intent(inout) :: method
-        type(verdicts_t), intent(inout) :: verdicts
+        type(ledger_t), intent(inout) :: verdicts
         real(dp), parameter :: last_digit = 2.0_dp**(-1074)
         type(oscillator_t) :: oscillator
         type(rotating_wire_t) :: wire

@@ -1,19 +1,33 @@
 module lagrangia_energy_growth
-    !! The energy error of a long run: its law, and whether that is what the method declares.
+    !! How the energy error of a long run grows with the number of steps: measured at powers of
+    !! ten, fitted and named; whether that is what the method declares; and what rounding alone does
+    !! to a method that is exact, Verlet on the oscillator, with compensated sums and without.
     use lagrangia_errors, only: error_t
-    use lagrangia_growth_law, only: growth_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_method_problems, only: new_problem, problems, refuses
+    use lagrangia_ledger, only: ledger_t
+    use lagrangia_method_orders, only: new_problem, problems, refuses
+    use lagrangia_oscillator, only: oscillator_t
+    use lagrangia_printed_table, only: short
     use lagrangia_system, only: system_t
-    use lagrangia_verdicts, only: verdicts_t
     implicit none (type, external)
     private
-    public :: judge_energy_growth, observe_energy
+    public :: growth_t, judge_energy_growth, judge_rounding, observe_energy
 
     integer(i8), parameter :: most_steps = 100000000_i8
     integer(i8), parameter :: every = 7            !! odd: it meets all phases of a swing
     real(dp), parameter :: short_step = 0.02_dp, long_step = 0.05_dp  !! s
+
+    type :: growth_t
+        !! The largest error so far, at \(10^3, 10^{3.5}, 10^4, \dots\) steps.
+        real(dp) :: worst = 0.0_dp
+        real(dp), allocatable :: steps(:), errors(:)
+    contains
+        procedure :: see
+        procedure :: exponent_of
+        procedure :: law
+        procedure :: remark
+    end type growth_t
 
 contains
 
@@ -23,7 +37,7 @@ contains
         !! evaluations may grow as a random walk. What declares nothing is expected to drift.
         class(integrator_t), intent(inout) :: method
         integer(i8), intent(in) :: evaluations  !! at most, in a power of ten of steps
-        type(verdicts_t), intent(inout) :: verdicts
+        type(ledger_t), intent(inout) :: verdicts
         class(system_t), allocatable :: system
         real(dp), allocatable :: q(:), v(:)
         type(growth_t) :: growth
@@ -78,4 +92,113 @@ contains
             call growth%see(k + count, abs(system%energy(0.0_dp, q, v)/start - 1.0_dp))
         end do
     end subroutine observe_energy
+
+    pure subroutine see(self, steps, error)
+        !! The error after so many steps; what is not a number counts as huge.
+        class(growth_t), intent(inout) :: self
+        integer(i8), intent(in) :: steps
+        real(dp), intent(in) :: error
+        real(dp), allocatable :: longer(:)
+        integer :: n
+
+        self%worst = max(self%worst, error)
+        if (.not. error <= huge(error)) self%worst = huge(error)
+        if (.not. allocated(self%steps)) allocate (self%steps(0), self%errors(0))
+        n = size(self%steps)
+        if (real(steps, dp) < 10.0_dp**(3.0_dp + 0.5_dp*n)) return
+        allocate (longer(n + 1))
+        longer = [self%steps, real(steps, dp)]
+        call move_alloc(longer, self%steps)
+        allocate (longer(n + 1))
+        longer = [self%errors, self%worst]
+        call move_alloc(longer, self%errors)
+    end subroutine see
+
+    pure function exponent_of(self) result(p)
+        !! \(p\) of the law \(N^p\): the slope of the logarithms over the last two decades, by
+        !! least squares.
+        class(growth_t), intent(in) :: self
+        real(dp) :: p
+        real(dp), allocatable :: x(:), y(:)
+        integer :: n
+
+        n = size(self%steps)
+        allocate (x, source=log(self%steps(max(1, n - 4):)))
+        allocate (y, source=log(self%errors(max(1, n - 4):) + tiny(p)))
+        x = x - sum(x)/size(x)
+        p = sum(x*y)/sum(x**2)
+    end function exponent_of
+
+    pure function law(self) result(name)
+        !! The nearest of the laws.
+        class(growth_t), intent(in) :: self
+        character(:), allocatable :: name
+
+        associate (p => self%exponent_of())
+            if (p <= 0.2_dp) then
+                name = "bounded"
+            else if (p <= 0.8_dp) then
+                name = "sqrt N"
+            else if (p <= 1.25_dp) then
+                name = "linear"
+            else
+                name = "faster than linear"
+            end if
+        end associate
+    end function law
+
+    pure function remark(self) result(text)
+        !! `linear: 1.5e-3 after 1e6 steps`.
+        class(growth_t), intent(in) :: self
+        character(:), allocatable :: text
+
+        text = self%law()//": "//short(self%worst, 2)//" after "// &
+               short(self%steps(size(self%steps)), 1)//" steps"
+    end function remark
+
+    subroutine judge_rounding(method, sums, steps, verdicts)
+        !! The energy that its steps conserve exactly but for rounding,
+        !! \((1-\omega^2h^2/4)v^2 + \omega^2x^2\) for drift, kick, drift. Plain sums lose it as a
+        !! random walk, \(\varepsilon\sqrt N\); compensated ones keep it but for the last digits.
+        !! In still longer runs roundings repeat themselves, and their bias adds up: that is told.
+        class(integrator_t), intent(inout) :: method
+        character(*), intent(in) :: sums     !! "plain" or "compensated"
+        integer(i8), intent(in) :: steps
+        type(ledger_t), intent(inout) :: verdicts
+        real(dp), parameter :: h = 0.1_dp
+        integer(i8), parameter :: every = 100, farthest = 10000000_i8  !! that is judged
+        type(oscillator_t) :: system
+        type(growth_t) :: growth
+        type(error_t), allocatable :: error
+        real(dp) :: q(1), v(1), start, scale
+        integer(i8) :: k
+
+        call system%configure([1.0_dp, 1.0_dp], error)
+        call method%prepare(system, error)
+        q = 1.0_dp
+        v = 0.3_dp
+        call method%start(system, 0.0_dp, q, v)
+        start = energy()
+        do k = 0, steps - 1, every
+            call method%advance(system, 0.0_dp, h, k, every, q, v)
+            call growth%see(k + every, abs(energy()/start - 1.0_dp))
+        end do
+        scale = epsilon(h)*sqrt(real(steps, dp))
+        if (steps > farthest) then
+            call verdicts%judge(trim(method%name)//", "//sums, "own energy, error/(eps sqrt N)", &
+                                growth%worst/scale, remark=growth%remark())
+        else if (sums == "plain") then
+            call verdicts%judge(trim(method%name)//", plain", "own energy, error/(eps sqrt N)", &
+                                growth%worst/scale, most=4.0_dp, remark=growth%remark())
+        else
+            call verdicts%judge(trim(method%name)//", compensated", "own energy, error", &
+                                growth%worst, most=3e-14_dp, remark=growth%remark())
+        end if
+    contains
+        function energy()
+            real(dp) :: energy
+
+            energy = (1.0_dp - 0.25_dp*h**2)*v(1)**2 + q(1)**2
+        end function energy
+    end subroutine judge_rounding
 end module lagrangia_energy_growth

@@ -1,31 +1,32 @@
 module lagrangia_method_promises
     !! What methods promise, held against runs: canonical maps, reversal, the same bytes however a
     !! run is cut, and exact scaling by powers of two.
-    use lagrangia_canonical_defect, only: canonical_defect
     use lagrangia_description, only: default_values, description_t
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_method_problems, only: new_problem, problems, refuses
+    use lagrangia_ledger, only: ledger_t
+    use lagrangia_method_orders, only: new_problem, problems, refuses
     use lagrangia_number_text, only: field_width, write_row
     use lagrangia_observer, only: observer_box_t
     use lagrangia_run, only: new_plan, plan_t, run
     use lagrangia_system, only: system_t
-    use lagrangia_verdicts, only: verdicts_t
     implicit none (type, external)
     private
     public :: judge_bytes, judge_reversal, judge_scaling, judge_symplectic, judge_text
+    public :: canonical_defect, differentiate_step
 
     real(dp), parameter :: dt = 0.02_dp        !! s
     integer(i8), parameter :: steps = 1000_i8
     integer, parameter :: most = 6             !! numbers in a state of the problems
+    real(dp), parameter :: usual_step = 0.05_dp  !! s, of a map that is differentiated
 
 contains
 
     subroutine judge_symplectic(method, verdicts)
         !! The defect of a step over the problems; of a method that declares nothing it is stated.
         class(integrator_t), intent(inout) :: method
-        type(verdicts_t), intent(inout) :: verdicts
+        type(ledger_t), intent(inout) :: verdicts
         real(dp), parameter :: rounding = 1e-10_dp  !! epsilon over the differences' step, 300 times
         character(*), parameter :: measured = "largest of J'WJ - W"
         class(system_t), allocatable :: system
@@ -49,7 +50,7 @@ contains
     subroutine judge_reversal(method, verdicts)
         !! A thousand steps forth and back, over the problems.
         class(integrator_t), intent(inout) :: method
-        type(verdicts_t), intent(inout) :: verdicts
+        type(ledger_t), intent(inout) :: verdicts
         real(dp), parameter :: rounding = 1e-11_dp  !! 2000 steps of 10 epsilon, carried on
         character(*), parameter :: measured = "distance after 1000 steps and back"
         class(system_t), allocatable :: system
@@ -79,7 +80,7 @@ contains
     subroutine judge_bytes(method, verdicts)
         !! Runs that are looked at every 1, 7, 64, 1000 steps end in the same bits.
         class(integrator_t), intent(inout) :: method
-        type(verdicts_t), intent(inout) :: verdicts
+        type(ledger_t), intent(inout) :: verdicts
         integer(i8), parameter :: strides(4) = [1000_i8, 1_i8, 7_i8, 64_i8]
         class(system_t), allocatable :: system
         type(observer_box_t) :: nobody(0)
@@ -107,7 +108,7 @@ contains
 
     subroutine judge_text(verdicts)
         !! Numbers of all sizes, written as the data files have them and read again.
-        type(verdicts_t), intent(inout) :: verdicts
+        type(ledger_t), intent(inout) :: verdicts
         character(field_width + 1) :: text
         real(dp) :: x(1), y(1)
         integer :: different, k, length
@@ -135,7 +136,7 @@ contains
     subroutine judge_scaling(method, verdicts)
         !! Other units of mass, length and time, each smaller by a power of two, change no digit.
         class(integrator_t), intent(inout) :: method
-        type(verdicts_t), intent(inout) :: verdicts
+        type(ledger_t), intent(inout) :: verdicts
         integer, parameter :: smaller(3, 4) = reshape([0, 0, 0, 3, 0, 0, 0, 5, 0, 0, 0, 4], [3, 4])
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
@@ -201,4 +202,73 @@ contains
         end select
         factor = 2.0_dp**power
     end function factor_of
+
+    function canonical_defect(method, system, t, q, v, dt) result(defect)
+        !! The largest element of \(J^\top\Omega J - \Omega\), relative to the terms it consists of.
+        class(integrator_t), intent(inout) :: method
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(:), v(:)
+        real(dp), intent(in), optional :: dt  !! the step, if not the usual one
+        real(dp) :: defect
+        real(dp), dimension(2*size(q), 2*size(q)) :: jacobian, omega
+        integer :: i, n
+
+        n = size(q)
+        omega = 0.0_dp
+        do i = 1, n
+            omega(i, n + i) = 1.0_dp
+            omega(n + i, i) = -1.0_dp
+        end do
+        call differentiate_step(method, system, t, q, v, jacobian, dt)
+        defect = maxval(abs(matmul(transpose(jacobian), matmul(omega, jacobian)) - omega) &
+                        /(1.0_dp + matmul(transpose(abs(jacobian)), &
+                                          matmul(abs(omega), abs(jacobian)))))
+    end function canonical_defect
+
+    subroutine differentiate_step(method, system, t, q, v, jacobian, dt)
+        !! The derivative of a step in coordinates and momenta, by differences of order 8.
+        class(integrator_t), intent(inout) :: method
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(:), v(:)
+        real(dp), intent(out) :: jacobian(2*size(q), 2*size(q))
+        real(dp), intent(in), optional :: dt
+        real(dp), parameter :: weight(4) = [4.0_dp/5.0_dp, -1.0_dp/5.0_dp, 4.0_dp/105.0_dp, &
+                                            -1.0_dp/280.0_dp]
+        real(dp) :: x(2*size(q)), ahead(2*size(q)), behind(2*size(q))
+        real(dp) :: h, length
+        integer :: i, k, n
+
+        length = usual_step
+        if (present(dt)) length = dt
+        n = size(q)
+        x(:n) = q
+        call system%momenta(t, q, v, x(n + 1:))
+        jacobian = 0.0_dp
+        do i = 1, 2*n
+            h = 0.005_dp
+            if (i > n) h = h*(1.0_dp + maxval(abs(x(n + 1:))))
+            do k = 1, 4
+                ahead = x
+                ahead(i) = x(i) + k*h
+                behind = x
+                behind(i) = x(i) - k*h
+                call step(ahead)
+                call step(behind)
+                jacobian(:, i) = jacobian(:, i) + weight(k)/h*(ahead - behind)
+            end do
+        end do
+    contains
+        subroutine step(y)
+            real(dp), intent(inout) :: y(:)
+            real(dp), dimension(size(q)) :: p, qq, vv
+
+            qq = y(:n)
+            p = y(n + 1:)
+            call system%velocities(t, qq, p, vv)
+            call method%start(system, t, qq, vv)
+            call method%advance(system, t, length, 0_i8, 1_i8, qq, vv)
+            call system%momenta(t + length, qq, vv, p)
+            y = [qq, p]
+        end subroutine step
+    end subroutine differentiate_step
 end module lagrangia_method_promises

@@ -9,9 +9,9 @@ module lagrangia_step_limits
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_ledger, only: ledger_t
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_system, only: system_t
-    use lagrangia_verdicts, only: verdicts_t
     implicit none (type, external)
     private
     public :: judge_step_limit, step_limit
@@ -26,7 +26,7 @@ contains
         !! The limit beside the one that the method declares, and runs just below and above.
         class(integrator_t), intent(inout) :: method
         integer(i8), intent(in) :: runs  !! steps of a run
-        type(verdicts_t), intent(inout) :: verdicts
+        type(ledger_t), intent(inout) :: verdicts
         class(system_t), allocatable :: system
         logical :: refused
         real(dp) :: limit

@@ -24,7 +24,8 @@ module lagrangia_random_draws
     end type random_t
 
     type :: random_box_t
-        !! gfortran 12 needs it, as for `audit_box_t`.
+        !! gfortran 12 needs it: modules that make the dispatch table of `random_t` for themselves
+        !! disagree about its order.
         class(random_t), allocatable :: item
     end type random_box_t
 

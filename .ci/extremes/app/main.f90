@@ -6,8 +6,8 @@ program main
     use lagrangia_blas_threads, only: use_one_blas_thread
     use lagrangia_catalogue, only: new_system, system_names
     use lagrangia_errors, only: error_t
-    use lagrangia_findings, only: audit_t
     use lagrangia_kinds, only: dp
+    use lagrangia_ledger, only: ledger_t
     use lagrangia_random_draws, only: random_t
     use lagrangia_system, only: system_t
     use mutants, only: mutants_known, new_mutant
@@ -45,7 +45,7 @@ contains
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
         type(random_t) :: random
-        type(audit_t) :: audit
+        type(ledger_t) :: audit
         real(dp), allocatable :: values(:)
         integer :: i, k, row, before
 
@@ -54,16 +54,16 @@ contains
             before = false_alarms
             do k = 1, count
                 call new_system(trim(names(i)), system, error)
-                audit = audit_t()
+                audit = ledger_t()
                 call audit_at_random(system, random, audit, values)
-                do row = 1, size(audit%findings)
-                    if (audit%findings(row)%holds) cycle
+                do row = 1, size(audit%rows)
+                    if (audit%rows(row)%holds) cycle
                     false_alarms = false_alarms + 1
                     if (false_alarms - before > 6) cycle
                     print "(a)", "lagrangia check "//show_parameters(system, values)
-                    print "(4x, a, 2es9.1, 2x, a)", audit%findings(row)%claim, &
-                        audit%findings(row)%worst, audit%findings(row)%bound, &
-                        trim(audit%findings(row)%remark)
+                    print "(4x, a, 2es9.1, 2x, a)", audit%rows(row)%name, &
+                        audit%rows(row)%value, audit%rows(row)%most, &
+                        trim(audit%rows(row)%remark)
                 end do
                 deallocate (system)
             end do
@@ -77,7 +77,7 @@ contains
         class(system_t), allocatable :: system
         character(:), allocatable :: expected
         type(random_t) :: random
-        type(audit_t) :: audit
+        type(ledger_t) :: audit
         real(dp), allocatable :: values(:)
         real(dp) :: difference
         integer :: i, k, row, seen, found, named, before
@@ -91,20 +91,20 @@ contains
                 if (allocated(system)) deallocate (system)
                 call new_mutant(i, system, expected)
                 expected = coordinate_of(expected)
-                audit = audit_t()
+                audit = ledger_t()
                 call audit_at_random(system, random, audit, values)
                 call differs(system, values, difference)
                 if (.not. difference > 1e-6_dp) cycle
                 seen = seen + 1
                 row = audit%row_of("accelerations as from L")
-                if (.not. audit%findings(row)%holds) found = found + 1
-                if (coordinate_of(audit%findings(row)%remark) == expected) named = named + 1
-                if (coordinate_of(audit%findings(row)%remark) == expected) cycle
+                if (.not. audit%rows(row)%holds) found = found + 1
+                if (coordinate_of(audit%rows(row)%remark) == expected) named = named + 1
+                if (coordinate_of(audit%rows(row)%remark) == expected) cycle
                 missed = missed + 1
                 if (missed - before > 3) cycle
                 print "(a)", "missed: "//show_parameters(system, values)
-                print "(4x, a, 2es9.1, 2x, a)", "wanted "//expected, audit%findings(row)%worst, &
-                    difference, trim(audit%findings(row)%remark)
+                print "(4x, a, 2es9.1, 2x, a)", "wanted "//expected, audit%rows(row)%value, &
+                    difference, trim(audit%rows(row)%remark)
             end do
             print "(a, i0, a, i0, a, i0, a)", expected//": ", seen, " slips, ", found, &
                 " found, ", named, " named"

@@ -1,13 +1,18 @@
-module lagrangia_bench_table
+module lagrangia_printed_table
     !! Tables of results: lines for people, objects for programs (JSON), from the same cells.
+    !!
+    !! Columns are as wide as they must be. Lines that are printed before the rows below them are
+    !! known have columns of fixed widths: they are put together from `left` and `right`.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use lagrangia_json, only: json_number, json_string
+    use lagrangia_json, only: json_item, json_number, json_object, json_string
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_number_text, only: scientific
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: bench_table_t, cell_t
-    public :: count_cell, new_bench_table, number_cell, short, word_cell
+    public :: printed_table_t, cell_t
+    public :: count_cell, number_cell, word_cell
+    public :: left, right, short, two_digits
 
     integer, parameter :: most_columns = 24, width = 72
 
@@ -21,7 +26,7 @@ module lagrangia_bench_table
         type(cell_t) :: cells(most_columns)
     end type row_t
 
-    type :: bench_table_t
+    type :: printed_table_t
         !! One table.
         character(width) :: name = ""                  !! key of its rows in JSON
         character(200) :: title = ""
@@ -30,29 +35,34 @@ module lagrangia_bench_table
         type(row_t), allocatable :: row(:)
         logical :: silent = .false.                    !! in JSON only: too long to be read
     contains
+        procedure :: begin
         procedure :: add
         procedure :: head
         procedure :: line
         procedure :: object
-    end type bench_table_t
+    end type printed_table_t
 
 contains
 
-    pure subroutine new_bench_table(self, name, title, names)
+    pure subroutine begin(self, name, title, names)
         !! A table without rows.
-        type(bench_table_t), intent(out) :: self
-        character(*), intent(in) :: name, title, names(:)
+        class(printed_table_t), intent(inout) :: self
+        character(*), intent(in) :: name      !! key of its rows in JSON
+        character(*), intent(in) :: title     !! above it
+        character(*), intent(in) :: names(:)  !! of its columns
 
         self%name = name
         self%title = title
         self%columns = size(names)
         self%names(:size(names)) = names
+        self%rows = 0
+        if (allocated(self%row)) deallocate (self%row)
         allocate (self%row(16))
-    end subroutine new_bench_table
+    end subroutine begin
 
     pure subroutine add(self, cells)
         !! One more row.
-        class(bench_table_t), intent(inout) :: self
+        class(printed_table_t), intent(inout) :: self
         type(cell_t), intent(in) :: cells(:)
         type(row_t), allocatable :: longer(:)
 
@@ -65,83 +75,80 @@ contains
         self%row(self%rows)%cells(:self%columns) = cells
     end subroutine add
 
-    pure function column_width(self, k) result(most)
-        !! What column `k` needs.
-        class(bench_table_t), intent(in) :: self
-        integer, intent(in) :: k
-        integer :: most, i
-
-        most = len_trim(self%names(k))
-        do i = 1, self%rows
-            most = max(most, len_trim(self%row(i)%cells(k)%shown))
-        end do
-    end function column_width
-
     pure function head(self) result(text)
         !! The titles over the columns.
-        class(bench_table_t), intent(in) :: self
+        class(printed_table_t), intent(in) :: self
         character(:), allocatable :: text
-        integer :: k
 
-        text = ""
-        do k = 1, self%columns
-            text = text//padded(self%names(k), column_width(self, k), is_word(self, k))
-        end do
-        text = trim(text)
+        text = aligned(self, self%names(:self%columns))
     end function head
 
     pure function line(self, i) result(text)
         !! Row `i`.
-        class(bench_table_t), intent(in) :: self
+        class(printed_table_t), intent(in) :: self
         integer, intent(in) :: i
         character(:), allocatable :: text
-        integer :: k
+        character(width) :: words(self%columns)
+
+        words = self%row(i)%cells(:self%columns)%shown
+        text = aligned(self, words)
+    end function line
+
+    pure function aligned(self, words) result(text)
+        !! One word a column, two blanks behind each; numbers to the right.
+        class(printed_table_t), intent(in) :: self
+        character(*), intent(in) :: words(:)
+        character(:), allocatable :: text
+        logical :: word
+        integer :: k, most
 
         text = ""
         do k = 1, self%columns
-            text = text//padded(self%row(i)%cells(k)%shown, column_width(self, k), &
-                                is_word(self, k))
+            most = len_trim(self%names(k))
+            word = .true.
+            if (self%rows > 0) then
+                most = max(most, maxval(len_trim(self%row(:self%rows)%cells(k)%shown)))
+                word = self%row(1)%cells(k)%word
+            end if
+            if (word) then
+                text = text//left(words(k), most + 2)
+            else
+                text = text//repeat(" ", most - len_trim(words(k)))//trim(words(k))//"  "
+            end if
         end do
         text = trim(text)
-    end function line
+    end function aligned
 
-    pure function is_word(self, k) result(word)
-        !! Column `k` holds words.
-        class(bench_table_t), intent(in) :: self
-        integer, intent(in) :: k
-        logical :: word
-
-        word = .true.
-        if (self%rows > 0) word = self%row(1)%cells(k)%word
-    end function is_word
-
-    pure function padded(text, room, left) result(cell)
-        !! Two blanks behind each column.
+    pure function left(text, width) result(cell)
+        !! `text` without trailing blanks in `width` columns, and at least one blank behind it.
         character(*), intent(in) :: text
-        integer, intent(in) :: room
-        logical, intent(in) :: left
+        integer, intent(in) :: width
         character(:), allocatable :: cell
 
-        if (left) then
-            cell = trim(text)//repeat(" ", room - len_trim(text) + 2)
-        else
-            cell = repeat(" ", room - len_trim(text))//trim(text)//"  "
-        end if
-    end function padded
+        cell = trim(text)//repeat(" ", max(1, width - len_trim(text)))
+    end function left
+
+    pure function right(text, width) result(cell)
+        !! `text` at the end of `width` columns, and at least one blank before it.
+        character(*), intent(in) :: text
+        integer, intent(in) :: width
+        character(:), allocatable :: cell
+
+        cell = repeat(" ", max(1, width - len(text)))//text
+    end function right
 
     pure function object(self, i) result(json)
         !! Row `i` as a JSON object; its first key tells the table.
-        class(bench_table_t), intent(in) :: self
+        class(printed_table_t), intent(in) :: self
         integer, intent(in) :: i
         character(:), allocatable :: json
         integer :: k
 
-        json = '{"table": '//json_string(trim(self%name))
+        json = json_item("table", json_string(self%name))
         do k = 1, self%columns
-            json = json//", "//json_string(trim(self%names(k)))//": "// &
-                   trim(self%row(i)%cells(k)%json)
+            json = json//json_item(self%names(k), trim(self%row(i)%cells(k)%json))
         end do
-        json = json//"}"
+        json = json_object(json)
     end function object
 
     elemental function word_cell(text) result(cell)
@@ -172,6 +179,15 @@ contains
         cell%shown = short(number, digits)
         cell%json = json_number(number)
     end function number_cell
+
+    pure function two_digits(value) result(text)
+        !! `1.2E-13`, enough for an error; `0` exactly.
+        real(dp), intent(in) :: value
+        character(:), allocatable :: text
+
+        text = "0"
+        if (abs(value) > 0.0_dp .or. .not. abs(value) <= 0.0_dp) text = scientific(value, 2)
+    end function two_digits
 
     pure function short(number, digits) result(text)
         !! `123.4`, `0.0312` or `1.2e-13`.
@@ -210,4 +226,4 @@ contains
         read (text(e + 1:), *) exponent
         plain = text(:e - 1)//"e"//to_text(exponent)
     end function power
-end module lagrangia_bench_table
+end module lagrangia_printed_table

@@ -1,4 +1,4 @@
-module lagrangia_newcomer
+module lagrangia_system_validation
     !! What a system from outside must bring along before it may join the catalogue.
     use lagrangia_columns, only: column_names
     use lagrangia_description, only: description_t, name_length
@@ -8,7 +8,7 @@ module lagrangia_newcomer
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
     private
-    public :: check_newcomer
+    public :: validate_system
 
     character(*), parameter :: letters = "abcdefghijklmnopqrstuvwxyz"
     character(*), parameter :: capitals = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
@@ -17,7 +17,7 @@ module lagrangia_newcomer
 
 contains
 
-    subroutine check_newcomer(system, taken, error)
+    subroutine validate_system(system, taken, error)
         !! Fails on a name that is `taken` or cannot be typed, on a description with gaps, on
         !! defaults that are not allowed, and on a closed form or a reduced system of another
         !! motion. `system` has its default parameters on return.
@@ -51,7 +51,7 @@ contains
             call check_motions(system, error)
         end block check
         if (allocated(error)) call error%add_context("system "//quoted(trim(d%name)))
-    end subroutine check_newcomer
+    end subroutine validate_system
 
     pure subroutine check_name(name, first, error)
         !! Something that a scene can name: one of `first`, then letters, digits and underscores.
@@ -120,4 +120,4 @@ contains
             return
         end do
     end subroutine check_names
-end module lagrangia_newcomer
+end module lagrangia_system_validation

@@ -1,4 +1,4 @@
-module lagrangia_bench_choice
+module lagrangia_bench_options
     !! What the options of `lagrangia bench` choose; everything is checked before anything is run.
     use lagrangia_bench_problems, only: problem_names
     use lagrangia_catalogue, only: system_names
@@ -13,38 +13,38 @@ module lagrangia_bench_choice
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
     private
-    public :: bench_choice_t, parts, read_choice
+    public :: bench_options_t, parts, read_options
 
     character(name_length), parameter :: parts(*) = [character(name_length) :: "precision", &
         "steps", "energy", "growth", "modes", "output"]
     real(dp), parameter :: least_tolerance = 1e-16_dp
 
-    type :: bench_choice_t
+    type :: bench_options_t
         character(name_length), allocatable :: parts(:), problems(:), systems(:)
         character(name_length), allocatable :: methods(:)  !! empty: all
         real(dp), allocatable :: tolerances(:)             !! empty: a ladder
         character(:), allocatable :: folder, picture
         type(effort_t) :: plan
-    end type bench_choice_t
+    end type bench_options_t
 
 contains
 
-    subroutine read_choice(line, choice, error)
+    subroutine read_options(line, options, error)
         !! Names must exist, tolerances must make sense.
         type(command_line_t), intent(in) :: line
-        type(bench_choice_t), intent(out) :: choice
+        type(bench_options_t), intent(out) :: options
         type(error_t), allocatable, intent(out) :: error
         character(name_length), allocatable :: words(:)
         integer :: i
 
-        choice%plan = effort(line%has("quick"))
-        choice%folder = line%value_of("output", "data/output")
-        choice%picture = line%value_of("plot", "png")
-        if (choice%picture == "") choice%picture = "png"
-        if (choice%picture /= "png" .and. choice%picture /= "svg") then
-            call fail(error, "unknown picture format "//quoted(choice%picture)// &
+        options%plan = effort(line%has("quick"))
+        options%folder = line%value_of("output", "data/output")
+        options%picture = line%value_of("plot", "png")
+        if (options%picture == "") options%picture = "png"
+        if (options%picture /= "png" .and. options%picture /= "svg") then
+            call fail(error, "unknown picture format "//quoted(options%picture)// &
                       "; there are png, svg")
-        else if (choice%folder == "") then
+        else if (options%folder == "") then
             call fail(error, "option '--output' needs the name of a folder")
         end if
         if (allocated(error)) return
@@ -55,21 +55,21 @@ contains
             call refuse_name("part", line%arguments(i)%text, parts, error)
             return
         end do
-        call choose("part", words, parts, choice%parts, error)
+        call choose("part", words, parts, options%parts, error)
         if (allocated(error)) return
         call choose("problem", split(line, "problems"), problem_names, &
-                    choice%problems, error)
+                    options%problems, error)
         if (allocated(error)) return
         call choose("system", split(line, "systems"), system_names(), &
-                    choice%systems, error)
+                    options%systems, error)
         if (allocated(error)) return
         call choose("method", split(line, "methods"), contestant_names(), &
-                    choice%methods, error)
+                    options%methods, error)
         if (allocated(error)) return
-        allocate (choice%tolerances(0))
+        allocate (options%tolerances(0))
         if (line%has("tolerances")) call read_tolerances(line%value_of("tolerances", ""), &
-                                                         choice%tolerances, error)
-    end subroutine read_choice
+                                                         options%tolerances, error)
+    end subroutine read_options
 
     pure subroutine choose(kind, words, names, chosen, error)
         !! The words, each of which must be one of `names`; all names where there are no words.
@@ -138,4 +138,4 @@ contains
             first = last + 2
         end do
     end function split
-end module lagrangia_bench_choice
+end module lagrangia_bench_options
