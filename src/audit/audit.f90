@@ -31,10 +31,10 @@ contains
 
     subroutine audit_system(system, audit, fixed, given)
         !! Add a row for each claim. On return `system` has the parameters of the last draw.
-        class(system_t), intent(inout) :: system
-        type(ledger_t), intent(inout) :: audit
+        class(system_t), intent(inout) :: system  !! its parameters are set as needed
+        type(ledger_t), intent(inout) :: audit  !! gets the rows
         logical, intent(in), optional :: fixed(:)    !! parameters that stay as `given`
-        real(dp), intent(in), optional :: given(:)
+        real(dp), intent(in), optional :: given(:)  !! all parameters; needed with `fixed`
         type(random_t) :: random
         type(description_t) :: d
         type(error_t), allocatable :: error

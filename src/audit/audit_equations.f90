@@ -31,8 +31,8 @@ contains
     subroutine compare(audit, claim, one, other, size_of_terms)
         !! Values that are the same but for rounding, if the claim holds at this state: the worst
         !! of them counts, and what is not a number is worst.
-        type(ledger_t), intent(inout) :: audit
-        character(*), intent(in) :: claim
+        type(ledger_t), intent(inout) :: audit  !! gets the rows
+        character(*), intent(in) :: claim  !! whose row it is
         real(dp), intent(in) :: one(:), other(:)   !! of the same shape
         real(dp), intent(in) :: size_of_terms(:)   !! of the terms behind each
         real(dp) :: residual, worst
@@ -49,10 +49,10 @@ contains
 
     subroutine audit_accelerations(audit, system, nearby, motion)
         !! \(\ddot q\).
-        type(ledger_t), intent(inout) :: audit
-        class(system_t), intent(in) :: system
-        type(nearby_t), intent(in) :: nearby
-        type(motion_t), intent(in) :: motion
+        type(ledger_t), intent(inout) :: audit  !! gets the rows
+        class(system_t), intent(in) :: system  !! with its parameters
+        type(nearby_t), intent(in) :: nearby  !! the state and its neighbours
+        type(motion_t), intent(in) :: motion  !! what the Lagrangian says there
         real(dp) :: a(system%ndof)
 
         call system%accelerations(nearby%t(0), nearby%q(:, 0), nearby%v(:, 0), a)
@@ -61,10 +61,10 @@ contains
 
     subroutine audit_constraints(audit, system, nearby, motion)
         !! The velocities and the accelerations keep the non-holonomic constraints.
-        type(ledger_t), intent(inout) :: audit
-        class(system_t), intent(in) :: system
-        type(nearby_t), intent(in) :: nearby
-        type(motion_t), intent(in) :: motion
+        type(ledger_t), intent(inout) :: audit  !! gets the rows
+        class(system_t), intent(in) :: system  !! with its parameters
+        type(nearby_t), intent(in) :: nearby  !! the state and its neighbours
+        type(motion_t), intent(in) :: motion  !! what the Lagrangian says there
         type(hyperdual_t) :: rows(system%constraints, system%ndof), b(system%constraints)
         type(hyperdual_t) :: path(system%ndof)
         real(dp), dimension(system%constraints, system%ndof) :: row, row_dot
@@ -88,9 +88,9 @@ contains
 
     subroutine audit_energy(audit, system, nearby)
         !! \(h = \dot q\,\partial L/\partial\dot q - L\).
-        type(ledger_t), intent(inout) :: audit
-        class(system_t), intent(in) :: system
-        type(nearby_t), intent(in) :: nearby
+        type(ledger_t), intent(inout) :: audit  !! gets the rows
+        class(system_t), intent(in) :: system  !! with its parameters
+        type(nearby_t), intent(in) :: nearby  !! the state and its neighbours
         real(dp) :: from_l(0:neighbours)
         integer :: k
 
@@ -109,9 +109,9 @@ contains
     subroutine audit_momenta(audit, system, nearby)
         !! \(p = \partial L/\partial\dot q\), the way back from p to \(\dot q\), and
         !! \(\partial L/\partial q\).
-        type(ledger_t), intent(inout) :: audit
-        class(system_t), intent(in) :: system
-        type(nearby_t), intent(in) :: nearby
+        type(ledger_t), intent(inout) :: audit  !! gets the rows
+        class(system_t), intent(in) :: system  !! with its parameters
+        type(nearby_t), intent(in) :: nearby  !! the state and its neighbours
         type(error_t), allocatable :: error
         real(dp), dimension(system%ndof) :: p, f, v_back, momentum_size, force_size, velocity_size
         real(dp), dimension(0:neighbours) :: momentum, force
@@ -141,10 +141,10 @@ contains
     subroutine audit_lanes(audit, system, nearby, motion)
         !! The vector form of the accelerations says the same; sin and cos there are good to four
         !! last digits.
-        type(ledger_t), intent(inout) :: audit
-        class(system_t), intent(in) :: system
-        type(nearby_t), intent(in) :: nearby
-        type(motion_t), intent(in) :: motion
+        type(ledger_t), intent(inout) :: audit  !! gets the rows
+        class(system_t), intent(in) :: system  !! with its parameters
+        type(nearby_t), intent(in) :: nearby  !! the state and its neighbours
+        type(motion_t), intent(in) :: motion  !! what the Lagrangian says there
         real(dp), dimension(lanes, system%ndof) :: q_lanes, v_lanes, a_lanes
         real(dp) :: t_lanes(lanes), a(system%ndof)
 
@@ -160,10 +160,10 @@ contains
 
     subroutine audit_rates(audit, system, nearby, motion)
         !! \(\dot h = -\partial L/\partial t - b\cdot\lambda\), and declared invariants stay.
-        type(ledger_t), intent(inout) :: audit
-        class(system_t), intent(in) :: system
-        type(nearby_t), intent(in) :: nearby
-        type(motion_t), intent(in) :: motion
+        type(ledger_t), intent(inout) :: audit  !! gets the rows
+        class(system_t), intent(in) :: system  !! with its parameters
+        type(nearby_t), intent(in) :: nearby  !! the state and its neighbours
+        type(motion_t), intent(in) :: motion  !! what the Lagrangian says there
         type(description_t) :: d
         type(hyperdual_t) :: rows(system%constraints, system%ndof), b(system%constraints)
         type(hyperdual_t) :: place(system%ndof)

@@ -26,10 +26,10 @@ contains
     subroutine audit_gauss(audit, system, nearby, motion)
         !! Accelerations of the points from masses, forces and constraints alone, and each
         !! reaction against the formula of the same name.
-        type(ledger_t), intent(inout) :: audit
-        class(system_t), intent(in) :: system
-        type(nearby_t), intent(in) :: nearby
-        type(motion_t), intent(in) :: motion
+        type(ledger_t), intent(inout) :: audit  !! gets the rows
+        class(system_t), intent(in) :: system  !! with its parameters
+        type(nearby_t), intent(in) :: nearby  !! the state and its neighbours
+        type(motion_t), intent(in) :: motion  !! what the Lagrangian says there
         type(description_t) :: d
         type(cartesian_t) :: here
         type(error_t), allocatable :: error
@@ -134,9 +134,9 @@ contains
 
     subroutine say_reactions(audit, system, t, q, v)
         !! What the reactions are at one state.
-        type(ledger_t), intent(inout) :: audit
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t, q(:), v(:)
+        type(ledger_t), intent(inout) :: audit  !! gets the rows
+        class(system_t), intent(in) :: system  !! with its parameters
+        real(dp), intent(in) :: t, q(:), v(:)  !! s; coordinates and velocities, (ndof)
         type(description_t) :: d
         type(cartesian_t) :: here
         type(error_t), allocatable :: error
@@ -187,9 +187,9 @@ contains
         !! \(\sum_k m_k\,\partial x_k/\partial q_i\,\partial x_k/\partial q_j\) over all Cartesian
         !! coordinates is the mass matrix of the Lagrangian; no entry is larger than the root of
         !! the product of the two on the diagonal.
-        type(ledger_t), intent(inout) :: audit
-        class(system_t), intent(in) :: system
-        type(nearby_t), intent(in) :: nearby
+        type(ledger_t), intent(inout) :: audit  !! gets the rows
+        class(system_t), intent(in) :: system  !! with its parameters
+        type(nearby_t), intent(in) :: nearby  !! the state and its neighbours
         type(description_t) :: d
         real(dp), allocatable :: slope(:, :), weighed(:, :)
         real(dp) :: mass(system%ndof, system%ndof), largest(system%ndof, system%ndof)

@@ -20,10 +20,11 @@ contains
     subroutine audit_flags(audit, system, t, q, v, other_t, other_v, generic)
         !! `velocity_forces` and `time_dependent` say what is true: one that is false always, one
         !! that is true for parameters off the edges of their domains. Equal means equal bits.
-        type(ledger_t), intent(inout) :: audit
-        class(system_t), intent(in) :: system
+        type(ledger_t), intent(inout) :: audit  !! gets the rows
+        class(system_t), intent(in) :: system  !! with its parameters
         real(dp), intent(in) :: t, q(:), v(:), other_t, other_v(:)
-        logical, intent(in) :: generic
+        !! a state, and another time and velocities
+        logical, intent(in) :: generic  !! no parameter is on the edge of its domain or given
         type(euler_lagrange_t) :: terms, later
         real(dp) :: by_velocity, by_time
         logical :: bound
@@ -74,9 +75,9 @@ contains
 
     subroutine audit_cyclic(audit, system, t, q, v)
         !! The slope of L along the cyclic coordinate is zero, and there is such a coordinate.
-        type(ledger_t), intent(inout) :: audit
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t, q(:), v(:)
+        type(ledger_t), intent(inout) :: audit  !! gets the rows
+        class(system_t), intent(in) :: system  !! with its parameters
+        real(dp), intent(in) :: t, q(:), v(:)  !! s; coordinates and velocities, (ndof)
         character(*), parameter :: claim = "the cyclic coordinate is cyclic"
         type(euler_lagrange_t) :: terms
         type(description_t) :: d
@@ -100,9 +101,9 @@ contains
         !! the constraints \(A\dot q + b = 0\) leave: with a multiple of \(A^\top A\) added. By
         !! Cholesky, of the matrix scaled to a diagonal of ones. The number shown is what the
         !! smallest pivot lacks of 1.
-        type(ledger_t), intent(inout) :: audit
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t, q(:), v(:)
+        type(ledger_t), intent(inout) :: audit  !! gets the rows
+        class(system_t), intent(in) :: system  !! with its parameters
+        real(dp), intent(in) :: t, q(:), v(:)  !! s; coordinates and velocities, (ndof)
         character(*), parameter :: claim = "mass matrix is positive definite"
         type(euler_lagrange_t) :: terms
         type(hyperdual_t) :: place(size(q)), rows(system%constraints, size(q))

@@ -30,8 +30,8 @@ contains
 
     subroutine diagnose(system, remark)
         !! One line: the culprit, and the term if it is one. `system` has its parameters.
-        class(system_t), intent(in) :: system
-        character(:), allocatable, intent(out) :: remark
+        class(system_t), intent(in) :: system  !! with its parameters
+        character(:), allocatable, intent(out) :: remark  !! what is wrong, in words
         type(description_t) :: d
         type(random_t) :: random
         type(error_t), allocatable :: error
@@ -168,8 +168,8 @@ contains
     function factor_text(factor, d) result(text)
         !! A whole number or a half, a parameter or its reciprocal or square, a ratio of two; else
         !! the number.
-        real(dp), intent(in) :: factor
-        type(description_t), intent(in) :: d
+        real(dp), intent(in) :: factor  !! of a term
+        type(description_t), intent(in) :: d  !! the system's
         character(:), allocatable :: text
         real(dp), parameter :: zero = 1e-11_dp  !! what rounding leaves of 1 - 1
         real(dp), allocatable :: values(:)

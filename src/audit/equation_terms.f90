@@ -20,7 +20,7 @@ contains
 
     pure function term_count(n) result(number)
         !! On the right-hand side of an equation of `n` coordinates.
-        integer, intent(in) :: n
+        integer, intent(in) :: n  !! coordinates
         integer :: number
 
         number = 1 + n + n*(n + 1)/2
@@ -29,9 +29,9 @@ contains
     pure subroutine equation_terms(system, t, q, v, terms)
         !! The terms on the right, `terms(i, k)` of equation `i`: found by setting velocities to
         !! zero and by turning their signs. They add up to all of it.
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
-        real(dp), allocatable, intent(out) :: terms(:, :)
+        class(system_t), intent(in) :: system  !! with its parameters
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)  !! s; coordinates and velocities
+        real(dp), allocatable, intent(out) :: terms(:, :)  !! (ndof, terms)
         real(dp), dimension(system%ndof) :: none, one, rest, plus, minus
         real(dp) :: alone(system%ndof, system%ndof)
         integer :: j, k, column
@@ -76,7 +76,7 @@ contains
 
     pure function term_names(d) result(names)
         !! What the terms on the right are, in the order of `equation_terms`.
-        type(description_t), intent(in) :: d
+        type(description_t), intent(in) :: d  !! the system's
         character(term_length), allocatable :: names(:)
         integer :: j, k, column, n
 
@@ -100,10 +100,10 @@ contains
         !! What each term of each equation does to each acceleration, `terms(i, k, j)`: of term `k`
         !! of equation `j` to \(\ddot q_i\). One equation more stands for the non-holonomic
         !! constraints, with their velocity terms as its first.
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
-        real(dp), allocatable, intent(out) :: terms(:, :, :)
-        type(error_t), allocatable, intent(out) :: error
+        class(system_t), intent(in) :: system  !! with its parameters
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)  !! s; coordinates and velocities
+        real(dp), allocatable, intent(out) :: terms(:, :, :)  !! (ndof, terms, equations)
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         type(euler_lagrange_t) :: expanded
         type(hyperdual_t) :: path(system%ndof)
         type(hyperdual_t) :: rows(system%constraints, system%ndof), b(system%constraints)

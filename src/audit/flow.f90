@@ -16,10 +16,10 @@ contains
         !! Time derivative of quantity `i` (0: the energy) along the equations of motion, by
         !! central differences of order 8 along \((1, \dot q, \ddot q)\), and the size of what
         !! adds up to it: the changes with time, coordinates and velocities taken one by one.
-        class(system_t), intent(in) :: system
-        integer, intent(in) :: i
-        real(dp), intent(in) :: t, q(:), v(:)
-        real(dp), intent(out) :: rate, scale
+        class(system_t), intent(in) :: system  !! with its parameters
+        integer, intent(in) :: i  !! the number of the quantity
+        real(dp), intent(in) :: t, q(:), v(:)  !! s; coordinates and velocities, (ndof)
+        real(dp), intent(out) :: rate, scale  !! per s; what adds up to it
         real(dp), intent(out), optional :: noise
         !! of the rate, absolute: rounding of the values over the step, the difference between
         !! orders 6 and 8, which truncation stays below, and what errors of the accelerations do
@@ -146,9 +146,9 @@ contains
 
     function quantity_of(system, i, t, q, v) result(value)
         !! Quantity `i`, or the energy if `i` is 0.
-        class(system_t), intent(in) :: system
-        integer, intent(in) :: i
-        real(dp), intent(in) :: t, q(:), v(:)
+        class(system_t), intent(in) :: system  !! with its parameters
+        integer, intent(in) :: i  !! the number of the quantity
+        real(dp), intent(in) :: t, q(:), v(:)  !! s; coordinates and velocities, (ndof)
         real(dp) :: value
 
         if (i == 0) then

@@ -39,10 +39,10 @@ contains
 
     pure subroutine least_constraint(system, t, q, v, c, error)
         !! Accelerations and reactions at one state; fails where the system has no `newton`.
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
-        type(cartesian_t), intent(out) :: c
-        type(error_t), allocatable, intent(out) :: error
+        class(system_t), intent(in) :: system  !! with its parameters
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)  !! s; coordinates and velocities
+        type(cartesian_t), intent(out) :: c  !! the state as Newton has it
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         real(dp) :: a(system%ndof)
 
         call system%accelerations(t, q, v, a)
@@ -54,10 +54,11 @@ contains
     pure subroutine new_cartesian(system, t, q, v, a, c, error)
         !! From generalised coordinates, velocities and accelerations to Cartesian ones; masses,
         !! forces, and the constraints as \(A\ddot x = b\).
-        class(system_t), intent(in) :: system
+        class(system_t), intent(in) :: system  !! with its parameters
         real(dp), intent(in) :: t, q(system%ndof), v(system%ndof), a(system%ndof)
-        type(cartesian_t), intent(out) :: c
-        type(error_t), allocatable, intent(out) :: error
+        !! s; coordinates, velocities, accelerations
+        type(cartesian_t), intent(out) :: c  !! the state as Newton has it
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         type(description_t) :: d
         type(hyperdual_t) :: path(system%ndof)
         type(hyperdual_t), allocatable :: x(:)
@@ -86,7 +87,7 @@ contains
     pure function masses_of(d) result(mass)
         !! Of the Cartesian coordinates, kg: three of each point, then one angle of each rotor,
         !! kg m^2.
-        type(description_t), intent(in) :: d
+        type(description_t), intent(in) :: d  !! the system's
         real(dp), allocatable :: mass(:)
         integer :: i, points, rotors
 
@@ -103,7 +104,7 @@ contains
 
     pure subroutine place_points(system, d, t, q, x)
         !! The Cartesian coordinates, in the order of `masses_of`.
-        class(system_t), intent(in) :: system
+        class(system_t), intent(in) :: system  !! with its parameters
         type(description_t), intent(in) :: d    !! the system's own
         type(hyperdual_t), intent(in) :: t      !! s
         type(hyperdual_t), intent(in) :: q(:)   !! (ndof)
@@ -122,7 +123,7 @@ contains
     pure subroutine linearise(system, t, c)
         !! From `x` and `x_dot`: forces; slopes of the constraints, one coordinate after the
         !! other; their rates at constant velocity.
-        class(system_t), intent(in) :: system
+        class(system_t), intent(in) :: system  !! with its parameters
         real(dp), intent(in) :: t                !! s
         type(cartesian_t), intent(inout) :: c    !! all of it allocated
         type(hyperdual_t), dimension(size(c%x)) :: x, u
@@ -154,7 +155,7 @@ contains
         !! What the minimum of \(Z\) fulfils, with a multiplier for each constraint:
         !! \(m\ddot x - A^\top\lambda = F\) and \(A\ddot x = b\), as one linear system for
         !! \((\ddot x, \lambda)\).
-        type(cartesian_t), intent(in) :: c
+        type(cartesian_t), intent(in) :: c  !! the state as Newton has it
         real(dp), intent(out) :: matrix(:, :)  !! (n + k, n + k)
         real(dp), intent(out) :: right(:)      !! (n + k)
         integer :: i, n

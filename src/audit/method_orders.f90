@@ -35,7 +35,7 @@ contains
     subroutine audit_methods(audit)
         !! A row for each method of fixed step, over the problems that it takes, and one for its
         !! energy error.
-        type(ledger_t), intent(inout) :: audit
+        type(ledger_t), intent(inout) :: audit  !! gets the rows
         class(integrator_t), allocatable :: method
         integer :: i
 
@@ -98,10 +98,10 @@ contains
     subroutine measure_order(method, system, q, v, m)
         !! From the smallest power of two, from 32 steps on, whose error is small enough for the
         !! leading term to rule.
-        class(integrator_t), intent(inout) :: method
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: q(:), v(:)
-        type(measured_t), intent(out) :: m
+        class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
+        class(system_t), intent(in) :: system  !! with its parameters
+        real(dp), intent(in) :: q(:), v(:)  !! the start
+        type(measured_t), intent(out) :: m  !! the order, and what it is from
         real(dp) :: small
 
         small = merge(10.0_dp**(-4 - method%order), 1e-6_dp, method%order < 6)
@@ -119,12 +119,12 @@ contains
     subroutine method_run(method, system, q0, v0, steps, error, change, time)
         !! From `t = 0` in `steps` steps to `time`, 3 s: distance from the closed form at the
         !! end, and largest relative change of the energy on the way.
-        class(integrator_t), intent(inout) :: method
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: q0(:), v0(:)
-        integer(i8), intent(in) :: steps
-        real(dp), intent(out) :: error, change
-        real(dp), intent(in), optional :: time
+        class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
+        class(system_t), intent(in) :: system  !! with its parameters
+        real(dp), intent(in) :: q0(:), v0(:)  !! the start
+        integer(i8), intent(in) :: steps  !! how many
+        real(dp), intent(out) :: error, change  !! of the state at the end; of the energy
+        real(dp), intent(in), optional :: time  !! s, 3 if it is not given
         class(reference_t), allocatable :: reference
         type(error_t), allocatable :: refusal
         real(dp), dimension(size(q0)) :: q, v, q_true, v_true
@@ -174,9 +174,9 @@ contains
     subroutine new_problem(k, system, q, v)
         !! A pendulum with a large swing; a cart-pendulum, whose mass matrix changes; a charge
         !! in electric and magnetic fields and a trap. Rates are about 3 rad/s at most.
-        integer, intent(in) :: k
-        class(system_t), allocatable, intent(out) :: system
-        real(dp), allocatable, intent(out) :: q(:), v(:)
+        integer, intent(in) :: k  !! 1 to `problems`
+        class(system_t), allocatable, intent(out) :: system  !! with its parameters
+        real(dp), allocatable, intent(out) :: q(:), v(:)  !! the start
         type(error_t), allocatable :: error
 
         select case (k)
@@ -201,8 +201,8 @@ contains
 
     function refuses(method, system)
         !! Whether `method` is not for `system`; otherwise it is ready.
-        class(integrator_t), intent(inout) :: method
-        class(system_t), intent(in) :: system
+        class(integrator_t), intent(inout) :: method  !! prepared where it does not refuse
+        class(system_t), intent(in) :: system  !! with its parameters
         logical :: refuses
         type(error_t), allocatable :: error
 

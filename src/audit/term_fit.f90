@@ -38,7 +38,7 @@ contains
     pure subroutine all_terms(difference, terms, factors, misfit, error)
         !! The difference as a sum of multiples of all terms, by least squares; each term scaled
         !! to its largest sample, so that factors of small ones mean something.
-        real(dp), intent(in) :: difference(:), terms(:, :)
+        real(dp), intent(in) :: difference(:), terms(:, :)  !! (samples); (samples, terms)
         real(dp), intent(out) :: factors(:)               !! (terms)
         real(dp), intent(out) :: misfit                   !! what is left, 0 to 1
         type(error_t), allocatable, intent(out) :: error  !! the terms depend on each other

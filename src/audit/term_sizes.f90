@@ -44,10 +44,10 @@ contains
 
     subroutine new_nearby(self, system, values, t, q, v)
         !! The same numbers make the same neighbours.
-        type(nearby_t), intent(out) :: self
-        class(system_t), intent(in) :: system
+        type(nearby_t), intent(out) :: self  !! the state and its neighbours
+        class(system_t), intent(in) :: system  !! with its parameters
         real(dp), intent(in) :: values(:)   !! its parameters
-        real(dp), intent(in) :: t, q(:), v(:)
+        real(dp), intent(in) :: t, q(:), v(:)  !! s; coordinates and velocities, (ndof)
         type(random_t) :: random
         type(error_t), allocatable :: error
         real(dp) :: near(size(values))
@@ -77,8 +77,8 @@ contains
 
     subroutine make_smaller(random, x)
         !! Each by a random part of the step.
-        type(random_t), intent(inout) :: random
-        real(dp), intent(inout) :: x(:)
+        type(random_t), intent(inout) :: random  !! where the parts come from
+        real(dp), intent(inout) :: x(:)  !! made smaller
         real(dp) :: part
         integer :: i
 
@@ -124,9 +124,9 @@ contains
     subroutine solve_motion(nearby, motion, error)
         !! Lagrange's equations \(Kx = r\) for the accelerations and multipliers \(x\); the terms
         !! of a row are \(|K||x| + |r|\) and those that cancel in \(K\) and \(r\) themselves.
-        type(nearby_t), intent(in) :: nearby
-        type(motion_t), intent(out) :: motion
-        type(error_t), allocatable, intent(out) :: error
+        type(nearby_t), intent(in) :: nearby  !! the state and its neighbours
+        type(motion_t), intent(out) :: motion  !! accelerations, multipliers and their sizes
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         real(dp), allocatable :: matrix(:, :), near(:, :), right(:), x(:), rows(:, :), row_size(:)
         real(dp), allocatable :: unknowns(:)
         integer :: i, k, n, all

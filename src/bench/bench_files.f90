@@ -31,8 +31,8 @@ contains
 
     subroutine check_bench_files(folder, error)
         !! Fails where the files could not be written now: before hours are spent on what they hold.
-        character(*), intent(in) :: folder
-        type(error_t), allocatable, intent(out) :: error
+        character(*), intent(in) :: folder  !! where the files go
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         character(:), allocatable :: path
         type(places_t) :: places
 
@@ -45,11 +45,11 @@ contains
     subroutine write_bench_files(folder, problems, curves, path, error)
         !! `folder/bench.dat` and `folder/bench.gp`; a block of the data file, two blank lines
         !! apart from the next, is one method on one problem.
-        character(*), intent(in) :: folder
-        type(bench_problem_t), intent(in) :: problems(:)
-        type(curve_t), intent(in) :: curves(:)
-        character(:), allocatable, intent(out) :: path
-        type(error_t), allocatable, intent(out) :: error
+        character(*), intent(in) :: folder  !! where the files go
+        type(bench_problem_t), intent(in) :: problems(:)  !! in the order of their numbers
+        type(curve_t), intent(in) :: curves(:)  !! as they were measured
+        character(:), allocatable, intent(out) :: path  !! of the data file
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         character(name_length), allocatable :: methods(:)
         type(output_file_t) :: script
         type(text_table_t) :: table

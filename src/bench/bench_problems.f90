@@ -38,9 +38,9 @@ contains
 
     subroutine read_problems(names, problems, error)
         !! The problems called `names`.
-        character(*), intent(in) :: names(:)
-        type(bench_problem_t), allocatable, intent(out) :: problems(:)
-        type(error_t), allocatable, intent(out) :: error
+        character(*), intent(in) :: names(:)  !! of `problem_names`
+        type(bench_problem_t), allocatable, intent(out) :: problems(:)  !! in the order of the names
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         integer :: i
 
         allocate (problems(size(names)))
@@ -52,9 +52,9 @@ contains
 
     subroutine read_problem(name, problem, error)
         !! One problem from the file.
-        character(*), intent(in) :: name
-        type(bench_problem_t), intent(out) :: problem
-        type(error_t), allocatable, intent(out) :: error
+        character(*), intent(in) :: name  !! of `problem_names`
+        type(bench_problem_t), intent(out) :: problem  !! with its system
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         type(namelist_t) :: tree
         character(:), allocatable :: text, group
         character(name_length) :: system
@@ -108,7 +108,7 @@ contains
     pure function error_of(self, q, v) result(error)
         !! The largest distance of any coordinate or velocity from the truth at the end.
         class(bench_problem_t), intent(in) :: self
-        real(dp), intent(in) :: q(:), v(:)
+        real(dp), intent(in) :: q(:), v(:)  !! the state at the end
         real(dp) :: error
 
         error = max(maxval(abs(q - self%q_end)), maxval(abs(v - self%v_end)))

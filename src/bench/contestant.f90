@@ -38,7 +38,7 @@ module lagrangia_contestant
             class(contestant_t), intent(inout) :: self
             type(bench_problem_t), target, intent(in) :: problem  !! stays where it is
             real(dp), intent(in) :: setting                       !! of what it is set by
-            type(error_t), allocatable, intent(out) :: error
+            type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         end subroutine prepare_i
 
         subroutine solve_i(self, problem, q, v, error)
@@ -46,9 +46,9 @@ module lagrangia_contestant
             import :: contestant_t, bench_problem_t, dp, error_t
             implicit none (type, external)
             class(contestant_t), intent(inout) :: self
-            type(bench_problem_t), intent(in) :: problem
-            real(dp), intent(out) :: q(:), v(:)
-            type(error_t), allocatable, intent(out) :: error
+            type(bench_problem_t), intent(in) :: problem  !! the one that `prepare` had
+            real(dp), intent(out) :: q(:), v(:)  !! the state at the end
+            type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         end subroutine solve_i
     end interface
 end module lagrangia_contestant

@@ -50,8 +50,8 @@ contains
     subroutine new_contestants(chosen, boxes)
         !! Those whose names are in `chosen`; all if that is empty. A method that can do both comes
         !! twice, at a fixed step and by its tolerance.
-        character(*), intent(in) :: chosen(:)
-        type(contestant_box_t), allocatable, intent(out) :: boxes(:)
+        character(*), intent(in) :: chosen(:)  !! names of methods
+        type(contestant_box_t), allocatable, intent(out) :: boxes(:)  !! not prepared yet
         class(integrator_t), allocatable :: method
         class(dense_integrator_t), allocatable :: adaptive
         type(contestant_box_t), allocatable :: room(:)

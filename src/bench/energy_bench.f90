@@ -24,10 +24,10 @@ contains
     subroutine measure_energy(chosen, plan, watcher, table, error)
         !! The pendulum from 2 rad, dt = 0.05 s: the largest relative error of the energy.
         character(*), intent(in) :: chosen(:)  !! names of methods; empty: all
-        type(effort_t), intent(in) :: plan
-        class(observer_t), pointer, intent(in) :: watcher
-        type(printed_table_t), intent(out) :: table
-        type(error_t), allocatable, intent(out) :: error
+        type(effort_t), intent(in) :: plan  !! how much is measured
+        class(observer_t), pointer, intent(in) :: watcher  !! told how far it is; may be null
+        type(printed_table_t), intent(out) :: table  !! the result
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         class(integrator_t), allocatable :: method, variant
         integer :: i
 

@@ -36,9 +36,9 @@ contains
     subroutine measure_growth(folder, plan, table, error)
         !! RK4: 10^4 to 10^7 steps of a pendulum unseen, then 10^3 to 10^6 rows written.
         character(*), intent(in) :: folder  !! for the rows; nothing stays there
-        type(effort_t), intent(in) :: plan
-        type(printed_table_t), intent(out) :: table
-        type(error_t), allocatable, intent(out) :: error
+        type(effort_t), intent(in) :: plan  !! how much is measured
+        type(printed_table_t), intent(out) :: table  !! the result
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         integer :: i, last
 
         call table%begin("growth", "RK4 on a pendulum; peak memory of the process, MB", &
@@ -154,10 +154,10 @@ contains
 
     subroutine measure_output(folder, plan, table, error)
         !! Rows of four columns; nothing stays in `folder`.
-        character(*), intent(in) :: folder
-        type(effort_t), intent(in) :: plan
-        type(printed_table_t), intent(out) :: table
-        type(error_t), allocatable, intent(out) :: error
+        character(*), intent(in) :: folder  !! where the files go
+        type(effort_t), intent(in) :: plan  !! how much is measured
+        type(printed_table_t), intent(out) :: table  !! the result
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         class(table_t), allocatable :: file
         real(dp) :: samples(plan%rounds, size(formats)), each
         integer :: i, round

@@ -43,8 +43,8 @@ contains
 
     subroutine new_gsl_contestant(self, method)
         !! `rk4` at a fixed step; `rkck`, `rk8pd`, `bsimp` by their tolerance.
-        type(gsl_contestant_t), intent(out) :: self
-        character(*), intent(in) :: method
+        type(gsl_contestant_t), intent(out) :: self  !! not prepared yet
+        character(*), intent(in) :: method  !! GSL's name of it
 
         self%name = "gsl_"//method
         self%method = method
@@ -112,10 +112,10 @@ contains
 
     function gsl_rates(t, y, rates, context) bind(c) result(status)
         !! The right-hand side.
-        real(c_double), value :: t
-        real(c_double), intent(in) :: y(*)
-        real(c_double), intent(inout) :: rates(*)
-        type(c_ptr), value :: context
+        real(c_double), value :: t  !! s
+        real(c_double), intent(in) :: y(*)  !! \(y = (q, v)\), (2*ndof)
+        real(c_double), intent(inout) :: rates(*)  !! \(\dot y\), (2*ndof)
+        type(c_ptr), value :: context  !! a `gsl_context_t`
         integer(c_int) :: status
         type(gsl_context_t), pointer :: self
         integer :: n
@@ -133,10 +133,11 @@ contains
         !! differences: two evaluations for every unknown that the accelerations depend on. Their
         !! error, some \(10^{-10}\), slows `bsimp` but spoils no result. Derivatives by hand, as
         !! few users would write them, would be cheaper: so `bsimp` is measured as it would be used.
-        real(c_double), value :: t
-        real(c_double), intent(in) :: y(*)
+        real(c_double), value :: t  !! s
+        real(c_double), intent(in) :: y(*)  !! \(y = (q, v)\), (2*ndof)
         real(c_double), intent(inout) :: jacobian(*), time_rates(*)
-        type(c_ptr), value :: context
+        !! by rows, (2*ndof, 2*ndof); (2*ndof)
+        type(c_ptr), value :: context  !! a `gsl_context_t`
         integer(c_int) :: status
         type(gsl_context_t), pointer :: self
         integer :: i, k, n

@@ -30,7 +30,7 @@ contains
 
     subroutine forget_peak_memory(done)
         !! Let `peak_memory` start again from what is held now, unless Linux refuses.
-        logical, intent(out) :: done
+        logical, intent(out) :: done  !! Linux did not refuse
         integer :: unit, ios
 
         open (newunit=unit, file="/proc/self/clear_refs", action="write", status="old", iostat=ios)

@@ -21,9 +21,9 @@ contains
 
     subroutine measure_modes(plan, table, error)
         !! Hanging chains of n bobs, \(K u = \omega^2 M u\) with full matrices.
-        type(effort_t), intent(in) :: plan
-        type(printed_table_t), intent(out) :: table
-        type(error_t), allocatable, intent(out) :: error
+        type(effort_t), intent(in) :: plan  !! how much is measured
+        type(printed_table_t), intent(out) :: table  !! the result
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         type(hanging_chain_t) :: chain
         type(linearised_t) :: analytic
         real(dp), allocatable :: q(:)

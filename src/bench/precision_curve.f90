@@ -17,7 +17,7 @@ contains
 
     pure function median(values) result(middle)
         !! The middle one, or the mean of the two in the middle; NaN of nothing.
-        real(dp), intent(in) :: values(:)
+        real(dp), intent(in) :: values(:)  !! in any order
         real(dp) :: middle
         real(dp) :: sorted(size(values)), x
         integer :: i, k, n
@@ -38,7 +38,7 @@ contains
 
     pure function best(values) result(least)
         !! The smallest that is a number; NaN if none is.
-        real(dp), intent(in) :: values(:)
+        real(dp), intent(in) :: values(:)  !! NaN: not measured
         real(dp) :: least
 
         least = not_known()
@@ -47,7 +47,7 @@ contains
 
     elemental function ratio(x, y) result(quotient)
         !! `x/y`; NaN where one of them is not known or `y` is 0.
-        real(dp), intent(in) :: x, y
+        real(dp), intent(in) :: x, y  !! NaN: not known
         real(dp) :: quotient
 
         quotient = not_known()
@@ -58,7 +58,7 @@ contains
         !! The errors of a method, coarsest setting first, without lucky hits: the error at one
         !! instant passes through zero now and then, and a dip that the next finer setting does
         !! not confirm counts as that one's error.
-        real(dp), intent(in) :: errors(:)
+        real(dp), intent(in) :: errors(:)  !! coarsest setting first
         real(dp) :: sound(size(errors))
         integer :: n
 
@@ -72,7 +72,7 @@ contains
         !! join its measured points, coarsest setting first, in a plot of both logarithms. NaN if
         !! it never gets there; the first point's time if that is good enough already.
         real(dp), intent(in) :: errors(:), seconds(:)  !! > 0, except that an error may be 0
-        real(dp), intent(in) :: wanted
+        real(dp), intent(in) :: wanted  !! error
         real(dp) :: time
         real(dp) :: sound(size(errors)), share
         integer :: k

@@ -22,12 +22,12 @@ contains
 
     subroutine measure_steps(systems, contestants, plan, watcher, table, error)
         !! Nanoseconds a step, and evaluations, of those that take fixed steps.
-        character(*), intent(in) :: systems(:)
-        type(contestant_box_t), intent(inout) :: contestants(:)
-        type(effort_t), intent(in) :: plan
-        class(observer_t), pointer, intent(in) :: watcher
-        type(printed_table_t), intent(out) :: table
-        type(error_t), allocatable, intent(out) :: error
+        character(*), intent(in) :: systems(:)  !! their names
+        type(contestant_box_t), intent(inout) :: contestants(:)  !! prepared as needed
+        type(effort_t), intent(in) :: plan  !! how much is measured
+        class(observer_t), pointer, intent(in) :: watcher  !! told how far it is; may be null
+        type(printed_table_t), intent(out) :: table  !! the result
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         type(bench_problem_t), target :: problem
         real(dp), allocatable :: cost(:, :)
         real(dp) :: evaluations(size(contestants)), samples(plan%rounds)

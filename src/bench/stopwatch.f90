@@ -19,7 +19,7 @@ contains
 
     pure function effort(quick) result(plan)
         !! The careful plan, or the one that ends soon.
-        logical, intent(in) :: quick
+        logical, intent(in) :: quick  !! the plan that ends soon
         type(effort_t) :: plan
 
         if (quick) plan = effort_t(quick=.true., rounds=3, shortest=1e-3_dp, longest=0.02_dp, &
@@ -35,7 +35,7 @@ contains
 
     function seconds_since(start) result(seconds)
         !! Wall time since `ticks_now` was `start`.
-        integer(i8), intent(in) :: start
+        integer(i8), intent(in) :: start  !! from `ticks_now`
         real(dp) :: seconds
         integer(i8) :: ticks, rate
 
@@ -45,7 +45,7 @@ contains
 
     pure function repetitions(seconds, shortest) result(count)
         !! How often a run of about `seconds` must be repeated to take `shortest`.
-        real(dp), intent(in) :: seconds, shortest
+        real(dp), intent(in) :: seconds, shortest  !! s
         integer :: count
 
         count = 1 + int(min(1e7_dp, shortest/max(seconds, 1e-9_dp)))

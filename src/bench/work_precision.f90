@@ -50,13 +50,13 @@ contains
     subroutine measure_curves(problems, contestants, tolerances, plan, watcher, curves, error)
         !! All contestants on all problems; those that refuse a problem have no curve there. Each
         !! round times every point once, so that what slows the machine for a while slows all.
-        type(bench_problem_t), target, intent(in) :: problems(:)
-        type(contestant_box_t), intent(inout) :: contestants(:)
+        type(bench_problem_t), target, intent(in) :: problems(:)  !! stay where they are
+        type(contestant_box_t), intent(inout) :: contestants(:)  !! prepared as needed
         real(dp), intent(in) :: tolerances(:)    !! empty: a ladder from loose to tight
-        type(effort_t), intent(in) :: plan
+        type(effort_t), intent(in) :: plan  !! how much is measured
         class(observer_t), pointer, intent(in) :: watcher  !! may be null
-        type(curve_t), allocatable, intent(out) :: curves(:)
-        type(error_t), allocatable, intent(out) :: error
+        type(curve_t), allocatable, intent(out) :: curves(:)  !! a problem's beside each other
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         type(curve_t), allocatable :: room(:)
         integer :: i, k, n, round, total
 
@@ -197,9 +197,9 @@ contains
 
     subroutine look_around(watcher, done, total, error)
         !! Tell how far it is; stop where a signal came.
-        class(observer_t), pointer, intent(in) :: watcher
-        integer, intent(in) :: done, total
-        type(error_t), allocatable, intent(out) :: error
+        class(observer_t), pointer, intent(in) :: watcher  !! told how far it is; may be null
+        integer, intent(in) :: done, total  !! of the parts of the work
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
 
         if (associated(watcher)) call watcher%tick(int(done, i8), int(total, i8))
         if (interrupt_status() /= 0) call fail(error, "interrupted", interrupt_status())
@@ -208,7 +208,7 @@ contains
     pure function time_to(self, wanted) result(seconds)
         !! The time that the error `wanted` takes; NaN where it is not reached.
         class(curve_t), intent(in) :: self
-        real(dp), intent(in) :: wanted
+        real(dp), intent(in) :: wanted  !! error
         real(dp) :: seconds
 
         associate (points => self%points(:self%count))
@@ -226,8 +226,8 @@ contains
 
     pure subroutine points_table(curves, table)
         !! All that was measured: for programs.
-        type(curve_t), intent(in) :: curves(:)
-        type(printed_table_t), intent(out) :: table
+        type(curve_t), intent(in) :: curves(:)  !! as they were measured
+        type(printed_table_t), intent(out) :: table  !! the result
         integer :: i, k
 
         call table%begin("work_precision", "run time against error", &
@@ -249,8 +249,8 @@ contains
 
     pure subroutine times_table(curves, table)
         !! Microseconds to an error, and how many times the best of GSL's methods takes of them.
-        type(curve_t), intent(in) :: curves(:)
-        type(printed_table_t), intent(out) :: table
+        type(curve_t), intent(in) :: curves(:)  !! as they were measured
+        type(printed_table_t), intent(out) :: table  !! the result
         type(cell_t) :: times(size(wanted)), ratios(size(wanted))
         real(dp) :: time
         integer :: i, k
@@ -275,10 +275,10 @@ contains
 
     pure function best_time(curves, problem, source, error) result(seconds)
         !! The least time that one of `source` takes to `error` on `problem`.
-        type(curve_t), intent(in) :: curves(:)
-        character(*), intent(in) :: problem
-        integer, intent(in) :: source
-        real(dp), intent(in) :: error
+        type(curve_t), intent(in) :: curves(:)  !! as they were measured
+        character(*), intent(in) :: problem  !! its name
+        integer, intent(in) :: source  !! `source_ours`, `source_gsl` or `source_closed_form`
+        real(dp), intent(in) :: error  !! that must be reached
         real(dp) :: seconds
         integer :: i
 

@@ -35,8 +35,8 @@ contains
 
     subroutine bench_command(line, error)
         !! Measure the parts that are asked for, and print each table as soon as it is there.
-        type(command_line_t), intent(in) :: line
-        type(error_t), allocatable, intent(out) :: error
+        type(command_line_t), intent(in) :: line  !! what was typed
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         type(bench_options_t) :: options
         type(printed_table_t) :: table
         type(output_t) :: output
@@ -126,8 +126,8 @@ contains
 
     pure subroutine check_build(optimised, error)
         !! A benchmark of a debug build would mislead.
-        logical, intent(in) :: optimised
-        type(error_t), allocatable, intent(out) :: error
+        logical, intent(in) :: optimised  !! whether the compiler was told to
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
 
         if (.not. optimised) call fail(error, "bench: this build is not optimised, and its "// &
             "times would mislead; 'fpm run --profile release -- bench' builds one that is")

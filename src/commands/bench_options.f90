@@ -31,9 +31,9 @@ contains
 
     subroutine read_options(line, options, error)
         !! Names must exist, tolerances must make sense.
-        type(command_line_t), intent(in) :: line
-        type(bench_options_t), intent(out) :: options
-        type(error_t), allocatable, intent(out) :: error
+        type(command_line_t), intent(in) :: line  !! what was typed
+        type(bench_options_t), intent(out) :: options  !! checked
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         character(name_length), allocatable :: words(:)
         integer :: i
 

@@ -33,8 +33,8 @@ contains
 
     subroutine check_command(line, error)
         !! Audit the systems named, or all of them and the methods; fails if a claim does not hold.
-        type(command_line_t), intent(in) :: line
-        type(error_t), allocatable, intent(out) :: error
+        type(command_line_t), intent(in) :: line  !! what was typed
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         type(audited_t), allocatable :: audited(:)
         type(ledger_t) :: audit
         type(description_t) :: d

@@ -19,8 +19,8 @@ contains
 
     subroutine describe_command(line, error)
         !! Print the description of one system.
-        type(command_line_t), intent(in) :: line
-        type(error_t), allocatable, intent(out) :: error
+        type(command_line_t), intent(in) :: line  !! what was typed
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         class(system_t), allocatable :: system
         type(description_t) :: d
         integer :: i
@@ -95,7 +95,7 @@ contains
     function has_closed_form(system) result(yes)
         !! One is known of the motion from some state, with some parameters: from one of 40 drawn,
         !! in motion or at rest.
-        class(system_t), intent(in) :: system
+        class(system_t), intent(in) :: system  !! with its parameters
         logical :: yes
         class(system_t), allocatable :: drawn
         class(reference_t), allocatable :: reference

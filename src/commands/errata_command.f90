@@ -29,8 +29,8 @@ contains
 
     subroutine errata_command(line, error)
         !! One slip and its numbers; without an identifier a list of all, each computed.
-        type(command_line_t), intent(in) :: line
-        type(error_t), allocatable, intent(out) :: error
+        type(command_line_t), intent(in) :: line  !! what was typed
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         type(slip_t), allocatable :: slips(:)
         type(report_t) :: report
         character(:), allocatable :: id
@@ -65,9 +65,9 @@ contains
 
     subroutine slip_report(slip, report, error)
         !! The numbers of a slip; of a slip of principle, those rows of the principle's report.
-        type(slip_t), intent(in) :: slip
-        type(report_t), intent(out) :: report
-        type(error_t), allocatable, intent(out) :: error
+        type(slip_t), intent(in) :: slip  !! of the ledger
+        type(report_t), intent(out) :: report  !! the result
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         type(report_t) :: whole
 
         call report%begin("")

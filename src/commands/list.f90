@@ -21,8 +21,8 @@ contains
 
     subroutine list_command(line, error)
         !! Print one list, or all three under their titles.
-        type(command_line_t), intent(in) :: line
-        type(error_t), allocatable, intent(out) :: error
+        type(command_line_t), intent(in) :: line  !! what was typed
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         character(8), parameter :: kinds(3) = ["systems ", "methods ", "scenes  "]
         character(:), allocatable :: what
         integer :: i

@@ -29,8 +29,8 @@ contains
     subroutine modes_command(line, error)
         !! Find, print, and with `--output` write one data file a mode. Without `--at` another
         !! equilibrium that the page knows is shown as well.
-        type(command_line_t), intent(in) :: line
-        type(error_t), allocatable, intent(out) :: error
+        type(command_line_t), intent(in) :: line  !! what was typed
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         class(system_t), allocatable :: system
         type(modes_t) :: modes, others
         type(progress_t) :: progress

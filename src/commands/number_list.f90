@@ -15,8 +15,8 @@ contains
         !! to write.
         character(*), intent(in) :: option                !! with its hyphens, for the message
         character(*), intent(in) :: text                  !! `0.1,2e-3`, blanks around a number
-        real(dp), allocatable, intent(out) :: values(:)
-        type(error_t), allocatable, intent(out) :: error
+        real(dp), allocatable, intent(out) :: values(:)  !! in their order
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         character(:), allocatable :: phrase, problem, word
         real(dp) :: value
         integer :: first, last

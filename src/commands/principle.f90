@@ -45,8 +45,8 @@ contains
 
     subroutine principle_command(line, error)
         !! Compute one principle and print it; without a name, list them.
-        type(command_line_t), intent(in) :: line
-        type(error_t), allocatable, intent(out) :: error
+        type(command_line_t), intent(in) :: line  !! what was typed
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         character(:), allocatable :: folder, kind, file
         type(report_t) :: report
 
@@ -96,9 +96,9 @@ contains
 
     subroutine principle_report(name, report, error)
         !! The report of one principle.
-        character(*), intent(in) :: name
-        type(report_t), intent(out) :: report
-        type(error_t), allocatable, intent(out) :: error
+        character(*), intent(in) :: name  !! as on the command line
+        type(report_t), intent(out) :: report  !! the result
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         type(system_box_t), allocatable :: systems(:)
 
         select case (name)
@@ -148,8 +148,8 @@ contains
 
     subroutine put_report(report, file)
         !! The table, group by group.
-        type(report_t), intent(in) :: report
-        character(*), intent(in) :: file
+        type(report_t), intent(in) :: report  !! what is printed
+        character(*), intent(in) :: file  !! where the picture is; "" if there is none
         character(group_length) :: heading
         integer :: i, controls
 
@@ -177,7 +177,7 @@ contains
 
     subroutine put_json(report)
         !! The rows as an array of objects.
-        type(report_t), intent(in) :: report
+        type(report_t), intent(in) :: report  !! what is printed
         integer :: i
 
         call put_line("[")

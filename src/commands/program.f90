@@ -35,7 +35,7 @@ contains
         !! Run the command that was typed, with all systems that were registered, and stop. Where
         !! something `failed` before, say so and stop with the status of that: what
         !! `register_system` returned may be handed on, allocated or not.
-        type(error_t), intent(in), optional :: failed
+        type(error_t), intent(in), optional :: failed  !! what went wrong before
         type(error_t), allocatable :: error
         integer :: status
 
@@ -98,7 +98,7 @@ contains
 
     subroutine give_up(number) bind(c)
         !! Answers SIGALRM, for `catch_interrupts`. Runs at any moment: allocates nothing.
-        integer(c_int), value :: number
+        integer(c_int), value :: number  !! of the signal
 
         if (is_creating()) then
             number = c_alarm(1_c_int)

@@ -48,15 +48,15 @@ contains
     subroutine observe(self, system, t, q, v, error)
         !! The states don't matter.
         class(progress_t), intent(inout) :: self
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
-        type(error_t), allocatable, intent(out) :: error
+        class(system_t), intent(in) :: system  !! with its parameters
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)  !! s; coordinates and velocities
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
     end subroutine observe
 
     subroutine tick(self, done, steps)
         !! Rewrite the line when it is time; or announce, once, how long it will be.
         class(progress_t), intent(inout) :: self
-        integer(i8), intent(in) :: done, steps
+        integer(i8), intent(in) :: done, steps  !! how many of how many
         integer(i8) :: now
         real(dp) :: seconds, percent
 

@@ -64,9 +64,9 @@ contains
 
     pure subroutine check_line(line, which, error)
         !! Find the command; fails where it, an option or a number of arguments does not fit.
-        type(command_line_t), intent(in) :: line
-        integer, intent(out) :: which
-        type(error_t), allocatable, intent(out) :: error
+        type(command_line_t), intent(in) :: line  !! what was typed
+        integer, intent(out) :: which  !! of `commands`
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         character(:), allocatable :: near
         type(command_t) :: command
         integer :: i
@@ -163,7 +163,7 @@ contains
 
     function help_text(which) result(text)
         !! Help for one command (`which` > 1) or for all.
-        integer, intent(in) :: which
+        integer, intent(in) :: which  !! of `commands`
         character(:), allocatable :: text
         integer :: i
 

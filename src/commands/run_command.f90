@@ -36,8 +36,8 @@ contains
         !! Read and plan all scenes before any of them runs; then run them, a row each. A scene
         !! that fails does not keep the others from running; the exit status is that of the first
         !! failure.
-        type(command_line_t), intent(in) :: line
-        type(error_t), allocatable, intent(out) :: error
+        type(command_line_t), intent(in) :: line  !! what was typed
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         type(error_t), allocatable :: scene_error
         type(chosen_t), allocatable :: chosen(:)
         type(progress_t), target :: progress

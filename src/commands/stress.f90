@@ -19,8 +19,8 @@ contains
 
     subroutine stress_command(line, error)
         !! Measure the rows named, or all; fails (status 1) if a bound does not hold.
-        type(command_line_t), intent(in) :: line
-        type(error_t), allocatable, intent(out) :: error
+        type(command_line_t), intent(in) :: line  !! what was typed
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         type(ledger_t) :: verdicts
         type(progress_t), target :: progress
         class(observer_t), pointer :: watcher

@@ -57,7 +57,7 @@ contains
 
     pure function json_real(value) result(json)
         !! A number with 17 digits; JSON has no NaN or Infinity, so they are `null`.
-        real(dp), intent(in) :: value  !! any double
+        real(dp), intent(in) :: value  !! a number, or NaN or infinite
         character(:), allocatable :: json
         character(decimal_width) :: text
 
@@ -69,7 +69,7 @@ contains
 
     pure function json_integer(value) result(json)
         !! A whole number.
-        integer(i8), intent(in) :: value  !! any whole number
+        integer(i8), intent(in) :: value  !! a whole number
         character(:), allocatable :: json
         character(20) :: text
 
@@ -79,7 +79,7 @@ contains
 
     pure function json_list(values) result(json)
         !! A list of numbers.
-        real(dp), intent(in) :: values(:)  !! any length
+        real(dp), intent(in) :: values(:)  !! NaN and infinities become `null`
         character(:), allocatable :: json
         integer :: i
 
@@ -110,7 +110,7 @@ contains
 
     pure function pair_string(key, value) result(json)
         !! A text.
-        character(*), intent(in) :: key
+        character(*), intent(in) :: key  !! without quotes
         character(*), intent(in) :: value  !! trailing blanks do not count
         character(:), allocatable :: json
 
@@ -119,8 +119,8 @@ contains
 
     pure function pair_real(key, value) result(json)
         !! A number, or `null`.
-        character(*), intent(in) :: key
-        real(dp), intent(in) :: value
+        character(*), intent(in) :: key  !! without quotes
+        real(dp), intent(in) :: value  !! NaN and infinities become `null`
         character(:), allocatable :: json
 
         json = json_item(key, json_real(value))
@@ -128,8 +128,8 @@ contains
 
     pure function pair_integer(key, value) result(json)
         !! A whole number.
-        character(*), intent(in) :: key
-        integer(i8), intent(in) :: value
+        character(*), intent(in) :: key  !! without quotes
+        integer(i8), intent(in) :: value  !! a whole number
         character(:), allocatable :: json
 
         json = json_item(key, json_integer(value))
@@ -137,8 +137,8 @@ contains
 
     pure function pair_default_integer(key, value) result(json)
         !! A whole number.
-        character(*), intent(in) :: key
-        integer, intent(in) :: value
+        character(*), intent(in) :: key  !! without quotes
+        integer, intent(in) :: value  !! a whole number
         character(:), allocatable :: json
 
         json = json_item(key, json_integer(int(value, i8)))
@@ -146,8 +146,8 @@ contains
 
     pure function pair_logical(key, value) result(json)
         !! `true` or `false`.
-        character(*), intent(in) :: key
-        logical, intent(in) :: value
+        character(*), intent(in) :: key  !! without quotes
+        logical, intent(in) :: value  !! a truth
         character(:), allocatable :: json
 
         json = json_item(key, trim(merge("true ", "false", value)))

@@ -34,8 +34,8 @@ contains
 
     subroutine action_principle(report, error)
         !! All statements, and the picture.
-        type(report_t), intent(out) :: report
-        type(error_t), allocatable, intent(out) :: error
+        type(report_t), intent(out) :: report  !! the result
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         type(oscillator_t) :: oscillator
         type(pendulum_t) :: pendulum
 

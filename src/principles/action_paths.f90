@@ -18,10 +18,10 @@ contains
 
     subroutine extrapolated_action(system, time, start, finish, action, error)
         !! \(S\) of the path from `start` to `finish`, the limit of ever finer chains of points.
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: time, start, finish
-        real(dp), intent(out) :: action
-        type(error_t), allocatable, intent(out) :: error
+        class(system_t), intent(in) :: system  !! with its parameters
+        real(dp), intent(in) :: time, start, finish  !! s; the two ends, m
+        real(dp), intent(out) :: action  !! J s
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         real(dp), allocatable :: path(:, :)
         real(dp) :: actions(levels)
         integer :: i, n
@@ -39,10 +39,10 @@ contains
 
     subroutine extrapolated_change(system, time, start, finish, a, change, error)
         !! \(S[x + a\sin(\pi t/T)] - S[x]\).
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: time, start, finish, a
-        real(dp), intent(out) :: change
-        type(error_t), allocatable, intent(out) :: error
+        class(system_t), intent(in) :: system  !! with its parameters
+        real(dp), intent(in) :: time, start, finish, a  !! s; the two ends, m; the amplitude, m
+        real(dp), intent(out) :: change  !! J s
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         real(dp), allocatable :: path(:, :), varied(:, :)
         real(dp) :: changes(levels)
         integer :: i, j, n
@@ -63,8 +63,8 @@ contains
 
     pure function straight(start, finish, n) result(path)
         !! `n` equal pieces, (1, n + 1).
-        real(dp), intent(in) :: start, finish
-        integer, intent(in) :: n
+        real(dp), intent(in) :: start, finish  !! the two ends
+        integer, intent(in) :: n  !! steps between them
         real(dp) :: path(1, n + 1)
         integer :: j
 
@@ -75,6 +75,7 @@ contains
     pure function oscillator_path(t, time, w, start, finish) result(x)
         !! \((x_a\sin\omega(T-t) + x_b\sin\omega t)/\sin\omega T\): from `start` to `finish`.
         real(dp), intent(in) :: t, time, w, start, finish
+        !! s; s, of the whole path; rad/s; the two ends, m
         real(dp) :: x
 
         x = (start*sin(w*(time - t)) + finish*sin(w*t))/sin(w*time)
@@ -82,7 +83,7 @@ contains
 
     pure function oscillator_action(mass, stiffness, time, start, finish) result(s)
         !! $$ S = \frac{m\omega}{2\sin\omega T}\left[(x_a^2+x_b^2)\cos\omega T - 2x_ax_b\right] $$
-        real(dp), intent(in) :: mass, stiffness, time, start, finish
+        real(dp), intent(in) :: mass, stiffness, time, start, finish  !! kg; N/m; s; the two ends, m
         real(dp) :: s, w
 
         w = sqrt(stiffness/mass)
@@ -91,7 +92,7 @@ contains
 
     pure function pendulum_path(t, amplitude, g_over_l) result(theta)
         !! A pendulum released at `amplitude`: \(2\arcsin(k\,\mathrm{cd}\,\omega_0t)\).
-        real(dp), intent(in) :: t, amplitude, g_over_l
+        real(dp), intent(in) :: t, amplitude, g_over_l  !! s; rad; 1/s^2
         real(dp) :: theta, sn, cn, dn
 
         call jacobi(sqrt(g_over_l)*t, cos(0.5_dp*amplitude), sn, cn, dn)
@@ -100,7 +101,7 @@ contains
 
     pure function pendulum_period(amplitude, g_over_l) result(period)
         !! \(4K/\omega_0\).
-        real(dp), intent(in) :: amplitude, g_over_l
+        real(dp), intent(in) :: amplitude, g_over_l  !! rad; 1/s^2
         real(dp) :: period
 
         period = 4.0_dp*elliptic_k(cos(0.5_dp*amplitude))/sqrt(g_over_l)

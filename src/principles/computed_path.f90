@@ -15,14 +15,14 @@ contains
         !! The states at `t0`, `t0 + dt`, ... that `method` computes; the first one is `q0`, `v0`.
         !! Fails where the method is not known or refuses the system.
         character(*), intent(in) :: method           !! its name
-        class(system_t), intent(in) :: system
+        class(system_t), intent(in) :: system  !! with its parameters
         real(dp), intent(in) :: t0                   !! s
         real(dp), intent(in) :: dt                   !! the step, s
         real(dp), intent(in) :: q0(system%ndof)      !! coordinates at `t0`
         real(dp), intent(in) :: v0(system%ndof)      !! and their velocities
         real(dp), intent(out) :: q(:, :)             !! (ndof, samples)
         real(dp), intent(out) :: v(:, :)             !! (ndof, samples)
-        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         class(integrator_t), allocatable :: integrator
         real(dp) :: x(system%ndof), x_dot(system%ndof)
         integer :: k

@@ -25,8 +25,8 @@ contains
 
     subroutine constraints_principle(report, error)
         !! All statements, and the picture.
-        type(report_t), intent(out) :: report
-        type(error_t), allocatable, intent(out) :: error
+        type(report_t), intent(out) :: report  !! the result
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
 
         call report%begin("constraints: which can be integrated to f(q, t) = c, and which move")
         call exactness(report)
@@ -271,8 +271,8 @@ contains
         !! Time, x, y, phi, theta along the loop, by RK4 on the rolling disk's equations.
         real(dp), intent(in) :: heading(2)  !! rad
         real(dp), intent(in) :: rolled      !! rad
-        real(dp), allocatable, intent(out) :: path(:, :)
-        type(error_t), allocatable, intent(out) :: error
+        real(dp), allocatable, intent(out) :: path(:, :)  !! (5, samples)
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         integer, parameter :: n = 50  !! steps of one second together
         type(rolling_disk_t) :: disk
         real(dp) :: q(4, n + 1), v(4, n + 1), start(4), speed(4), given(2, 4)

@@ -36,7 +36,7 @@ contains
 
     pure function action_of(system, t0, h, path) result(s)
         !! \(S_d\), summed with the rounding errors kept (Neumaier 1974).
-        class(system_t), intent(in) :: system
+        class(system_t), intent(in) :: system  !! with its parameters
         real(dp), intent(in) :: t0, h       !! s
         real(dp), intent(in) :: path(:, :)  !! (ndof, points)
         real(dp) :: s
@@ -59,7 +59,7 @@ contains
 
     pure subroutine expand_action(system, t0, h, path, gradient, band)
         !! First and second derivatives by the inner points, \(n (N - 1)\) of them.
-        class(system_t), intent(in) :: system
+        class(system_t), intent(in) :: system  !! with its parameters
         real(dp), intent(in) :: t0, h       !! s
         real(dp), intent(in) :: path(:, :)  !! (ndof, points)
         real(dp), allocatable, intent(out) :: gradient(:)  !! point by point
@@ -97,8 +97,8 @@ contains
 
     pure function action_gradient(system, t0, h, path) result(largest)
         !! \(\max_k|\partial S_d/\partial q_k|/h\): by how much Lagrange's equations fail.
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t0, h, path(:, :)
+        class(system_t), intent(in) :: system  !! with its parameters
+        real(dp), intent(in) :: t0, h, path(:, :)  !! s; s; (ndof, points)
         real(dp) :: largest
         real(dp), allocatable :: gradient(:), band(:, :)
 
@@ -109,8 +109,8 @@ contains
     pure subroutine find_path(system, t0, h, path, error)
         !! Solve \(\delta S_d = 0\) by Newton's method; the first and the last point stay, and
         !! all of them where it fails.
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t0, h
+        class(system_t), intent(in) :: system  !! with its parameters
+        real(dp), intent(in) :: t0, h  !! s
         real(dp), intent(inout) :: path(:, :)  !! a guess, then the stationary path
         type(error_t), allocatable, intent(out) :: error  !! no convergence, or a conjugate point
         real(dp), allocatable :: found(:, :), gradient(:), band(:, :), change(:)
@@ -143,10 +143,10 @@ contains
     pure subroutine negative_curvatures(system, t0, h, path, count, error)
         !! In how many independent directions a variation lowers the action: Morse's index.
         !! One coordinate only, so that the Hessian is tridiagonal.
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t0, h, path(:, :)
-        integer, intent(out) :: count
-        type(error_t), allocatable, intent(out) :: error
+        class(system_t), intent(in) :: system  !! with its parameters
+        real(dp), intent(in) :: t0, h, path(:, :)  !! s; s; (ndof, points)
+        integer, intent(out) :: count  !! of the negative eigenvalues
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         real(dp), allocatable :: gradient(:), band(:, :)
 
         call expand_action(system, t0, h, path, gradient, band)
@@ -157,7 +157,7 @@ contains
         !! The variation along which the action is bent least, or falls most: the eigenvector of
         !! the lowest eigenvalue of its Hessian. Zero at both ends; its largest value is 1. One
         !! coordinate only.
-        class(system_t), intent(in) :: system
+        class(system_t), intent(in) :: system  !! with its parameters
         real(dp), intent(in) :: t0, h           !! s
         real(dp), intent(in) :: path(:, :)      !! (1, points)
         real(dp), intent(out) :: variation(:)   !! (points)

@@ -26,9 +26,9 @@ contains
 
     subroutine slip_numbers(id, report, error)
         !! Add the rows of slip `id` to the report; none if there is nothing to compute.
-        character(*), intent(in) :: id
-        type(report_t), intent(inout) :: report
-        type(error_t), allocatable, intent(out) :: error
+        character(*), intent(in) :: id  !! `E1`
+        type(report_t), intent(inout) :: report  !! gets the rows
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
 
         select case (id)
         case ("E1", "E2", "E3", "E4", "E6"); call cart_numbers(id, report, error)

@@ -29,9 +29,9 @@ contains
 
     subroutine gauge_principle(systems, report, error)
         !! All statements; `systems` are those whose equations are tried.
-        type(system_box_t), intent(in) :: systems(:)
-        type(report_t), intent(out) :: report
-        type(error_t), allocatable, intent(out) :: error
+        type(system_box_t), intent(in) :: systems(:)  !! those that are tried
+        type(report_t), intent(out) :: report  !! the result
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
 
         call report%begin("gauge: L and L + dF/dt, F = F(q, t), have the same equations of motion")
         call same_equations(systems, report, error)

@@ -28,7 +28,7 @@ module lagrangia_gauged_system
             import :: gauge_t, hyperdual_t
             implicit none (type, external)
             class(gauge_t), intent(in) :: self
-            type(hyperdual_t), intent(in) :: t, q(:)
+            type(hyperdual_t), intent(in) :: t, q(:)  !! s; coordinates
             type(hyperdual_t) :: f
         end function value_i
 
@@ -37,7 +37,7 @@ module lagrangia_gauged_system
             import :: gauge_t, hyperdual_t
             implicit none (type, external)
             class(gauge_t), intent(in) :: self
-            type(hyperdual_t), intent(in) :: t, q(:), v(:)
+            type(hyperdual_t), intent(in) :: t, q(:), v(:)  !! s; coordinates and velocities
             type(hyperdual_t) :: f_dot
         end function rate_i
     end interface
@@ -141,8 +141,8 @@ contains
     subroutine set(self, plain, gauge)
         !! Put `gauge` on top of `plain`.
         class(gauged_system_t), intent(inout) :: self
-        class(system_t), intent(in) :: plain
-        class(gauge_t), intent(in) :: gauge
+        class(system_t), intent(in) :: plain  !! with the Lagrangian \(L\)
+        class(gauge_t), intent(in) :: gauge  !! \(F\)
 
         if (allocated(self%plain)) deallocate (self%plain)
         if (allocated(self%gauge)) deallocate (self%gauge)

@@ -26,8 +26,8 @@ contains
 
     subroutine least_time_principle(report, error)
         !! All statements, and the picture.
-        type(report_t), intent(out) :: report
-        type(error_t), allocatable, intent(out) :: error
+        type(report_t), intent(out) :: report  !! the result
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         real(dp) :: crossing
 
         call report%begin("least-time: light takes a path of stationary time, not always the least")

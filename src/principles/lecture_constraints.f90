@@ -52,8 +52,8 @@ contains
 
     pure subroutine new_constraint(self, example)
         !! The constraint behind an example; the time is a coordinate where it matters.
-        type(lecture_constraint_t), intent(out) :: self
-        type(example_t), intent(in) :: example
+        type(lecture_constraint_t), intent(out) :: self  !! the constraint
+        type(example_t), intent(in) :: example  !! of `examples`
 
         self%name = example%name
         self%coordinates = example%coordinates
@@ -64,7 +64,7 @@ contains
 
     pure function example_point(coordinates, k) result(x)
         !! Point `k` to look at, the time behind the coordinates: nowhere special.
-        integer, intent(in) :: coordinates, k
+        integer, intent(in) :: coordinates, k  !! how many; which point
         real(dp) :: x(coordinates + 1)
         integer :: i
 
@@ -121,10 +121,10 @@ contains
 
     pure subroutine classify(self, verdict, growth, error)
         !! What the numbers say at five points, and the growth vector as digits.
-        type(lecture_constraint_t), intent(in) :: self
-        character(26), intent(out) :: verdict
-        integer, intent(out) :: growth
-        type(error_t), allocatable, intent(out) :: error
+        type(lecture_constraint_t), intent(in) :: self  !! the constraint
+        character(26), intent(out) :: verdict  !! as `holonomic, scleronomic`
+        integer, intent(out) :: growth  !! three digits
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         real(dp) :: x(self%coordinates + 1)
         integer :: k, dimensions(3)
         logical :: integrable, moves

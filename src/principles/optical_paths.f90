@@ -107,7 +107,7 @@ contains
     pure function at(self, x) result(y)
         !! The optical path itself, m.
         class(optical_path_t), intent(in) :: self
-        real(dp), intent(in) :: x
+        real(dp), intent(in) :: x  !! where the ray touches
         real(dp) :: y
         type(hyperdual_t) :: path
 
@@ -117,8 +117,8 @@ contains
 
     pure function second_derivative(self, x) result(y)
         !! Positive where the path is shortest, negative where it is longest.
-        class(optical_path_t), intent(in) :: self
-        real(dp), intent(in) :: x
+        class(optical_path_t), intent(in) :: self  !! the path
+        real(dp), intent(in) :: x  !! where the ray touches
         real(dp) :: y
         type(hyperdual_t) :: path
 
@@ -128,10 +128,10 @@ contains
 
     subroutine stationary_point(self, lower, upper, u, error)
         !! Where the derivative vanishes between `lower` and `upper`, by Brent's method.
-        class(optical_path_t), intent(in) :: self
-        real(dp), intent(in) :: lower, upper
-        real(dp), intent(out) :: u
-        type(error_t), allocatable, intent(out) :: error
+        class(optical_path_t), intent(in) :: self  !! the path
+        real(dp), intent(in) :: lower, upper  !! the derivative changes its sign between them
+        real(dp), intent(out) :: u  !! where the ray touches
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         class(optical_path_t), allocatable :: path
 
         allocate (path, source=self)
@@ -264,7 +264,7 @@ contains
     elemental function index_squared(self, y) result(n2)
         !! \(n^2 = n_0^2 + 2\kappa y - n_0^2\alpha^2y^2\).
         class(graded_medium_t), intent(in) :: self
-        real(dp), intent(in) :: y
+        real(dp), intent(in) :: y  !! height, m
         real(dp) :: n2
 
         n2 = self%n0**2 + 2.0_dp*self%kappa*y - (self%n0*self%alpha*y)**2

@@ -35,7 +35,9 @@ module lagrangia_pfaffian
             implicit none (type, external)
             class(pfaffian_t), intent(in) :: self
             type(hyperdual_t), intent(in) :: x(self%coordinates + 1)
+            !! a point: the coordinates, then the time
             type(hyperdual_t), intent(out) :: a(self%rows, self%coordinates + 1)
+            !! a row a constraint
         end subroutine forms_i
     end interface
 
@@ -52,7 +54,7 @@ contains
     pure function curl(self, x) result(largest)
         !! \(\max|\partial_ia_j - \partial_ja_i|\): zero where the forms are exact.
         class(pfaffian_t), intent(in) :: self
-        real(dp), intent(in) :: x(:)
+        real(dp), intent(in) :: x(:)  !! a point: the coordinates, then the time
         real(dp) :: largest, slopes(self%rows, self%dimension(), self%dimension())
         type(hyperdual_t) :: a(self%rows, self%coordinates + 1), xx(self%coordinates + 1)
         integer :: i, j, n
@@ -75,7 +77,7 @@ contains
     pure function motion(self, x) result(largest)
         !! \(\max(|b|, |\partial_ta|)\): zero where the constraints do not move.
         class(pfaffian_t), intent(in) :: self
-        real(dp), intent(in) :: x(:)
+        real(dp), intent(in) :: x(:)  !! a point: the coordinates, then the time
         real(dp) :: largest
         type(hyperdual_t) :: a(self%rows, self%coordinates + 1), xx(self%coordinates + 1)
 
@@ -89,7 +91,7 @@ contains
         !! The largest \(da(X, Y)\) on the directions \(X, Y\) that all constraints allow: zero
         !! where they can be integrated, with an integrating factor or without.
         class(pfaffian_t), intent(in) :: self
-        real(dp), intent(in) :: x(:)
+        real(dp), intent(in) :: x(:)  !! a point: the coordinates, then the time
         real(dp) :: largest, slopes(self%rows, self%dimension())
         type(hyperdual_t) :: free(self%dimension(), self%dimension() - self%rows)
         type(hyperdual_t) :: a(self%rows, self%coordinates + 1), xx(self%coordinates + 1)
@@ -158,9 +160,9 @@ contains
     pure subroutine growth(self, x, dimensions, error)
         !! Of the directions that are allowed; with their brackets; with the brackets of those.
         class(pfaffian_t), intent(in) :: self
-        real(dp), intent(in) :: x(:)
-        integer, intent(out) :: dimensions(3)
-        type(error_t), allocatable, intent(out) :: error
+        real(dp), intent(in) :: x(:)  !! a point: the coordinates, then the time
+        integer, intent(out) :: dimensions(3)  !! \(d_1, d_2, d_3\)
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         real(dp), allocatable :: spanned(:, :)
         type(hyperdual_t) :: w(self%dimension(), self%dimension() - self%rows)
         real(dp) :: w0(size(w, 1), size(w, 2)), bracket(size(w, 1)), third(size(w, 1))

@@ -33,9 +33,10 @@ contains
 
     pure subroutine expand_points(system, t, q, v, a, motion)
         !! Exact, by hyper-dual numbers.
-        class(system_t), intent(in) :: system
+        class(system_t), intent(in) :: system  !! with its parameters
         real(dp), intent(in) :: t, q(system%ndof), v(system%ndof), a(system%ndof)
-        type(point_motion_t), intent(out) :: motion
+        !! s; coordinates, velocities, accelerations
+        type(point_motion_t), intent(out) :: motion  !! of all points and rotors
         type(description_t) :: d
         type(hyperdual_t), allocatable :: x(:), residual(:), u(:)
         type(hyperdual_t) :: tt, qq(system%ndof)
@@ -81,8 +82,8 @@ contains
     pure function dalembert(system, t, q, v) result(worst)
         !! \(\sum(m\ddot x - F)\cdot\delta x\), the largest of the allowed \(\delta q\), relative
         !! to the sum of its terms' magnitudes.
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        class(system_t), intent(in) :: system  !! with its parameters
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)  !! s; coordinates and velocities
         real(dp) :: worst
         type(point_motion_t) :: motion
         type(error_t), allocatable :: error
@@ -109,8 +110,8 @@ contains
     pure function conservative_forces(system, t, q, v) result(worst)
         !! \(Q_j - \partial(L - T)/\partial q_j\), relative to the largest term;
         !! \(\partial T/\partial q_j = \sum m\dot x\,\partial\dot x/\partial q_j\).
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        class(system_t), intent(in) :: system  !! with its parameters
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)  !! s; coordinates and velocities
         real(dp) :: worst, right, size_of
         type(point_motion_t) :: motion
         type(euler_lagrange_t) :: terms

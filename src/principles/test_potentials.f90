@@ -68,8 +68,8 @@ contains
         !! \(\varphi = xy\,e^{-t} + z^2\sin x\), \(A = (yzt,\; x^2\cos t + z,\; \sin(xy) + tz)\);
         !! or \(A = \nabla\chi\) of \(\chi = x^2y\cos t + yzt\).
         class(test_charge_t), intent(in) :: self
-        type(hyperdual_t), intent(in) :: t, q(3)
-        type(hyperdual_t), intent(out) :: phi, a(3)
+        type(hyperdual_t), intent(in) :: t, q(3)  !! s; m
+        type(hyperdual_t), intent(out) :: phi, a(3)  !! \(\varphi\), V; \(A\), V s/m
 
         phi = q(1)*q(2)*exp((-1.0_dp)*t) + q(3)**2*sin(q(1))
         if (self%curl_free) then
@@ -86,7 +86,7 @@ contains
     pure function potential(self, t, q, v) result(u)
         !! $$ U = e\varphi - e\,A\cdot v $$
         class(test_charge_t), intent(in) :: self
-        type(hyperdual_t), intent(in) :: t, q(3), v(3)
+        type(hyperdual_t), intent(in) :: t, q(3), v(3)  !! s; m; m/s
         type(hyperdual_t) :: u, phi, a(3)
 
         call self%potentials(t, q, phi, a)
@@ -96,8 +96,9 @@ contains
     pure subroutine fields(self, t, q, slope, induced, magnetic)
         !! \(-\nabla\varphi\), \(-\partial A/\partial t\), E their sum; \(B = \nabla\times A\).
         class(test_charge_t), intent(in) :: self
-        real(dp), intent(in) :: t, q(3)
+        real(dp), intent(in) :: t, q(3)  !! s; m
         real(dp), intent(out) :: slope(3), induced(3), magnetic(3)
+        !! \(-\nabla\varphi\), \(-\partial A/\partial t\), V/m; \(B\), T
         type(hyperdual_t) :: phi, a(3), qq(3)
         real(dp) :: da(3, 3)  !! \(\partial A_i/\partial x_j\)
         integer :: j

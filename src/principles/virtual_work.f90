@@ -26,9 +26,9 @@ contains
 
     subroutine virtual_work_principle(systems, report, error)
         !! All statements; `systems` are those that are tried.
-        type(system_box_t), intent(in) :: systems(:)
-        type(report_t), intent(out) :: report
-        type(error_t), allocatable, intent(out) :: error
+        type(system_box_t), intent(in) :: systems(:)  !! those that are tried
+        type(report_t), intent(out) :: report  !! the result
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
 
         call report%begin("virtual-work: sum of (m x_ddot - F).delta x = 0, delta x has no dt")
         call displacements(report, error)

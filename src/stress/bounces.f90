@@ -32,9 +32,9 @@ contains
     subroutine judge_elastic(system, method, verdicts)
         !! \(e \to 1\): the times of 20 bounces after a throw from the floor against
         !! \(\frac{2v_0}{g}\frac{1-e^n}{1-e}\) in quadruple precision.
-        class(system_t), intent(inout) :: system
-        class(dense_integrator_t), intent(inout) :: method
-        type(ledger_t), intent(inout) :: verdicts
+        class(system_t), intent(inout) :: system  !! its parameters are set as needed
+        class(dense_integrator_t), intent(inout) :: method  !! with its tolerance; prepared here
+        type(ledger_t), intent(inout) :: verdicts  !! gets the lines
         integer, parameter :: powers(*) = [1, 4, 8, 12, 15, 0]
         character(:), allocatable :: of
         type(counter_t), target :: counter
@@ -63,9 +63,9 @@ contains
 
     subroutine judge_zeno(system, method, verdicts)
         !! The bounces end at \(2v_0/[g(1-e)]\); from there on the ball lies on the floor, exactly.
-        class(system_t), intent(inout) :: system
-        class(dense_integrator_t), intent(inout) :: method
-        type(ledger_t), intent(inout) :: verdicts
+        class(system_t), intent(inout) :: system  !! its parameters are set as needed
+        class(dense_integrator_t), intent(inout) :: method  !! with its tolerance; prepared here
+        type(ledger_t), intent(inout) :: verdicts  !! gets the lines
         real(dp), parameter :: restitutions(*) = [0.1_dp, 0.5_dp, 0.8_dp, 0.95_dp]
         type(counter_t), target :: counter
         real(dp) :: e, zeno, q(1), v(1)

@@ -23,10 +23,11 @@ contains
         !! that of their scatter: another build draws other windows. Two methods at their tightest
         !! tolerances must part where the bound says that a rounding error has become as large as
         !! the motion.
-        class(system_t), intent(in) :: system
+        class(system_t), intent(in) :: system  !! with its parameters
         class(dense_integrator_t), intent(inout) :: method, other
+        !! two; their tolerances are set here
         real(dp), intent(in) :: duration  !! s
-        type(ledger_t), intent(inout) :: verdicts
+        type(ledger_t), intent(inout) :: verdicts  !! gets the lines
         real(dp), parameter :: loose = 1e-10_dp, tight = 1e-14_dp
         integer, parameter :: windows = 16
         real(dp), allocatable :: growth(:), distance(:)

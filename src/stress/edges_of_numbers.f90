@@ -28,8 +28,8 @@ contains
     subroutine judge_edges(method, verdicts)
         !! A linear motion does not know its amplitude; one that grows without bound is stopped
         !! where it leaves the numbers, with status 3 and the last good state.
-        class(integrator_t), intent(inout) :: method
-        type(ledger_t), intent(inout) :: verdicts
+        class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
+        type(ledger_t), intent(inout) :: verdicts  !! gets the lines
         real(dp), parameter :: last_digit = 2.0_dp**(-1074)
         type(oscillator_t) :: oscillator
         type(rotating_wire_t) :: wire

@@ -35,9 +35,9 @@ contains
         !! On a pendulum from 2 rad, or on a charge in a trap where the method is for charges only.
         !! What declares its energy error bounded must keep it so; the rounding of so many
         !! evaluations may grow as a random walk. What declares nothing is expected to drift.
-        class(integrator_t), intent(inout) :: method
+        class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
         integer(i8), intent(in) :: evaluations  !! at most, in a power of ten of steps
-        type(ledger_t), intent(inout) :: verdicts
+        type(ledger_t), intent(inout) :: verdicts  !! gets the lines
         class(system_t), allocatable :: system
         real(dp), allocatable :: q(:), v(:)
         type(growth_t) :: growth
@@ -73,12 +73,12 @@ contains
 
     subroutine observe_energy(method, system, dt, steps, q, v, growth)
         !! Take the steps and see the relative error of the energy.
-        class(integrator_t), intent(inout) :: method
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: dt
-        integer(i8), intent(in) :: steps
-        real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
-        type(growth_t), intent(out) :: growth
+        class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
+        class(system_t), intent(in) :: system  !! with its parameters
+        real(dp), intent(in) :: dt  !! s
+        integer(i8), intent(in) :: steps  !! how many
+        real(dp), intent(inout) :: q(system%ndof), v(system%ndof)  !! the start; on return the end
+        type(growth_t), intent(out) :: growth  !! of the relative error
         type(error_t), allocatable :: refusal
         real(dp) :: start
         integer(i8) :: k, count
@@ -96,8 +96,8 @@ contains
     pure subroutine see(self, steps, error)
         !! The error after so many steps; what is not a number counts as huge.
         class(growth_t), intent(inout) :: self
-        integer(i8), intent(in) :: steps
-        real(dp), intent(in) :: error
+        integer(i8), intent(in) :: steps  !! so far
+        real(dp), intent(in) :: error  !! its magnitude
         real(dp), allocatable :: longer(:)
         integer :: n
 
@@ -161,10 +161,10 @@ contains
         !! \((1-\omega^2h^2/4)v^2 + \omega^2x^2\) for drift, kick, drift. Plain sums lose it as a
         !! random walk, \(\varepsilon\sqrt N\); compensated ones keep it but for the last digits.
         !! In still longer runs roundings repeat themselves, and their bias adds up: that is told.
-        class(integrator_t), intent(inout) :: method
+        class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
         character(*), intent(in) :: sums     !! "plain" or "compensated"
-        integer(i8), intent(in) :: steps
-        type(ledger_t), intent(inout) :: verdicts
+        integer(i8), intent(in) :: steps  !! how many
+        type(ledger_t), intent(inout) :: verdicts  !! gets the lines
         real(dp), parameter :: h = 0.1_dp
         integer(i8), parameter :: every = 100, farthest = 10000000_i8  !! that is judged
         type(oscillator_t) :: system

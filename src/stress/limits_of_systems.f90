@@ -19,8 +19,8 @@ contains
     subroutine judge_wedge(system, verdicts)
         !! Both accelerations for a steep and a flat incline, against the formula in quadruple
         !! precision; relative, for each.
-        class(system_t), intent(inout) :: system
-        type(ledger_t), intent(inout) :: verdicts
+        class(system_t), intent(inout) :: system  !! its parameters are set as needed
+        type(ledger_t), intent(inout) :: verdicts  !! gets the lines
         real(dp), parameter :: block = 0.7_dp, wedge = 2.0_dp, g = 9.81_dp
         real(dp), parameter :: right_angle = 0.5_dp*acos(-1.0_dp)
         real(dp), parameter :: angles(*) = [0.6_dp, 1e-4_dp, 1e-8_dp, 1e-300_dp, 0.0_dp, &
@@ -49,8 +49,8 @@ contains
     subroutine judge_slow_wire(system, verdicts)
         !! A bead on a wire that hardly rotates: the closed form against
         !! \(r_0\cosh\omega t + v_0\sinh(\omega t)/\omega\) in quadruple precision, at 2 s.
-        class(system_t), intent(inout) :: system
-        type(ledger_t), intent(inout) :: verdicts
+        class(system_t), intent(inout) :: system  !! its parameters are set as needed
+        type(ledger_t), intent(inout) :: verdicts  !! gets the lines
         real(dp), parameter :: t = 2.0_dp, r0 = 0.5_dp, v0 = 0.3_dp
         real(dp) :: q(1), v(1)
         real(qp) :: z, exact
@@ -70,8 +70,8 @@ contains
     subroutine judge_slow_disk(system, verdicts)
         !! A disk whose heading hardly turns rolls on a circle of huge radius: the closed form
         !! against the chord in quadruple precision, at 2 s.
-        class(system_t), intent(inout) :: system
-        type(ledger_t), intent(inout) :: verdicts
+        class(system_t), intent(inout) :: system  !! its parameters are set as needed
+        type(ledger_t), intent(inout) :: verdicts  !! gets the lines
         real(dp), parameter :: t = 2.0_dp, r = 0.3_dp, roll = 4.0_dp, heading = 0.7_dp
         real(dp) :: q(4), v(4)
         real(qp) :: chord, exact(2), middle
@@ -91,8 +91,8 @@ contains
 
     subroutine judge_weak_field(system, verdicts)
         !! A charge across a field that hardly bends its way, likewise.
-        class(system_t), intent(inout) :: system
-        type(ledger_t), intent(inout) :: verdicts
+        class(system_t), intent(inout) :: system  !! its parameters are set as needed
+        type(ledger_t), intent(inout) :: verdicts  !! gets the lines
         real(dp), parameter :: t = 2.0_dp, speed = 1.0_dp, none(3) = 0.0_dp
         real(dp) :: q(3), v(3)
         real(qp) :: exact(2), middle

@@ -25,8 +25,8 @@ contains
 
     subroutine judge_symplectic(method, verdicts)
         !! The defect of a step over the problems; of a method that declares nothing it is stated.
-        class(integrator_t), intent(inout) :: method
-        type(ledger_t), intent(inout) :: verdicts
+        class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
+        type(ledger_t), intent(inout) :: verdicts  !! gets the lines
         real(dp), parameter :: rounding = 1e-10_dp  !! epsilon over the differences' step, 300 times
         character(*), parameter :: measured = "largest of J'WJ - W"
         class(system_t), allocatable :: system
@@ -49,8 +49,8 @@ contains
 
     subroutine judge_reversal(method, verdicts)
         !! A thousand steps forth and back, over the problems.
-        class(integrator_t), intent(inout) :: method
-        type(ledger_t), intent(inout) :: verdicts
+        class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
+        type(ledger_t), intent(inout) :: verdicts  !! gets the lines
         real(dp), parameter :: rounding = 1e-11_dp  !! 2000 steps of 10 epsilon, carried on
         character(*), parameter :: measured = "distance after 1000 steps and back"
         class(system_t), allocatable :: system
@@ -79,8 +79,8 @@ contains
 
     subroutine judge_bytes(method, verdicts)
         !! Runs that are looked at every 1, 7, 64, 1000 steps end in the same bits.
-        class(integrator_t), intent(inout) :: method
-        type(ledger_t), intent(inout) :: verdicts
+        class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
+        type(ledger_t), intent(inout) :: verdicts  !! gets the lines
         integer(i8), parameter :: strides(4) = [1000_i8, 1_i8, 7_i8, 64_i8]
         class(system_t), allocatable :: system
         type(observer_box_t) :: nobody(0)
@@ -108,7 +108,7 @@ contains
 
     subroutine judge_text(verdicts)
         !! Numbers of all sizes, written as the data files have them and read again.
-        type(ledger_t), intent(inout) :: verdicts
+        type(ledger_t), intent(inout) :: verdicts  !! gets the lines
         character(field_width + 1) :: text
         real(dp) :: x(1), y(1)
         integer :: different, k, length
@@ -135,8 +135,8 @@ contains
 
     subroutine judge_scaling(method, verdicts)
         !! Other units of mass, length and time, each smaller by a power of two, change no digit.
-        class(integrator_t), intent(inout) :: method
-        type(ledger_t), intent(inout) :: verdicts
+        class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
+        type(ledger_t), intent(inout) :: verdicts  !! gets the lines
         integer, parameter :: smaller(3, 4) = reshape([0, 0, 0, 3, 0, 0, 0, 5, 0, 0, 0, 4], [3, 4])
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
@@ -205,9 +205,9 @@ contains
 
     function canonical_defect(method, system, t, q, v, dt) result(defect)
         !! The largest element of \(J^\top\Omega J - \Omega\), relative to the terms it consists of.
-        class(integrator_t), intent(inout) :: method
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t, q(:), v(:)
+        class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
+        class(system_t), intent(in) :: system  !! with its parameters
+        real(dp), intent(in) :: t, q(:), v(:)  !! s; coordinates and velocities, (ndof)
         real(dp), intent(in), optional :: dt  !! the step, if not the usual one
         real(dp) :: defect
         real(dp), dimension(2*size(q), 2*size(q)) :: jacobian, omega
@@ -227,11 +227,11 @@ contains
 
     subroutine differentiate_step(method, system, t, q, v, jacobian, dt)
         !! The derivative of a step in coordinates and momenta, by differences of order 8.
-        class(integrator_t), intent(inout) :: method
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t, q(:), v(:)
-        real(dp), intent(out) :: jacobian(2*size(q), 2*size(q))
-        real(dp), intent(in), optional :: dt
+        class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
+        class(system_t), intent(in) :: system  !! with its parameters
+        real(dp), intent(in) :: t, q(:), v(:)  !! s; coordinates and velocities, (ndof)
+        real(dp), intent(out) :: jacobian(2*size(q), 2*size(q))  !! in coordinates, then momenta
+        real(dp), intent(in), optional :: dt  !! the step, s, if not the usual one
         real(dp), parameter :: weight(4) = [4.0_dp/5.0_dp, -1.0_dp/5.0_dp, 4.0_dp/105.0_dp, &
                                             -1.0_dp/280.0_dp]
         real(dp) :: x(2*size(q)), ahead(2*size(q)), behind(2*size(q))

@@ -28,9 +28,9 @@ contains
         !! Released from rest at \(\theta_0 = \pi - 10^{-k}\). The closed form has every digit of
         !! the period; a run has those that the rounding of \(\theta\) near \(\pi\) leaves, and
         !! needs a tolerance that sees them.
-        class(system_t), intent(in) :: system
-        class(dense_integrator_t), intent(inout) :: method
-        type(ledger_t), intent(inout) :: verdicts
+        class(system_t), intent(in) :: system  !! with its parameters
+        class(dense_integrator_t), intent(inout) :: method  !! with its tolerance; prepared here
+        type(ledger_t), intent(inout) :: verdicts  !! gets the lines
         integer, parameter :: powers(*) = [1, 3, 6, 9, 12, 15]
         class(reference_t), allocatable :: reference
         character(:), allocatable :: of
@@ -58,7 +58,7 @@ contains
     function exact_period(system, theta0) result(period)
         !! \(2\pi/[\omega\,\mathrm{agm}(1, \cos(\theta_0/2))]\) in quadruple precision.
         class(system_t), intent(in) :: system  !! parameters m, l, g
-        real(dp), intent(in) :: theta0
+        real(dp), intent(in) :: theta0  !! amplitude, rad
         real(dp) :: period
         type(description_t) :: d
         real(dp) :: p(3)
@@ -79,9 +79,9 @@ contains
     subroutine judge_large_angles(system, method, verdicts)
         !! Wound up by \(n\) turns: against the same motion with the turns taken off exactly. The
         !! angle's last digit is worth `spacing(theta)`, for the start and at every step.
-        class(system_t), intent(in) :: system
-        class(dense_integrator_t), intent(inout) :: method
-        type(ledger_t), intent(inout) :: verdicts
+        class(system_t), intent(in) :: system  !! with its parameters
+        class(dense_integrator_t), intent(inout) :: method  !! with its tolerance; prepared here
+        type(ledger_t), intent(inout) :: verdicts  !! gets the lines
         real(dp), parameter :: angles(*) = [1e3_dp, 1e6_dp, 1e9_dp], t_end = 10.0_dp
         real(dp) :: q(1), v(1), small(1), v_small(1), difference
         real(qp) :: wound
@@ -107,10 +107,10 @@ contains
         !! Frequencies against the formula in quadruple precision, to full relative accuracy; and
         !! the motion against the pendulum that is left where one bob weighs nothing: the heavy
         !! upper one on its rod, or, with a heavy lower one, both rods in line.
-        class(system_t), intent(inout) :: system
-        class(dense_integrator_t), intent(inout) :: method
+        class(system_t), intent(inout) :: system  !! its parameters are set as needed
+        class(dense_integrator_t), intent(inout) :: method  !! with its tolerance; prepared here
         real(dp), intent(in) :: fast_time  !! s, of the motion with fast oscillations
-        type(ledger_t), intent(inout) :: verdicts
+        type(ledger_t), intent(inout) :: verdicts  !! gets the lines
         integer, parameter :: powers(*) = [-12, -8, -4, 0, 4, 8, 12]
         type(error_t), allocatable :: error
         real(dp) :: phase
@@ -153,7 +153,7 @@ contains
     pure function exact_omega2(m1, m2) result(omega2)
         !! \(\omega^2_\pm\), of sum \(g(m_1+m_2)(\ell_1+\ell_2)/(m_1\ell_1\ell_2)\) and product
         !! \(g^2(m_1+m_2)/(m_1\ell_1\ell_2)\), without cancellation.
-        real(dp), intent(in) :: m1, m2
+        real(dp), intent(in) :: m1, m2  !! kg
         real(dp) :: omega2(2)
         real(qp) :: share, half, product, larger
 
@@ -186,8 +186,8 @@ contains
     subroutine judge_massless(system, verdicts)
         !! \(m_1 \to 0\): one mode gets infinitely fast as \(\sqrt{m_2/m_1}\), the other becomes
         !! that of a rod \(\ell_1 + \ell_2\) long; \(m_1 = 0\) itself is refused.
-        class(system_t), intent(inout) :: system
-        type(ledger_t), intent(inout) :: verdicts
+        class(system_t), intent(inout) :: system  !! its parameters are set as needed
+        type(ledger_t), intent(inout) :: verdicts  !! gets the lines
         integer, parameter :: powers(*) = [-3, -6, -12, -100, -300]
         type(error_t), allocatable :: error
         type(modes_t) :: modes

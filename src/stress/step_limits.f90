@@ -24,9 +24,9 @@ contains
 
     subroutine judge_step_limit(method, runs, verdicts)
         !! The limit beside the one that the method declares, and runs just below and above.
-        class(integrator_t), intent(inout) :: method
+        class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
         integer(i8), intent(in) :: runs  !! steps of a run
-        type(ledger_t), intent(inout) :: verdicts
+        type(ledger_t), intent(inout) :: verdicts  !! gets the lines
         class(system_t), allocatable :: system
         logical :: refused
         real(dp) :: limit
@@ -73,8 +73,8 @@ contains
 
     function step_limit(method, system) result(limit)
         !! Where the first eigenvalue leaves the circle, or the step cannot be taken.
-        class(integrator_t), intent(inout) :: method
-        class(system_t), intent(in) :: system
+        class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
+        class(system_t), intent(in) :: system  !! with its parameters
         real(dp) :: limit
         real(dp) :: beyond, middle
 

@@ -87,11 +87,11 @@ contains
 
     subroutine measure_row(name, long, watcher, verdicts, error)
         !! All lines of the row `name`. Fails where it is interrupted.
-        character(*), intent(in) :: name
+        character(*), intent(in) :: name  !! of `rows`
         logical, intent(in) :: long  !! up to an hour
-        class(observer_t), pointer, intent(in) :: watcher
-        type(ledger_t), intent(inout) :: verdicts
-        type(error_t), allocatable, intent(out) :: error
+        class(observer_t), pointer, intent(in) :: watcher  !! told how far it is; may be null
+        type(ledger_t), intent(inout) :: verdicts  !! gets the lines
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         class(system_t), allocatable :: system
         class(integrator_t), allocatable :: method
         class(dense_integrator_t), allocatable :: dense, other

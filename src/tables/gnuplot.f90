@@ -31,9 +31,9 @@ contains
     subroutine new_panels(specs, names, units, panels, error)
         !! Panels as a scene's `plot` wants them: `'theta'`, `'x:y'`, `'t:theta1+theta2'`; with no
         !! specs, one panel for each unit over the first column, drifts and errors apart.
-        character(*), intent(in) :: specs(:), names(:), units(:)
-        type(panel_t), allocatable, intent(out) :: panels(:)
-        type(error_t), allocatable, intent(out) :: error
+        character(*), intent(in) :: specs(:), names(:), units(:)  !! `x:y1+y2`; of the columns
+        type(panel_t), allocatable, intent(out) :: panels(:)  !! one a spec
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         integer :: i, k
 
         allocate (panels(0))
@@ -106,9 +106,9 @@ contains
         !! The script for `file`, a bare name beside the script; its pictures are `NAME.png`, ...
         character(*), intent(in) :: file       !! data file
         character(*), intent(in) :: reading    !! how gnuplot reads it: words behind the file name
-        character(*), intent(in) :: title, names(:), units(:)
+        character(*), intent(in) :: title, names(:), units(:)  !! of the picture; of the columns
         real(dp), intent(in) :: low(:), high(:)  !! range of each column
-        type(panel_t), intent(in) :: panels(:)
+        type(panel_t), intent(in) :: panels(:)  !! from `new_panels`
         character(*), intent(in), optional :: style  !! `curves`, which is the default, or `dots`
         character(:), allocatable :: text, how
         type(lines_t) :: script

@@ -19,8 +19,8 @@ contains
         !! The first lines of the script for `file`, a bare name beside it: `data` is its path,
         !! `kind` the terminal, and the picture is `NAME.png` or `NAME.svg`; with two arguments
         !! (`gnuplot -c NAME.gp KIND PICTURE`) it is of the kind, and has the name, that they say.
-        type(lines_t), intent(out) :: script
-        character(*), intent(in) :: file
+        type(lines_t), intent(out) :: script  !! its first lines
+        character(*), intent(in) :: file  !! the data file's name
         integer, intent(in) :: width, height  !! pixels
         integer, intent(in) :: rows           !! lines of text, where there are no pixels
         character(:), allocatable :: pixels
@@ -87,7 +87,7 @@ contains
     pure subroutine add(self, line)
         !! One more line.
         class(lines_t), intent(inout) :: self
-        character(*), intent(in) :: line
+        character(*), intent(in) :: line  !! without its end
 
         self%text = self%text//line//new_line("a")
     end subroutine add

@@ -136,10 +136,10 @@ contains
         class(ledger_t), intent(inout) :: self
         character(*), intent(in) :: of                !! the case
         character(*), intent(in) :: measured          !! what the number is
-        real(dp), intent(in) :: value
+        real(dp), intent(in) :: value  !! what was measured
         real(dp), intent(in), optional :: least       !! allowed
         real(dp), intent(in), optional :: most        !! allowed
-        character(*), intent(in), optional :: remark
+        character(*), intent(in), optional :: remark  !! behind the verdict
         type(claim_t) :: row
 
         row%name = of
@@ -206,7 +206,7 @@ contains
     pure function row_of(self, claim) result(row)
         !! Where the claim is, of the latest section; 0 if it is nowhere.
         class(ledger_t), intent(in) :: self
-        character(*), intent(in) :: claim
+        character(*), intent(in) :: claim  !! its name
         integer :: row
 
         do row = size(self%rows), 1, -1

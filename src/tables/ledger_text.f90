@@ -27,7 +27,7 @@ contains
 
     pure function residual_line(row) result(line)
         !! The residual that is largest beside its noise, and how many states were tried.
-        type(claim_t), intent(in) :: row
+        type(claim_t), intent(in) :: row  !! of the ledger
         character(:), allocatable :: line
 
         line = "  "//left(row%name, residual_width)//right(two_digits(row%value), 8)// &
@@ -37,7 +37,7 @@ contains
 
     pure function residual_json(row) result(json)
         !! The same as an object.
-        type(claim_t), intent(in) :: row
+        type(claim_t), intent(in) :: row  !! of the ledger
         character(:), allocatable :: json
 
         json = json_object(json_pair("system", row%group)//json_pair("claim", row%name)// &
@@ -55,7 +55,7 @@ contains
 
     pure function statement_line(row) result(line)
         !! Both sides, how far it is from true, and how far it may be: at most 100 columns.
-        type(claim_t), intent(in) :: row
+        type(claim_t), intent(in) :: row  !! of the ledger
         character(:), allocatable :: line
         character(7) :: word
 
@@ -85,7 +85,7 @@ contains
 
     pure function statement_json(row) result(json)
         !! The same as an object.
-        type(claim_t), intent(in) :: row
+        type(claim_t), intent(in) :: row  !! of the ledger
         character(:), allocatable :: json
 
         json = json_object(json_pair("group", row%group)//json_pair("statement", row%name)// &
@@ -96,7 +96,7 @@ contains
 
     pure function measured_line(row, widths) result(line)
         !! What was measured of a case, the value, what is allowed, and the verdict.
-        type(claim_t), intent(in) :: row
+        type(claim_t), intent(in) :: row  !! of the ledger
         integer, intent(in) :: widths(2)  !! of the longest case and of what is measured
         character(:), allocatable :: line
 
@@ -107,7 +107,7 @@ contains
 
     pure function measured_json(row) result(json)
         !! The same as an object; a side without a bound is null.
-        type(claim_t), intent(in) :: row
+        type(claim_t), intent(in) :: row  !! of the ledger
         character(:), allocatable :: json
 
         json = json_object(json_pair("row", row%group)//json_pair("case", row%name)// &
@@ -128,7 +128,7 @@ contains
 
     pure function allowed(row) result(text)
         !! `<= 1e-13`, `>= 2`, `1.999 .. 2.001`; `-` where there is no bound.
-        type(claim_t), intent(in) :: row
+        type(claim_t), intent(in) :: row  !! of the ledger
         character(:), allocatable :: text
         logical :: below, above
 
@@ -147,7 +147,7 @@ contains
 
     pure function verdict(row) result(text)
         !! `holds`, `FAILS`, or `stated` where there is no bound.
-        type(claim_t), intent(in) :: row
+        type(claim_t), intent(in) :: row  !! of the ledger
         character(:), allocatable :: text
 
         text = "holds"

@@ -63,7 +63,7 @@ contains
     pure subroutine add(self, cells)
         !! One more row.
         class(printed_table_t), intent(inout) :: self
-        type(cell_t), intent(in) :: cells(:)
+        type(cell_t), intent(in) :: cells(:)  !! one a column
         type(row_t), allocatable :: longer(:)
 
         if (self%rows == size(self%row)) then
@@ -86,7 +86,7 @@ contains
     pure function line(self, i) result(text)
         !! Row `i`.
         class(printed_table_t), intent(in) :: self
-        integer, intent(in) :: i
+        integer, intent(in) :: i  !! from 1 to `rows`
         character(:), allocatable :: text
         character(width) :: words(self%columns)
 
@@ -121,8 +121,8 @@ contains
 
     pure function left(text, width) result(cell)
         !! `text` without trailing blanks in `width` columns, and at least one blank behind it.
-        character(*), intent(in) :: text
-        integer, intent(in) :: width
+        character(*), intent(in) :: text  !! trailing blanks do not count
+        integer, intent(in) :: width  !! columns, with the blank
         character(:), allocatable :: cell
 
         cell = trim(text)//repeat(" ", max(1, width - len_trim(text)))
@@ -130,8 +130,8 @@ contains
 
     pure function right(text, width) result(cell)
         !! `text` at the end of `width` columns, and at least one blank before it.
-        character(*), intent(in) :: text
-        integer, intent(in) :: width
+        character(*), intent(in) :: text  !! all of it counts
+        integer, intent(in) :: width  !! columns, with the blank
         character(:), allocatable :: cell
 
         cell = repeat(" ", max(1, width - len(text)))//text
@@ -140,7 +140,7 @@ contains
     pure function object(self, i) result(json)
         !! Row `i` as a JSON object; its first key tells the table.
         class(printed_table_t), intent(in) :: self
-        integer, intent(in) :: i
+        integer, intent(in) :: i  !! from 1 to `rows`
         character(:), allocatable :: json
         integer :: k
 
@@ -153,7 +153,7 @@ contains
 
     elemental function word_cell(text) result(cell)
         !! A name.
-        character(*), intent(in) :: text
+        character(*), intent(in) :: text  !! the word
         type(cell_t) :: cell
 
         cell%shown = text
@@ -163,7 +163,7 @@ contains
 
     elemental function count_cell(number) result(cell)
         !! A whole number.
-        integer(i8), intent(in) :: number
+        integer(i8), intent(in) :: number  !! shown in full
         type(cell_t) :: cell
 
         write (cell%shown, "(ss, i0)") number
@@ -172,8 +172,8 @@ contains
 
     elemental function number_cell(number, digits) result(cell)
         !! A number, shown with so many significant digits, and `-` where it is not known.
-        real(dp), intent(in) :: number
-        integer, intent(in) :: digits
+        real(dp), intent(in) :: number  !! NaN: not known
+        integer, intent(in) :: digits  !! significant ones
         type(cell_t) :: cell
 
         cell%shown = short(number, digits)
@@ -182,7 +182,7 @@ contains
 
     pure function two_digits(value) result(text)
         !! `1.2E-13`, enough for an error; `0` exactly.
-        real(dp), intent(in) :: value
+        real(dp), intent(in) :: value  !! zero or more
         character(:), allocatable :: text
 
         text = "0"
@@ -191,8 +191,8 @@ contains
 
     pure function short(number, digits) result(text)
         !! `123.4`, `0.0312` or `1.2e-13`.
-        real(dp), intent(in) :: number
-        integer, intent(in) :: digits
+        real(dp), intent(in) :: number  !! `-` where it is not finite
+        integer, intent(in) :: digits  !! significant ones
         character(:), allocatable :: text
         character(width) :: buffer
         character(16) :: layout

@@ -24,15 +24,15 @@ module lagrangia_table
             implicit none (type, external)
             class(table_t), intent(inout) :: self
             character(*), intent(in) :: header(:)        !! lines about the run
-            character(*), intent(in) :: names(:), units(:)
-            type(error_t), allocatable, intent(out) :: error
+            character(*), intent(in) :: names(:), units(:)  !! of the columns
+            type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         end subroutine begin_i
 
         subroutine row_i(self, values)
             import :: table_t, dp
             implicit none (type, external)
             class(table_t), intent(inout) :: self
-            real(dp), intent(in), contiguous :: values(:)
+            real(dp), intent(in), contiguous :: values(:)  !! one a column
         end subroutine row_i
 
         subroutine finish_i(self, counts, error)
@@ -41,7 +41,7 @@ module lagrangia_table
             implicit none (type, external)
             class(table_t), intent(inout) :: self
             character(*), intent(in) :: counts           !! the line that is known only now
-            type(error_t), allocatable, intent(out) :: error
+            type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         end subroutine finish_i
 
         pure function reading_i(self) result(words)
@@ -59,8 +59,8 @@ contains
         !! One sample of a long run, which must not compute for hours what cannot be written: fails
         !! where a row could not be. After a second without, a row is sent to the disk at once.
         class(table_t), intent(inout) :: self
-        real(dp), intent(in), contiguous :: values(:)
-        type(error_t), allocatable, intent(out) :: error
+        real(dp), intent(in), contiguous :: values(:)  !! one a column
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         integer(i8) :: now, rate
 
         call self%row(values)
