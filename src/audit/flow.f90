@@ -4,10 +4,10 @@ module lagrangia_flow
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: flow_derivative, quantity_of
+    public :: flow_derivative, order8, quantity_of
 
     real(dp), parameter :: order8(4) = [4.0_dp/5.0_dp, -1.0_dp/5.0_dp, 4.0_dp/105.0_dp, &
-                                        -1.0_dp/280.0_dp]
+                                        -1.0_dp/280.0_dp]  !! of central differences
     real(dp), parameter :: order6(4) = [3.0_dp/4.0_dp, -3.0_dp/20.0_dp, 1.0_dp/60.0_dp, 0.0_dp]
 
 contains

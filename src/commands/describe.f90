@@ -7,6 +7,7 @@ module lagrangia_describe
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
     use lagrangia_methods, only: auto, workhorse
+    use lagrangia_printed_table, only: left
     use lagrangia_random_draws, only: random_t
     use lagrangia_reference, only: reference_t
     use lagrangia_system, only: system_t
@@ -137,15 +138,6 @@ contains
             call put_line("  "//trim(lines(i)))
         end do
     end subroutine put_block
-
-    pure function left(text, width) result(wide)
-        !! Left-justified; longer text keeps one blank behind it.
-        character(*), intent(in) :: text
-        integer, intent(in) :: width
-        character(:), allocatable :: wide
-
-        wide = trim(text)//repeat(" ", max(1, width - len_trim(text)))
-    end function left
 
     pure function structure(system) result(text)
         !! What integrators and tests need to know, in words.

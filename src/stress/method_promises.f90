@@ -3,6 +3,7 @@ module lagrangia_method_promises
     !! run is cut, and exact scaling by powers of two.
     use lagrangia_description, only: default_values, description_t
     use lagrangia_errors, only: error_t
+    use lagrangia_flow, only: order8
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_ledger, only: ledger_t
@@ -232,8 +233,6 @@ contains
         real(dp), intent(in) :: t, q(:), v(:)  !! s; coordinates and velocities, (ndof)
         real(dp), intent(out) :: jacobian(2*size(q), 2*size(q))  !! in coordinates, then momenta
         real(dp), intent(in), optional :: dt  !! the step, s, if not the usual one
-        real(dp), parameter :: weight(4) = [4.0_dp/5.0_dp, -1.0_dp/5.0_dp, 4.0_dp/105.0_dp, &
-                                            -1.0_dp/280.0_dp]
         real(dp) :: x(2*size(q)), ahead(2*size(q)), behind(2*size(q))
         real(dp) :: h, length
         integer :: i, k, n
@@ -254,7 +253,7 @@ contains
                 behind(i) = x(i) - k*h
                 call step(ahead)
                 call step(behind)
-                jacobian(:, i) = jacobian(:, i) + weight(k)/h*(ahead - behind)
+                jacobian(:, i) = jacobian(:, i) + order8(k)/h*(ahead - behind)
             end do
         end do
     contains
