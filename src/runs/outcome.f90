@@ -3,9 +3,11 @@ module lagrangia_outcome
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use lagrangia_characters, only: printable
     use lagrangia_description, only: name_length
-    use lagrangia_json, only: json_list, json_number, json_string
+    use lagrangia_json, only: json_item, json_list, json_number, json_object, json_pair, &
+                              json_string
     use lagrangia_kinds, only: dp, i8
     use lagrangia_number_text, only: fixed, scientific
+    use lagrangia_printed_table, only: left, right
     use lagrangia_statement, only: stated_t, statement_json
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -162,62 +164,51 @@ contains
     function outcome_json(self) result(json)
         !! One object, as `--json` prints it.
         type(outcome_t), intent(in) :: self
-        character(:), allocatable :: json, remark
+        character(:), allocatable :: json, drifts, error_from, remark, state
         integer :: i
 
         remark = ""
         if (allocated(self%remark)) remark = adjustl(self%remark)
-        json = '{"scene": '//json_string(self%scene)//', "system": '//json_string(self%system)// &
-               ', "method": '//json_string(self%method)//', "t": '//json_number(self%t)// &
-               ', "q": '//json_list(self%q)//', "v": '//json_list(self%v)// &
-               ', "steps": '//json_number(self%steps)// &
-               ', "evaluations": '//json_number(self%evaluations)
-        json = json//', "energy_drift": '//find(self%drifts, "energy_drift")
-        json = json//', "drifts": {'
+        drifts = ""
         do i = 1, size(self%drifts)
-            if (i > 1) json = json//", "
-            json = json//json_string(self%drifts(i)%name)//": "//json_number(self%drifts(i)%worst)
+            drifts = drifts//json_pair(self%drifts(i)%name, self%drifts(i)%worst)
         end do
-        json = json//'}, "error": '//find(self%others, "error")
-        if (self%error() < 0.0_dp) then
-            json = json//', "error_from": null'
-        else
-            json = json//', "error_from": '//json_string(trim(sources(self%error_from)))
-        end if
-        json = json//', "period": '
-        if (self%period > 0.0_dp) then
-            json = json//json_number(self%period)
-        else
-            json = json//"null"
-        end if
-        json = json//', "period_error": '//find(self%others, "period")
-        json = json//', "small_period_error": '//find(self%others, "small_period")
-        json = json//', "omega": '
-        if (self%omega > 0.0_dp) then
-            json = json//json_number(self%omega)
-        else
-            json = json//"null"
-        end if
-        json = json//', "omega_error": '
-        if (self%omega_error >= 0.0_dp) then
-            json = json//json_number(self%omega_error)
-        else
-            json = json//"null"
-        end if
-        json = json//', "state": '
-        if (allocated(self%state)) then
-            json = json//statement_json(self%state)
-        else
-            json = json//"null"
-        end if
-        json = json//', "seconds": '//json_number(self%seconds)// &
-               ', "choice": '//json_text(self%choice)// &
-               ', "warning": '//json_text(self%warning)// &
-               ', "remark": '//json_text(remark)// &
-               ', "failure": '//json_text(self%failure)// &
-               ', "verdict": '//json_string(self%verdict())// &
-               ', "file": '//json_text(self%file)//', "events": '//json_text(self%events)//"}"
+        state = "null"
+        if (allocated(self%state)) state = statement_json(self%state)
+        error_from = ""
+        if (.not. self%error() < 0.0_dp) error_from = trim(sources(self%error_from))
+        json = json_pair("scene", self%scene)//json_pair("system", self%system)// &
+               json_pair("method", self%method)//json_pair("t", self%t)// &
+               json_item("q", json_list(self%q))//json_item("v", json_list(self%v))// &
+               json_pair("steps", self%steps)//json_pair("evaluations", self%evaluations)// &
+               json_item("energy_drift", find(self%drifts, "energy_drift"))// &
+               json_item("drifts", json_object(drifts))// &
+               json_item("error", find(self%others, "error"))// &
+               json_item("error_from", json_text(error_from))
+        json = json//json_item("period", known(self%period, self%period > 0.0_dp))// &
+               json_item("period_error", find(self%others, "period"))// &
+               json_item("small_period_error", find(self%others, "small_period"))// &
+               json_item("omega", known(self%omega, self%omega > 0.0_dp))// &
+               json_item("omega_error", known(self%omega_error, self%omega_error >= 0.0_dp))// &
+               json_item("state", state)//json_pair("seconds", self%seconds)
+        json = json//json_item("choice", json_text(self%choice))// &
+               json_item("warning", json_text(self%warning))// &
+               json_item("remark", json_text(remark))// &
+               json_item("failure", json_text(self%failure))// &
+               json_pair("verdict", self%verdict())//json_item("file", json_text(self%file))// &
+               json_item("events", json_text(self%events))
+        json = json_object(json)
     end function outcome_json
+
+    pure function known(value, is_known) result(json)
+        !! The number, or `null`.
+        real(dp), intent(in) :: value
+        logical, intent(in) :: is_known
+        character(:), allocatable :: json
+
+        json = "null"
+        if (is_known) json = json_number(value)
+    end function known
 
     pure function json_text(text) result(json)
         !! The text, or `null` where it is empty or not there.
@@ -299,22 +290,4 @@ contains
                left(omega, 17)// &
                right(seconds, 8)//"  "//verdict
     end function cells
-
-    pure function left(text, width) result(cell)
-        !! At least one blank behind it.
-        character(*), intent(in) :: text
-        integer, intent(in) :: width
-        character(:), allocatable :: cell
-
-        cell = text//repeat(" ", max(1, width - len(text)))
-    end function left
-
-    pure function right(text, width) result(cell)
-        !! At least one blank before it.
-        character(*), intent(in) :: text
-        integer, intent(in) :: width
-        character(:), allocatable :: cell
-
-        cell = repeat(" ", max(1, width - len(text)))//text
-    end function right
 end module lagrangia_outcome
