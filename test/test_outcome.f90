@@ -4,8 +4,9 @@ module test_outcome
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_json, only: json_list, json_number, json_string
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_outcome, only: from_closed_form, from_half_step, from_steps, measure_t, &
-                                outcome_json, outcome_t, scorecard_head, scorecard_row
+    use lagrangia_ledger, only: claim_t
+    use lagrangia_outcome, only: from_closed_form, from_half_step, from_steps, outcome_json, &
+                                 outcome_t, scorecard_head, scorecard_row
     implicit none (type, external)
     private
     public :: outcome_suite
@@ -63,18 +64,18 @@ contains
         call set_up(outcome)
         call assertEqual("not judged", outcome%verdict())
         call assertTrue(outcome%holds(), "nothing to hold")
-        outcome%drifts = [measure_t("energy_drift", 3e-9_dp)]
+        outcome%drifts = [measure("energy_drift", 3e-9_dp)]
         call assertEqual("not judged", outcome%verdict())
-        outcome%others = [measure_t("error", 1e-9_dp, .true., 1e-8_dp)]
+        outcome%others = [measure("error", 1e-9_dp, 1e-8_dp)]
         call assertEqual("holds", outcome%verdict())
         call assertTrue(outcome%holds(), "within its limit")
-        outcome%drifts = [measure_t("energy_drift", 3e-9_dp, .true., 1.5e-9_dp)]
+        outcome%drifts = [measure("energy_drift", 3e-9_dp, 1.5e-9_dp)]
         call assertEqual("NOT energy_drift 3.0E-09 > 1.5E-09", outcome%verdict())
         call assertFalse(outcome%holds(), "a drift beyond its limit")
-        outcome%others(1)%limit = 1e-10_dp
+        outcome%others(1)%most = 1e-10_dp
         call assertEqual("NOT energy_drift 3.0E-09 > 1.5E-09, NOT error 1.0E-09 > 1.0E-10", &
                          outcome%verdict())
-        outcome%drifts(1)%limit = 1.0_dp
+        outcome%drifts(1)%most = 1.0_dp
         call assertEqual("NOT error 1.0E-09 > 1.0E-10", outcome%verdict())
         call assertFalse(outcome%holds(), "an error beyond its limit")
     end subroutine verdicts_say_what_did_not_hold
@@ -84,9 +85,9 @@ contains
         type(outcome_t) :: outcome
 
         call set_up(outcome)
-        outcome%others = [measure_t("error", 0.0_dp, .true., 0.0_dp)]
+        outcome%others = [measure("error", 0.0_dp, 0.0_dp)]
         call assertEqual("holds", outcome%verdict())
-        outcome%others(1)%worst = tiny(1.0_dp)
+        outcome%others(1)%value = tiny(1.0_dp)
         call assertFalse(outcome%holds(), "more than nothing")
     end subroutine limits_themselves_hold
 
@@ -95,8 +96,7 @@ contains
         type(outcome_t) :: outcome
 
         call set_up(outcome)
-        outcome%drifts = [measure_t("energy_drift", ieee_value(1.0_dp, ieee_quiet_nan), .true., &
-                                    huge(1.0_dp))]
+        outcome%drifts = [measure("energy_drift", ieee_value(1.0_dp, ieee_quiet_nan), huge(1.0_dp))]
         call assertFalse(outcome%holds(), "NaN")
         call assertEqual(1, index(outcome%verdict(), "NOT energy_drift"), outcome%verdict())
     end subroutine nan_never_holds
@@ -106,7 +106,7 @@ contains
         type(outcome_t) :: outcome
 
         call set_up(outcome)
-        outcome%others = [measure_t("error", 1e-9_dp, .true., 1e-8_dp)]
+        outcome%others = [measure("error", 1e-9_dp, 1e-8_dp)]
         outcome%failure = "the state is not finite"
         call assertEqual("failed", outcome%verdict())
         call assertFalse(outcome%holds(), "failed")
@@ -118,9 +118,9 @@ contains
         character(:), allocatable :: json
 
         call set_up(outcome)
-        outcome%drifts = [measure_t("energy_drift", 0.5_dp), measure_t("p_drift", 0.25_dp)]
-        outcome%others = [measure_t("error", 0.125_dp, .true., 1.0_dp), &
-                          measure_t("period", 0.0625_dp), measure_t("small_period", 0.03125_dp)]
+        outcome%drifts = [measure("energy_drift", 0.5_dp), measure("p_drift", 0.25_dp)]
+        outcome%others = [measure("error", 0.125_dp, 1.0_dp), &
+                          measure("period", 0.0625_dp), measure("small_period", 0.03125_dp)]
         outcome%error_from = from_closed_form
         outcome%period = 1.5_dp
         outcome%seconds = 2.0_dp
@@ -155,7 +155,7 @@ contains
                            '"small_period_error": null, "omega": null')
         call contains_once(json, '"verdict": "not judged", "file": null, "events": null}')
         outcome%q = [ieee_value(1.0_dp, ieee_quiet_nan), ieee_value(1.0_dp, ieee_positive_inf)]
-        outcome%drifts = [measure_t("energy_drift", ieee_value(1.0_dp, ieee_positive_inf))]
+        outcome%drifts = [measure("energy_drift", ieee_value(1.0_dp, ieee_positive_inf))]
         json = outcome_json(outcome)
         call contains_once(json, '"q": [null, null]')
         call contains_once(json, '"energy_drift": null, "drifts": {"energy_drift": null}')
@@ -197,9 +197,9 @@ contains
         character(:), allocatable :: row
 
         call set_up(outcome)
-        outcome%drifts = [measure_t("energy_drift", 2e300_dp)]
-        outcome%others = [measure_t("error", 2.5e-300_dp), &
-                          measure_t("period", 5e150_dp, .true., 1e-100_dp)]
+        outcome%drifts = [measure("energy_drift", 2e300_dp)]
+        outcome%others = [measure("error", 2.5e-300_dp), &
+                          measure("period", 5e150_dp, 1e-100_dp)]
         outcome%error_from = from_closed_form
         outcome%omega = 1.25e157_dp
         outcome%omega_error = 1e-200_dp
@@ -243,9 +243,9 @@ contains
         character(:), allocatable :: head, row
 
         call set_up(outcome)
-        outcome%drifts = [measure_t("energy_drift", 2e-9_dp), measure_t("p_x_drift", 3e-9_dp), &
-                          measure_t("L_drift", 1e-9_dp)]
-        outcome%others = [measure_t("period", 0.5_dp), measure_t("small_period", 0.25_dp, .true.)]
+        outcome%drifts = [measure("energy_drift", 2e-9_dp), measure("p_x_drift", 3e-9_dp), &
+                          measure("L_drift", 1e-9_dp)]
+        outcome%others = [measure("period", 0.5_dp), measure("small_period", 0.25_dp, 0.0_dp)]
         head = scorecard_head()
         row = scorecard_row(outcome)
         call assertEqual([index(head, "system"), index(head, "method")], &
@@ -261,7 +261,7 @@ contains
         row = scorecard_row(outcome)
         call assertEqual(index(head, "period error"), index(row, "5.0E-01  "), "the exact period")
         call assertFalse(outcome%period_is_small(), "the exact period")
-        outcome%others = [measure_t("period", 0.375_dp)]  ! alone, and not judged
+        outcome%others = [measure("period", 0.375_dp)]  ! alone, and not judged
         call assertEqual(index(head, "period error"), index(scorecard_row(outcome), "3.8E-01"))
     end subroutine rows_stand_under_their_titles
 
@@ -276,7 +276,7 @@ contains
         column = index(scorecard_head(), " error ") + 1
         row = scorecard_row(outcome)
         call assertEqual("- ", row(column:column + 1))
-        outcome%others = [measure_t("error", 3e-9_dp)]
+        outcome%others = [measure("error", 3e-9_dp)]
         outcome%error_from = from_closed_form
         row = scorecard_row(outcome)
         call assertEqual("3.0E-09 exact  ", row(column:column + 14))
@@ -286,7 +286,7 @@ contains
         outcome%error_from = from_steps
         row = scorecard_row(outcome)
         call assertEqual("3.0E-09 steps  ", row(column:column + 14))
-        outcome%others = [measure_t("period", 0.375_dp)]
+        outcome%others = [measure("period", 0.375_dp)]
         row = scorecard_row(outcome)
         call assertEqual("-  ", row(column:column + 2))
     end subroutine rows_say_where_an_error_is_from
@@ -305,4 +305,17 @@ contains
         call assertTrue(index(text, expected) > 0, expected//" is not in "//text)
         call assertEqual(index(text, expected), index(text, expected, back=.true.), expected)
     end subroutine contains_once
+
+    pure function measure(name, value, most) result(claim)
+        !! The worst of a column, judged where it has a limit.
+        character(*), intent(in) :: name
+        real(dp), intent(in) :: value
+        real(dp), intent(in), optional :: most
+        type(claim_t) :: claim
+
+        claim%name = name
+        claim%value = value
+        claim%judged = present(most)
+        if (present(most)) claim%most = most
+    end function measure
 end module test_outcome

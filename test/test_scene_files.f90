@@ -141,7 +141,7 @@ contains
         call assertEqual(10*int(outcome%rows), nint(outcome%t), "rows before it")
         call assertTrue(abs(outcome%q(1)) > 1e150_dp .and. abs(outcome%q(1)) < huge(1.0_dp), &
                         "the state is finite")
-        call assertTrue(outcome%drifts(1)%worst < huge(1.0_dp), "the worst of the good rows")
+        call assertTrue(outcome%drifts(1)%value < huge(1.0_dp), "the worst of the good rows")
     end subroutine a_column_that_overflows_ends_the_run
 
     subroutine a_file_that_fails_is_a_failure()

@@ -3,7 +3,8 @@ module lagrangia_measures
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
-    use lagrangia_outcome, only: measure_t, outcome_t
+    use lagrangia_ledger, only: claim_t
+    use lagrangia_outcome, only: outcome_t
     use lagrangia_period, only: period_t
     use lagrangia_record, only: record_t
     use lagrangia_reference, only: reference_t
@@ -23,7 +24,7 @@ contains
         type(period_t), intent(in) :: period
         class(reference_t), allocatable, intent(in) :: reference
         type(outcome_t), intent(inout) :: outcome
-        type(measure_t) :: m
+        type(claim_t) :: m
         real(dp) :: measured
         integer :: i
 
@@ -52,14 +53,14 @@ contains
         pure function measure(name, worst) result(m)
             character(*), intent(in) :: name
             real(dp), intent(in) :: worst
-            type(measure_t) :: m
+            type(claim_t) :: m
             integer :: k
 
             m%name = name
-            m%worst = worst
+            m%value = worst
             k = findloc(scene%expectations%name == name, .true., 1)
             m%judged = k > 0
-            if (m%judged) m%limit = scene%expectations(k)%limit
+            if (m%judged) m%most = scene%expectations(k)%limit
         end function measure
     end subroutine take_measures
 

@@ -2,17 +2,17 @@ module lagrangia_outcome
     !! What came out of one scene: a row of the scorecard.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use lagrangia_characters, only: printable
-    use lagrangia_description, only: name_length
     use lagrangia_json, only: json_item, json_list, json_number, json_object, json_pair, &
                               json_string
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_ledger, only: claim_t
     use lagrangia_number_text, only: fixed, scientific
     use lagrangia_printed_table, only: left, right
     use lagrangia_statement, only: stated_t, statement_json
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: outcome_t, measure_t
+    public :: outcome_t
     public :: outcome_json, scorecard_head, scorecard_legend, scorecard_row
     public :: from_closed_form, from_half_step, from_steps
 
@@ -28,14 +28,6 @@ module lagrangia_outcome
     integer, parameter :: from_steps = 3  !! of a method, where the run is the closed form
     character(8), parameter :: sources(3) = ["exact   ", "estimate", "steps   "]
 
-    type :: measure_t
-        !! The largest magnitude of one judged or shown quantity.
-        character(name_length) :: name = ""
-        real(dp) :: worst = 0.0_dp
-        logical :: judged = .false.
-        real(dp) :: limit = 0.0_dp
-    end type measure_t
-
     type :: outcome_t
         character(:), allocatable :: scene, system, method, file
         character(:), allocatable :: events         !! their data file, if there is one to draw
@@ -43,8 +35,8 @@ module lagrangia_outcome
         real(dp), allocatable :: q(:), v(:)
         integer(i8) :: steps = 0, evaluations = 0, energy_evaluations = 0, rows = 0
         integer(i8) :: rejected = 0                 !! steps that were tried and taken back
-        type(measure_t), allocatable :: drifts(:)   !! of the invariants
-        type(measure_t), allocatable :: others(:)   !! `error`, `period`, ...
+        type(claim_t), allocatable :: drifts(:)   !! of the invariants
+        type(claim_t), allocatable :: others(:)   !! `error`, `period`, ...
         type(stated_t), allocatable :: state(:)     !! final, with errors, if that was asked
         integer :: error_from = 0                   !! 0: no error known
         real(dp) :: period = 0.0_dp                 !! measured, s; 0 if not
@@ -77,10 +69,10 @@ contains
 
     elemental function within(measure) result(good)
         !! Not judged, or within its limit; NaN is not.
-        type(measure_t), intent(in) :: measure
+        type(claim_t), intent(in) :: measure
         logical :: good
 
-        good = .not. measure%judged .or. measure%worst <= measure%limit
+        good = .not. measure%judged .or. measure%value <= measure%most
     end function within
 
     pure function error(self) result(value)
@@ -92,7 +84,7 @@ contains
         value = -1.0_dp
         if (self%error_from == 0) return
         do i = 1, size(self%others)
-            if (self%others(i)%name == "error") value = self%others(i)%worst
+            if (self%others(i)%name == "error") value = self%others(i)%value
         end do
     end function error
 
@@ -143,13 +135,13 @@ contains
         text = trim(text)
     contains
         subroutine judge(measure)
-            type(measure_t), intent(in) :: measure
+            type(claim_t), intent(in) :: measure
 
             judged = judged .or. measure%judged
             if (within(measure)) return
             if (text /= "") text = text//", "
-            text = text//"NOT "//trim(measure%name)//" "//short(measure%worst)//" > "// &
-                   short(measure%limit)
+            text = text//"NOT "//trim(measure%name)//" "//short(measure%value)//" > "// &
+                   short(measure%most)
         end subroutine judge
     end function verdict
 
@@ -171,7 +163,7 @@ contains
         if (allocated(self%remark)) remark = adjustl(self%remark)
         drifts = ""
         do i = 1, size(self%drifts)
-            drifts = drifts//json_pair(self%drifts(i)%name, self%drifts(i)%worst)
+            drifts = drifts//json_pair(self%drifts(i)%name, self%drifts(i)%value)
         end do
         state = "null"
         if (allocated(self%state)) state = statement_json(self%state)
@@ -222,14 +214,14 @@ contains
 
     pure function find(measures, name) result(json)
         !! The worst of `name`, or `null`.
-        type(measure_t), intent(in) :: measures(:)
+        type(claim_t), intent(in) :: measures(:)
         character(*), intent(in) :: name
         character(:), allocatable :: json
         integer :: i
 
         json = "null"
         do i = 1, size(measures)
-            if (measures(i)%name == name) json = json_number(measures(i)%worst)
+            if (measures(i)%name == name) json = json_number(measures(i)%value)
         end do
     end function find
 
@@ -251,9 +243,9 @@ contains
 
         drift = "-"
         if (size(self%drifts) > 0) then
-            k = maxloc(self%drifts%worst, 1)
+            k = maxloc(self%drifts%value, 1)
             associate (name => self%drifts(k)%name)
-                drift = short(self%drifts(k)%worst)//" "//name(:index(name, "_drift") - 1)
+                drift = short(self%drifts(k)%value)//" "//name(:index(name, "_drift") - 1)
             end associate
         end if
         error_text = "-"
@@ -262,7 +254,7 @@ contains
         period_text = "-"
         i = self%shown_period()
         if (i > 0) then
-            if (.not. ieee_is_nan(self%others(i)%worst)) period_text = short(self%others(i)%worst)
+            if (.not. ieee_is_nan(self%others(i)%value)) period_text = short(self%others(i)%value)
             if (self%period_is_small()) period_text = period_text//" small"
         end if
         omega_text = "-"

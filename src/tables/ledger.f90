@@ -1,7 +1,8 @@
 module lagrangia_ledger
     !! What was claimed and what came out: a row for every claim, with the value that was measured,
     !! the bounds of what is allowed, and the verdict. `check`, `principle`, `errata` and `stress`
-    !! fill one; `lagrangia_ledger_text` makes lines and JSON objects of it.
+    !! fill one, and `lagrangia_ledger_text` makes lines and JSON objects of it; what a scene expects
+    !! are claims too.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
     use lagrangia_kinds, only: dp
     implicit none (type, external)
@@ -23,6 +24,7 @@ module lagrangia_ledger
         real(dp) :: value = -1.0_dp              !! a residual, a difference or a measured number
         real(dp) :: least = -huge(1.0_dp)
         real(dp) :: most = huge(1.0_dp)
+        logical :: judged = .false.              !! a bound was given
         logical :: holds = .true.
         real(dp) :: left = 0.0_dp                !! of a statement: its two sides
         real(dp) :: right = 0.0_dp
@@ -115,6 +117,7 @@ contains
                 row%value = residual
                 row%noise = noise
                 row%most = allowance*noise
+                row%judged = .true.
             end if
         end associate
     end subroutine try
@@ -147,6 +150,7 @@ contains
         row%value = value
         if (present(least)) row%least = least
         if (present(most)) row%most = most
+        row%judged = present(least) .or. present(most)
         if (present(remark)) row%remark = remark
         row%holds = ieee_is_finite(value) .and. value >= row%least .and. value <= row%most
         call self%add(row)
@@ -190,6 +194,7 @@ contains
         row%right = right
         row%value = difference
         row%most = bound
+        row%judged = .true.
         row%holds = difference <= bound
         if (present(control)) row%control = control
         call self%add(row)

@@ -151,7 +151,7 @@ contains
         character(:), allocatable :: text
 
         text = "holds"
-        if (row%holds .and. allowed(row) == "-") text = "stated"
+        if (row%holds .and. .not. row%judged) text = "stated"
         if (.not. row%holds) text = "FAILS"
     end function verdict
 end module lagrangia_ledger_text
