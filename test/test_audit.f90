@@ -288,7 +288,7 @@ contains
         character(*), parameter :: claim = "Gauss's least constraint"
         character(name_length), allocatable :: names(:)
         class(system_t), allocatable :: system
-        type(audit_t) :: audit
+        type(ledger_t) :: audit
         type(description_t) :: d
         type(error_t), allocatable :: error
         character(:), allocatable :: said, expected
@@ -305,10 +305,10 @@ contains
             if (size(d%reactions) > 1) several = several + 1
             q = spread(0.5_dp, 1, system%ndof)
             v = spread(1.0_dp, 1, system%ndof)
-            call audit%begin(names(k))
-            call audit%judge(claim, 0.0_dp, 1.0_dp, 1.0_dp)
+            call audit%section(names(k))
+            call audit%try(claim, 0.0_dp, 1.0_dp, 1.0_dp)
             call say_reactions(audit, system, 0.0_dp, q, v)
-            said = trim(audit%findings(audit%row_of(claim))%remark)
+            said = trim(audit%rows(audit%row_of(claim))%remark)
             if (size(d%reactions) == 0) then
                 call assertEqual("", said, names(k))
                 cycle

@@ -5,8 +5,7 @@ module test_errata_ledger
     use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
     use lagrangia_atwood, only: atwood_t
     use lagrangia_cart_pendulum, only: cart_pendulum_t
-    use lagrangia_errata_ledger, only: slips_of_the_notes
-    use lagrangia_errata_slip, only: slip_t
+    use lagrangia_errata_ledger, only: slip_t, slips_of_the_notes
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_wedge, only: wedge_t
