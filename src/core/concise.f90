@@ -2,6 +2,7 @@ module lagrangia_concise
     !! Numbers with their uncertainty in the concise form: `0.48312(2)` is 0.48312 give or take
     !! 0.00002. Source: JCGM 100:2008 (the GUM), sec. 7.2.2.
     use lagrangia_kinds, only: dp
+    use lagrangia_number_text, only: fixed
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -35,7 +36,7 @@ contains
         top = place
         if (abs(value) > 0.0_dp) top = max(place, power_of(value, 6))
         if (place <= 0 .and. top >= -4 .and. top <= 6) then
-            text = fixed(value, -place)//"("//digit//")"
+            text = plain(value, -place)//"("//digit//")"
         else
             text = scientific(value, place, "("//digit//")")
         end if
@@ -90,19 +91,16 @@ contains
         read (buffer(index(buffer, "E") + 1:), *) power
     end function power_of
 
-    pure function fixed(value, digits) result(text)
-        !! With so many digits behind the point.
+    pure function plain(value, digits) result(text)
+        !! `fixed`, without a point at the end and without the sign of zero.
         real(dp), intent(in) :: value
         integer, intent(in) :: digits
         character(:), allocatable :: text
-        character(wide) :: buffer, layout
 
-        write (layout, "(ss, a, i0, a)") "(ss, f64.", digits, ")"
-        write (buffer, layout) value
-        text = trim(adjustl(buffer))
+        text = fixed(value, digits)
         if (digits == 0) text = text(:len(text) - 1)
         if (verify(text, "-0.") == 0 .and. text(1:1) == "-") text = text(2:)
-    end function fixed
+    end function plain
 
     pure function scientific(value, place, behind) result(text)
         !! `value` rounded to ten to `place`, with `behind` after its last digit and a power of ten.

@@ -88,6 +88,19 @@ module lagrangia_lapack
 
 contains
 
+    pure subroutine check(what, part, fits, finite, error)
+        !! Refuse shapes that do not match, and NaN or infinity.
+        character(*), intent(in) :: what, part  !! `linear system`, `coefficient`
+        logical, intent(in) :: fits, finite
+        type(error_t), allocatable, intent(out) :: error
+
+        if (.not. fits) then
+            call fail(error, what//": shapes do not match", status_library)
+        else if (.not. finite) then
+            call fail(error, what//": not every "//part//" is finite", status_library)
+        end if
+    end subroutine check
+
     pure subroutine solve_linear(matrix, rhs, x, error)
         !! Solve \(A x = b\) for a small dense \(A\).
         !!
@@ -109,15 +122,9 @@ contains
 
         x = 0.0_dp
         n = size(rhs)
-        if (size(x) /= n .or. any(shape(matrix) /= n)) then
-            call fail(error, "linear system: shapes do not match", status_library)
-            return
-        end if
-        if (.not. (all(ieee_is_finite(matrix)) .and. all(ieee_is_finite(rhs)))) then
-            call fail(error, "linear system: not every coefficient is finite", status_library)
-            return
-        end if
-        if (n == 0) return
+        call check("linear system", "coefficient", size(x) == n .and. all(shape(matrix) == n), &
+                   all(ieee_is_finite(matrix)) .and. all(ieee_is_finite(rhs)), error)
+        if (allocated(error) .or. n == 0) return
         a = matrix
         b(:, 1) = rhs
         call dgesvx("e", "n", n, 1, a, n, factors, n, pivots, equed, row_scale, column_scale, b, &
@@ -147,11 +154,8 @@ contains
         rank = 0
         m = size(matrix, 1)
         n = size(matrix, 2)
-        if (.not. all(ieee_is_finite(matrix))) then
-            call fail(error, "rank: not every element is finite", status_library)
-            return
-        end if
-        if (min(m, n) == 0) return
+        call check("rank", "element", .true., all(ieee_is_finite(matrix)), error)
+        if (allocated(error) .or. min(m, n) == 0) return
         a = matrix
         call dgesvd("n", "n", m, n, a, m, values, u, 1, vt, 1, work, size(work), info)
         if (info /= 0) then
@@ -172,15 +176,10 @@ contains
         integer :: info
 
         x = 0.0_dp
-        if (size(a, 1) /= size(c) .or. size(a, 2) /= size(x) .or. size(x) > size(c)) then
-            call fail(error, "least squares: shapes do not match", status_library)
-            return
-        end if
-        if (.not. (all(ieee_is_finite(a)) .and. all(ieee_is_finite(c)))) then
-            call fail(error, "least squares: not every coefficient is finite", status_library)
-            return
-        end if
-        if (size(x) == 0) return
+        call check("least squares", "coefficient", &
+                   all(shape(a) == [size(c), size(x)]) .and. size(x) <= size(c), &
+                   all(ieee_is_finite(a)) .and. all(ieee_is_finite(c)), error)
+        if (allocated(error) .or. size(x) == 0) return
         a_work = a
         c_work(:, 1) = c
         call dgels("N", size(c), size(x), 1, a_work, size(c), c_work, size(c), work, size(work), &
@@ -234,15 +233,10 @@ contains
         x = 0.0_dp
         n = size(rhs)
         width = size(band, 1)/2
-        if (size(x) /= n .or. size(band, 2) /= n .or. size(band, 1) /= 2*width + 1) then
-            call fail(error, "band system: shapes do not match", status_library)
-            return
-        end if
-        if (.not. (all(ieee_is_finite(band)) .and. all(ieee_is_finite(rhs)))) then
-            call fail(error, "band system: not every coefficient is finite", status_library)
-            return
-        end if
-        if (n == 0) return
+        call check("band system", "coefficient", &
+                   size(x) == n .and. all(shape(band) == [2*width + 1, n]), &
+                   all(ieee_is_finite(band)) .and. all(ieee_is_finite(rhs)), error)
+        if (allocated(error) .or. n == 0) return
         a(:width, :) = 0.0_dp
         a(width + 1:, :) = band
         b(:, 1) = rhs
@@ -271,15 +265,9 @@ contains
 
         negative = 0
         n = size(diagonal)
-        if (size(off) /= max(0, n - 1)) then
-            call fail(error, "tridiagonal matrix: shapes do not match", status_library)
-            return
-        end if
-        if (.not. (all(ieee_is_finite(diagonal)) .and. all(ieee_is_finite(off)))) then
-            call fail(error, "tridiagonal matrix: not every element is finite", status_library)
-            return
-        end if
-        if (n == 0) return
+        call check("tridiagonal matrix", "element", size(off) == max(0, n - 1), &
+                   all(ieee_is_finite(diagonal)) .and. all(ieee_is_finite(off)), error)
+        if (allocated(error) .or. n == 0) return
         lowest = -2.0_dp*(maxval(abs(diagonal)) + 2.0_dp*maxval([0.0_dp, abs(off)]))
         if (lowest >= 0.0_dp) return
         d = diagonal
@@ -306,14 +294,10 @@ contains
         value = 0.0_dp
         vector = 0.0_dp
         n = size(diagonal)
-        if (n == 0 .or. size(off) /= n - 1 .or. size(vector) /= n) then
-            call fail(error, "tridiagonal matrix: shapes do not match", status_library)
-            return
-        end if
-        if (.not. (all(ieee_is_finite(diagonal)) .and. all(ieee_is_finite(off)))) then
-            call fail(error, "tridiagonal matrix: not every element is finite", status_library)
-            return
-        end if
+        call check("tridiagonal matrix", "element", &
+                   n > 0 .and. size(off) == n - 1 .and. size(vector) == n, &
+                   all(ieee_is_finite(diagonal)) .and. all(ieee_is_finite(off)), error)
+        if (allocated(error)) return
         d = diagonal
         e = 0.0_dp
         e(:n - 1) = off
