@@ -42,10 +42,10 @@ module lagrangia_decimal
         int(z"2DD945A747BF261", i8), int(z"F84576A1BB416A7", i8), int(z"5A7709A56CCDF8A", i8), &
         int(z"0B24CF65B8612F8", i8), int(z"C2D2B7569B0432D", i8), int(z"049ED8EABCCCC48", i8), &
         int(z"679C5DB9AF1F9B5", i8), int(z"793EB1B80A33B86", i8)]
-    integer :: i_power
+    integer :: i_power, i_ten
     integer(i8), parameter :: five_to(0:step - 1) = [(5_i8**i_power, i_power=0, step - 1)]
     character(2), parameter :: pairs(0:99) = [ &
-        (achar(48 + i_power/10)//achar(48 + mod(i_power, 10)), i_power=0, 99)]
+        ((achar(48 + i_ten)//achar(48 + i_power), i_power=0, 9), i_ten=0, 9)]
 
 contains
 
