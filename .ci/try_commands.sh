@@ -276,17 +276,36 @@ echo old >"$work/kept/pendulum.dat"
 status=$?
 check "status 5: the disk is full, and the old file unharmed" eval '[ $status -eq 5 ] && one_line && [ "$(cat "$work/kept/pendulum.dat")" = old ] && leftovers'
 
+# little stack, little memory; names that other programs would run; pages without empty ends
+for limit in "-s 64" "-v 100000"; do
+    (ulimit $limit; exec timeout 120 "$program" list >"$work/out" 2>"$work/err" </dev/null)
+    status=$?
+    check "ulimit $limit: status 4, and what it lacks" eval '[ $status -eq 4 ] && one_line && grep -q "ulimit -s 8192\|not enough memory: lagrangia needs 150 MB" "$work/err"'
+done
+if command -v gnuplot >/dev/null; then
+    cp data/scenes/pendulum.nml "$work/swing.nml"
+    (cd "$work" && timeout 120 "$program" run swing.nml --plot=svg --quiet "--output=<touch owned;true " >out 2>err </dev/null)
+    status=$?
+    check "a folder called <touch: drawn, nothing is run" eval '[ $status -eq 0 ] && [ -s "$work/<touch owned;true /pendulum.svg" ] && [ ! -e "$work/owned" ]'
+fi
+for words in list "describe pendulum" errata "errata E1" principle "principle gauge" "check pendulum" "modes pendulum" "run pendulum --output $work/o" --help; do
+    run $words
+    check "$words: no empty line first, last, or beside another" eval '[ $status -eq 0 ] && [ -n "$(head -n 1 "$work/out")" ] && [ -n "$(tail -n 1 "$work/out")" ] && [ "$(cat -s "$work/out")" = "$(cat "$work/out")" ]'
+done
+
 # signals: in the middle of a long run
 interrupt() { # interrupt SIGNAL STATUS
-    "$program" run pendulum --set scene%duration=1e6 --set scene%every=1000 --output "$work/kept" >"$work/out" 2>"$work/err" &
-    local child=$! i
+    env -u OPENBLAS_NUM_THREADS "$program" run pendulum --set scene%duration=1e6 --set scene%every=1000 --output "$work/kept" >"$work/out" 2>"$work/err" &
+    local child=$! i threads
     for i in $(seq 100); do # until its temporary file is there
         [ -n "$(find "$work/kept" -name '.lagrangia-*')" ] && break
         sleep 0.02
     done
+    threads=$(sed -n 's/^Threads:[^0-9]*//p' "/proc/$child/status" 2>/dev/null)
     kill -"$1" "$child"
     wait "$child"
     status=$?
+    check "SIG$1: it was one thread" eval '[ "${threads:-1}" -eq 1 ]'
     check "SIG$1: status $2, no file left, the old one unharmed" eval '[ $status -eq '"$2"' ] && one_line && leftovers && [ "$(cat "$work/kept/pendulum.dat")" = old ]'
 }
 set -m # else a shell lets its background jobs ignore SIGINT

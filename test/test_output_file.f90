@@ -4,9 +4,11 @@ module test_output_file
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_c_library, only: c_chmod
     use lagrangia_errors, only: error_t
-    use lagrangia_files, only: facts_t, look_at, same_file
+    use lagrangia_files, only: facts_t, look_at, plain_path, same_file
     use lagrangia_kinds, only: dp, i8
     use lagrangia_output_file, only: output_file_t
+    use lagrangia_scene_files, only: new_table, send_header
+    use lagrangia_table, only: table_t
     use test_scratch, only: c_link, c_symlink, contents, new_folder, remove_file, write_file
     implicit none (type, external)
     private
@@ -32,6 +34,9 @@ contains
         call suite%addTest(TestMethod("two_writers_do_not_mix", two_writers_do_not_mix))
         call suite%addTest(TestMethod("same_file_sees_through_names", &
                                       same_file_sees_through_names))
+        call suite%addTest(TestMethod("a_row_reaches_the_disk", a_row_reaches_the_disk))
+        call suite%addTest(TestMethod("a_name_means_nothing_to_others", &
+                                      a_name_means_nothing_to_others))
     end function output_file_suite
 
     subroutine commit_gives_the_file_its_name()
@@ -54,6 +59,44 @@ contains
         call assertTrue(remove_file(folder//"/a.dat"), "it was there: "//folder//"/a.dat")
         call assertTrue(remove_file(folder), "something else was left in the folder")
     end subroutine commit_gives_the_file_its_name
+
+    subroutine a_row_reaches_the_disk()
+        !! The first at once, in every format: no second has passed since the last that was sent.
+        character(4), parameter :: formats(3) = ["text", "csv ", "npy "]
+        class(table_t), allocatable :: table
+        type(error_t), allocatable :: error
+        type(facts_t) :: facts
+        character(:), allocatable :: folder
+        integer(i8) :: before
+        integer :: i
+
+        folder = new_folder("rows")
+        do i = 1, size(formats)
+            call new_table(trim(formats(i)), table)
+            call table%file%open(folder//"/a", error)
+            call table%begin(["title"], ["t", "x"], ["s", "m"], error)
+            call send_header(table, error)
+            call assertFalse(allocated(error), formats(i))
+            before = len(contents(table%file%temporary_name()))
+            call table%add_row([1.5_dp, -2.5_dp], error)
+            call assertFalse(allocated(error), formats(i))
+            facts = look_at(table%file%temporary_name())
+            call assertTrue(facts%found, "it is being written")
+            call assertTrue(len(contents(table%file%temporary_name())) > before, formats(i))
+            call table%file%abandon()
+        end do
+        call assertTrue(remove_file(folder), "a temporary was left")
+    end subroutine a_row_reaches_the_disk
+
+    subroutine a_name_means_nothing_to_others()
+        !! What gnuplot would run, or a program take for an option, stands behind `./`.
+        call assertEqual("./<touch x", plain_path("<touch x"))
+        call assertEqual("./|touch x", plain_path("|touch x"))
+        call assertEqual("./-x", plain_path("-x"))
+        call assertEqual("./a/b", plain_path("a/b"))
+        call assertEqual("/a/b ", plain_path("/a/b "), "a whole path, and its blank")
+        call assertEqual("./", plain_path(""))
+    end subroutine a_name_means_nothing_to_others
 
     subroutine missing_folders_are_made()
         !! As `mkdir -p` does; no character of a name means anything but itself. Who may read

@@ -6,8 +6,8 @@ module test_scratch
     use lagrangia_files, only: make_folders
     implicit none (type, external)
     private
-    public :: clean_up, contents, exit_status, limit_file_size, new_folder, remove_file, &
-              send_stdout_to, write_file
+    public :: clean_up, contents, exit_status, limit_file_size, limit_stack, new_folder, &
+              remove_file, send_stdout_to, write_file
     public :: c_dup2, c_link, c_pipe, c_raise, c_symlink
 
     ! allow(assumed-size): C takes the address of the first element
@@ -170,4 +170,12 @@ contains
 
         status = int(c_setrlimit(1_c_int, spread(int(bytes, c_long), 1, 2)))  ! RLIMIT_FSIZE
     end subroutine limit_file_size
+
+    subroutine limit_stack(kilobytes)
+        !! From now on the stack of this process cannot grow beyond so much.
+        integer, intent(in) :: kilobytes
+        integer :: status
+
+        status = int(c_setrlimit(3_c_int, spread(1024_c_long*kilobytes, 1, 2)))  ! RLIMIT_STACK
+    end subroutine limit_stack
 end module test_scratch
