@@ -100,7 +100,7 @@ contains
             call assertTrue(all(ieee_is_nan([q, v])), trim(method%name)//": NaN")
             do again = 1, 2
                 call assertEqual("the equations of the step at t = 0.0 s did not converge; a "// &
-                                 "shorter dt is needed", trim(method%trouble))
+                                 "shorter dt is needed", trim(method%failure_reason))
                 call method%advance(system, 0.0_dp, 1.0_dp, 3_i8, 1_i8, q, v)  ! the first stays
             end do
 
@@ -116,7 +116,7 @@ contains
                              error%message)
             call assertEqual([2.0_dp, 1.0_dp], q, message="the last good coordinates")
             call method%start(system, 0.0_dp, q, v)
-            call assertEqual("", trim(method%trouble), "a new run has no trouble")
+            call assertEqual("", trim(method%failure_reason), "a new run has not failed")
         end do
     end subroutine failed_iterations_are_told
 

@@ -150,7 +150,7 @@ contains
             call assertEqual([q0, v0], [q, v], message=trim(method%name)//": as it was")
             call method%try_advance(system, 0.0_dp, 0.1_dp, 0_i8, 5_i8, q, v, error)
             call assertFalse(allocated(error), trim(method%name)//" goes on")
-            call assertEqual("", trim(method%trouble))
+            call assertEqual("", trim(method%failure_reason))
             call nth_method(i, other)
             call other%prepare(system, error)
             call other%start(system, 0.0_dp, q0, v0)

@@ -28,7 +28,7 @@ contains
 
     pure subroutine new_boris(self)
         !! For systems that say how their velocities turn.
-        type(boris_t), intent(out) :: self
+        type(boris_t), intent(out) :: self  !! not yet prepared
 
         self%name = "boris"
         self%title = "drift, push, turn, push, drift (Boris 1970)"

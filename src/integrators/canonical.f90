@@ -78,7 +78,7 @@ contains
 
     pure subroutine new_stormer_verlet(self)
         !! For every system with a Hamiltonian.
-        type(stormer_verlet_t), intent(out) :: self
+        type(stormer_verlet_t), intent(out) :: self  !! not yet prepared
 
         self%name = "stormer_verlet"
         self%title = "generalised Stormer-Verlet in (q, p), implicit (de Vogelaere 1956)"
@@ -91,7 +91,7 @@ contains
 
     pure subroutine new_midpoint(self)
         !! For every system with a Hamiltonian.
-        type(midpoint_t), intent(out) :: self
+        type(midpoint_t), intent(out) :: self  !! not yet prepared
 
         self%name = "midpoint"
         self%title = "implicit midpoint rule in (q, p) (Feng 1985)"
@@ -116,7 +116,7 @@ contains
         end if
         state = 0.0_dp
         self%evaluations = 0
-        self%trouble = ""
+        self%failure_reason = ""
         self%p = state
         self%p_mid = state
         self%x = state
@@ -144,8 +144,9 @@ contains
             self%u = v
             call self%step(system, t, dt, q, solved)
             if (.not. solved) then
-                if (self%trouble == "") self%trouble = "the equations of the step at t = "// &
-                    to_text(t)//" s did not converge; a shorter dt is needed"
+                if (self%failure_reason == "") self%failure_reason = &
+                    "the equations of the step at t = "//to_text(t)// &
+                    " s did not converge; a shorter dt is needed"
                 q = ieee_value(q, ieee_quiet_nan)
                 v = q
                 return

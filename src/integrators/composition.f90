@@ -60,8 +60,8 @@ contains
 
     subroutine nth_composition(i, method)
         !! Row `i` of the table as a method; not allocated beyond its end.
-        integer, intent(in) :: i
-        class(integrator_t), allocatable, intent(out) :: method
+        integer, intent(in) :: i  !! from 1
+        class(integrator_t), allocatable, intent(out) :: method  !! not yet prepared
         type(position_form_t) :: positions
         type(velocity_form_t) :: velocities
         type(row_t) :: row
@@ -141,7 +141,7 @@ contains
         self%v_low = state
         state = ieee_value(state, ieee_quiet_nan)
         self%a = state
-        self%trouble = not_started
+        self%failure_reason = not_started
     end subroutine prepare
 
     pure subroutine start(self, system, t0, q, v, t_end)
@@ -152,7 +152,7 @@ contains
         real(dp), intent(in) :: q(system%ndof), v(system%ndof)
         real(dp), intent(in), optional :: t_end
 
-        self%trouble = ""
+        self%failure_reason = ""
         self%q_low(:) = 0.0_dp
         self%v_low(:) = 0.0_dp
     end subroutine start
@@ -165,7 +165,7 @@ contains
         real(dp), intent(in) :: q(system%ndof), v(system%ndof)
         real(dp), intent(in), optional :: t_end
 
-        self%trouble = ""
+        self%failure_reason = ""
         self%q_low(:) = 0.0_dp
         self%v_low(:) = 0.0_dp
         call system%accelerations(t0, q, v, self%a)

@@ -64,9 +64,9 @@ module lagrangia_composition_table
 contains
 
     pure subroutine nth_row(i, row)
-        !! Row `i`; of order 0 beyond the end.
-        integer, intent(in) :: i
-        type(row_t), intent(out) :: row
+        !! One method.
+        integer, intent(in) :: i         !! from 1
+        type(row_t), intent(out) :: row  !! of order 0 beyond the end
 
         select case (i)
         case default

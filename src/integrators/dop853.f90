@@ -39,7 +39,7 @@ contains
 
     pure subroutine new_dop853(self)
         !! Any system will do.
-        type(dop853_t), intent(out) :: self
+        type(dop853_t), intent(out) :: self  !! not yet prepared
 
         self%name = "dop853"
         self%title = "explicit Runge-Kutta, order 8(5,3), any system (Dormand & Prince 1989)"

@@ -20,11 +20,12 @@ module lagrangia_dop853_stages
 contains
 
     pure subroutine slope(system, n, t, y, f)
-        !! The slope `f` of the state `y = (q, v)`.
-        class(system_t), intent(in) :: system
-        integer, intent(in) :: n
-        real(dp), intent(in) :: t, y(2*n)
-        real(dp), intent(out) :: f(2*n)
+        !! The slope of a state.
+        class(system_t), intent(in) :: system  !! gives the accelerations
+        integer, intent(in) :: n               !! degrees of freedom
+        real(dp), intent(in) :: t              !! s
+        real(dp), intent(in) :: y(2*n)         !! `(q, v)`
+        real(dp), intent(out) :: f(2*n)        !! its time derivative
 
         f(:n) = y(n + 1:)
         call system%accelerations(t, y(:n), y(n + 1:), f(n + 1:))
@@ -43,12 +44,13 @@ contains
     end subroutine change
 
     pure subroutine stages(system, n, t, h, y0, k, y)
-        !! Slopes 2 to 12 of the step from `y0`, whose slope is the first, and its end `y`.
-        class(system_t), intent(in) :: system
-        integer, intent(in) :: n
-        real(dp), intent(in) :: t, h, y0(2*n)
-        real(dp), intent(inout) :: k(2*n, 17)
-        real(dp), intent(out) :: y(2*n)
+        !! Slopes 2 to 12 of a step, and its end.
+        class(system_t), intent(in) :: system  !! gives the accelerations
+        integer, intent(in) :: n               !! degrees of freedom
+        real(dp), intent(in) :: t, h           !! start and length of the step, s
+        real(dp), intent(in) :: y0(2*n)        !! state at its start
+        real(dp), intent(inout) :: k(2*n, 17)  !! slopes; the first is known
+        real(dp), intent(out) :: y(2*n)        !! state at its end
 
         y = y0 + h*(c(2)*k(:, 1))
         call change(system, n, t + c(2)*h, y, k(:, 1), k(:, 2))
@@ -86,12 +88,13 @@ contains
     pure subroutine extra_stages(system, n, t, h, y0, y1, k, dense, y)
         !! Slopes 13 to 17; rows of `dense`: difference over the step, three corrections up to
         !! the cubic Hermite polynomial, and four beyond.
-        class(system_t), intent(in) :: system
-        integer, intent(in) :: n
-        real(dp), intent(in) :: t, h, y0(2*n), y1(2*n)
-        real(dp), intent(inout) :: k(2*n, 17)
-        real(dp), intent(out) :: dense(7, 2*n)
-        real(dp), intent(out) :: y(2*n)  !! room for a stage's state
+        class(system_t), intent(in) :: system  !! gives the accelerations
+        integer, intent(in) :: n               !! degrees of freedom
+        real(dp), intent(in) :: t, h            !! start and length of the step, s
+        real(dp), intent(in) :: y0(2*n), y1(2*n)  !! states at its ends
+        real(dp), intent(inout) :: k(2*n, 17)   !! slopes; 1 to 12 are known
+        real(dp), intent(out) :: dense(7, 2*n)  !! coefficients for `state_at`
+        real(dp), intent(out) :: y(2*n)         !! room for a stage's state
         real(dp) :: high(4)
         integer :: i, j
 
@@ -125,7 +128,10 @@ contains
         !! The estimated error of a step in units of the tolerance, \(O(h^8)\): the error of an
         !! embedded solution of order 5, squared, over mostly that of one of order 3. A root mean
         !! square over the components, absolute below 1 and relative above; huge if it is NaN.
-        real(dp), intent(in) :: h, tolerance, k(:, :), y0(:), y(:)
+        real(dp), intent(in) :: h            !! step, s
+        real(dp), intent(in) :: tolerance    !! absolute below 1, relative above
+        real(dp), intent(in) :: k(:, :)      !! slopes, `(2*n, 17)`
+        real(dp), intent(in) :: y0(:), y(:)  !! states at the ends of the step, `(2*n)`
         real(dp) :: scaled, fifth, third, weight, k5, k3
         integer :: i
 

@@ -16,14 +16,14 @@ module lagrangia_gauss
     public :: gauss_t, new_gauss16
 
     integer, parameter :: most_sweeps = 200
-    real(dp), parameter :: noise = 4.0_dp*epsilon(1.0_dp)         !! of accelerations, relative
-    real(dp), parameter :: enough = epsilon(1.0_dp)*2.0_dp**(-10)  !! may be left, relative
+    real(dp), parameter :: noise = 4.0_dp*epsilon(1.0_dp)          !! of accelerations, relative
+    real(dp), parameter :: may_stay = epsilon(1.0_dp)*2.0_dp**(-10)  !! of their error, relative
 
     type, extends(integrator_t) :: gauss_t
         private
         type(gauss_stages_t) :: s
         real(dp), allocatable :: weight(:)  !! 1/(accelerations that matter), squared
-        integer :: blind = 0               !! sweeps that need not be measured in the next step
+        integer :: unmeasured = 0          !! first sweeps of the next step, whose changes are large
     contains
         procedure :: prepare
         procedure :: start
@@ -34,7 +34,7 @@ contains
 
     pure subroutine new_gauss16(self)
         !! Any system will do.
-        type(gauss_t), intent(out) :: self
+        type(gauss_t), intent(out) :: self  !! not yet prepared
 
         self%name = "gauss16"
         self%title = "Gauss-Legendre collocation, 8 stages in vector lanes (Butcher 1964)"
@@ -52,7 +52,7 @@ contains
 
         call self%s%prepare(system%ndof)
         self%weight = self%s%v
-        self%blind = 0
+        self%unmeasured = 0
         self%evaluations = 0
     end subroutine prepare
 
@@ -64,9 +64,9 @@ contains
         real(dp), intent(in) :: q(system%ndof), v(system%ndof)
         real(dp), intent(in), optional :: t_end
 
-        self%trouble = ""
+        self%failure_reason = ""
         call self%s%place(system, t0, q, v)
-        self%blind = 0
+        self%unmeasured = 0
         self%evaluations = self%evaluations + 1
     end subroutine start
 
@@ -86,9 +86,9 @@ contains
         self%s%v(:) = v
         do k = first, first + steps - 1
             call self%s%guess(t0 + k*dt, dt)
-            call solve(self%s, system, self%blind, self%weight, sweeps, good)
+            call solve(self%s, system, self%unmeasured, self%weight, sweeps, good)
             self%evaluations = self%evaluations + stages*min(sweeps, most_sweeps)
-            self%blind = max(0, min(sweeps - 5, sweeps/2))
+            self%unmeasured = max(0, min(sweeps - 5, sweeps/2))
             if (.not. good) self%s%f = ieee_value(1.0_dp, ieee_quiet_nan)
             call self%s%expand()
             call self%s%finish()
@@ -98,23 +98,27 @@ contains
         v = self%s%v
     end subroutine advance
 
-    pure subroutine solve(s, system, blind, weight, sweeps, good)
-        !! Sweep until what the next sweep leaves cannot add up to anything, even over a million
-        !! steps; that one is exact, and the last. A sweep is taken to leave as much of the error
-        !! as the worse of the last two did; where the changes are noise, as much as before.
-        !! Where noise hides the convergence, sweep until changes fall no more: changes that
-        !! matter may still shrink after some idle sweeps, the more the slower they do, or grow.
+    pure subroutine solve(s, system, unmeasured, weight, sweeps, good)
+        !! Sweep until the next sweep, which is exact and the last, leaves a relative error
+        !! \(e \le 2^{-10}\epsilon\): in \(N = 2^{20}\) steps such errors, of random signs, add up
+        !! to \(\sqrt N e \le \epsilon\). With \(\delta_k\) the change by sweep \(k\) and
+        !! \(\rho_k = \delta_k/\delta_{k-1}\), sweep \(k\) leaves about
+        !! \(e_k = \delta_k\max(\rho_k, \rho_{k-1})\), and the next one that maximum of it. Changes
+        !! below the noise of the accelerations tell no ratio: there the last one holds on.
+        !!
+        !! Where noise hides the convergence, sweep until in a tenth of all sweeps no change was
+        !! smaller than the least before: slow convergence pauses longer.
         type(gauss_stages_t), intent(inout) :: s
         class(system_t), intent(in) :: system
-        integer, intent(in) :: blind            !! sweeps before changes are worth measuring
+        integer, intent(in) :: unmeasured       !! sweeps before changes are worth measuring
         real(dp), intent(inout) :: weight(s%n)
         integer, intent(out) :: sweeps
         logical, intent(out) :: good
         real(dp) :: change, all, before, least, rate, worst, left
         integer :: idle
 
-        call s%coast()
-        do sweeps = 1, blind
+        call s%fly_free()
+        do sweeps = 1, unmeasured
             call s%sweep(system, exact=.false.)
         end do
         call s%sweep(system, exact=.true.)
@@ -126,13 +130,13 @@ contains
         worst = 1.0_dp
         left = 1.0_dp
         idle = 0
-        do sweeps = blind + 2, most_sweeps
+        do sweeps = unmeasured + 2, most_sweeps
             before = max(change, tiny(change))
             call s%sweep(system, exact=.false.)
             change = s%change(weight)
             good = change < huge(change)
             if (.not. good) return
-            if (change > noise**2*all .or. sweeps == blind + 2) then
+            if (change > noise**2*all .or. sweeps == unmeasured + 2) then
                 worst = max(rate, change/before)
                 rate = change/before
                 left = change*worst
@@ -142,7 +146,7 @@ contains
             idle = idle + 1
             if (change < least) idle = 0
             least = min(change, least)
-            good = left*worst <= enough**2
+            good = left*worst <= may_stay**2
             if (idle > sweeps/10 .and. .not. good) good = settled(s)
             if (good) exit
         end do
@@ -153,8 +157,8 @@ contains
     end subroutine solve
 
     pure subroutine weigh(n, h, v, f, weight)
-        !! Accelerations are measured by the change of velocity that matters to the state; of a
-        !! coordinate that hardly moves a millionth of what matters to the others does.
+        !! Accelerations are measured by the larger of \(|v|/h\) and their root mean square; but of
+        !! a coordinate that hardly moves by \(2^{-20}\) of the largest of these measures.
         integer, intent(in) :: n
         real(dp), intent(in) :: h, v(n), f(stages, n)
         real(dp), intent(out) :: weight(n)
@@ -171,7 +175,8 @@ contains
     end subroutine weigh
 
     pure function settled(s)
-        !! The last sweep changed the state by less than a small part of itself.
+        !! The last sweep changed \(v\) by less than \(2^{-36}\) of it, or of its change over the
+        !! step, or \(q\) by less than that part of it.
         type(gauss_stages_t), intent(in) :: s
         logical :: settled
         real(dp), parameter :: small = 2.0_dp**16*epsilon(1.0_dp)

@@ -2,7 +2,7 @@ module lagrangia_gauss_adaptive
     !! Gauss-Legendre collocation, order 16, by tolerance: fast for smooth forces.
     !!
     !! - *Error.* See `lagrangia_gauss_control`. Over a kink or a jump of the force, which the dense
-    !!   output sees (`lagrangia_gauss_kinks`; not without it), steps are halved many times.
+    !!   output sees (`lagrangia_gauss_dense`; not without it), steps are halved many times.
     !! - *Iteration.* Sweeps end where what they would still change is a tenth of the tolerance.
     !! - *Steps* are as long as the error allows, but not so long that sweeps would converge
     !!   slowly: a sweep wins a factor of about \((h/h_0)^2\), and \((1/h)/\log(h_0/h)\) sweeps a
@@ -11,7 +11,6 @@ module lagrangia_gauss_adaptive
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_gauss_control, only: longer, seen_whole, weigh
     use lagrangia_gauss_dense, only: gauss_dense_t
-    use lagrangia_gauss_kinks, only: see_kinks
     use lagrangia_gauss_stages, only: gauss_stages_t
     use lagrangia_gauss_tables, only: stages
     use lagrangia_integrator, only: dense_integrator_t, not_started
@@ -50,7 +49,7 @@ contains
 
     pure subroutine new_gauss16_adaptive(self)
         !! Any system will do.
-        type(gauss_adaptive_t), intent(out) :: self
+        type(gauss_adaptive_t), intent(out) :: self  !! not yet prepared
 
         self%name = "gauss16"
         self%least_tolerance = 1e-14_dp
@@ -78,7 +77,7 @@ contains
         self%accepted = 0
         self%rejected = 0
         self%h = 0.0_dp
-        self%trouble = not_started
+        self%failure_reason = not_started
     end subroutine prepare
 
     pure subroutine advance(self, system, t0, dt, first, steps, q, v)
@@ -154,8 +153,8 @@ contains
             call self%inside%fit(system, self%t_new, self%s%q, self%s%v, self%s%known, &
                                  self%weight, good)
             self%evaluations = self%evaluations + 2*stages*self%inside%sweeps
-            if (good) call see_kinks(self%inside, system, self%tolerance, first, self%s%start, &
-                                     self%evaluations, good)
+            if (good) call self%inside%check_smooth(system, self%tolerance, first, self%s%start, &
+                                                    self%evaluations, good)
             if (good) return
             call take_back(self, system)
         end do
@@ -190,7 +189,7 @@ contains
             good = self%t_new + 0.25_dp*h > self%t_new
             if (.not. good) return
             call self%s%guess(self%t_new, h)
-            call self%s%coast()
+            call self%s%fly_free()
             call solve(self, system, sweeps, ratio, good)
             self%evaluations = self%evaluations + stages*min(sweeps, most_sweeps)
             if (good) then

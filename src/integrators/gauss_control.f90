@@ -12,8 +12,9 @@ module lagrangia_gauss_control
     !! 16th power of the step. On single and double pendulums and the cart-pendulum this has
     !! a standard deviation of a factor 4, which is 9 % of the step.
     !!
-    !! No node is in the first and the last 2 % of a step, where it may run into a wall unseen: the
-    !! accelerations at both ends must be those of the polynomial, to 30 \(z\).
+    !! No node is in the first and the last 2 % of a step, where it may run into a wall unseen: at
+    !! the ends the accelerations must be those of the polynomial, to 30 \(z\) or to what changes
+    !! the end by 100 tolerances if it acts all along the step.
     use lagrangia_gauss_tables, only: stages
     use lagrangia_kinds, only: dp
     implicit none (type, external)
@@ -21,16 +22,19 @@ module lagrangia_gauss_control
     public :: longer, seen_whole, weigh
 
     real(dp), parameter :: constant = 0.5_dp
-    real(dp), parameter :: little = 1e4_dp  !! in 1 % of the step it does not matter; squared
+    real(dp), parameter :: little = 100.0_dp**2   !! squared: in 1 % of the step it is within 1
+    real(dp), parameter :: farthest = 30.0_dp**2  !! squared, in units of \(z\)
 
 contains
 
     pure subroutine weigh(n, h, tolerance, q, v, weight)
-        !! What an acceleration changes at the end of the step, in units of the tolerance, which
-        !! is absolute below 1, relative above; squared.
-        integer, intent(in) :: n
-        real(dp), intent(in) :: h, tolerance, q(n), v(n)
-        real(dp), intent(out) :: weight(n)
+        !! What an acceleration changes at the end of the step, in units of the tolerance:
+        !! \(h/\mathrm{tol}\cdot\max(1/\max(1, |v|),\ h/\max(1, |q|))\), squared.
+        integer, intent(in) :: n             !! degrees of freedom
+        real(dp), intent(in) :: h            !! step, s
+        real(dp), intent(in) :: tolerance    !! absolute below 1, relative above
+        real(dp), intent(in) :: q(n), v(n)   !! coordinates, velocities
+        real(dp), intent(out) :: weight(n)   !! of an acceleration, squared
         integer :: d
 
         do d = 1, n
@@ -42,8 +46,9 @@ contains
     pure function longer(n, modes, weight) result(ratio)
         !! By how much the step may be longer, or must be shorter, to have the wanted error: one
         !! over the 16th root of the error in units of the tolerance.
-        integer, intent(in) :: n
-        real(dp), intent(in) :: modes(stages, n), weight(n)
+        integer, intent(in) :: n                  !! degrees of freedom
+        real(dp), intent(in) :: modes(stages, n)  !! Legendre coefficients of the accelerations
+        real(dp), intent(in) :: weight(n)         !! of `weigh`
         real(dp) :: ratio, all, mid
         integer :: d
 
@@ -60,9 +65,11 @@ contains
 
     pure function seen_whole(n, modes, weight, first, last) result(yes)
         !! The nodes have seen what is between the outer ones and the ends of the step: there the
-        !! accelerations are `first` and `last`, as the polynomial has them.
-        integer, intent(in) :: n
-        real(dp), intent(in) :: modes(stages, n), weight(n), first(n), last(n)
+        !! accelerations are as the polynomial has them.
+        integer, intent(in) :: n                   !! degrees of freedom
+        real(dp), intent(in) :: modes(stages, n)   !! Legendre coefficients of the accelerations
+        real(dp), intent(in) :: weight(n)          !! of `weigh`
+        real(dp), intent(in) :: first(n), last(n)  !! accelerations at the ends
         logical :: yes
         real(dp) :: off
         integer :: d
@@ -72,7 +79,7 @@ contains
             off = off + weight(d)*((last(d) - sum(modes(:, d)))**2 &
                                    + (first(d) - sum(modes(1::2, d)) + sum(modes(2::2, d)))**2)
         end do
-        yes = off <= little .or. off <= 900.0_dp*highest(n, modes, weight)
+        yes = off <= little .or. off <= farthest*highest(n, modes, weight)
     end function seen_whole
 
     pure function highest(n, modes, weight) result(norm)

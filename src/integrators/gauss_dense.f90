@@ -9,14 +9,17 @@ module lagrangia_gauss_dense
     !!
     !! Chebyshev series: Mason & Handscomb, *Chebyshev Polynomials*, 2003, secs. 2.4 and 6.3.
     use lagrangia_gauss_tables, only: legendre, nodes, weights
-    use lagrangia_kinds, only: dp
+    use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: lanes, system_t
     implicit none (type, external)
     private
-    public :: gauss_dense_t, points
+    public :: gauss_dense_t
 
     integer, parameter :: points = 2*lanes
     integer, parameter :: most_sweeps = 10
+    real(dp), parameter :: ulps = 4.0_dp*epsilon(1.0_dp)
+    real(dp), parameter :: edge = 0.5_dp*(1.0_dp - cos(acos(-1.0_dp)/(2*points)))
+    !! of a step, before its first point and behind its last
     real(dp), parameter :: top = 2.0_dp**29*40320.0_dp**4/(17.0_dp*20922789888000.0_dp**2)
     !! what the nodes miss of \(\int s\,T_{15}(2s)\): \(2^{29}\,8!^4/(17\cdot16!^2)\)
 
@@ -38,16 +41,16 @@ module lagrangia_gauss_dense
         procedure :: prepare
         procedure :: keep
         procedure :: fit
-        procedure :: place
+        procedure :: check_smooth
         procedure :: at
     end type gauss_dense_t
 
 contains
 
     pure subroutine prepare(self, n)
-        !! Allocate for `n` degrees of freedom.
+        !! Allocate.
         class(gauss_dense_t), intent(inout) :: self
-        integer, intent(in) :: n
+        integer, intent(in) :: n  !! degrees of freedom
         real(dp), parameter :: pi = acos(-1.0_dp)
         real(dp) :: state(n), block(lanes, n), cosine(0:4*points - 1)
         integer :: j, k
@@ -81,7 +84,8 @@ contains
     pure subroutine keep(self, t, q, v)
         !! Remember the start of a step. Until `fit` nothing more is known.
         class(gauss_dense_t), intent(inout) :: self
-        real(dp), intent(in) :: t, q(:), v(:)
+        real(dp), intent(in) :: t           !! its time, s
+        real(dp), intent(in) :: q(:), v(:)  !! coordinates and velocities there, `(n)`
 
         self%t = t
         self%t_new = t
@@ -93,15 +97,17 @@ contains
     end subroutine keep
 
     pure subroutine fit(self, system, t_new, q_new, v_new, modes, weight, good)
-        !! The step ended at `t_new` in `(q_new, v_new)`, with these Legendre coefficients of the
-        !! accelerations. `weight`, squared, measures accelerations in units of the tolerance.
-        !! Not `good` where the accelerations are not finite all along the step.
+        !! Make the series of a step. Sweep \(k\) changes the accelerations by \(\delta_k\), root
+        !! mean square in units of the tolerance; the last has
+        !! \(\delta_k^2/\delta_{k-1} \le 1\), which is what the next one would change.
         class(gauss_dense_t), intent(inout) :: self
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t_new
-        real(dp), intent(in) :: q_new(system%ndof), v_new(system%ndof)
-        real(dp), intent(in) :: modes(lanes, system%ndof), weight(system%ndof)
-        logical, intent(out) :: good
+        class(system_t), intent(in) :: system                  !! the one of the step
+        real(dp), intent(in) :: t_new                          !! its end, s
+        real(dp), intent(in) :: q_new(system%ndof)             !! coordinates there
+        real(dp), intent(in) :: v_new(system%ndof)             !! velocities there
+        real(dp), intent(in) :: modes(lanes, system%ndof)      !! Legendre, of the accelerations
+        real(dp), intent(in) :: weight(system%ndof)            !! 1/(wanted error of them), squared
+        logical, intent(out) :: good                           !! finite all along the step
         real(dp) :: change, last, rate, difference(2)
         integer :: d, sweep
 
@@ -206,7 +212,7 @@ contains
 
         change = 0.0_dp
         do group = 0, lanes, lanes
-            call self%place(group, times)
+            call place(self, group, times)
             call system%accelerations_lanes(times, self%q_lane, self%v_lane, self%f_lane)
             do d = 1, system%ndof
                 change = change + weight(d)*sum((self%f_lane(:, d) &
@@ -220,7 +226,7 @@ contains
 
     pure subroutine place(self, group, times)
         !! Where the present motion is at eight of the points.
-        class(gauss_dense_t), intent(inout) :: self
+        type(gauss_dense_t), intent(inout) :: self
         integer, intent(in) :: group
         real(dp), intent(out) :: times(lanes)
         integer :: d, k
@@ -238,6 +244,80 @@ contains
         end do
     end subroutine place
 
+    pure subroutine check_smooth(self, system, tolerance, first, last, evaluations, smooth)
+        !! Whether the step went over a kink or a jump of the force. The estimate of
+        !! `lagrangia_gauss_control` takes the accelerations for smooth; the series, which `fit` has
+        !! made, knows them at sixteen points of its own. Where the quadratures disagree, the noise
+        !! of the accelerations is measured.
+        class(gauss_dense_t), intent(inout) :: self
+        class(system_t), intent(in) :: system          !! the one of the step
+        real(dp), intent(in) :: tolerance              !! of the step's error
+        real(dp), intent(in) :: first(:), last(:)      !! accelerations at its ends
+        integer(i8), intent(inout) :: evaluations      !! counts on
+        logical, intent(out) :: smooth                 !! the step went over nothing
+
+        smooth = agrees(self, tolerance, first, last)
+        if (smooth) return
+        call measure_noise(self, system)
+        evaluations = evaluations + 2*points
+        smooth = agrees(self, tolerance, first, last)
+    end subroutine check_smooth
+
+    pure function agrees(self, tolerance, first, last) result(yes)
+        !! With \(\Delta_v\) and \(\Delta_q\) the differences of two quadratures, by eight nodes
+        !! and by sixteen points, over \(h\) and \(h^2\),
+        !! $$ h\,(\Delta_v + o - n) \le 10\,\mathrm{tol}\,\max(1, |v|),\quad
+        !!    h^2(\Delta_q + o - n) \le 10\,\mathrm{tol}\,\max(1, |q|), $$
+        !! to 4 ulp of \(|v|\) and \(|q|\), where \(n\) is the noise of the accelerations. Behind a
+        !! kink the \(\Delta\) may be small by chance: \(o\) is a fourth of the last two terms of
+        !! the series, and what the accelerations at the ends, `first` and `last`, have beyond the
+        !! series, times the share of the step between an end and the point next to it.
+        type(gauss_dense_t), intent(in) :: self
+        real(dp), intent(in) :: tolerance
+        real(dp), intent(in) :: first(:), last(:)
+        logical :: yes
+        real(dp) :: apart(2), off, allowed
+        integer :: d
+
+        yes = .true.
+        allowed = 10.0_dp*tolerance
+        do d = 1, size(first)
+            off = edge*(abs(first(d) - self%ends(1, d)) + abs(last(d) - self%ends(2, d))) &
+                  + 0.25_dp*norm2(self%a(points - 2:points - 1, d)) - self%noise(d)
+            apart = self%h*(self%apart(:, d) + off)
+            yes = yes .and. apart(1) <= max(allowed, (allowed + ulps)*abs(self%v_new(d))) &
+                  .and. self%h*apart(2) <= max(allowed, (allowed + ulps)*abs(self%q_new(d)))
+        end do
+    end function agrees
+
+    pure subroutine measure_noise(self, system)
+        !! Of accelerations: what four ulp of the time and the state at the points, up and down in
+        !! turn, make of them, root mean square.
+        type(gauss_dense_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), parameter :: turn(lanes) = 1.0_dp + ulps*[1, -1, 1, -1, 1, -1, 1, -1]
+        real(dp) :: times(lanes)
+        integer :: d, group
+
+        self%noise(:) = 0.0_dp
+        do group = 0, lanes, lanes
+            call place(self, group, times)
+            call system%accelerations_lanes(times, self%q_lane, self%v_lane, self%f_lane)
+            self%f(group + 1:group + lanes, :) = self%f_lane
+            do d = 1, system%ndof
+                self%q_lane(:, d) = turn*self%q_lane(:, d)
+                self%v_lane(:, d) = turn*self%v_lane(:, d)
+            end do
+            times = turn*times
+            call system%accelerations_lanes(times, self%q_lane, self%v_lane, self%f_lane)
+            do d = 1, system%ndof
+                self%noise(d) = self%noise(d) &
+                                + sum((self%f_lane(:, d) - self%f(group + 1:group + lanes, d))**2)
+            end do
+        end do
+        self%noise(:) = sqrt(self%noise/points)
+    end subroutine measure_noise
+
     pure subroutine at(self, t, q, v)
         !! The state at `t`; at the ends of the step, and beyond, the ends themselves. From the
         !! nearer end \(\tau\) away the eight nodes integrate the series of the accelerations:
@@ -246,8 +326,8 @@ contains
         !! but for what that misses of the last term, which is of one degree too many for `q`. So
         !! a flight much shorter than the step has its digits, too.
         class(gauss_dense_t), intent(in) :: self
-        real(dp), intent(in) :: t
-        real(dp), intent(out) :: q(:), v(:)
+        real(dp), intent(in) :: t            !! s
+        real(dp), intent(out) :: q(:), v(:)  !! coordinates and velocities, `(n)`
         real(dp) :: tau, missed, a(lanes)
         integer :: d
         logical :: early

@@ -6,6 +6,7 @@ module lagrangia_gauss_kernels
     !! keeps gfortran 12 from unrolling it before it vectorises, which costs a factor of 3.
     use lagrangia_gauss_tables, only: butcher, mu, nodes, nystrom, stages
     use lagrangia_kinds, only: dp
+    use lagrangia_summation, only: add
     use lagrangia_system, only: lanes
     implicit none (type, external)
     private
@@ -16,9 +17,13 @@ contains
 
     pure subroutine exact_states(n, hb, q, q_low, v, v_low, f, f_old, q_stage, v_stage)
         !! Coordinates and velocities of the stages; `f` is kept in `f_old`.
-        integer, intent(in) :: n
-        real(dp), intent(in) :: hb(lanes), q(n), q_low(n), v(n), v_low(n), f(lanes, n)
-        real(dp), intent(out) :: f_old(lanes, n), q_stage(lanes, n), v_stage(lanes, n)
+        integer, intent(in) :: n                   !! degrees of freedom
+        real(dp), intent(in) :: hb(lanes)          !! weights times step, s
+        real(dp), intent(in) :: q(n), q_low(n)     !! coordinates at the start: their sum
+        real(dp), intent(in) :: v(n), v_low(n)     !! velocities there: their sum
+        real(dp), intent(in) :: f(lanes, n)        !! accelerations of the stages
+        real(dp), intent(out) :: f_old(lanes, n)   !! the same
+        real(dp), intent(out) :: q_stage(lanes, n), v_stage(lanes, n)  !! the stages
         integer :: d
 
         f_old = f
@@ -30,9 +35,11 @@ contains
 
     pure subroutine free_states(n, h, q, v, f_old, q_stage, v_stage)
         !! Where the stages are without accelerations.
-        integer, intent(in) :: n
-        real(dp), intent(in) :: h, q(n), v(n)
-        real(dp), intent(out) :: f_old(lanes, n), q_stage(lanes, n), v_stage(lanes, n)
+        integer, intent(in) :: n                   !! degrees of freedom
+        real(dp), intent(in) :: h                  !! step, s
+        real(dp), intent(in) :: q(n), v(n)         !! state at its start
+        real(dp), intent(out) :: f_old(lanes, n)   !! their accelerations: 0
+        real(dp), intent(out) :: q_stage(lanes, n), v_stage(lanes, n)  !! the stages
         integer :: d, i
 
         do d = 1, n
@@ -48,10 +55,12 @@ contains
     pure subroutine quick_states(n, h, moving, f, f_old, q_stage, v_stage)
         !! What the change of `f` since `f_old` adds to them, by \(a\) and \(a^2\); to the
         !! velocities only if they matter (`moving`).
-        integer, intent(in) :: n
-        real(dp), intent(in) :: h, f(lanes, n)
-        logical, intent(in) :: moving
-        real(dp), intent(inout) :: f_old(lanes, n), q_stage(lanes, n), v_stage(lanes, n)
+        integer, intent(in) :: n                   !! degrees of freedom
+        real(dp), intent(in) :: h                  !! step, s
+        logical, intent(in) :: moving              !! forces depend on velocities
+        real(dp), intent(in) :: f(lanes, n)        !! accelerations of the stages
+        real(dp), intent(inout) :: f_old(lanes, n) !! those that made the stages; then `f`
+        real(dp), intent(inout) :: q_stage(lanes, n), v_stage(lanes, n)  !! the stages
         real(dp) :: x(lanes)
         integer :: d, i
 
@@ -103,8 +112,10 @@ contains
 
     pure function distance(n, weight, f, f_old) result(change)
         !! Weighted mean square of what the last sweep changed.
-        integer, intent(in) :: n
-        real(dp), intent(in) :: weight(n), f(lanes, n), f_old(lanes, n)
+        integer, intent(in) :: n                   !! degrees of freedom
+        real(dp), intent(in) :: weight(n)          !! of the squares
+        real(dp), intent(in) :: f(lanes, n)        !! accelerations of the stages
+        real(dp), intent(in) :: f_old(lanes, n)    !! those before the sweep
         real(dp) :: change, x(lanes)
         integer :: d, i
 
@@ -120,8 +131,9 @@ contains
 
     pure function magnitude(n, weight, f) result(all)
         !! Weighted mean square of the accelerations.
-        integer, intent(in) :: n
-        real(dp), intent(in) :: weight(n), f(lanes, n)
+        integer, intent(in) :: n                   !! degrees of freedom
+        real(dp), intent(in) :: weight(n)          !! of the squares
+        real(dp), intent(in) :: f(lanes, n)        !! accelerations of the stages
         real(dp) :: all, x(lanes)
         integer :: d, i
 
@@ -137,9 +149,11 @@ contains
 
     pure subroutine end_state(n, hb, f, q, q_low, v, v_low)
         !! The state at the end of the step; what rounding takes from it goes into the low parts.
-        integer, intent(in) :: n
-        real(dp), intent(in) :: hb(lanes), f(lanes, n)
-        real(dp), intent(inout) :: q(n), q_low(n), v(n), v_low(n)
+        integer, intent(in) :: n                   !! degrees of freedom
+        real(dp), intent(in) :: hb(lanes)          !! weights times step, s
+        real(dp), intent(in) :: f(lanes, n)        !! accelerations of the stages
+        real(dp), intent(inout) :: q(n), q_low(n)  !! coordinates: their sum
+        real(dp), intent(inout) :: v(n), v_low(n)  !! velocities: their sum
         real(dp) :: v_stage(lanes)
         integer :: d
 
@@ -152,9 +166,10 @@ contains
 
     pure subroutine apply(n, m, x, y)
         !! Multiply the matrix `m` by every column of `x`.
-        integer, intent(in) :: n
-        real(dp), intent(in) :: m(lanes, lanes), x(lanes, n)
-        real(dp), intent(out) :: y(lanes, n)
+        integer, intent(in) :: n                   !! degrees of freedom
+        real(dp), intent(in) :: m(lanes, lanes)    !! a table
+        real(dp), intent(in) :: x(lanes, n)        !! of the stages
+        real(dp), intent(out) :: y(lanes, n)       !! `matmul(m, x)`
         integer :: d, i
 
         do d = 1, n
@@ -176,17 +191,4 @@ contains
         half = x(1:4) + x(5:8)
         s = (half(1) + half(3)) + (half(2) + half(4))
     end function total
-
-    pure subroutine add(s, low, x)
-        !! Add `x` to the sum `s + low` (Knuth's two-sum).
-        real(dp), intent(inout) :: s, low
-        real(dp), intent(in) :: x
-        real(dp) :: y, new, part
-
-        y = low + x
-        new = s + y
-        part = new - s
-        low = (s - (new - part)) + (y - part)
-        s = new
-    end subroutine add
 end module lagrangia_gauss_kernels

@@ -45,7 +45,7 @@ module lagrangia_gauss_stages
         procedure :: place
         procedure :: forget
         procedure :: guess
-        procedure :: coast
+        procedure :: fly_free
         procedure :: sweep
         procedure :: change
         procedure :: all_of
@@ -58,9 +58,9 @@ module lagrangia_gauss_stages
 contains
 
     pure subroutine prepare(self, n)
-        !! Allocate for `n` degrees of freedom.
+        !! Allocate.
         class(gauss_stages_t), intent(inout) :: self
-        integer, intent(in) :: n
+        integer, intent(in) :: n  !! degrees of freedom
         real(dp) :: state(n), block(lanes, n), p(stages, stages)
         integer :: k
 
@@ -90,8 +90,9 @@ contains
     pure subroutine place(self, system, t, q, v)
         !! Stand at `(q, v)`, with nothing known of the accelerations but the one there.
         class(gauss_stages_t), intent(inout) :: self
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t, q(self%n), v(self%n)
+        class(system_t), intent(in) :: system         !! gives the accelerations
+        real(dp), intent(in) :: t                     !! s
+        real(dp), intent(in) :: q(self%n), v(self%n)  !! coordinates, velocities
 
         self%q(:) = q
         self%v(:) = v
@@ -103,8 +104,8 @@ contains
     pure subroutine forget(self, system, t)
         !! Know no polynomial, only the acceleration at the state at hand.
         class(gauss_stages_t), intent(inout) :: self
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t
+        class(system_t), intent(in) :: system  !! gives the acceleration
+        real(dp), intent(in) :: t              !! s
 
         call system%accelerations(t, self%q, self%v, self%start)
         self%known(:, :) = 0.0_dp
@@ -116,7 +117,8 @@ contains
     pure subroutine guess(self, t, h)
         !! Begin a step: carry the polynomial on that is known.
         class(gauss_stages_t), intent(inout) :: self
-        real(dp), intent(in) :: t, h
+        real(dp), intent(in) :: t  !! its start, s
+        real(dp), intent(in) :: h  !! its length, s
         real(dp) :: ahead(stages)
 
         self%t = t
@@ -133,18 +135,18 @@ contains
         call apply(self%n, self%carry, self%known, self%f)
     end subroutine guess
 
-    pure subroutine coast(self)
+    pure subroutine fly_free(self)
         !! Stages without accelerations: what inexact sweeps may begin with.
         class(gauss_stages_t), intent(inout) :: self
 
         call free_states(self%n, self%h, self%q, self%v, self%f_old, self%q_stage, self%v_stage)
-    end subroutine coast
+    end subroutine fly_free
 
     pure subroutine sweep(self, system, exact)
-        !! The accelerations that the present ones imply; `exact` to the last bit.
+        !! The accelerations that the present ones imply.
         class(gauss_stages_t), intent(inout) :: self
-        class(system_t), intent(in) :: system
-        logical, intent(in) :: exact
+        class(system_t), intent(in) :: system  !! gives them
+        logical, intent(in) :: exact           !! to the last bit
 
         if (exact) then
             call exact_states(self%n, self%hb, self%q, self%q_low, self%v, self%v_low, self%f, &
@@ -159,7 +161,7 @@ contains
     pure function change(self, weight)
         !! Weighted mean square of what the last sweep changed.
         class(gauss_stages_t), intent(in) :: self
-        real(dp), intent(in) :: weight(self%n)
+        real(dp), intent(in) :: weight(self%n)  !! of the squares
         real(dp) :: change
 
         change = distance(self%n, weight, self%f, self%f_old)
@@ -168,7 +170,7 @@ contains
     pure function all_of(self, weight)
         !! Weighted mean square of the accelerations.
         class(gauss_stages_t), intent(in) :: self
-        real(dp), intent(in) :: weight(self%n)
+        real(dp), intent(in) :: weight(self%n)  !! of the squares
         real(dp) :: all_of
 
         all_of = magnitude(self%n, weight, self%f)
@@ -193,7 +195,7 @@ contains
     pure subroutine look_ahead(self, system)
         !! The accelerations at the end of the step.
         class(gauss_stages_t), intent(inout) :: self
-        class(system_t), intent(in) :: system
+        class(system_t), intent(in) :: system  !! gives them
         integer :: d
 
         do d = 1, self%n

@@ -67,7 +67,7 @@ contains
     pure function legendre(x) result(p)
         !! \(P_0, \dots, P_7\), normalised to \(P_k(1) = 1\), at `x` in \([0, 1]\) and beyond:
         !! \((k+1)P_{k+1} = (2k+1)(2x-1)P_k - kP_{k-1}\).
-        real(dp), intent(in) :: x(stages)
+        real(dp), intent(in) :: x(stages)  !! 0 to 1 in the step
         real(dp) :: p(stages, 0:stages - 1)
         integer :: i
 

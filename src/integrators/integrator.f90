@@ -25,7 +25,7 @@ module lagrangia_integrator
         logical :: leaves_cyclic = .false.    !! a coordinate less pays, where a system knows how
         logical :: keeps_speed = .false.      !! |v| where a uniform magnetic field acts alone
         integer(i8) :: evaluations = 0        !! of accelerations or forces, since `prepare`
-        character(line_length) :: trouble = ""  !! why `advance` gave NaN, where the method knows
+        character(line_length) :: failure_reason = ""  !! why `advance` gave NaN, where known
     contains
         procedure(prepare_i), deferred :: prepare
         procedure :: start
@@ -74,7 +74,7 @@ module lagrangia_integrator
             import :: integrator_t, system_t, error_t
             implicit none (type, external)
             class(integrator_t), intent(inout) :: self
-            class(system_t), intent(in) :: system
+            class(system_t), intent(in) :: system             !! that it shall step
             type(error_t), allocatable, intent(out) :: error  !! why it refuses
         end subroutine prepare_i
 
@@ -83,7 +83,7 @@ module lagrangia_integrator
             !! `t0 + k*dt`, so that a run gives the same bytes however it is cut into blocks.
             !! The state and its time are those of `start`, or where the last call ended; `dt` may
             !! be another one than there. A step that cannot be taken leaves a state of NaN, and
-            !! the reason in `trouble`; after that only `start` helps.
+            !! the reason in `failure_reason`; after that only `start` helps.
             import :: integrator_t, system_t, dp, i8
             implicit none (type, external)
             class(integrator_t), intent(inout) :: self
@@ -123,7 +123,7 @@ contains
     pure subroutine start(self, system, t0, q, v, t_end)
         !! Begin a motion at a state: at the start of a run, and wherever the state is not the one
         !! where the last step ended. `prepare` came before. A method that keeps something from
-        !! step to step overrides this; here only `trouble` is forgotten.
+        !! step to step overrides this; here only `failure_reason` is forgotten.
         class(integrator_t), intent(inout) :: self
         class(system_t), intent(in) :: system      !! the one of `prepare`
         real(dp), intent(in) :: t0                 !! time of the state, s
@@ -131,7 +131,7 @@ contains
         real(dp), intent(in) :: v(system%ndof)     !! velocities
         real(dp), intent(in), optional :: t_end    !! where `step` must end, s; absent: nowhere
 
-        self%trouble = ""
+        self%failure_reason = ""
     end subroutine start
 
     pure subroutine stand(self, t0, t_end)
@@ -140,7 +140,7 @@ contains
         real(dp), intent(in) :: t0               !! s
         real(dp), intent(in), optional :: t_end  !! s; absent: no end
 
-        self%trouble = ""
+        self%failure_reason = ""
         self%t_old = t0
         self%t_new = t0
         self%t_end = huge(t0)
@@ -185,11 +185,11 @@ contains
         real(dp), intent(in) :: t                         !! time of the state, s
         real(dp), intent(in) :: dt                        !! s
         real(dp), intent(in) :: q(:), v(:)                !! coordinates, velocities
-        type(error_t), allocatable, intent(out) :: error  !! with `trouble`, if the method has any
+        type(error_t), allocatable, intent(out) :: error  !! with `failure_reason`, if known
         character(:), allocatable :: why
 
         if (all(ieee_is_finite(q)) .and. all(ieee_is_finite(v))) return
-        why = trim(self%trouble)
+        why = trim(self%failure_reason)
         if (why == "") why = "the step dt = "//to_text(dt)//" s is too long, or the motion diverges"
         call fail(error, "the state is not finite at t = "//to_text(t)//" s: "//why, status_numbers)
     end subroutine refuse_state

@@ -75,6 +75,8 @@ contains
         case (2)
             call new_dop853(dop853)
             allocate (integrator, source=dop853)
+        case default
+            return
         end select
     end subroutine nth_adaptive
 

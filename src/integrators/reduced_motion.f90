@@ -31,8 +31,8 @@ contains
         !! Let `method` leave the cyclic coordinate of `system` out, if that pays (the method says
         !! so) and the system knows how. `lagrangia bench` has it gain a fifth with `gauss16`, a
         !! third with `dop853`, and nothing to speak of with the others.
-        class(integrator_t), allocatable, intent(inout) :: method
-        class(system_t), intent(in) :: system
+        class(integrator_t), allocatable, intent(inout) :: method  !! perhaps another type then
+        class(system_t), intent(in) :: system                      !! the whole one
         class(reduced_t), allocatable :: reduced
         type(reduced_motion_t) :: motion
         type(stepwise_t) :: steps
@@ -75,7 +75,7 @@ contains
         left = ieee_value(left, ieee_quiet_nan)
         self%q_left = left
         self%v_left = left
-        self%trouble = not_started
+        self%failure_reason = not_started
         call report(self)
     end subroutine prepare
 
@@ -91,7 +91,7 @@ contains
         call self%method%advance(self%reduced, t0, dt, first, steps, self%q_left, self%v_left)
         call self%reduced%complete((t0 - self%t_left) + (first + steps)*dt, self%q_left, &
                                    self%v_left, q, v)
-        if (self%method%trouble /= "") self%trouble = self%method%trouble
+        if (self%method%failure_reason /= "") self%failure_reason = self%method%failure_reason
         call report(self)
     end subroutine advance
 
@@ -104,7 +104,7 @@ contains
         real(dp), intent(in), optional :: t_end
 
         call command(self)
-        self%trouble = ""
+        self%failure_reason = ""
         call self%reduced%leave(q, v, self%q_left, self%v_left)
         self%t_left = t0
         call self%method%start(self%reduced, t0, self%q_left, self%v_left, t_end)

@@ -39,7 +39,7 @@ contains
 
     pure subroutine new_rk4(self)
         !! Any system will do.
-        type(rk4_t), intent(out) :: self
+        type(rk4_t), intent(out) :: self  !! not yet prepared
 
         call set_up(self)
     end subroutine new_rk4

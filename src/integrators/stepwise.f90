@@ -4,6 +4,7 @@ module lagrangia_stepwise
     !! One evaluation a step besides the method's own.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t
+    use lagrangia_hermite, only: quintic
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: system_t
@@ -32,9 +33,9 @@ contains
 
     subroutine new_stepwise(self, method, dt)
         !! Steps of `method`, each `dt` long but perhaps for the last.
-        type(stepwise_t), intent(out) :: self
-        class(integrator_t), intent(in) :: method
-        real(dp), intent(in) :: dt  !! s
+        type(stepwise_t), intent(out) :: self      !! not yet prepared
+        class(integrator_t), intent(in) :: method  !! of fixed step; copied
+        real(dp), intent(in) :: dt                 !! s
 
         allocate (self%method, source=method)
         self%name = method%name
@@ -45,10 +46,12 @@ contains
     end subroutine new_stepwise
 
     pure subroutine whole_steps(duration, dt, steps, rest)
-        !! `duration` in whole steps, and the rest if that is more than rounding.
-        real(dp), intent(in) :: duration, dt
-        integer(i8), intent(out) :: steps
-        real(dp), intent(out) :: rest
+        !! A duration in whole steps and a rest. With \(n\) the nearest whole number there is none
+        !! where \(|duration/dt - n| \le 8\epsilon\max(1, duration/dt)\): that is rounding.
+        real(dp), intent(in) :: duration   !! s
+        real(dp), intent(in) :: dt         !! s
+        integer(i8), intent(out) :: steps  !! whole ones
+        real(dp), intent(out) :: rest      !! s; 0 if there is none
         real(dp) :: count
 
         count = duration/dt
@@ -90,7 +93,7 @@ contains
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
 
         call self%method%advance(system, t0, dt, first, steps, q, v)
-        self%trouble = self%method%trouble
+        self%failure_reason = self%method%failure_reason
         self%evaluations = self%method%evaluations + self%own
     end subroutine advance
 
@@ -154,7 +157,7 @@ contains
         class(stepwise_t), intent(in) :: self
         real(dp), intent(in) :: t
         real(dp), intent(out) :: q(:), v(:)
-        real(dp) :: h, s, dq, dv, da, c3, c4, c5
+        real(dp) :: h, s, c(0:5)
         integer :: i
 
         q = self%q1
@@ -166,15 +169,11 @@ contains
         h = self%t_new - self%t_old
         s = (t - self%t_old)/h
         do i = 1, size(q)
-            dq = self%q1(i) - self%q0(i) - h*(self%v0(i) + 0.5_dp*h*self%a0(i))
-            dv = h*(self%v1(i) - self%v0(i) - h*self%a0(i))
-            da = h**2*(self%a1(i) - self%a0(i))
-            c3 = 10.0_dp*dq - 4.0_dp*dv + 0.5_dp*da
-            c4 = -15.0_dp*dq + 7.0_dp*dv - da
-            c5 = 6.0_dp*dq - 3.0_dp*dv + 0.5_dp*da
-            q(i) = self%q0(i) + s*(h*self%v0(i) + s*(0.5_dp*h**2*self%a0(i) &
-                                                    + s*(c3 + s*(c4 + s*c5))))
-            v(i) = self%v0(i) + s*(h*self%a0(i) + s*(3.0_dp*c3 + s*(4.0_dp*c4 + s*5.0_dp*c5))/h)
+            c = quintic(h, [self%q0(i), self%v0(i), self%a0(i)], &
+                        [self%q1(i), self%v1(i), self%a1(i)])
+            q(i) = c(0) + s*(c(1) + s*(c(2) + s*(c(3) + s*(c(4) + s*c(5)))))
+            v(i) = self%v0(i) + s*(h*self%a0(i) + s*(3.0_dp*c(3) + s*(4.0_dp*c(4) &
+                                                                    + s*5.0_dp*c(5)))/h)
         end do
     end subroutine state_at
 end module lagrangia_stepwise

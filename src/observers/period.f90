@@ -7,6 +7,7 @@ module lagrangia_period
     !! acceleration, right to \(O(\Delta t^6)\): its turning point's time is right to
     !! \(O(\Delta t^5)\).
     use lagrangia_errors, only: error_t
+    use lagrangia_hermite, only: quintic
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp
     use lagrangia_observer, only: observer_t
@@ -162,19 +163,17 @@ contains
     pure function turning_time(t0, q0, v0, a0, t1, q1, v1, a1) result(t)
         !! Where the derivative of the quintic Hermite interpolant vanishes, by bisection.
         real(dp), intent(in) :: t0, q0, v0, a0, t1, q1, v1, a1
-        real(dp) :: t, h, d, c3, c4, c5, low, high, s
+        real(dp) :: t, h, c(0:5), low, high, s
         integer :: i
 
         h = t1 - t0
-        d = q1 - q0 - h*v0 - 0.5_dp*h**2*a0
-        c3 = 10.0_dp*d - 4.0_dp*h*(v1 - v0 - h*a0) + 0.5_dp*h**2*(a1 - a0)
-        c4 = -15.0_dp*d + 7.0_dp*h*(v1 - v0 - h*a0) - h**2*(a1 - a0)
-        c5 = 6.0_dp*d - 3.0_dp*h*(v1 - v0 - h*a0) + 0.5_dp*h**2*(a1 - a0)
+        c = quintic(h, [q0, v0, a0], [q1, v1, a1])
         low = 0.0_dp
         high = 1.0_dp
         do i = 1, 60
             s = 0.5_dp*(low + high)
-            if (h*v0 + s*(h**2*a0 + s*(3.0_dp*c3 + s*(4.0_dp*c4 + s*5.0_dp*c5))) < 0.0_dp) then
+            if (c(1) + s*(2.0_dp*c(2) + s*(3.0_dp*c(3) + s*(4.0_dp*c(4) + s*5.0_dp*c(5)))) &
+                < 0.0_dp) then
                 low = s
             else
                 high = s

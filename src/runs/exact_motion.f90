@@ -62,7 +62,7 @@ contains
         real(dp), intent(in), optional :: t_end
 
         call self%stand(t0, t_end)
-        self%trouble = "the closed form gives none"
+        self%failure_reason = "the closed form gives none"
     end subroutine start
 
     pure subroutine step(self, system, error)
