@@ -22,9 +22,9 @@ module lagrangia
     !!     call new_plan(plan, 0.0_dp, 1e-3_dp, 20.0_dp, 10_i8, error)
     !!     call run(system, integrator, plan, nobody, q, v, error)
     use lagrangia_catalogue, only: new_system, register_system, system_names
-    use lagrangia_description, only: between, conserved, coordinate, count_of, description_t, &
-                                     line_length, nonnegative, number, parameter_t, point, &
-                                     point_t, positive, quantity, quantity_t, vector
+    use lagrangia_description, only: between, conserved, coordinate, description_t, line_length, &
+                                     mass_point, nonnegative, parameter_t, point_t, positive, &
+                                     quantity, quantity_t, real_number, real_vector, whole_number
     use lagrangia_eigen, only: residual_ratio
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: abs, assignment(=), atan, cos, cosh, dot_product, exp, &
@@ -41,9 +41,10 @@ module lagrangia
                                       normal_modes_t
     use lagrangia_observer, only: observer_box_t, observer_t
     use lagrangia_program, only: lagrangia_main
+    use lagrangia_recorder, only: recorder_t
     use lagrangia_reference, only: reference_t
-    use lagrangia_run, only: new_plan, plan_t, run
     use lagrangia_small_oscillations, only: find_modes, modes_t
+    use lagrangia_solve, only: solve
     use lagrangia_system, only: check_parameters, default_values, reduced_t, system_t
     implicit none (type, external)
     public

@@ -113,6 +113,7 @@ module suites
     use test_shadow, only: shadow_suite
     use test_sinc, only: sinc_suite
     use test_small_oscillations, only: small_oscillations_suite
+    use test_solve, only: solve_suite
     use test_statement, only: statement_suite
     use test_step_warning, only: step_warning_suite
     use test_stress, only: stress_suite
@@ -251,6 +252,7 @@ contains
         call suite%addTest(stress_suite())
         call suite%addTest(stress_systems_suite())
         call suite%addTest(stress_texts_suite())
+        call suite%addTest(solve_suite())
         call suite%addTest(statement_suite())
         call suite%addTest(swings_suite())
         call suite%addTest(systems_suite())

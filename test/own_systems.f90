@@ -1,9 +1,9 @@
 module own_systems
     !! Systems as a student brings them: an outline and a Lagrangian, no more.
     use lagrangia, only: coordinate, cos, description_t, dp, error_t, hyperdual_t, &
-                         lagrangian_system_t, log, nonnegative, number, operator(*), operator(**), &
-                         operator(+), operator(-), operator(/), point, positive, quantity_t, sin, &
-                         sqrt, sum
+                         lagrangian_system_t, log, mass_point, nonnegative, operator(*), &
+                         operator(**), operator(+), operator(-), operator(/), positive, &
+                         quantity_t, real_number, sin, sqrt, sum
     implicit none (type, external)
     private
     public :: own_pendulum_t, own_double_t, own_pivot_t, own_slope_t, own_skin_t, own_named_t
@@ -68,7 +68,7 @@ contains
         d%coordinates = [coordinate("theta", "rad", "from the downward vertical")]
         d%parameters = [positive("m", "kg", "mass", 0.5_dp), positive("l", "m", "length", 1.2_dp), &
                         nonnegative("g", "m/s^2", "gravity", 9.81_dp)]
-        d%points = [point("bob", self%value(1, 0.5_dp))]
+        d%points = [mass_point("bob", self%value(1, 0.5_dp))]
     end subroutine pendulum_outline
 
     pure function pendulum_lagrangian(self, t, q, v) result(l)
@@ -120,7 +120,7 @@ contains
         d%name = "own_pivot"
         d%title = "a pendulum on a pivot that moves"
         d%coordinates = [coordinate("theta", "rad", "from the downward vertical")]
-        d%parameters = [number("a", "m", "amplitude", 0.3_dp)]
+        d%parameters = [real_number("a", "m", "amplitude", 0.3_dp)]
     end subroutine pivot_outline
 
     pure function pivot_lagrangian(self, t, q, v) result(l)
@@ -138,7 +138,7 @@ contains
         d%name = "own_slope"
         d%title = "a mass kept on a slope by a condition on its velocity"
         d%coordinates = [coordinate("x", "m", "across"), coordinate("y", "m", "up")]
-        d%parameters = [number("c", "1", "slope", 0.75_dp)]
+        d%parameters = [real_number("c", "1", "slope", 0.75_dp)]
     end subroutine slope_outline
 
     pure function slope_lagrangian(self, t, q, v) result(l)

@@ -3,12 +3,11 @@ module test_library_arguments
     use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_quiet_nan, ieee_value
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia, only: dp, error_t, find_modes, i8, integrator_t, modes_t, new_integrator, &
-                         new_plan, new_system, normal_modes, normal_modes_t, observer_box_t, &
-                         plan_t, run, system_t
+                         new_system, normal_modes, normal_modes_t, observer_box_t, system_t
     use lagrangia_audit, only: audit_system
     use lagrangia_errors, only: status_library, status_numbers, status_usage
     use lagrangia_ledger, only: ledger_t
-    use lagrangia_run, only: new_sampled_plan
+    use lagrangia_run, only: new_plan, new_sampled_plan, plan_t, run
     use singular_systems, only: blind_t, fading_t, light_t, skew_t
     implicit none (type, external)
     private

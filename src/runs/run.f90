@@ -26,6 +26,7 @@ module lagrangia_run
         real(dp) :: rest = 0.0_dp     !! length of the last, shortened step; 0 if there is none
         integer(i8) :: every = 1      !! steps between samples
         integer(i8) :: equal = 0      !! so many samples at equal times; 0: as the steps have it
+        real(dp), allocatable :: at(:)  !! or at these times, s, (equal + 1)
     contains
         procedure :: samples
         procedure :: sample_time
@@ -123,6 +124,8 @@ contains
 
         if (k == self%samples()) then
             t = self%t0 + self%duration
+        else if (allocated(self%at)) then
+            t = self%at(k + 1)
         else if (self%equal > 0) then
             t = self%t0 + self%duration*(real(k, dp)/real(self%equal, dp))
         else

@@ -4,8 +4,8 @@ module lagrangia_atwood
     !! Source: Hamilton's Principle, case I. The notes write \((m_1+m_2)\,d\dot x^2/dt^2\) for
     !! \((m_1+m_2)\,\ddot x\). The pulley's inertia \(I\) and the support's upward acceleration
     !! \(a_s\), both zero in the notes, are added: \(a_s\) makes the constraint rheonomic.
-    use lagrangia_description, only: conserved, coordinate, description_t, nonnegative, number, &
-                                     point, positive, quantity
+    use lagrangia_description, only: conserved, coordinate, description_t, mass_point, &
+                                     nonnegative, positive, quantity, real_number
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(+), operator(-)
     use lagrangia_kinds, only: dp
@@ -66,7 +66,7 @@ contains
             nonnegative("pulley_inertia", "kg m^2", "moment of inertia of the pulley, I", &
                         self%pulley_inertia), &
             positive("radius", "m", "radius of the pulley, R", self%radius), &
-            number("support_acceleration", "m/s^2", "upward acceleration of the support, a_s", &
+            real_number("support_acceleration", "m/s^2", "upward acceleration of the support, a_s", &
                    self%support_acceleration)]
         d%quantities = [ &
             conserved("energy_support", "J", "(m1 + m2 + I/R^2)/2 x_dot^2 - (m1 - m2)(g + a_s)"// &
@@ -81,8 +81,8 @@ contains
         if (free(self)) d%quantities(2) = &
             conserved("p_x", "kg m/s", "(m1 + m2 + I/R^2) x_dot - (m1 - m2) a_s t: momentum "// &
                       "of x, cyclic if (m1 - m2) g = 0", 0.0_dp)
-        d%points = [point("m1", self%m1), point("m2", self%m2)]
-        d%rotors = [point("pulley", self%pulley_inertia)]
+        d%points = [mass_point("m1", self%m1), mass_point("m2", self%m2)]
+        d%rotors = [mass_point("pulley", self%pulley_inertia)]
         d%reactions = [ &
             quantity("tension1", "N", "of the string at m1: y1 - a_s t^2/2 + R phi = 0"), &
             quantity("tension2", "N", "of the string at m2: y2 - a_s t^2/2 - R phi = 0")]

@@ -6,7 +6,7 @@ module lagrangia_bouncing_ball
     !! a throw from the floor, at \(\frac{2v_0}{g}\frac{1-e^n}{1-e}\), and after infinitely many
     !! of them in a finite time the ball rests, held by \(\lambda = mg\):
     !! $$ y \ge 0,\quad \lambda \ge 0,\quad \lambda y = 0 $$
-    use lagrangia_description, only: between, coordinate, description_t, nonnegative, point, &
+    use lagrangia_description, only: between, coordinate, description_t, mass_point, nonnegative, &
                                      positive, quantity, quantity_t
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(-)
@@ -65,7 +65,7 @@ contains
         d%energy_scale = self%m*self%g
         d%quantities = [quantity("contact_force", "N", "lambda = m (y_ddot + g): of the floor "// &
                                  "on the ball, without the impacts")]
-        d%points = [point("ball", self%m)]
+        d%points = [mass_point("ball", self%m)]
         d%reactions = [quantity_t ::]
         d%lagrangian = [character(len(d%title)) :: "m/2 y_dot^2 - m g y"]
         d%energy = "m/2 y_dot^2 + m g y"

@@ -5,8 +5,8 @@ module lagrangia_cart_pendulum
     !! \(-m_2 g\ell\sin\theta\) in the \(\theta\)-equation, against their own Lagrangian and
     !! their own frequency; the sign below is the one that follows from \(L\).
     use lagrangia_cart_swing, only: cart_swing_t
-    use lagrangia_description, only: conserved, coordinate, description_t, point, positive, &
-                                     nonnegative, quantity
+    use lagrangia_description, only: conserved, coordinate, description_t, mass_point, &
+                                     nonnegative, positive, quantity
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, dot_product, hyperdual_t, operator(*), operator(**), &
                                    operator(+), operator(-), sin
@@ -77,7 +77,7 @@ contains
                 quantity("tension", "N", "m1 m2 (l theta_dot^2 + g cos(theta))/"// &
                          "(m1 + m2 sin(theta)^2): force along the rod")]
         end associate
-        d%points = [point("cart", self%m1), point("bob", self%m2)]
+        d%points = [mass_point("cart", self%m1), mass_point("bob", self%m2)]
         d%reactions = [ &
             quantity("track_force", "N", "of the track on the cart, upwards: y_cart = 0"), &
             quantity("tension", "N", "of the rod: (l^2 - (x_bob - x)^2 - y_bob^2)/(2 l) = 0")]

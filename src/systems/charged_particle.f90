@@ -5,8 +5,9 @@ module lagrangia_charged_particle
     !! \(L = \tfrac12 mv^2 - e\varphi + e\,A\cdot v\). The notes say that \(B = 0\) gives
     !! \(F = -\nabla\varphi\): the charge is missing, \(F = -e\nabla\varphi\), and also
     !! \(\partial A/\partial t\) must vanish, as it does here.
-    use lagrangia_description, only: conserved, coordinate, description_t, nonnegative, number, &
-                                     point, positive, quantity, quantity_t, vector
+    use lagrangia_description, only: conserved, coordinate, description_t, mass_point, &
+                                     nonnegative, positive, quantity, quantity_t, real_number, &
+                                     real_vector
     use lagrangia_errors, only: error_t
     use lagrangia_gyrating_system, only: gyrating_system_t
     use lagrangia_hyperdual, only: dot_product, hyperdual_t, operator(*), operator(+), operator(-)
@@ -70,9 +71,9 @@ contains
                          coordinate("y", "m", "position, from the centre of the trap"), &
                          coordinate("z", "m", "position, from the centre of the trap")]
         d%parameters = [positive("m", "kg", "mass", self%m), &
-                        number("charge", "C", "charge, e, of either sign", self%charge), &
-                        vector("electric", "V/m", "electric field, E", self%electric), &
-                        vector("magnetic", "T", "magnetic field, B", self%magnetic), &
+                        real_number("charge", "C", "charge, e, of either sign", self%charge), &
+                        real_vector("electric", "V/m", "electric field, E", self%electric), &
+                        real_vector("magnetic", "T", "magnetic field, B", self%magnetic), &
                         nonnegative("trap", "N/m", "spring constant of an isotropic trap", &
                                     self%trap)]
         d%energy_scale = self%m*per_speed**2
@@ -99,7 +100,7 @@ contains
         d%quantities(:3)%scale = self%m*per_speed
         d%quantities(6:)%scale = self%m*per_speed
         d%quantities(6)%scale = per_speed
-        d%points = [point("particle", self%m)]
+        d%points = [mass_point("particle", self%m)]
         d%reactions = [quantity_t ::]
         d%dimensions = 3
         d%lagrangian = [character(len(d%title)) :: &

@@ -7,8 +7,8 @@ module lagrangia_description
     implicit none (type, external)
     private
     public :: description_t, quantity_t, parameter_t, point_t
-    public :: coordinate, conserved, quantity, positive, nonnegative, between, number, count_of, &
-              vector, point
+    public :: coordinate, conserved, quantity, positive, nonnegative, between, real_number, &
+              whole_number, real_vector, mass_point
     public :: check_parameter, default_values
     public :: name_length, line_length
 
@@ -100,7 +100,7 @@ contains
         item%scale = scale
     end function conserved
 
-    pure function number(name, unit, meaning, value) result(item)
+    pure function real_number(name, unit, meaning, value) result(item)
         !! A parameter that may be any finite number.
         character(*), intent(in) :: name, unit, meaning
         !! as scenes and files have it; SI unit; a few words
@@ -111,7 +111,7 @@ contains
         item%unit = unit
         item%meaning = meaning
         item%value(1) = value
-    end function number
+    end function real_number
 
     pure function positive(name, unit, meaning, value, computed) result(item)
         !! A parameter that must be greater than zero.
@@ -135,7 +135,7 @@ contains
         !! formula of the default, where others determine it
         type(parameter_t) :: item
 
-        item = number(name, unit, meaning, value)
+        item = real_number(name, unit, meaning, value)
         item%lower = 0.0_dp
         if (present(computed)) item%computed = computed
     end function nonnegative
@@ -147,12 +147,12 @@ contains
         real(dp), intent(in) :: value, lower, upper  !! the default, and its bounds, in `unit`
         type(parameter_t) :: item
 
-        item = number(name, unit, meaning, value)
+        item = real_number(name, unit, meaning, value)
         item%lower = lower
         item%upper = upper
     end function between
 
-    pure function count_of(name, meaning, value, most) result(item)
+    pure function whole_number(name, meaning, value, most) result(item)
         !! A parameter that must be a whole number from 1 to `most`.
         character(*), intent(in) :: name, meaning  !! as scenes have it; a few words
         integer, intent(in) :: value, most         !! the default, and the largest allowed
@@ -160,21 +160,21 @@ contains
 
         item = between(name, "1", meaning, real(value, dp), 1.0_dp, real(most, dp))
         item%whole = .true.
-    end function count_of
+    end function whole_number
 
-    pure function vector(name, unit, meaning, value) result(item)
+    pure function real_vector(name, unit, meaning, value) result(item)
         !! A parameter of three components.
         character(*), intent(in) :: name, unit, meaning
         !! as scenes and files have it; SI unit; a few words
         real(dp), intent(in) :: value(3)  !! the default, in `unit`
         type(parameter_t) :: item
 
-        item = number(name, unit, meaning, 0.0_dp)
+        item = real_number(name, unit, meaning, 0.0_dp)
         item%count = 3
         item%value = value
-    end function vector
+    end function real_vector
 
-    pure function point(name, mass) result(item)
+    pure function mass_point(name, mass) result(item)
         !! A point of mass `mass`, kg.
         character(*), intent(in) :: name  !! as columns have it
         real(dp), intent(in) :: mass      !! kg; of a rotor its moment of inertia, kg m^2
@@ -182,7 +182,7 @@ contains
 
         item%name = name
         item%mass = mass
-    end function point
+    end function mass_point
 
     pure function domain(self) result(text)
         !! What is allowed, in words.

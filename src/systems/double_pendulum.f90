@@ -3,8 +3,8 @@ module lagrangia_double_pendulum
     !!
     !! The notes write both constraints as \(f_i = x_i^2 + y_i^2 = \ell_i^2\); this is true for
     !! the first rod only. The second is \((x_2-x_1)^2 + (y_2-y_1)^2 = \ell_2^2\).
-    use lagrangia_description, only: conserved, coordinate, description_t, nonnegative, point, &
-                                     positive, quantity
+    use lagrangia_description, only: conserved, coordinate, description_t, mass_point, &
+                                     nonnegative, positive, quantity
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, dot_product, hyperdual_t, operator(*), operator(**), &
                                    operator(+), operator(-), sin
@@ -65,7 +65,7 @@ contains
         if (self%g <= 0.0_dp) d%quantities(1) = &
             conserved("L_z", "kg m^2/s", "p_theta1 + p_theta2: angular momentum about the "// &
                       "pivot, conserved without gravity", 0.0_dp)
-        d%points = [point("bob1", self%m1), point("bob2", self%m2)]
+        d%points = [mass_point("bob1", self%m1), mass_point("bob2", self%m2)]
         d%reactions = [ &
             quantity("tension1", "N", "of the upper rod: (l1^2 - x1^2 - y1^2)/(2 l1) = 0"), &
             quantity("tension2", "N", "of the lower rod: (l2^2 - (x2 - x1)^2 - (y2 - y1)^2)"// &

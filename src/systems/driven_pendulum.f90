@@ -8,8 +8,8 @@ module lagrangia_driven_pendulum
     !!
     !! Signs: \(y\) and \(y_p = a\cos\Omega t\) count upwards, \(\theta\) from the downward
     !! vertical; \(g + \ddot y_p\) is the gravity that the bob feels.
-    use lagrangia_description, only: coordinate, description_t, nonnegative, number, point, &
-                                     positive, quantity
+    use lagrangia_description, only: coordinate, description_t, mass_point, nonnegative, &
+                                     positive, quantity, real_number
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-), sin
@@ -67,7 +67,7 @@ contains
             positive("m", "kg", "mass of the bob", self%m), &
             positive("l", "m", "length of the rod", self%l), &
             nonnegative("g", "m/s^2", "gravity", self%g), &
-            number("amplitude", "m", "a: the pivot is at y_p = a cos(W t), upwards", &
+            real_number("amplitude", "m", "a: the pivot is at y_p = a cos(W t), upwards", &
                    self%amplitude), &
             nonnegative("drive_frequency", "rad/s", "W, angular frequency of the pivot", &
                         self%drive_frequency)]
@@ -87,7 +87,7 @@ contains
             d%quantities(2)%conserved = self%g <= 0.0_dp
             d%quantities(1:3:2)%scale = d%energy_scale
         end if
-        d%points = [point("bob", self%m)]
+        d%points = [mass_point("bob", self%m)]
         d%reactions = [quantity("tension", "N", "of the rod: (l^2 - x^2 - (y - y_p)^2)/(2 l) = 0")]
         d%lagrangian = [character(len(d%title)) :: &
             "m/2 (l^2 theta_dot^2 + 2 l theta_dot y_p_dot sin(theta) + y_p_dot^2)", &

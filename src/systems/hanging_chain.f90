@@ -3,8 +3,8 @@ module lagrangia_hanging_chain
     !!
     !! One bob is the pendulum, two are the double pendulum. The equations are solved for the
     !! tensions of the rods first: their matrix is tridiagonal, so accelerations cost O(n).
-    use lagrangia_description, only: conserved, coordinate, count_of, description_t, &
-                                     nonnegative, point, positive, quantity
+    use lagrangia_description, only: conserved, coordinate, description_t, mass_point, &
+                                     nonnegative, positive, quantity, whole_number
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: assignment(=), cos, dot_product, hyperdual_t, operator(*), &
                                    operator(**), operator(+), operator(-), sin
@@ -50,7 +50,7 @@ contains
         d%title = "equal bobs on equal rods, a chain that hangs; n = 1, 2: the pendulums"
         d%coordinates = [(coordinate("theta"//to_text(k), "rad", "angle of rod "//to_text(k)// &
                                      " from the downward vertical"), k=1, self%n)]
-        d%parameters = [count_of("n", "number of bobs", self%n, most), &
+        d%parameters = [whole_number("n", "number of bobs", self%n, most), &
                         positive("m", "kg", "mass of each bob", self%m), &
                         positive("l", "m", "length of the whole chain, each rod l/n", self%l), &
                         nonnegative("g", "m/s^2", "gravity", self%g)]
@@ -62,7 +62,7 @@ contains
         if (self%g <= 0.0_dp) d%quantities(1) = &
             conserved("L_z", "kg m^2/s", "sum of m (x y_dot - y x_dot): angular momentum about "// &
                       "the pivot, conserved without gravity", 0.0_dp)
-        d%points = [(point("bob"//to_text(k), self%m), k=1, self%n)]
+        d%points = [(mass_point("bob"//to_text(k), self%m), k=1, self%n)]
         d%reactions = [(quantity("tension"//to_text(k), "N", "of rod "//to_text(k)// &
                                  ": (l/n - (r_k - r_(k-1))^2 n/l)/2 = 0"), k=1, self%n)]
         d%lagrangian = [character(len(d%title)) :: &

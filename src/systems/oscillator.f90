@@ -3,8 +3,8 @@ module lagrangia_oscillator
     !!
     !! The notes write \(\partial L/\partial\dot x = m\,d\dot x/dt\), one derivative too many:
     !! the momentum is \(m\dot x\), and only its time derivative is \(m\ddot x\).
-    use lagrangia_description, only: conserved, coordinate, description_t, nonnegative, point, &
-                                     positive, quantity, quantity_t
+    use lagrangia_description, only: conserved, coordinate, description_t, mass_point, &
+                                     nonnegative, positive, quantity, quantity_t
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(-)
     use lagrangia_kinds, only: dp
@@ -61,7 +61,7 @@ contains
             quantity("p_x", "kg m/s", "m x_dot: momentum")]
         if (self%k <= 0.0_dp) d%quantities(2) = &
             conserved("p_x", "kg m/s", "m x_dot: momentum, x is cyclic without a spring", 0.0_dp)
-        d%points = [point("mass", self%m)]
+        d%points = [mass_point("mass", self%m)]
         d%reactions = [quantity_t ::]
         d%lagrangian = [character(len(d%title)) :: "m/2 x_dot^2 - k/2 x^2"]
         d%energy = "m/2 x_dot^2 + k/2 x^2"

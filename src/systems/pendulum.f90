@@ -3,8 +3,8 @@ module lagrangia_pendulum
     !!
     !! The notes give \(L = \tfrac12 m\ell^2\dot\theta^2 + mg\ell\cos\theta - \mathrm{const}\),
     !! where the constant is free; here it is zero, so \(E = -mg\ell\) at rest at the bottom.
-    use lagrangia_description, only: conserved, coordinate, description_t, nonnegative, point, &
-                                     positive, quantity
+    use lagrangia_description, only: conserved, coordinate, description_t, mass_point, &
+                                     nonnegative, positive, quantity
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, dot_product, hyperdual_t, operator(*), operator(**), &
                                    operator(+), operator(-), sin
@@ -68,7 +68,7 @@ contains
         if (self%g <= 0.0_dp) d%quantities(1) = &
             conserved("L_z", "kg m^2/s", "m l^2 theta_dot: angular momentum, theta is cyclic "// &
                       "without gravity", 0.0_dp)
-        d%points = [point("bob", self%m)]
+        d%points = [mass_point("bob", self%m)]
         d%reactions = [quantity("tension", "N", "of the rod: (l^2 - x^2 - y^2)/(2 l) = 0")]
         d%lagrangian = [character(len(d%title)) :: "m/2 l^2 theta_dot^2 + m g l cos(theta)"]
         d%energy = "m/2 l^2 theta_dot^2 - m g l cos(theta)"

@@ -8,8 +8,8 @@ module lagrangia_rolling_disk
     !! integrating factor exists, \(a\wedge da = R\cos\theta\,dx\wedge d\varphi\wedge d\theta\ne 0\)
     !! (Frobenius): the conclusion stands.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
-    use lagrangia_description, only: between, conserved, coordinate, description_t, nonnegative, &
-                                     point, positive, quantity
+    use lagrangia_description, only: between, conserved, coordinate, description_t, mass_point, &
+                                     nonnegative, positive, quantity
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: assignment(=), cos, hyperdual_t, operator(*), operator(**), &
                                    operator(+), operator(-), sin
@@ -116,8 +116,8 @@ contains
                           "the plane is level", &
                           self%m*self%r*speed)
         end associate
-        d%points = [point("centre", self%m)]
-        d%rotors = [point("roll", self%i_roll), point("heading", self%i_yaw)]
+        d%points = [mass_point("centre", self%m)]
+        d%rotors = [mass_point("roll", self%i_roll), mass_point("heading", self%i_yaw)]
         d%reactions = [ &
             quantity("plane_force", "N", "of the plane on the disk, off it: z = r"), &
             quantity("friction_x", "N", "x_dot - r sin(theta) phi_dot = 0"), &

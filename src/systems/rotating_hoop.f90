@@ -4,8 +4,8 @@ module lagrangia_rotating_hoop
     !! Source: Hamilton's Principle, where the notes define the concept only: a constraint that
     !! contains the time is rheonomic. Beyond \(\omega^2 = g/R\) the bottom is unstable and the
     !! bead finds two tilted equilibria, \(\cos\theta_* = g/(\omega^2R)\).
-    use lagrangia_description, only: coordinate, description_t, nonnegative, number, point, &
-                                     positive, quantity
+    use lagrangia_description, only: coordinate, description_t, mass_point, nonnegative, &
+                                     positive, quantity, real_number
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, dot_product, hyperdual_t, operator(*), operator(**), &
                                    operator(+), operator(-), sin
@@ -59,7 +59,7 @@ contains
         d%coordinates = [coordinate("theta", "rad", "angle of the bead from the lowest point")]
         d%parameters = [positive("m", "kg", "mass of the bead", self%m), &
                         positive("r", "m", "radius of the hoop", self%r), &
-                        number("omega", "rad/s", "rate at which the hoop is turned", self%omega), &
+                        real_number("omega", "rad/s", "rate at which the hoop is turned", self%omega), &
                         nonnegative("g", "m/s^2", "gravity", self%g)]
         d%energy_scale = self%m*self%r*(self%g + self%omega**2*self%r)
         d%quantities = [ &
@@ -75,7 +75,7 @@ contains
             d%quantities(1)%conserved = .true.
             d%quantities(1)%scale = d%energy_scale
         end if
-        d%points = [point("bead", self%m)]
+        d%points = [mass_point("bead", self%m)]
         d%reactions = [ &
             quantity("side_force", "N", "across the hoop: y cos(omega t) - x sin(omega t) = 0"), &
             quantity("hoop_force", "N", "to its centre: (r^2 - x^2 - y^2 - z^2)/(2 r) = 0")]

@@ -4,8 +4,8 @@ module lagrangia_rotating_wire
     !! Source: Hamilton's Principle, where the notes define the concept only: a constraint that
     !! contains the time is rheonomic. This is its simplest case: what is conserved is the energy
     !! function \(h = \dot r\,\partial L/\partial\dot r - L\), which is not the energy.
-    use lagrangia_description, only: conserved, coordinate, description_t, number, point, &
-                                     positive, quantity
+    use lagrangia_description, only: conserved, coordinate, description_t, mass_point, positive, &
+                                     quantity, real_number
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-), sin
@@ -57,7 +57,7 @@ contains
         d%title = "a bead on a straight wire that turns at a constant rate, horizontally"
         d%coordinates = [coordinate("r", "m", "position along the wire, 0 on the axis")]
         d%parameters = [positive("m", "kg", "mass of the bead", self%m), &
-                        number("omega", "rad/s", "rate at which the wire is turned", self%omega)]
+                        real_number("omega", "rad/s", "rate at which the wire is turned", self%omega)]
         d%energy_scale = self%m*(self%omega*per_length)**2
         d%quantities = [ &
             conserved("outward", "m/s", "(r_dot + |omega| r) exp(-|omega| t): start of the "// &
@@ -67,7 +67,7 @@ contains
             quantity("L_z", "kg m^2/s", "m omega r^2: angular momentum, fed by the wire"), &
             quantity("wire_force", "N", "2 m omega r_dot: push of the wire, across it")]
         d%quantities(2)%conserved = abs(self%omega) <= 0.0_dp
-        d%points = [point("bead", self%m)]
+        d%points = [mass_point("bead", self%m)]
         d%reactions = [quantity("wire_force", "N", "of the wire, across it: y cos(omega t) - "// &
                                 "x sin(omega t) = 0")]
         d%lagrangian = [character(len(d%title)) :: "m/2 (r_dot^2 + omega^2 r^2)"]

@@ -4,8 +4,8 @@ module lagrangia_wedge
     !! Source: Hamilton's Principle, case II. The notes end with \(mg\sin\alpha =
     !! M(\ddot q_1 + \ddot q_2\cos\alpha)\), where it must be the mass of the block, \(m\): with
     !! \(M\) the acceleration is off by \(m/M\) and contradicts the \(\ddot q_1\) they state.
-    use lagrangia_description, only: between, conserved, coordinate, description_t, nonnegative, &
-                                     point, positive, quantity
+    use lagrangia_description, only: between, conserved, coordinate, description_t, mass_point, &
+                                     nonnegative, positive, quantity
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(+), operator(-)
     use lagrangia_kinds, only: dp
@@ -76,7 +76,7 @@ contains
         if (level(self)) d%quantities(3) = &
             conserved("p_q1", "kg m/s", "m (q1_dot + q2_dot cos(alpha)): momentum along the "// &
                       "incline, q1 is cyclic if g sin(alpha) = 0", 0.0_dp)
-        d%points = [point("block", self%m_block), point("wedge", self%m_wedge)]
+        d%points = [mass_point("block", self%m_block), mass_point("wedge", self%m_wedge)]
         d%reactions = [ &
             quantity("plane_force", "N", "of the plane on the wedge, upwards: y_wedge = 0"), &
             quantity("normal_force", "N", "of the wedge on the block: (x - q2) sin(alpha) + "// &

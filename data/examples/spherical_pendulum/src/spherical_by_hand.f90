@@ -2,7 +2,7 @@ module spherical_by_hand
     !! The second step: equations of motion by hand, faster, and checked against the Lagrangian;
     !! what is conserved; where the bob is; and what Newton would say.
     use lagrangia, only: conserved, cos, description_t, dot_product, dp, hyperdual_t, &
-                         line_length, operator(*), operator(-), point, quantity, sin
+                         line_length, mass_point, operator(*), operator(-), quantity, sin
     use spherical_pendulum, only: spherical_pendulum_t
     implicit none (type, external)
     private
@@ -30,7 +30,7 @@ contains
             conserved("L_z", "kg m^2/s", "m l^2 sin(theta)^2 phi_dot: phi is cyclic", 0.0_dp), &
             quantity("tension", "N", "m (l theta_dot^2 + l (sin(theta) phi_dot)^2 + g cos(theta))")]
         d%dimensions = 3
-        d%points = [point("bob", self%value(1, 1.0_dp))]
+        d%points = [mass_point("bob", self%value(1, 1.0_dp))]
         d%reactions = [quantity("tension", "N", "of the rod: (l^2 - x^2 - y^2 - z^2)/(2 l) = 0")]
         d%lagrangian = [character(line_length) :: &
             "m/2 l^2 (theta_dot^2 + phi_dot^2 sin(theta)^2) + m g l cos(theta)"]
