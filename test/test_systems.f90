@@ -2,8 +2,9 @@ module test_systems
     !! Walks over the catalogue: a new system is tested the day it is listed.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual
     use lagrangia_catalogue, only: nth_system, system_names
-    use lagrangia_description, only: between, count_of, description_t, name_length, nonnegative, &
-                                     number, parameter_t, positive, vector
+    use lagrangia_description, only: between, description_t, name_length, nonnegative, &
+                                     parameter_t, positive, real_number, real_vector, &
+                                     whole_number
     use lagrangia_kinds, only: dp
     use lagrangia_reference, only: reference_t
     use lagrangia_system, only: system_t
@@ -49,9 +50,9 @@ contains
         type(parameter_t) :: p
         real(dp), parameter :: right = acos(0.0_dp)
 
-        p = number("a", "1", "", 1.0_dp)
+        p = real_number("a", "1", "", 1.0_dp)
         call assertEqual("any finite number", p%domain())
-        p = vector("a", "1", "", [1.0_dp, 2.0_dp, 3.0_dp])
+        p = real_vector("a", "1", "", [1.0_dp, 2.0_dp, 3.0_dp])
         call assertEqual("any finite number", p%domain())
         p = positive("a", "1", "", 1.0_dp)
         call assertEqual("greater than 0.0", p%domain())
@@ -65,7 +66,7 @@ contains
         call assertEqual("from -pi/2 to pi/2", p%domain())
         p = between("a", "rad", "", 0.5_dp, -2.0_dp, 2.0_dp)
         call assertEqual("from -2.0 to 2.0", p%domain())
-        p = count_of("a", "", 2, 7)
+        p = whole_number("a", "", 2, 7)
         call assertEqual("a whole number from 1 to 7", p%domain())
     end subroutine domains_in_words
 

@@ -7,7 +7,8 @@ module lagrangia_optical_paths
     !! \(-n^2/2\) and energy zero, \(|r'| = n\). The "time" of this system is \(\sigma\), m.
     !!
     !! Source: Evans & Rosenquist, Am. J. Phys. 54, 876 (1986).
-    use lagrangia_description, only: coordinate, description_t, nonnegative, number, point, positive
+    use lagrangia_description, only: coordinate, description_t, mass_point, nonnegative, &
+                                     positive, real_number
     use lagrangia_errors, only: error_t
     use lagrangia_gsl, only: brent_root
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
@@ -204,10 +205,10 @@ contains
         d%coordinates = [coordinate("x", "m", "along the layers"), &
                          coordinate("y", "m", "across the layers")]
         d%parameters = [positive("n0", "1", "index at y = 0", self%n0), &
-                        number("kappa", "1/m", "n^2 = n0^2 + 2 kappa y", self%kappa), &
+                        real_number("kappa", "1/m", "n^2 = n0^2 + 2 kappa y", self%kappa), &
                         nonnegative("alpha", "1/m", "n^2 = n0^2 (1 - alpha^2 y^2)", self%alpha)]
         allocate (d%quantities(0), d%notes(0))
-        d%points = [point("ray", 1.0_dp)]
+        d%points = [mass_point("ray", 1.0_dp)]
         d%energy_scale = self%n0**2
         d%lagrangian = [character(len(d%title)) :: "(x_dot^2 + y_dot^2 + n^2)/2"]
         d%energy = "(x_dot^2 + y_dot^2 - n^2)/2"

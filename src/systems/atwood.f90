@@ -66,8 +66,9 @@ contains
             nonnegative("pulley_inertia", "kg m^2", "moment of inertia of the pulley, I", &
                         self%pulley_inertia), &
             positive("radius", "m", "radius of the pulley, R", self%radius), &
-            real_number("support_acceleration", "m/s^2", "upward acceleration of the support, a_s", &
-                   self%support_acceleration)]
+            real_number("support_acceleration", "m/s^2", &
+                        "upward acceleration of the support, a_s", &
+                        self%support_acceleration)]
         d%quantities = [ &
             conserved("energy_support", "J", "(m1 + m2 + I/R^2)/2 x_dot^2 - (m1 - m2)(g + a_s)"// &
                       " x: energy in the support's frame", 0.0_dp), &

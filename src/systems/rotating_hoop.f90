@@ -59,7 +59,8 @@ contains
         d%coordinates = [coordinate("theta", "rad", "angle of the bead from the lowest point")]
         d%parameters = [positive("m", "kg", "mass of the bead", self%m), &
                         positive("r", "m", "radius of the hoop", self%r), &
-                        real_number("omega", "rad/s", "rate at which the hoop is turned", self%omega), &
+                        real_number("omega", "rad/s", "rate at which the hoop is turned", &
+                                    self%omega), &
                         nonnegative("g", "m/s^2", "gravity", self%g)]
         d%energy_scale = self%m*self%r*(self%g + self%omega**2*self%r)
         d%quantities = [ &

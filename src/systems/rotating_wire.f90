@@ -57,7 +57,8 @@ contains
         d%title = "a bead on a straight wire that turns at a constant rate, horizontally"
         d%coordinates = [coordinate("r", "m", "position along the wire, 0 on the axis")]
         d%parameters = [positive("m", "kg", "mass of the bead", self%m), &
-                        real_number("omega", "rad/s", "rate at which the wire is turned", self%omega)]
+                        real_number("omega", "rad/s", "rate at which the wire is turned", &
+                                    self%omega)]
         d%energy_scale = self%m*(self%omega*per_length)**2
         d%quantities = [ &
             conserved("outward", "m/s", "(r_dot + |omega| r) exp(-|omega| t): start of the "// &
