@@ -66,7 +66,9 @@ check "main job: a row a scene" eval '[ "$(grep -c " holds$" "$work/out")" -eq "
 check "main job: a data file and a script a scene" eval 'for f in data/scenes/*.nml; do f=${f##*/}; [ -s "$work/all/${f%.nml}.dat" ] && [ -s "$work/all/${f%.nml}.gp" ] || exit 1; done'
 check "main job: the header says what auto took" grep -q "^# auto took exact: closed form: " "$work/all/cart_pendulum_auto.dat"
 check "main job: no temporary left" leftovers
-run --output "$work/again"
+cp "$work/out" "$work/text"
+run --json --output "$work/again"
+check "main job: the scorecard's rows are the JSON's" python3 .ci/scorecard_text.py "$work/text" "$work/out"
 check "the same bytes again" diff -r "$work/all" "$work/again"
 
 # run, its options
