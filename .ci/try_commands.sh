@@ -288,7 +288,7 @@ if command -v gnuplot >/dev/null; then
     cp data/scenes/pendulum.nml "$work/swing.nml"
     (cd "$work" && timeout 120 "$program" run swing.nml --plot=svg --quiet "--output=<touch owned;true " >out 2>err </dev/null)
     status=$?
-    check "a folder called <touch: drawn, nothing is run" eval '[ $status -eq 0 ] && [ -s "$work/<touch owned;true /pendulum.svg" ] && [ ! -e "$work/owned" ]'
+    check "a folder called <touch: drawn, nothing is run" eval '[ $status -eq 0 ] && [ -n "$(find "$work/<touch owned;true " -name "*.svg" -size +0)" ] && [ ! -e "$work/owned" ]'
 fi
 for words in list "describe pendulum" errata "errata E1" principle "principle gauge" "check pendulum" "modes pendulum" "run pendulum --output $work/o" --help; do
     run $words
