@@ -44,6 +44,16 @@ check "three masses: status 0, a line a mode" eval '[ $status -eq 0 ] && [ "$(wc
 check "three masses: omega^2 = 2 - sqrt 2, 2, 2 + sqrt 2" near 1e-14 \
     "0.58578643762690495 2 3.41421356237309505" "$(awk '{ print $3 }' "$work/out")"
 
+# The motion at given times
+fpm build -C data/examples/solve >"$work/err" 2>&1 || { cat "$work/err"; exit 1; }
+run "$(ls -t data/examples/solve/build/gfortran_*/app/cart | head -n 1)"
+check "solve: status 0, a line a time" eval '[ $status -eq 0 ] && [ "$(wc -l <"$work/out")" -eq 11 ]'
+check "solve: (m1 + m2) x + m2 l sin(theta) is conserved, 3 x + sin(theta) = sin(1)" eval '
+    awk "{ d = 3*\$2 + sin(\$3) - sin(1); if (d*d > 1e-14) bad = 1 } END { exit bad }" "$work/out"'
+check "the docstring of the module lagrangia is this program" eval '
+    sed -n "s/^    !!     //p; s/^    !!$//p" src/lagrangia.f90 | grep -A 100 "^program cart" |
+        sed "/^end program cart/q" | diff - data/examples/solve/app/main.f90'
+
 # Systems of one's own
 cd data/examples/spherical_pendulum || exit 2
 fpm build --profile release >"$work/err" 2>&1 || { cat "$work/err"; exit 1; }

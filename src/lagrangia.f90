@@ -6,21 +6,29 @@ module lagrangia
     !! own matrices are `call normal_modes(k, m, modes, error)`: see `data/examples/normal_modes`;
     !! those of a system `call find_modes(system, q, wanted, modes, error)`.
     !!
-    !! A system by its name, an integrator by its name, `run` to drive them:
+    !! The motion of a system at given times, as arrays (`data/examples/solve`; steps of one length
+    !! with `dt`, events as in a scene; `found` keeps them):
     !!
-    !!     use lagrangia
-    !!     class(system_t), allocatable :: system
-    !!     class(integrator_t), allocatable :: integrator
-    !!     type(plan_t) :: plan
-    !!     type(error_t), allocatable :: error
-    !!     type(observer_box_t) :: nobody(0)
-    !!     real(dp) :: q(2) = [0.0_dp, 1.0_dp], v(2) = 0.0_dp
+    !!     program cart
+    !!         use lagrangia, only: dp, error_t, new_system, solve, system_t
+    !!         implicit none (type, external)
+    !!         class(system_t), allocatable :: system
+    !!         type(error_t), allocatable :: error
+    !!         real(dp), allocatable :: q(:, :), v(:, :)
+    !!         real(dp) :: t(0:10)
+    !!         integer :: i
     !!
-    !!     call new_system("cart_pendulum", system, error)
-    !!     call system%configure([2.0_dp, 1.0_dp, 1.0_dp, 9.81_dp], error)
-    !!     call new_integrator("rk4", integrator, error)
-    !!     call new_plan(plan, 0.0_dp, 1e-3_dp, 20.0_dp, 10_i8, error)
-    !!     call run(system, integrator, plan, nobody, q, v, error)
+    !!         call new_system("cart_pendulum", system, error)
+    !!         if (allocated(error)) error stop error%message
+    !!         call system%configure([2.0_dp, 1.0_dp, 1.0_dp, 9.81_dp], error)  ! m1, m2, l, g
+    !!         if (allocated(error)) error stop error%message
+    !!         t = [(0.1_dp*i, i=0, 10)]
+    !!         call solve(system, "gauss16", t, [0.0_dp, 1.0_dp], [0.0_dp, 0.0_dp], q, v, error)
+    !!         if (allocated(error)) error stop error%message
+    !!         do i = 0, 10
+    !!             print "(f4.1, 2f12.8)", t(i), q(:, i + 1)
+    !!         end do
+    !!     end program cart
     use lagrangia_catalogue, only: new_system, register_system, system_names
     use lagrangia_description, only: between, conserved, coordinate, description_t, line_length, &
                                      mass_point, nonnegative, parameter_t, point_t, positive, &
