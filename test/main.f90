@@ -64,6 +64,7 @@ module suites
     use test_lapack_band, only: lapack_band_suite
     use test_least_time, only: least_time_suite
     use test_library_arguments, only: library_arguments_suite
+    use test_library_calls, only: library_calls_suite
     use test_machine, only: machine_suite
     use test_method_refusals, only: method_refusals_suite
     use test_method_structure, only: method_structure_suite
@@ -201,6 +202,7 @@ contains
         call suite%addTest(lapack_band_suite())
         call suite%addTest(least_time_suite())
         call suite%addTest(library_arguments_suite())
+        call suite%addTest(library_calls_suite())
         call suite%addTest(machine_suite())
         call suite%addTest(method_refusals_suite())
         call suite%addTest(method_structure_suite())

@@ -1,15 +1,17 @@
 module test_failure_contract
     !! What fails returns an error and leaves its caller's state as it was: every method and run.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
                      assertGreaterThan, assertTrue
     use lagrangia_catalogue, only: new_system, nth_system
     use lagrangia_dense_run, only: run_dense
     use lagrangia_errors, only: error_t, status_numbers
     use lagrangia_events, only: event_box_t
-    use lagrangia_integrator, only: dense_integrator_t, integrator_t, not_started
+    use lagrangia_integrator, only: dense_integrator_t, integrator_t, not_prepared, not_started
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: nth_adaptive, nth_integrator
     use lagrangia_observer, only: observer_box_t
+    use lagrangia_reduced_motion, only: leave_cyclic
     use lagrangia_run, only: new_plan, new_sampled_plan, plan_t, run
     use lagrangia_stepwise, only: new_stepwise, stepwise_t
     use lagrangia_system, only: system_t
@@ -28,6 +30,7 @@ contains
         call suite%addTest(TestMethod("a_refusal_changes_nothing", a_refusal_changes_nothing))
         call suite%addTest(TestMethod("steps_that_fail_leave_the_state", &
                                       steps_that_fail_leave_the_state))
+        call suite%addTest(TestMethod("a_forgotten_prepare_is_told", a_forgotten_prepare_is_told))
         call suite%addTest(TestMethod("a_forgotten_start_is_told", a_forgotten_start_is_told))
         call suite%addTest(TestMethod("the_step_may_change", the_step_may_change))
         call suite%addTest(TestMethod("runs_that_fail_leave_the_state", &
@@ -200,6 +203,74 @@ contains
         call adaptive%try_advance(system, 0.3_dp, 0.1_dp, 0_i8, 5_i8, q, v, error)
         call assertEqual("the state is not finite at t = 0.8 s: "//not_started, error%message)
     end subroutine a_forgotten_start_is_told
+
+    subroutine a_forgotten_prepare_is_told()
+        !! By every method, also by one prepared for a system of another size: the state is NaN,
+        !! `try_advance` fails, and dense methods have no step and no state.
+        class(integrator_t), allocatable :: method
+        class(dense_integrator_t), allocatable :: dense
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: q(:), v(:), q0(:), v0(:)
+        integer :: i
+
+        do i = 1, 24
+            call nth_method(i, method)
+            call new_trap(method, system, q, v, q0, v0)
+            call nth_method(i, method)
+            call refuses_to_advance(method, system, q, v)
+            if (anyExceptions()) return
+        end do
+        i = 0
+        do
+            i = i + 1
+            call nth_dense(i, dense)
+            if (.not. allocated(dense)) exit
+            call refuses_to_advance(dense, system, q, v)
+            call dense%step(system, error)
+            call assertTrue(allocated(error), trim(dense%name)//" has no step")
+            if (allocated(error)) call assertEqual(not_prepared, error%message)
+            call dense%state_at(0.0_dp, q0, v0)
+            call assertTrue(all(ieee_is_nan([q0, v0])), trim(dense%name)//" has no state")
+            if (anyExceptions()) return
+        end do
+        call assertEqual(4, i, "dense methods, and one more")
+        call new_system("cart_pendulum", system, error)
+        call system%configure([2.0_dp, 1.0_dp, 1.0_dp, 9.81_dp], error)
+        call nth_adaptive(1, dense)
+        call move_alloc(dense, method)
+        call leave_cyclic(method, system)
+        call refuses_to_advance(method, system, [0.1_dp, 0.2_dp], [0.3_dp, 0.4_dp])
+    end subroutine a_forgotten_prepare_is_told
+
+    subroutine refuses_to_advance(method, system, q, v)
+        !! Before `prepare`, and after one for a system of seven coordinates.
+        class(integrator_t), intent(inout) :: method
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: q(:), v(:)
+        type(exploding_t) :: seven
+        type(error_t), allocatable :: error
+        real(dp) :: q_new(size(q)), v_new(size(v))
+        integer :: k
+
+        seven%ndof = 7
+        seven%velocity_forces = .false.
+        do k = 1, 2
+            if (k == 2) call method%prepare(seven, error)
+            q_new = q
+            v_new = v
+            call method%start(system, 0.0_dp, q, v, 1.0_dp)
+            call method%advance(system, 0.0_dp, 0.1_dp, 0_i8, 5_i8, q_new, v_new)
+            call assertTrue(all(ieee_is_nan([q_new, v_new])), trim(method%name)//": NaN")
+            q_new = q
+            v_new = v
+            call method%try_advance(system, 0.0_dp, 0.1_dp, 0_i8, 5_i8, q_new, v_new, error)
+            call assertTrue(allocated(error), trim(method%name)//" fails")
+            if (allocated(error)) call assertEqual("the state is not finite at t = 0.5 s: "// &
+                                                   not_prepared, error%message)
+            call assertEqual([q, v], [q_new, v_new], message=trim(method%name)//": as it was")
+        end do
+    end subroutine refuses_to_advance
 
     subroutine the_step_may_change()
         !! Without a new start, also backwards: to the rounding of some dozen evaluations the state

@@ -1,9 +1,11 @@
 module test_library_arguments
     !! What a program may hand to the library by mistake: each is an error, none a crash.
-    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_quiet_nan, ieee_value
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_positive_inf, ieee_quiet_nan, &
+                                             ieee_value
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia, only: dp, error_t, find_modes, i8, integrator_t, modes_t, new_integrator, &
-                         new_system, normal_modes, normal_modes_t, observer_box_t, system_t
+                         new_system, normal_modes, normal_modes_t, observer_box_t, residual_ratio, &
+                         system_t
     use lagrangia_audit, only: audit_system
     use lagrangia_errors, only: status_library, status_numbers, status_usage
     use lagrangia_ledger, only: ledger_t
@@ -11,7 +13,7 @@ module test_library_arguments
     use singular_systems, only: blind_t, fading_t, light_t, skew_t
     implicit none (type, external)
     private
-    public :: library_arguments_suite
+    public :: library_arguments_suite, refused
 
 contains
 
@@ -173,6 +175,18 @@ contains
         call refused(error, "M is not positive definite: its leading minor of order 1 is not", &
                      status_library)
         call assertFalse(allocated(modes%omega2), message="nothing of a failure is left")
+        call normal_modes(2.0_dp*one, one, modes, error)
+        call assertFalse(allocated(error), message="K and M that fit")
+        call assertFalse(ieee_is_nan(residual_ratio(2.0_dp*one, one, modes%omega2, modes%shapes)), &
+                         message="of K and M that fit")
+        call assertTrue(ieee_is_nan(residual_ratio(one(:1, :), one, modes%omega2, modes%shapes)), &
+                        message="K has another size")
+        call assertTrue(ieee_is_nan(residual_ratio(one, one(:, :1), modes%omega2, modes%shapes)), &
+                        message="M has another size")
+        call assertTrue(ieee_is_nan(residual_ratio(one, one, modes%omega2(:1), modes%shapes)), &
+                        message="there are too few omega^2")
+        call assertTrue(ieee_is_nan(residual_ratio(one, one, modes%omega2, modes%shapes(:, :1))), &
+                        message="there are too few modes")
     end subroutine matrices_of_nonsense
 
     subroutine singular_mass_matrices()

@@ -1,7 +1,7 @@
 module lagrangia_modes_command
     !! `lagrangia modes SYSTEM`: small oscillations, LAPACK's answer beside the page's.
     use lagrangia_command_line, only: command_line_t
-    use lagrangia_console, only: note, put_line
+    use lagrangia_console, only: note, put, put_line
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_interrupt, only: interrupt_status
@@ -35,7 +35,7 @@ contains
         type(modes_t) :: modes, others
         type(progress_t) :: progress
         real(dp), allocatable :: at(:)
-        character(:), allocatable :: json, warning
+        character(:), allocatable :: warning
         logical :: elsewhere
         integer :: j
 
@@ -62,10 +62,10 @@ contains
         if (elsewhere) call find_modes(system, modes%analytic%elsewhere, .true., others, error)
         if (allocated(error)) return
         if (line%has("json")) then
-            json = as_json(line%arguments(1)%text, modes)
-            if (elsewhere) json = json(:len(json) - 1)//', "elsewhere": '// &
-                                  as_json(line%arguments(1)%text, others)//"}"
-            call put_line(json)
+            call put_json(line%arguments(1)%text, modes)
+            if (elsewhere) call put(', "elsewhere": ')
+            if (elsewhere) call put_json(line%arguments(1)%text, others)
+            call put_line(repeat("}", merge(2, 1, elsewhere)))
         else if (.not. line%has("quiet")) then
             call print_modes(system, modes)
             if (elsewhere) call put_line("")
@@ -235,47 +235,50 @@ contains
         if (abs(value) <= 0.0_dp) text = "0"
     end function short
 
-    function as_json(name, modes) result(json)
-        !! One object; shapes are rows, one a mode. An unstable mode has no omega: `null`. Where
-        !! velocities bend the motion there are `G` and the shapes' imaginary parts besides.
+    subroutine put_json(name, modes)
+        !! One object, but for its closing brace; shapes are rows, one a mode. An unstable mode has
+        !! no omega: `null`. Where velocities bend the motion there are `G` and the shapes'
+        !! imaginary parts besides.
         character(*), intent(in) :: name
         type(modes_t), intent(in) :: modes
-        character(:), allocatable :: json
         integer :: j
 
-        json = '{"system": '//json_string(name)//', "at": '//json_list(modes%at)// &
-               ', "M": '//rows(modes%mass)//', "K": '//rows(modes%stiffness)// &
-               ', "omega2": '//json_list(modes%omega2)//', "omega": '//json_list(modes%omega)// &
-               ', "label": ['
+        call put('{"system": '//json_string(name)//', "at": '//json_list(modes%at)//', "M": ')
+        call put_rows(modes%mass)
+        call put(', "K": ')
+        call put_rows(modes%stiffness)
+        call put(', "omega2": '//json_list(modes%omega2)//', "omega": '//json_list(modes%omega)// &
+                 ', "label": [')
         do j = 1, size(modes%label)
-            if (j > 1) json = json//", "
-            json = json//json_string(trim(labels(modes%label(j))))
+            if (j > 1) call put(", ")
+            call put(json_string(trim(labels(modes%label(j)))))
         end do
-        json = json//'], "shapes": '//rows(transpose(modes%shapes))//', "closed_form": '
+        call put('], "shapes": ')
+        call put_rows(transpose(modes%shapes))
+        call put(', "closed_form": ')
         if (allocated(modes%analytic%omega2)) then
-            json = json//json_list(modes%analytic%omega2)
+            call put(json_list(modes%analytic%omega2))
         else
-            json = json//"null"
+            call put("null")
         end if
-        json = json//', "residual_ratio": '//json_number(modes%ratio)
-        if (allocated(modes%quadrature)) then
-            json = json//', "G": '//rows(modes%gyroscopic)// &
-                   ', "shapes_imaginary": '//rows(transpose(modes%quadrature))
-        end if
-        json = json//"}"
-    end function as_json
+        call put(', "residual_ratio": '//json_number(modes%ratio))
+        if (.not. allocated(modes%quadrature)) return
+        call put(', "G": ')
+        call put_rows(modes%gyroscopic)
+        call put(', "shapes_imaginary": ')
+        call put_rows(transpose(modes%quadrature))
+    end subroutine put_json
 
-    function rows(a) result(json)
-        !! A list of lists.
+    subroutine put_rows(a)
+        !! A list of lists, row by row: all in one text would be as large as many matrices.
         real(dp), intent(in) :: a(:, :)
-        character(:), allocatable :: json
         integer :: i
 
-        json = "["
+        call put("[")
         do i = 1, size(a, 1)
-            if (i > 1) json = json//", "
-            json = json//json_list(a(i, :))
+            if (i > 1) call put(", ")
+            call put(json_list(a(i, :)))
         end do
-        json = json//"]"
-    end function rows
+        call put("]")
+    end subroutine put_rows
 end module lagrangia_modes_command

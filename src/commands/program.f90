@@ -2,7 +2,7 @@ module lagrangia_program
     !! The whole program: words in, one command, exit status out.
     use, intrinsic :: iso_c_binding, only: c_funloc, c_int
     use lagrangia_bench, only: bench_command
-    use lagrangia_blas_threads, only: use_one_blas_thread
+    use lagrangia_blas_threads, only: take_blas_memory, use_one_blas_thread
     use lagrangia_c_library, only: c_alarm, c_exit
     use lagrangia_check, only: check_command
     use lagrangia_command_line, only: command_line_t, command_words, parse_words, word_t
@@ -44,9 +44,11 @@ contains
             allocate (error, source=failed)
         else
             call check_stack(least_stack, error)
-            ! OpenBLAS tries for ever to get the 128 MB that its first call takes
             if (.not. allocated(error)) call check_memory(least_memory, "lagrangia", error)
-            if (.not. allocated(error)) call dispatch(error)
+            if (.not. allocated(error)) then
+                call take_blas_memory()
+                call dispatch(error)
+            end if
         end if
         status = status_ok
         if (allocated(error)) then

@@ -47,6 +47,7 @@ contains
 
         select type (system)
         class is (gyrating_system_t)
+            self%coordinates = system%ndof
             self%evaluations = 0
             return
         end select
@@ -63,7 +64,10 @@ contains
         real(dp) :: x(3), u(3), a(3), omega(3), tau(3)
         real(dp) :: half
         integer(i8) :: k
+        logical :: refused
 
+        call self%refuse_system(system, refused, q, v)
+        if (refused) return
         half = 0.5_dp*dt
         x = q
         u = v

@@ -115,6 +115,7 @@ contains
             return
         end if
         state = 0.0_dp
+        self%coordinates = system%ndof
         self%evaluations = 0
         self%failure_reason = ""
         self%p = state
@@ -137,7 +138,10 @@ contains
         real(dp) :: t
         logical :: solved
         integer(i8) :: k
+        logical :: refused
 
+        call self%refuse_system(system, refused, q, v)
+        if (refused) return
         do k = first, first + steps - 1
             t = t0 + k*dt
             call system%momenta(t, q, v, self%p)

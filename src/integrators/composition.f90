@@ -136,6 +136,7 @@ contains
             return
         end if
         state = 0.0_dp
+        self%coordinates = system%ndof
         self%evaluations = 0
         self%q_low = state
         self%v_low = state
@@ -151,7 +152,10 @@ contains
         real(dp), intent(in) :: t0
         real(dp), intent(in) :: q(system%ndof), v(system%ndof)
         real(dp), intent(in), optional :: t_end
+        logical :: refused
 
+        call self%refuse_system(system, refused)
+        if (refused) return
         self%failure_reason = ""
         self%q_low(:) = 0.0_dp
         self%v_low(:) = 0.0_dp
@@ -164,7 +168,10 @@ contains
         real(dp), intent(in) :: t0
         real(dp), intent(in) :: q(system%ndof), v(system%ndof)
         real(dp), intent(in), optional :: t_end
+        logical :: refused
 
+        call self%refuse_system(system, refused)
+        if (refused) return
         self%failure_reason = ""
         self%q_low(:) = 0.0_dp
         self%v_low(:) = 0.0_dp
@@ -182,7 +189,10 @@ contains
         real(dp) :: t
         integer(i8) :: k
         integer :: s, stages
+        logical :: refused
 
+        call self%refuse_system(system, refused, q, v)
+        if (refused) return
         stages = size(self%kick)
         do k = first, first + steps - 1
             t = t0 + k*dt
@@ -206,7 +216,10 @@ contains
         real(dp) :: t
         integer(i8) :: k
         integer :: s, stages
+        logical :: refused
 
+        call self%refuse_system(system, refused, q, v)
+        if (refused) return
         stages = size(self%drift)
         do k = first, first + steps - 1
             t = t0 + k*dt
@@ -233,7 +246,10 @@ contains
         real(dp) :: t
         integer(i8) :: k
         integer :: s, stages
+        logical :: refused
 
+        call self%refuse_system(system, refused, q, v)
+        if (refused) return
         stages = size(self%kick)
         do k = first, first + steps - 1
             t = t0 + k*dt
@@ -258,7 +274,10 @@ contains
         real(dp) :: t
         integer(i8) :: k
         integer :: s, stages
+        logical :: refused
 
+        call self%refuse_system(system, refused, q, v)
+        if (refused) return
         stages = size(self%drift)
         do k = first, first + steps - 1
             t = t0 + k*dt

@@ -4,6 +4,7 @@ module lagrangia_dop853
     !!
     !! Source: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.:
     !! secs. II.4 (starting step, PI step control), II.6 (dense output), II.10 (error estimate).
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_dop853_stages, only: extra_stages, scaled_error, slope, stages
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_integrator, only: dense_integrator_t
@@ -60,6 +61,7 @@ contains
         self%work = slopes(:, 1)
         self%k = slopes
         self%inside = transpose(slopes(:, :7))
+        self%coordinates = system%ndof
         self%evaluations = 0
         self%accepted = 0
         self%rejected = 0
@@ -73,7 +75,10 @@ contains
         integer(i8), intent(in) :: first, steps
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
         integer(i8) :: i
+        logical :: refused
 
+        call self%refuse_system(system, refused, q, v)
+        if (refused) return
         self%y(:system%ndof) = q
         self%y(system%ndof + 1:) = v
         do i = first, first + steps - 1
@@ -95,7 +100,10 @@ contains
         real(dp), intent(in) :: q(system%ndof), v(system%ndof)
         real(dp), intent(in), optional :: t_end
         real(dp) :: size_y, size_slope, change
+        logical :: refused
 
+        call self%refuse_system(system, refused)
+        if (refused) return
         call self%stand(t0, t_end)
         self%last_error = 1e-4_dp
         self%y(:system%ndof) = q
@@ -128,8 +136,10 @@ contains
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
         real(dp) :: h, scaled
-        logical :: last, retry
+        logical :: last, retry, refused
 
+        call self%refuse_system(system, refused, error=error)
+        if (refused) return
         self%y0 = self%y
         self%t_old = self%t_new
         retry = .false.
@@ -208,6 +218,11 @@ contains
         real(dp) :: s, r, y
         integer :: i, n
 
+        if (self%coordinates /= size(q)) then
+            q = ieee_value(q, ieee_quiet_nan)
+            v = q
+            return
+        end if
         n = size(q)
         if (t >= self%t_new) then
             q = self%y(:n)

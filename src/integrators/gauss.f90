@@ -53,6 +53,7 @@ contains
         call self%s%prepare(system%ndof)
         self%weight = self%s%v
         self%unmeasured = 0
+        self%coordinates = system%ndof
         self%evaluations = 0
     end subroutine prepare
 
@@ -63,7 +64,10 @@ contains
         real(dp), intent(in) :: t0
         real(dp), intent(in) :: q(system%ndof), v(system%ndof)
         real(dp), intent(in), optional :: t_end
+        logical :: refused
 
+        call self%refuse_system(system, refused)
+        if (refused) return
         self%failure_reason = ""
         call self%s%place(system, t0, q, v)
         self%unmeasured = 0
@@ -81,7 +85,10 @@ contains
         integer(i8) :: k
         integer :: sweeps
         logical :: good
+        logical :: refused
 
+        call self%refuse_system(system, refused, q, v)
+        if (refused) return
         self%s%q(:) = q
         self%s%v(:) = v
         do k = first, first + steps - 1

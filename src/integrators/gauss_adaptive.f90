@@ -73,6 +73,7 @@ contains
         call self%s%prepare(system%ndof)
         call self%inside%prepare(system%ndof)
         self%weight = self%s%v
+        self%coordinates = system%ndof
         self%evaluations = 0
         self%accepted = 0
         self%rejected = 0
@@ -88,8 +89,10 @@ contains
         real(dp), intent(in) :: t0, dt
         integer(i8), intent(in) :: first, steps
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
-        logical :: good
+        logical :: good, refused
 
+        call self%refuse_system(system, refused, q, v)
+        if (refused) return
         self%s%q(:) = q
         self%s%v(:) = v
         self%t_end = t0 + (first + steps)*dt
@@ -111,7 +114,10 @@ contains
         real(dp), intent(in) :: q(system%ndof), v(system%ndof)
         real(dp), intent(in), optional :: t_end
         real(dp) :: speed, ahead
+        logical :: refused
 
+        call self%refuse_system(system, refused)
+        if (refused) return
         call self%s%place(system, t0, q, v)
         call self%inside%keep(t0, q, v)
         self%evaluations = self%evaluations + 1
@@ -128,8 +134,10 @@ contains
         class(gauss_adaptive_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
-        logical :: good
+        logical :: good, refused
 
+        call self%refuse_system(system, refused, error=error)
+        if (refused) return
         call take_whole_step(self, system, good)
         if (.not. good) call fail(error, "no step is small enough at t = "//to_text(self%t_new)// &
                   " s: the motion diverges or is not smooth there (try dop853)", status_numbers)
@@ -289,6 +297,11 @@ contains
         real(dp), intent(in) :: t
         real(dp), intent(out) :: q(:), v(:)
 
+        if (self%coordinates /= size(q)) then
+            q = ieee_value(q, ieee_quiet_nan)
+            v = q
+            return
+        end if
         call self%inside%at(t, q, v)
     end subroutine state_at
 end module lagrangia_gauss_adaptive

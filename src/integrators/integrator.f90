@@ -1,7 +1,7 @@
 module lagrangia_integrator
     !! The contract of an integrator: `prepare` refuses or allocates, `start` begins a motion,
     !! `advance` goes on from where the last one ended, and cannot fail.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_description, only: line_length, name_length
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_kinds, only: dp, i8
@@ -10,8 +10,9 @@ module lagrangia_integrator
     implicit none (type, external)
     private
     public :: integrator_t, integrator_box_t, dense_integrator_t, dense_integrator_box_t
-    public :: not_started
+    public :: not_prepared, not_started
 
+    character(*), parameter :: not_prepared = "`prepare` has not been called for this system"
     character(*), parameter :: not_started = "`start` has not been called"
 
     type, abstract :: integrator_t
@@ -24,6 +25,7 @@ module lagrangia_integrator
         real(dp) :: step_limit = 0.0_dp       !! omega dt of a stable oscillation; 0: none known
         logical :: leaves_cyclic = .false.    !! a coordinate less pays, where a system knows how
         logical :: keeps_speed = .false.      !! |v| where a uniform magnetic field acts alone
+        integer :: coordinates = 0            !! of the system of `prepare`; 0: there was none
         integer(i8) :: evaluations = 0        !! of accelerations or forces, since `prepare`
         character(line_length) :: failure_reason = ""  !! why `advance` gave NaN, where known
     contains
@@ -33,6 +35,7 @@ module lagrangia_integrator
         procedure :: compensated => no_compensated
         procedure :: properties
         procedure, non_overridable :: refuse_state
+        procedure, non_overridable :: refuse_system
         procedure, non_overridable :: try_advance
     end type integrator_t
 
@@ -133,6 +136,23 @@ contains
 
         self%failure_reason = ""
     end subroutine start
+
+    pure subroutine refuse_system(self, system, refused, q, v, error)
+        !! For methods that keep arrays: whether `prepare` was for a system of another size, or
+        !! never called. Then the state is NaN, and `failure_reason` says why.
+        class(integrator_t), intent(inout) :: self
+        class(system_t), intent(in) :: system            !! of this call
+        logical, intent(out) :: refused                  !! nothing else can be done
+        real(dp), intent(inout), optional :: q(:), v(:)  !! become NaN if refused
+        type(error_t), allocatable, intent(out), optional :: error  !! says the same
+
+        refused = self%coordinates /= system%ndof .or. system%ndof < 1
+        if (.not. refused) return
+        self%failure_reason = not_prepared
+        if (present(q)) q = ieee_value(1.0_dp, ieee_quiet_nan)
+        if (present(v)) v = ieee_value(1.0_dp, ieee_quiet_nan)
+        if (present(error)) call fail(error, not_prepared)
+    end subroutine refuse_system
 
     pure subroutine stand(self, t0, t_end)
         !! What every dense method notes where it starts.

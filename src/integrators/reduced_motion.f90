@@ -44,7 +44,7 @@ contains
         class is (dense_integrator_t)
             allocate (motion%method, source=method)
         class default
-            call new_stepwise(steps, method, 0.0_dp)  ! only `advance` is called
+            call new_stepwise(steps, method, 1.0_dp)  ! any: only `advance` is called
             allocate (motion%method, source=steps)
         end select
         call move_alloc(reduced, motion%reduced)
@@ -72,6 +72,7 @@ contains
         call command(self)
         call self%method%prepare(self%reduced, error)
         if (allocated(error)) return
+        self%coordinates = system%ndof
         left = ieee_value(left, ieee_quiet_nan)
         self%q_left = left
         self%v_left = left
@@ -87,7 +88,10 @@ contains
         real(dp), intent(in) :: t0, dt
         integer(i8), intent(in) :: first, steps
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+        logical :: refused
 
+        call self%refuse_system(system, refused, q, v)
+        if (refused) return
         call self%method%advance(self%reduced, t0, dt, first, steps, self%q_left, self%v_left)
         call self%reduced%complete((t0 - self%t_left) + (first + steps)*dt, self%q_left, &
                                    self%v_left, q, v)
@@ -102,7 +106,10 @@ contains
         real(dp), intent(in) :: t0
         real(dp), intent(in) :: q(system%ndof), v(system%ndof)
         real(dp), intent(in), optional :: t_end
+        logical :: refused
 
+        call self%refuse_system(system, refused)
+        if (refused) return
         call command(self)
         self%failure_reason = ""
         call self%reduced%leave(q, v, self%q_left, self%v_left)
@@ -116,7 +123,10 @@ contains
         class(reduced_motion_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
+        logical :: refused
 
+        call self%refuse_system(system, refused, error=error)
+        if (refused) return
         call self%method%step(self%reduced, error)
         call report(self)
     end subroutine step

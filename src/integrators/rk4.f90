@@ -72,6 +72,7 @@ contains
         real(dp) :: state(system%ndof)
 
         state = 0.0_dp
+        self%coordinates = system%ndof
         self%evaluations = 0
         self%q = state
         self%v2 = state
@@ -101,7 +102,10 @@ contains
         real(dp), intent(in) :: t0
         real(dp), intent(in) :: q(system%ndof), v(system%ndof)
         real(dp), intent(in), optional :: t_end
+        logical :: refused
 
+        call self%refuse_system(system, refused)
+        if (refused) return
         call self%rk4_t%start(system, t0, q, v, t_end)
         self%q_low(:) = 0.0_dp
         self%v_low(:) = 0.0_dp
@@ -159,7 +163,10 @@ contains
         integer(i8), intent(in) :: first, steps
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
         integer(i8) :: k
+        logical :: refused
 
+        call self%refuse_system(system, refused, q, v)
+        if (refused) return
         do k = first, first + steps - 1
             call stages(self, system, t0 + k*dt, dt, q, v)
             call finish(system%ndof, dt/6.0_dp, v, self%v2, self%v3, self%v4, q)
@@ -176,7 +183,10 @@ contains
         integer(i8), intent(in) :: first, steps
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
         integer(i8) :: k
+        logical :: refused
 
+        call self%refuse_system(system, refused, q, v)
+        if (refused) return
         do k = first, first + steps - 1
             call stages(self, system, t0 + k*dt, dt, q, v)
             call add_pair(q, self%q_low, dt/6.0_dp*(v + 2.0_dp*(self%v2 + self%v3) + self%v4), &

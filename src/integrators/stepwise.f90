@@ -3,11 +3,12 @@ module lagrangia_stepwise
     !! quintic that has their coordinates, velocities and accelerations, right to \(O(h^6)\).
     !! One evaluation a step besides the method's own.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-    use lagrangia_errors, only: error_t
+    use lagrangia_errors, only: error_t, fail
     use lagrangia_hermite, only: quintic
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: stepwise_t, new_stepwise, whole_steps
@@ -35,7 +36,7 @@ contains
         !! Steps of `method`, each `dt` long but perhaps for the last.
         type(stepwise_t), intent(out) :: self      !! not yet prepared
         class(integrator_t), intent(in) :: method  !! of fixed step; copied
-        real(dp), intent(in) :: dt                 !! s
+        real(dp), intent(in) :: dt                 !! s; `prepare` refuses one that is not positive
 
         allocate (self%method, source=method)
         self%name = method%name
@@ -63,13 +64,17 @@ contains
     end subroutine whole_steps
 
     pure subroutine prepare(self, system, error)
-        !! Refuses what the method refuses.
+        !! Refuses a step that leads nowhere, and what the method refuses.
         class(stepwise_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
         real(dp) :: state(system%ndof)
 
-        call self%method%prepare(system, error)
+        if (.not. (self%dt > 0.0_dp .and. self%dt <= huge(self%dt))) then
+            call fail(error, "must be positive and finite, not "//to_text(self%dt), key="dt")
+        else
+            call self%method%prepare(system, error)
+        end if
         if (allocated(error)) return
         state = ieee_value(state, ieee_quiet_nan)
         self%q0 = state
@@ -78,6 +83,7 @@ contains
         self%q1 = state
         self%v1 = state
         self%a1 = state
+        self%coordinates = system%ndof
         self%evaluations = 0
         self%own = 0
         self%accepted = 0
@@ -124,7 +130,10 @@ contains
         class(stepwise_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
+        logical :: refused
 
+        call self%refuse_system(system, refused, error=error)
+        if (refused) return
         if (self%t_new <= self%t_start) then
             call system%accelerations(self%t_new, self%q1, self%v1, self%a1)
             self%own = self%own + 1
@@ -160,6 +169,11 @@ contains
         real(dp) :: h, s, c(0:5)
         integer :: i
 
+        if (self%coordinates /= size(q)) then
+            q = ieee_value(q, ieee_quiet_nan)
+            v = q
+            return
+        end if
         q = self%q1
         v = self%v1
         if (t >= self%t_new) return

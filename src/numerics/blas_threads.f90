@@ -8,9 +8,10 @@ module lagrangia_blas_threads
     use, intrinsic :: iso_c_binding, only: c_associated, c_f_procpointer, c_funptr, c_int, &
                                            c_null_char, c_null_ptr
     use lagrangia_c_library, only: c_dlsym
+    use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
-    public :: blas_threads, use_one_blas_thread
+    public :: blas_threads, take_blas_memory, use_one_blas_thread
     public :: cores, threads  ! private, the library would not see them
 
     integer(c_int), bind(c, name="blas_cpu_number") :: cores = 1_c_int     !! that it may use
@@ -30,6 +31,18 @@ module lagrangia_blas_threads
         end function get_number
     end interface
 
+    interface
+        subroutine dsyrk(uplo, trans, n, k, alpha, a, lda, beta, c, ldc)
+            !! \(C \gets \alpha AA^\top + \beta C\).
+            import :: dp
+            implicit none (type, external)
+            character, intent(in) :: uplo, trans
+            integer, intent(in) :: n, k, lda, ldc
+            real(dp), intent(in) :: alpha, a(lda, *), beta
+            real(dp), intent(inout) :: c(ldc, *)
+        end subroutine dsyrk
+    end interface
+
 contains
 
     subroutine use_one_blas_thread()
@@ -42,6 +55,16 @@ contains
         call c_f_procpointer(address, set)
         call set(1_c_int)
     end subroutine use_one_blas_thread
+
+    subroutine take_blas_memory()
+        !! For a program to call once, while there is memory: OpenBLAS takes 128 MB at the first
+        !! call that does work, keeps them, and where they cannot be had it tries for ever.
+        real(dp) :: one(1, 1), square(1, 1)
+
+        one = 1.0_dp
+        square = 0.0_dp
+        call dsyrk("L", "N", 1, 1, 1.0_dp, one, 1, 0.0_dp, square, 1)
+    end subroutine take_blas_memory
 
     function blas_threads() result(n)
         !! How many OpenBLAS would use; 1 where it is another BLAS.

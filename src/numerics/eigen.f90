@@ -1,6 +1,6 @@
 module lagrangia_eigen
     !! Eigenproblems of small oscillations, with every check that LAPACK leaves to its callers.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t, fail, status_library
     use lagrangia_jacobi, only: refine_modes
     use lagrangia_kinds, only: dp
@@ -220,12 +220,14 @@ contains
 
     pure function residual_ratio(stiffness, inertia, omega2, modes) result(ratio)
         !! LAPACK's own measure \(\|KZ - MZ\Lambda\|/(\|K\|\,\|Z\|\,n\,\epsilon)\) in the 1-norm:
-        !! below 30 or so where all is well.
+        !! below 30 or so where all is well; NaN for matrices that do not fit each other.
         real(dp), intent(in) :: stiffness(:, :), inertia(:, :), omega2(:), modes(:, :)
         !! \(K\), \(M\), \(\omega^2\), \(U\)
         real(dp) :: ratio, scale
         real(dp), dimension(size(modes, 1), size(modes, 2)) :: residual
 
+        ratio = ieee_value(ratio, ieee_quiet_nan)
+        if (any([shape(stiffness), shape(inertia), shape(modes)] /= size(omega2))) return
         residual = matmul(stiffness, modes) - &
                    matmul(inertia, modes)*spread(omega2, 1, size(modes, 1))
         scale = norm1(stiffness)*norm1(modes)*size(omega2)*epsilon(scale)

@@ -1,12 +1,13 @@
 module lagrangia_observer
     !! The contract of whoever wants to see the states of a run.
-    use lagrangia_errors, only: error_t
+    use lagrangia_errors, only: error_t, fail
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: observer_t, observer_box_t
+    public :: observer_t, observer_box_t, check_observers
 
     type, abstract :: observer_t
     contains
@@ -36,6 +37,19 @@ module lagrangia_observer
     end interface
 
 contains
+
+    pure subroutine check_observers(observers, error)
+        !! Fails for a box that nobody is in.
+        type(observer_box_t), intent(in) :: observers(:)
+        type(error_t), allocatable, intent(out) :: error  !! status 2
+        integer :: i
+
+        do i = 1, size(observers)
+            if (associated(observers(i)%item)) cycle
+            call fail(error, "observer "//to_text(i)//" is an empty box: let its item point to one")
+            return
+        end do
+    end subroutine check_observers
 
     subroutine no_tick(self, done, steps)
         !! Hear, between samples too, that the run goes on: most don't care.

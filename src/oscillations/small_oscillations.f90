@@ -17,6 +17,7 @@ module lagrangia_small_oscillations
     use lagrangia_mass_matrix, only: check_mass_matrix, list_of
     use lagrangia_normal_modes, only: is_oscillation, is_unstable, is_zero_mode, normal_modes, &
                                       normal_modes_t, put_labels
+    use lagrangia_resources, only: check_memory
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -25,6 +26,7 @@ module lagrangia_small_oscillations
     public :: is_oscillation, is_zero_mode, is_unstable
 
     integer, parameter :: largest_expansion = 60  !! coordinates; beyond, L is not differentiated
+    integer, parameter :: matrices = 20           !! n by n, that are needed at one time
 
     type, extends(normal_modes_t) :: modes_t
         real(dp), allocatable :: at(:)             !! the equilibrium
@@ -46,46 +48,48 @@ contains
         logical, intent(in) :: wanted          !! a start that is no equilibrium is refused
         type(modes_t), intent(out) :: modes    !! incomplete after an error
         type(error_t), allocatable, intent(out) :: error
-        !! status 2: no equilibrium; 4: mass matrix, LAPACK
-        real(dp), dimension(system%ndof, system%ndof) :: m, k, g
+        !! status 2: no equilibrium; 4: memory, mass matrix, LAPACK
+        integer :: n
 
+        n = system%ndof
         call check_system(system, start, error)
+        if (.not. allocated(error)) call check_memory(8.0_dp*matrices*n**2, "the eigenproblem "// &
+            "of "//to_text(n)//" coordinates", error)
         if (allocated(error)) return
         modes%at = start
         call settle(system, wanted, modes%at, error)
         if (allocated(error)) return
         call system%linearise(modes%at, modes%analytic)
-        if (system%ndof <= largest_expansion .or. .not. allocated(modes%analytic%mass)) then
-            call expand(system, modes%at, m, k, g)
-            if (allocated(modes%analytic%mass)) call compare(modes, m, k, g)
+        allocate (modes%mass(n, n), modes%stiffness(n, n), modes%gyroscopic(n, n))
+        if (n <= largest_expansion .or. .not. allocated(modes%analytic%mass)) then
+            call expand(system, modes%at, modes%mass, modes%stiffness, modes%gyroscopic)
+            if (allocated(modes%analytic%mass)) call compare(modes)
         end if
         if (allocated(modes%analytic%mass)) then
-            m = modes%analytic%mass
-            k = modes%analytic%stiffness
-            g = 0.0_dp
-            if (allocated(modes%analytic%gyroscopic)) g = modes%analytic%gyroscopic
+            modes%mass = modes%analytic%mass
+            modes%stiffness = modes%analytic%stiffness
+            modes%gyroscopic = 0.0_dp
+            if (allocated(modes%analytic%gyroscopic)) modes%gyroscopic = modes%analytic%gyroscopic
+        else
+            call check_mass_matrix(modes%mass, error)
         end if
-        if (.not. allocated(modes%analytic%mass)) call check_mass_matrix(m, error)
         if (allocated(error)) then
             call error%add_context("at q = "//list_of(modes%at)//", v = 0")
             return
         end if
-        modes%mass = m
-        modes%stiffness = k
-        modes%gyroscopic = g
-        if (any(abs(g) > 0.0_dp)) then
+        if (any(abs(modes%gyroscopic) > 0.0_dp)) then
             call solve_gyroscopic(modes, error)
         else if (allocated(modes%analytic%root)) then
             modes%method = "dgejsv on the factors of K and M"
             call modes_from_factors(modes%analytic%root, modes%analytic%inverse, modes%omega2, &
                                     modes%shapes, error)
         else
-            modes%method = merge("dsygv ", "dsygvd", system%ndof <= 32)
-            call normal_modes(k, m, modes%omega2, modes%shapes, error)
+            modes%method = merge("dsygv ", "dsygvd", n <= 32)
+            call normal_modes(modes%stiffness, modes%mass, modes%omega2, modes%shapes, error)
         end if
         if (allocated(error)) return
         if (.not. allocated(modes%quadrature)) then
-            modes%ratio = residual_ratio(k, m, modes%omega2, modes%shapes)
+            modes%ratio = residual_ratio(modes%stiffness, modes%mass, modes%omega2, modes%shapes)
         end if
         call label_modes(modes)
     end subroutine find_modes
@@ -230,18 +234,19 @@ contains
         g = mixed - transpose(mixed)
     end subroutine expand
 
-    pure subroutine compare(modes, m, k, g)
+    pure subroutine compare(modes)
         !! The derivation by hand against the Lagrangian.
         type(modes_t), intent(inout) :: modes
-        real(dp), intent(in) :: m(:, :), k(:, :), g(:, :)
 
-        modes%difference = max(relative(modes%analytic%mass, m), &
-                               relative(modes%analytic%stiffness, k))
-        if (allocated(modes%analytic%gyroscopic)) then
-            modes%difference = max(modes%difference, relative(modes%analytic%gyroscopic, g))
-        else
-            modes%difference = max(modes%difference, relative(0.0_dp*g, g))
-        end if
+        associate (g => modes%gyroscopic)
+            modes%difference = max(relative(modes%analytic%mass, modes%mass), &
+                                   relative(modes%analytic%stiffness, modes%stiffness))
+            if (allocated(modes%analytic%gyroscopic)) then
+                modes%difference = max(modes%difference, relative(modes%analytic%gyroscopic, g))
+            else
+                modes%difference = max(modes%difference, relative(0.0_dp*g, g))
+            end if
+        end associate
     end subroutine compare
 
     pure function relative(a, b) result(difference)

@@ -7,7 +7,7 @@ module lagrangia_dense_run
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_observer, only: observer_box_t
+    use lagrangia_observer, only: check_observers, observer_box_t
     use lagrangia_run, only: plan_t, run
     use lagrangia_start, only: blame_mass_matrix, check_start
     use lagrangia_system, only: system_t
@@ -36,6 +36,9 @@ contains
             select type (integrator)
             class is (dense_integrator_t)
                 call run_dense(system, integrator, plan, events, observers, q, v, ended, error)
+            class default
+                call fail(error, trim(integrator%name)//" has no dense output, which samples "// &
+                          "at equal times and events need: new_stepwise gives it one")
             end select
         else
             call run(system, integrator, plan, observers, q, v, error)
@@ -58,17 +61,24 @@ contains
         type(watch_t) :: watch
         real(dp) :: t_end, q_end(system%ndof), v_end(system%ndof)
         integer(i8) :: shown, last
-        integer :: impacts
+        integer :: i, impacts
         logical :: stopped, restarted
 
+        ended = plan%t0
+        call check_start(system, plan%t0, q, v, error)
+        if (.not. allocated(error)) call check_observers(observers, error)
+        if (allocated(error)) return
+        if (plan%every < 1) call fail(error, "the plan is not one of new_plan")
+        do i = 1, size(events)
+            if (.not. allocated(events(i)%item)) call fail(error, "event "//to_text(i)//" is "// &
+                "an empty box: allocate its item")
+        end do
+        if (allocated(error)) return
         t_end = plan%t0 + plan%duration
         last = plan%samples()
         shown = 0
         impacts = 0
-        ended = plan%t0
         stopped = .false.
-        call check_start(system, plan%t0, q, v, error)
-        if (allocated(error)) return
         call method%prepare(system, error)
         if (allocated(error)) return
         call method%start(system, plan%t0, q, v, t_end)

@@ -5,7 +5,7 @@ module lagrangia_run
     use lagrangia_integrator, only: integrator_t
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_observer, only: observer_box_t
+    use lagrangia_observer, only: check_observers, observer_box_t
     use lagrangia_start, only: blame_mass_matrix, check_start
     use lagrangia_stepwise, only: whole_steps
     use lagrangia_system, only: system_t
@@ -159,6 +159,7 @@ contains
             return
         end if
         call check_start(system, plan%t0, q, v, error)
+        if (.not. allocated(error)) call check_observers(observers, error)
         if (allocated(error)) return
         call integrator%prepare(system, error)
         if (allocated(error)) return

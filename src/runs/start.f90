@@ -7,7 +7,7 @@ module lagrangia_start
     use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
     use lagrangia_lagrangian_system, only: lagrangian_system_t
     use lagrangia_mass_matrix, only: check_mass_matrix, list_of
-    use lagrangia_system, only: system_t
+    use lagrangia_system, only: check_state, system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -23,15 +23,7 @@ contains
         real(dp), intent(in) :: t, q(:), v(:)  !! s, coordinates, velocities
         type(error_t), allocatable, intent(out) :: error
 
-        if (system%ndof < 1) then
-            call fail(error, "the system has no coordinates: configure it first")
-        else if (size(q) /= system%ndof) then
-            call fail(error, "q has "//to_text(size(q))//" values; the system has "// &
-                      to_text(system%ndof)//" coordinates", key="q")
-        else if (size(v) /= system%ndof) then
-            call fail(error, "v has "//to_text(size(v))//" values; the system has "// &
-                      to_text(system%ndof)//" velocities", key="v")
-        end if
+        call check_state(system, q, v, error)
         if (allocated(error)) return
         if (.not. all(ieee_is_finite([t, q, v]))) return  ! the run says so
         select type (system)

@@ -245,6 +245,7 @@ contains
         integer :: i
 
         allocate (values(0))
+        if (.not. allocated(d%parameters)) return
         do i = 1, size(d%parameters)
             values = [values, d%parameters(i)%value(:d%parameters(i)%count)]
         end do

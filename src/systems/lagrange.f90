@@ -9,11 +9,13 @@ module lagrangia_lagrange
     !! with \(A\ddot q = -\dot A\dot q - \dot b\) where there are constraints \(A\dot q + b = 0\)
     !! (Lagrange-d'Alembert: the constraint is *not* put into \(L\)). All derivatives are exact:
     !! `L` is evaluated on hyper-dual numbers.
-    use lagrangia_errors, only: error_t
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
-    use lagrangia_system, only: system_t
+    use lagrangia_system, only: check_state, system_t
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: euler_lagrange_t, expand_lagrangian, accelerations_from_lagrangian
@@ -31,15 +33,28 @@ module lagrangia_lagrange
 contains
 
     pure subroutine expand_lagrangian(system, t, q, v, terms)
-        !! All first derivatives of `L` and the second ones that the equations of motion need.
-        class(system_t), intent(in) :: system                      !! gives L
-        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)  !! time, s; state
-        type(euler_lagrange_t), intent(out) :: terms               !! the derivatives, allocated
+        !! All first derivatives of `L` and the second ones that the equations of motion need; NaN
+        !! where `check_state` refuses the state.
+        class(system_t), intent(in) :: system            !! gives L
+        real(dp), intent(in) :: t            !! s
+        real(dp), intent(in) :: q(:), v(:)   !! coordinates, velocities, (n), n = `system%ndof`
+        type(euler_lagrange_t), intent(out) :: terms     !! the derivatives, allocated
         type(hyperdual_t) :: tt, qq(system%ndof), vv(system%ndof), l
+        type(error_t), allocatable :: error
         integer :: i, j, n
 
         n = system%ndof
         allocate (terms%dl_dq(n), terms%dl_dv(n), terms%mass(n, n), terms%force(n))
+        call check_state(system, q, v, error)
+        if (allocated(error)) then
+            terms%l = ieee_value(t, ieee_quiet_nan)
+            terms%dl_dt = terms%l
+            terms%dl_dq = terms%l
+            terms%dl_dv = terms%l
+            terms%mass = terms%l
+            terms%force = terms%l
+            return
+        end if
         tt%re = t
         qq%re = q
         vv%re = v
@@ -104,12 +119,12 @@ contains
 
     pure subroutine accelerations_from_lagrangian(system, t, q, v, a, multipliers, error)
         !! Accelerations, and the multipliers \(\lambda\) of the non-holonomic constraints.
-        class(system_t), intent(in) :: system                      !! gives L
-        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)  !! time, s; state
-        real(dp), intent(out) :: a(system%ndof), multipliers(system%constraints)
-        !! zero after an error
-        type(error_t), allocatable, intent(out) :: error
-        !! status 4: the equations cannot be solved for them
+        class(system_t), intent(in) :: system            !! gives L
+        real(dp), intent(in) :: t                         !! s
+        real(dp), intent(in) :: q(:), v(:)                !! coordinates, velocities, (n)
+        real(dp), intent(out) :: a(:)                     !! accelerations, (n); 0 after an error
+        real(dp), intent(out) :: multipliers(:)           !! (`system%constraints`)
+        type(error_t), allocatable, intent(out) :: error  !! arrays of another size, a singular M
         type(euler_lagrange_t) :: terms
         real(dp), dimension(system%ndof + system%constraints, &
                             system%ndof + system%constraints) :: matrix
@@ -117,6 +132,14 @@ contains
 
         a = 0.0_dp
         multipliers = 0.0_dp
+        call check_state(system, q, v, error)
+        if (allocated(error)) return
+        if (size(a) /= system%ndof .or. size(multipliers) /= system%constraints) then
+            call fail(error, "there are "//to_text(system%ndof)//" accelerations and "// &
+                      to_text(system%constraints)//" multipliers, not "//to_text(size(a))// &
+                      " and "//to_text(size(multipliers)))
+            return
+        end if
         call expand_lagrangian(system, t, q, v, terms)
         call equations_of_motion(system, t, q, v, terms, matrix, right)
         call solve_linear(matrix, right, solution, error)
@@ -126,13 +149,15 @@ contains
     end subroutine accelerations_from_lagrangian
 
     pure function energy_from_lagrangian(system, t, q, v) result(energy)
-        !! \(\dot q\,\partial L/\partial\dot q - L\).
-        class(system_t), intent(in) :: system                      !! gives L
-        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)  !! time, s; state
+        !! \(\dot q\,\partial L/\partial\dot q - L\); NaN where `check_state` refuses the state.
+        class(system_t), intent(in) :: system            !! gives L
+        real(dp), intent(in) :: t            !! s
+        real(dp), intent(in) :: q(:), v(:)   !! coordinates, velocities, (`system%ndof`)
         real(dp) :: energy
         type(euler_lagrange_t) :: terms
 
         call expand_lagrangian(system, t, q, v, terms)
-        energy = dot_product(v, terms%dl_dv) - terms%l
+        energy = -terms%l
+        if (size(v) == system%ndof) energy = dot_product(v, terms%dl_dv) - terms%l
     end function energy_from_lagrangian
 end module lagrangia_lagrange

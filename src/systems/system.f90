@@ -15,7 +15,7 @@ module lagrangia_system
     implicit none (type, external)
     private
     public :: system_t, system_box_t, reduced_t
-    public :: lanes, check_parameter, check_parameters, default_values
+    public :: lanes, check_parameter, check_parameters, check_state, default_values
 
     integer, parameter :: lanes = 8  !! states that `accelerations_lanes` takes at once
 
@@ -336,6 +336,23 @@ contains
         real(dp), intent(in) :: q0(:), v0(:)    !! coordinates and velocities at `t0`, `(ndof)`
         class(reference_t), allocatable, intent(out) :: reference  !! goes through that state
     end subroutine no_closed_form
+
+    pure subroutine check_state(self, q, v, error)
+        !! Fails for a system that was never configured, and for arrays of another size.
+        class(system_t), intent(in) :: self
+        real(dp), intent(in) :: q(:), v(:)                !! to be coordinates and velocities
+        type(error_t), allocatable, intent(out) :: error  !! status 2
+
+        if (self%ndof < 1) then
+            call fail(error, "the system has no coordinates: configure it first")
+        else if (size(q) /= self%ndof) then
+            call fail(error, "q has "//to_text(size(q))//" values; the system has "// &
+                      to_text(self%ndof)//" coordinates", key="q")
+        else if (size(v) /= self%ndof) then
+            call fail(error, "v has "//to_text(size(v))//" values; the system has "// &
+                      to_text(self%ndof)//" velocities", key="v")
+        end if
+    end subroutine check_state
 
     pure subroutine check_parameters(self, values, error)
         !! Refuse `values` that are too many, too few or outside their domains.

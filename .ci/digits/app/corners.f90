@@ -38,6 +38,7 @@ contains
         if (allocated(error)) return
         call random%state(system, t0, q, v, error)
         if (allocated(error)) return
+        call system%describe(d)  ! of the parameters drawn: a chain has as many coordinates as bobs
         duration = between(random, 0.5_dp, 3.0_dp)
         select case (corner_names(corner))
         case ("wide"); call widen(random, d, p, 3.0_dp, 1)
@@ -66,17 +67,17 @@ contains
         subroutine write_scene()
             !! As text: the scene can be tried by hand.
             integer :: i, j, k
-            logical :: fixed
+            logical :: fixed, stops
 
+            stops = corner_names(corner) == "event"
+            if (corner_names(corner) == "bounces") stops = chance(random) < 0.5_dp
             fixed = fast(system, p, t0, q, v)*duration > 1e4_dp
             text = "&scene system = '"//trim(d%name)//"', columns = 't', "// &
                    "error_estimate = .true., t0 = "//to_text(t0)// &
                    ", duration = "//to_text(duration)// &
                    method_of(random, duration, fixed)// &
                    ", q = "//list(q)//", v = "//list(v)
-            if (corner_names(corner) == "event" .and. system%contacts == 0) then
-                text = text//", event = '"//level(random, d, q, v)//" stop'"
-            end if
+            if (stops) text = text//", event = '"//level(random, d, q, v)//" stop'"
             text = text//" / &"//trim(d%name)
             k = 0
             do i = 1, size(d%parameters)

@@ -110,6 +110,7 @@ contains
         type(case_t), intent(out) :: drawn
         logical, intent(out) :: more
         character(4096) :: line
+        real(real64), allocatable :: doubles(:)  ! the scene's numbers are these, not their decimals
         integer :: status, parameters, numbers, i
 
         do
@@ -121,13 +122,15 @@ contains
         drawn%scene = trim(line)
         read (unit, *) drawn%system, drawn%corner, drawn%method, parameters, drawn%n, numbers, &
             drawn%level_of
-        allocate (drawn%parameters(parameters), drawn%q(drawn%n), drawn%v(drawn%n))
-        allocate (drawn%numbers(numbers))
-        read (unit, "(a)") line
-        read (line, *) drawn%parameters
-        read (unit, *) drawn%t0, drawn%duration, drawn%t, drawn%level
-        read (unit, "(a)") line
-        read (line, *) drawn%q, drawn%v
+        allocate (drawn%numbers(numbers), doubles(parameters + 4 + 2*drawn%n))
+        read (unit, *) doubles
+        drawn%parameters = doubles(:parameters)
+        drawn%t0 = doubles(parameters + 1)
+        drawn%duration = doubles(parameters + 2)
+        drawn%t = doubles(parameters + 3)
+        drawn%level = doubles(parameters + 4)
+        drawn%q = doubles(parameters + 5:parameters + 4 + drawn%n)
+        drawn%v = doubles(parameters + 5 + drawn%n:)
         do i = 1, numbers
             associate (s => drawn%numbers(i))
                 read (unit, *) s%value, s%error, s%most, s%text
@@ -207,14 +210,20 @@ contains
         integer :: k, first
 
         call new_system(drawn, system)
+        first = size(drawn%numbers) - 2*drawn%n  ! 1 where there is a time
         if (system%contacts > 0) then
-            call bounce(drawn, q, v)
-            truth = [q, v]
+            t = drawn%t0 + drawn%duration
+            if (first == 1) t = drawn%t
+            if (drawn%level_of == 1 .and. abs(drawn%level) <= 0.0_dp) &  ! it ends before the impact
+                t = t - 1e-7_dp*(t - drawn%t0)
+            call bounce(drawn, t - drawn%t0, q, v)
             known = .true.
+            if (first == 1) call to_level(system, drawn, t, q, v, known)
+            truth = [t, q, v]
+            truth = truth(2 - first:)
             return
         end if
         known = .false.
-        first = size(drawn%numbers) - 2*drawn%n  ! 1 where there is a time
         do k = 0, most_doublings
             q = drawn%q
             v = drawn%v
@@ -275,13 +284,14 @@ contains
         good = abs(dt) <= 1e-25_dp*max(abs(t), drawn%duration)
     end subroutine to_level
 
-    subroutine bounce(drawn, q, v)
+    subroutine bounce(drawn, elapsed, q, v)
         !! From impact to impact, and at rest after the last.
         type(case_t), intent(in) :: drawn
+        real(dp), intent(in) :: elapsed  !! since the start, s
         real(dp), intent(out) :: q(:), v(:)
         real(dp) :: left, flight, speed
 
-        left = drawn%duration
+        left = elapsed
         q = drawn%q
         v = drawn%v
         associate (g => drawn%parameters(2), e => drawn%parameters(3))
