@@ -8,6 +8,7 @@ are printed; (-omega^2 M + i omega G + K) u = 0 and u^+ M u = 1 hold to that of 
 """
 import json
 import math
+import re
 import sys
 
 text = open(sys.argv[1]).read().splitlines()
@@ -61,13 +62,16 @@ for k in range(n):
     assert not words, line
 first = next(k for k, line in enumerate(text) if line.startswith("shapes"))
 imaginary = page.get("shapes_imaginary")
+sign = 1
+if imaginary:
+    sign = {"+": 1, "-": -1}[re.match(r"shapes \(a ([+-]) i b\) exp\(i omega t\), ", text[first]).group(1)]
 lines = text[first + 1:-1]
 assert len(lines) == (2*n if imaginary else n)
 for k in range(n):
     u = [complex(x) for x in page["shapes"][k]]
     parts = [page["shapes"][k]]
     if imaginary:
-        u = [complex(*pair) for pair in zip(page["shapes"][k], imaginary[k])]
+        u = [complex(a, sign*b) for a, b in zip(page["shapes"][k], imaginary[k])]
         parts.append(imaginary[k])
     for mark, part in zip(" i", parts):
         line = lines.pop(0)

@@ -313,6 +313,8 @@ interrupt() { # interrupt SIGNAL STATUS
 set -m # else a shell lets its background jobs ignore SIGINT
 interrupt INT 130
 interrupt TERM 143
+run --help
+check "--help: a signal's status is what those were" eval 'formula=$(grep -o "128 . n signal n" "$work/out") && n=2 && [ $((${formula% signal n})) -eq 130 ]'
 
 echo "$count claims, $failures failed"
 exit $((failures > 0))

@@ -210,11 +210,6 @@ contains
         allocate (d%quantities(0), d%notes(0))
         d%points = [mass_point("ray", 1.0_dp)]
         d%energy_scale = self%n0**2
-        d%lagrangian = [character(len(d%title)) :: "(x_dot^2 + y_dot^2 + n^2)/2"]
-        d%energy = "(x_dot^2 + y_dot^2 - n^2)/2"
-        d%equations = [character(len(d%title)) :: "x_ddot = 0", &
-                       "y_ddot = kappa - n0^2 alpha^2 y"]
-        d%constraint = "none"
     end subroutine describe
 
     pure subroutine configure(self, values, error)

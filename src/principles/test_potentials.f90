@@ -44,10 +44,6 @@ contains
         d%points = [mass_point("charge", self%m)]
         d%dimensions = 3
         d%energy_scale = self%m
-        d%lagrangian = [character(len(d%title)) :: "m/2 v.v - U,   U = e phi - e A.v"]
-        d%energy = "m/2 v.v + e phi"
-        d%equations = [character(len(d%title)) :: "m v_dot = e (E + v x B)"]
-        d%constraint = "none"
     end subroutine describe
 
     pure subroutine configure(self, values, error)
