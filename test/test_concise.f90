@@ -50,6 +50,10 @@ contains
         call assertEqual("1.235(3)e4", concise(12346.0_dp, 20.0_dp))
         call assertEqual("6.6261(3)e-34", concise(6.62607e-34_dp, 2e-38_dp))
         call assertEqual("1.000(2)e-7", concise(9.9999e-8_dp, 1e-10_dp))
+        call assertEqual("1.0(2)e2", concise(96.58_dp, 8.9_dp), "96.58 is 100 in tens")
+        call assertEqual("-1.0(2)e-10", concise(-9.91e-11_dp, 1.1e-11_dp), "in its first digit")
+        call assertEqual("-1.00(2)e-10", concise(-9.96e-11_dp, 1.1e-12_dp), "in its second")
+        call assertEqual("-9.9(2)e-11", concise(-9.92e-11_dp, 1.1e-12_dp), "not in its second")
         call assertEqual("0(3)e-9", concise(4e-10_dp, 2e-9_dp))
         call assertEqual("-1(4)e-9", concise(-9e-10_dp, 3e-9_dp))
         call assertEqual("0(4)e5", concise(0.0_dp, 4e5_dp))
@@ -76,6 +80,14 @@ contains
                                        message=text)
             call assertLessThanOrEqual(abs(centre - value), 0.5_dp*bracket &
                                        + 4.0_dp*epsilon(value)*abs(value), message=text)
+        end do
+        do k = 1, 500  ! a first digit of nine may become ten
+            value = (10.0_dp - uniform(0.0_dp, 0.9_dp))*10.0_dp**(k/10 - 25)
+            error = value*10.0_dp**uniform(-3.0_dp, 0.5_dp)
+            text = concise(value, error)
+            call read_concise(text, centre, bracket)
+            call assertLessThanOrEqual(error + abs(centre - value), &
+                bracket*(1.0_dp + 4.0_dp*epsilon(value)), message=text)
         end do
     end subroutine text_lies_within_its_error
 end module test_concise

@@ -118,12 +118,15 @@ contains
             return
         end if
         digits = top - place
-        top = power_of(value, digits)
-        digits = top - place  ! one more where 9.99... became 10
         write (layout, "(ss, a, i0, a)") "(ss, es64.", digits, "e4)"
         write (buffer, layout) value
         text = trim(adjustl(buffer(:index(buffer, "E") - 1)))
-        if (digits == 0) text = text(:len(text) - 1)
+        if (power_of(value, digits) > top) then  ! 9.96 became 10.0, and stands there as 1.0
+            top = top + 1
+            text = text//"0"
+        else if (digits == 0) then
+            text = text(:len(text) - 1)
+        end if
         text = text//behind//"e"//to_text(top)
     end function scientific
 end module lagrangia_concise
