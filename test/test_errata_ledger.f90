@@ -2,12 +2,16 @@ module test_errata_ledger
     !! What the ledger of the notes' slips says in plain letters: it reads as the lines that it
     !! quotes do, and what it derives holds on true motions.
     use formula, only: formula_value, names_t
-    use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_atwood, only: atwood_t
     use lagrangia_cart_pendulum, only: cart_pendulum_t
+    use lagrangia_errata_command, only: slip_report
     use lagrangia_errata_ledger, only: slip_t, slips_of_the_notes
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
+    use lagrangia_lecture_constraints, only: examples
+    use lagrangia_ledger, only: claim_t
+    use lagrangia_report, only: report_t
     use lagrangia_wedge, only: wedge_t
     implicit none (type, external)
     private
@@ -27,6 +31,7 @@ contains
         call suite%addTest(TestMethod("derived_equations_hold", derived_equations_hold))
         call suite%addTest(TestMethod("derived_expressions_are_right", &
                                       derived_expressions_are_right))
+        call suite%addTest(TestMethod("pages_name_what_they_compute", pages_name_what_they_compute))
     end function errata_ledger_suite
 
     function slip_of(id) result(slip)
@@ -211,5 +216,91 @@ contains
         slip = slip_of("E13")
         call assertTrue(index(slip%quotes(2)%text, "3m - k") > 0, "the notes count m particles")
         call assertTrue(index(slip%derived, "i = 1, ..., 3n - k;") > 0, "here they are n")
+        text = signs_of(trim(slip%derived))
+        call assertEqual(signs_of(trim(slip%elsewhere%text)), text(:1), "the time joins")
     end subroutine derived_expressions_are_right
+
+    function row_of(id, first) result(row)
+        !! The row of the slip's page whose name begins so.
+        character(*), intent(in) :: id, first
+        type(claim_t) :: row
+        type(report_t) :: report
+        type(error_t), allocatable :: error
+        integer :: i
+
+        call slip_report(slip_of(id), report, error)
+        call assertFalse(allocated(error), id)
+        if (allocated(error)) return
+        do i = 1, size(report%rows)
+            if (index(report%rows(i)%name, first) == 1) row = report%rows(i)
+        end do
+        call assertEqual(1, index(row%name, first), id//": "//first)
+    end function row_of
+
+    subroutine pages_name_what_they_compute()
+        !! The terms that are left of an equation as it is written, the function of the chain rule,
+        !! the constraint that would be called nonholonomic.
+        type(names_t) :: letters
+        type(claim_t) :: row
+        type(slip_t) :: slip
+        type(wedge_t) :: wedge
+        type(error_t), allocatable :: error
+        character(*), parameter :: times = "that is, times "
+        real(dp), parameter :: alpha = 0.5_dp, theta = 0.1_dp, theta_dot = 0.3_dp
+        character(:), allocatable :: text
+        real(dp) :: a(2), value, size_of
+        integer :: cut
+        logical :: ok
+
+        ! E4: (m1 + m2)/m2 x_ddot = -(the term), of the linear cart at this angle
+        row = row_of("E4", times)
+        call letters%set("l", l)
+        call letters%set("th", theta)
+        call letters%set("th_dot", theta_dot)
+        call letters%set("th_ddot", -(m1 + m2)*g/(m1*l)*theta)
+        call formula_value(trim(row%name(len(times) + 1:)), letters, value, size_of, ok)
+        call assertTrue(ok, row%name)
+        call assertEqual(l*(-(m1 + m2)*g/(m1*l)*theta - theta_dot**2*theta), value, &
+                         1e-15_dp*size_of, row%name)
+        row = row_of("E4", "with ")
+        slip = slip_of("E4")
+        text = row%name(6:index(row%name, ":") - 1)
+        call assertEqual(text//" x_ddot", slip%derived(:len(text) + 7), row%name)
+        ! E21: what is left is a part of m g sin(alpha), since the equation as derived holds
+        call wedge%configure([m2, m1, alpha, g], error)
+        call wedge%accelerations(0.0_dp, [0.0_dp, 0.0_dp], [0.0_dp, 0.0_dp], a)
+        call letters%set("m", m2)
+        call letters%set("g", g)
+        call letters%set("q1_ddot", a(1))
+        call letters%set("q2_ddot", a(2))
+        call letters%set("sin a", sin(alpha))
+        call letters%set("cos a", cos(alpha))
+        row = row_of("E21", times)
+        call zero(trim(row%name(len(times) + 1:))//" = m g sin a", letters, 1e-14_dp)
+        row = row_of("E21", "m (")
+        call zero(row%name(:index(row%name, "  [") - 1), letters, 1e-14_dp)
+        ! E12: F of the heading, along the path that it gives
+        row = row_of("E12", "dF/dt = ")
+        text = row%group(5:index(row%group, " at q = ") - 1)
+        call assertEqual(row%left, (8.0_dp*(f_at(1e-3_dp) - f_at(-1e-3_dp)) - (f_at(2e-3_dp) &
+                                                                  - f_at(-2e-3_dp)))/12e-3_dp, &
+                         1e-9_dp, text)
+        slip = slip_of("E9")
+        cut = index(slip%effect, " = 0 would be nonholonomic") + 3
+        call assertTrue(any(examples%name == slip%effect(:cut)), slip%effect)
+    contains
+        function f_at(step) result(f)
+            !! At this time after the state of the heading.
+            real(dp), intent(in) :: step
+            real(dp) :: f
+            type(names_t) :: place
+
+            call place%set("q1", 0.4_dp + 0.7_dp*step)
+            call place%set("q2", -0.9_dp + 1.9_dp*step)
+            call place%set("t", 0.6_dp + step)
+            call place%set("exp(q1)", exp(0.4_dp + 0.7_dp*step))
+            call formula_value(text, place, f, size_of, ok)
+            call assertTrue(ok, text)
+        end function f_at
+    end subroutine pages_name_what_they_compute
 end module test_errata_ledger

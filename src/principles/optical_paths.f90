@@ -205,8 +205,8 @@ contains
         d%coordinates = [coordinate("x", "m", "along the layers"), &
                          coordinate("y", "m", "across the layers")]
         d%parameters = [positive("n0", "1", "index at y = 0", self%n0), &
-                        real_number("kappa", "1/m", "n^2 = n0^2 + 2 kappa y", self%kappa), &
-                        nonnegative("alpha", "1/m", "n^2 = n0^2 (1 - alpha^2 y^2)", self%alpha)]
+                        real_number("kappa", "1/m", "half the slope of n^2 at y = 0", self%kappa), &
+                        nonnegative("alpha", "1/m", "over how many m n falls, inverse", self%alpha)]
         allocate (d%quantities(0), d%notes(0))
         d%points = [mass_point("ray", 1.0_dp)]
         d%energy_scale = self%n0**2
