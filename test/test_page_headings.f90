@@ -59,8 +59,8 @@ contains
     end subroutine constraints_have_their_names
 
     subroutine mixed_partials_are_differences()
-        !! Of \(y\,dx - x\,dy\) they are \(\partial A_x/\partial y = 1\) and \(\partial A_y/\partial x
-        !! = -1\): the heading's formula of these is the row's number.
+        !! Of \(y\,dx - x\,dy\) they are \(\partial A_x/\partial y = 1\) and
+        !! \(\partial A_y/\partial x = -1\): the heading's formula of these is the row's number.
         type(report_t) :: report
         type(names_t) :: letters
         character(:), allocatable :: heading
