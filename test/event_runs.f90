@@ -8,8 +8,8 @@ module event_runs
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_box_t
     use lagrangia_recorder, only: recorder_t
-    use lagrangia_run, only: new_sampled_plan, plan_t
     use lagrangia_system, only: system_t
+    use lagrangia_time_grid, only: new_sample_times, time_grid_t
     implicit none (type, external)
     private
     public :: find
@@ -29,7 +29,7 @@ contains
         type(observer_box_t) :: observers(1)
         type(column_event_t) :: event
         type(dop853_t) :: method
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(error_t), allocatable :: error
         integer :: i
 
@@ -43,9 +43,9 @@ contains
         call new_dop853(method)
         method%tolerance = tolerance
         if (present(samples)) then
-            call new_sampled_plan(plan, 0.0_dp, duration, samples, error)
+            call new_sample_times(plan, 0.0_dp, duration, samples, error)
         else
-            call new_sampled_plan(plan, 0.0_dp, duration, 10_i8, error)
+            call new_sample_times(plan, 0.0_dp, duration, 10_i8, error)
         end if
         call run_dense(system, method, plan, events, observers, q, v, ended, error)
         call assertFalse(allocated(error), "no error")

@@ -26,6 +26,7 @@ module suites
     use test_constant_accelerations, only: constant_accelerations_suite
     use test_constraints, only: constraints_suite
     use test_coupled_orders, only: coupled_orders_suite
+    use test_cross_check, only: cross_check_suite
     use test_decimal, only: decimal_suite
     use test_dense_orders, only: dense_orders_suite
     use test_dense_powers, only: dense_powers_suite
@@ -91,7 +92,6 @@ module suites
     use test_pendulum, only: pendulum_suite
     use test_period, only: period_suite
     use test_places, only: places_suite
-    use test_plan, only: plan_suite
     use test_precision_curve, only: precision_curve_suite
     use test_principles, only: principles_suite
     use test_printed_formulae, only: printed_formulae_suite
@@ -111,8 +111,7 @@ module suites
     use test_scene_files, only: scene_files_suite
     use test_scene_steps, only: scene_steps_suite
     use test_scenes, only: scenes_suite
-    use test_second_opinion, only: second_opinion_suite
-    use test_shadow, only: shadow_suite
+    use test_second_run, only: second_run_suite
     use test_sinc, only: sinc_suite
     use test_small_oscillations, only: small_oscillations_suite
     use test_solve, only: solve_suite
@@ -125,6 +124,7 @@ module suites
     use test_systems, only: systems_suite
     use test_term_sizes, only: term_sizes_suite
     use test_text, only: text_suite
+    use test_time_grid, only: time_grid_suite
     use test_unfinished, only: unfinished_suite
     use test_virtual_work, only: virtual_work_suite
     use test_walls, only: walls_suite
@@ -229,7 +229,7 @@ contains
         call suite%addTest(pendulum_suite())
         call suite%addTest(period_suite())
         call suite%addTest(places_suite())
-        call suite%addTest(plan_suite())
+        call suite%addTest(time_grid_suite())
         call suite%addTest(precision_curve_suite())
         call suite%addTest(principles_suite())
         call suite%addTest(printed_formulae_suite())
@@ -248,8 +248,8 @@ contains
         call suite%addTest(scene_files_suite())
         call suite%addTest(scene_steps_suite())
         call suite%addTest(scenes_suite())
-        call suite%addTest(second_opinion_suite())
-        call suite%addTest(shadow_suite())
+        call suite%addTest(cross_check_suite())
+        call suite%addTest(second_run_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(small_oscillations_suite())
         call suite%addTest(step_warning_suite())

@@ -10,9 +10,10 @@ module test_amplitude
     use lagrangia_observer, only: observer_box_t
     use lagrangia_period, only: period_t
     use lagrangia_reference, only: reference_t
-    use lagrangia_run, only: new_plan, plan_t, run
+    use lagrangia_run, only: run
     use lagrangia_small_oscillations, only: find_modes, modes_t
     use lagrangia_system, only: system_t
+    use lagrangia_time_grid, only: new_time_grid, time_grid_t
     implicit none (type, external)
     private
     public :: amplitude_suite
@@ -49,7 +50,7 @@ contains
         type(error_t), allocatable :: error
         type(period_t), target :: watch
         type(observer_box_t) :: observers(1)
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(modes_t) :: modes
         real(dp), allocatable :: q(:), v(:)
 
@@ -64,7 +65,7 @@ contains
         call system%closed_form(0.0_dp, q, v, reference)
         exact = reference%period
         call new_integrator("rk4", integrator, error)
-        call new_plan(plan, 0.0_dp, exact/10000, 6*exact, 50_i8, error)
+        call new_time_grid(plan, 0.0_dp, exact/10000, 6*exact, 50_i8, error)
         watch%coordinate = system%ndof
         observers(1)%item => watch
         call run(system, integrator, plan, observers, q, v, error)

@@ -13,8 +13,9 @@ module test_bouncing_ball
     use lagrangia_observer, only: observer_box_t
     use lagrangia_recorder, only: recorder_t
     use lagrangia_reference, only: reference_t
-    use lagrangia_run, only: new_plan, new_sampled_plan, plan_t, run
+    use lagrangia_run, only: run
     use lagrangia_stepwise, only: new_stepwise, stepwise_t
+    use lagrangia_time_grid, only: new_sample_times, new_time_grid, time_grid_t
     implicit none (type, external)
     private
     public :: bouncing_ball_suite
@@ -54,7 +55,7 @@ contains
         class(dense_integrator_t), allocatable :: adaptive
         type(stepwise_t) :: stepwise
         class(integrator_t), allocatable :: fixed
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(error_t), allocatable :: error
         real(dp) :: ended
 
@@ -67,11 +68,11 @@ contains
         if (present(dt)) then
             call new_integrator(method, fixed, error)
             call new_stepwise(stepwise, fixed, dt)
-            call new_plan(plan, 0.0_dp, dt, duration, 1_i8, error)
+            call new_time_grid(plan, 0.0_dp, dt, duration, 1_i8, error)
             call run_dense(system, stepwise, plan, events, observers, q, v, ended, error)
         else
             call new_adaptive(method, adaptive)
-            call new_sampled_plan(plan, 0.0_dp, duration, 1000_i8, error)
+            call new_sample_times(plan, 0.0_dp, duration, 1000_i8, error)
             call run_dense(system, adaptive, plan, events, observers, q, v, ended, error)
         end if
         if (allocated(error)) call assertEqual("", error%message, message="error")
@@ -313,13 +314,13 @@ contains
         type(bouncing_ball_t) :: system
         class(integrator_t), allocatable :: method
         type(observer_box_t) :: nobody(0)
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1)
 
         call system%configure([mass, gravity, 0.5_dp], error)
         call new_integrator("rk4", method, error)
-        call new_plan(plan, 0.0_dp, 0.01_dp, 1.0_dp, 1_i8, error)
+        call new_time_grid(plan, 0.0_dp, 0.01_dp, 1.0_dp, 1_i8, error)
         call assertFalse(allocated(error), "plan")
         q = 1.0_dp
         v = 0.0_dp

@@ -11,8 +11,9 @@ module test_canonical
     use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
     use lagrangia_methods, only: new_integrator
     use lagrangia_observer, only: observer_box_t
-    use lagrangia_run, only: new_plan, plan_t, run
+    use lagrangia_run, only: run
     use lagrangia_system, only: system_t
+    use lagrangia_time_grid, only: new_time_grid, time_grid_t
     use random_states, only: draw_parameters, draw_state, restart_random
     use restless_oscillator, only: restless_oscillator_t
     implicit none (type, external)
@@ -83,7 +84,7 @@ contains
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
         type(observer_box_t) :: nobody(0)
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         real(dp) :: q(2), v(2), light
         integer :: again, i
 
@@ -106,7 +107,7 @@ contains
 
             q = [2.0_dp, 1.0_dp]
             v = [7.0_dp, -9.0_dp]
-            call new_plan(plan, 0.5_dp, 1.0_dp, 3.0_dp, 1_i8, error)
+            call new_time_grid(plan, 0.5_dp, 1.0_dp, 3.0_dp, 1_i8, error)
             call run(system, method, plan, nobody, q, v, error)
             call assertTrue(allocated(error), trim(method%name)//": the run fails")
             if (.not. allocated(error)) return

@@ -14,8 +14,9 @@ module test_dense_run
     use lagrangia_recorder, only: recorder_t
     use lagrangia_reference, only: reference_t
     use lagrangia_rk4, only: new_rk4, rk4_t
-    use lagrangia_run, only: new_plan, new_sampled_plan, plan_t, run
+    use lagrangia_run, only: run
     use lagrangia_stepwise, only: new_stepwise, stepwise_t
+    use lagrangia_time_grid, only: new_sample_times, new_time_grid, time_grid_t
     implicit none (type, external)
     private
     public :: dense_run_suite
@@ -40,7 +41,7 @@ contains
         type(dop853_t) :: method
         type(event_box_t) :: events(0)
         type(observer_box_t) :: observers(1)
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1), ended
         integer(i8) :: counts(3)
@@ -53,7 +54,7 @@ contains
             q = 2.0_dp
             v = 0.0_dp
             call new_dop853(method)
-            call new_sampled_plan(plan, 0.0_dp, 20.0_dp, 10_i8**i, error)
+            call new_sample_times(plan, 0.0_dp, 20.0_dp, 10_i8**i, error)
             call run_dense(system, method, plan, events, observers, q, v, ended, error)
             counts(i) = method%evaluations
         end do
@@ -91,13 +92,13 @@ contains
         type(column_event_t) :: event
         type(event_box_t) :: events(1)
         type(observer_box_t) :: observers(1)
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1), ended
 
         call system%configure([0.7_dp, 1.3_dp, 9.81_dp], error)
         call new_rk4(rk4)
-        call new_plan(plan, 0.2_dp, 0.03_dp, 4.0_dp, 5_i8, error)
+        call new_time_grid(plan, 0.2_dp, 0.03_dp, 4.0_dp, 5_i8, error)
         q = 2.0_dp
         v = 0.1_dp
         observers(1)%item => plain

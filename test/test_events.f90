@@ -12,8 +12,8 @@ module test_events
     use lagrangia_recorder, only: recorder_t
     use lagrangia_reference, only: reference_t
     use lagrangia_rk4, only: new_rk4, rk4_t
-    use lagrangia_run, only: new_plan, plan_t
     use lagrangia_stepwise, only: new_stepwise, stepwise_t
+    use lagrangia_time_grid, only: new_time_grid, time_grid_t
     implicit none (type, external)
     private
     public :: events_suite
@@ -148,7 +148,7 @@ contains
         type(column_event_t) :: event
         type(event_box_t) :: events(2)
         type(observer_box_t) :: observers(1)
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1), ended
 
@@ -160,7 +160,7 @@ contains
         observers(1)%item => record
         call new_rk4(rk4)
         call new_stepwise(method, rk4, 1.0_dp)
-        call new_plan(plan, 0.0_dp, 1.0_dp, 3.0_dp, 1_i8, error)
+        call new_time_grid(plan, 0.0_dp, 1.0_dp, 3.0_dp, 1_i8, error)
         q = 0.0_dp
         v = 1.0_dp
         call run_dense(system, method, plan, events, observers, q, v, ended, error)

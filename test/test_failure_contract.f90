@@ -12,9 +12,10 @@ module test_failure_contract
     use lagrangia_methods, only: nth_adaptive, nth_integrator
     use lagrangia_observer, only: observer_box_t
     use lagrangia_reduced_motion, only: leave_cyclic
-    use lagrangia_run, only: new_plan, new_sampled_plan, plan_t, run
+    use lagrangia_run, only: run
     use lagrangia_stepwise, only: new_stepwise, stepwise_t
     use lagrangia_system, only: system_t
+    use lagrangia_time_grid, only: new_sample_times, new_time_grid, time_grid_t
     use run_doubles, only: exploding_t, watcher_t
     implicit none (type, external)
     private
@@ -309,7 +310,7 @@ contains
         class(integrator_t), allocatable :: method
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         real(dp), allocatable :: q(:), v(:), q0(:), v0(:)
         integer :: i
 
@@ -319,7 +320,7 @@ contains
             call nth_method(i, method)
             if (.not. allocated(method)) exit
             call new_trap(method, system, q, v, q0, v0)
-            call new_plan(plan, 0.0_dp, 1e3_dp, 2e5_dp, int(1 + 999*mod(i, 2), i8), error)
+            call new_time_grid(plan, 0.0_dp, 1e3_dp, 2e5_dp, int(1 + 999*mod(i, 2), i8), error)
             call run(system, method, plan, [observer_box_t ::], q, v, error)
             call assertTrue(allocated(error), trim(method%name)//" fails")
             call assertEqual([q0, v0], [q, v], message=trim(method%name)//": as it was")
@@ -352,7 +353,7 @@ contains
         type(observer_box_t) :: box(1)
         type(event_box_t) :: events(0)
         type(error_t), allocatable :: error
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         real(dp) :: q(1), v(1), ended
         integer :: i
 
@@ -362,7 +363,7 @@ contains
             i = i + 1
             call nth_dense(i, method)
             if (.not. allocated(method)) exit
-            call new_sampled_plan(plan, 0.0_dp, 5.0_dp, 100_i8, error)
+            call new_sample_times(plan, 0.0_dp, 5.0_dp, 100_i8, error)
             q = 0.0_dp
             v = 1.0_dp
             watcher = watcher_t()
@@ -421,7 +422,7 @@ contains
         type(observer_box_t) :: box(1)
         type(event_box_t) :: events(0)
         type(error_t), allocatable :: error
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         real(dp), allocatable :: q(:), v(:), q0(:), v0(:)
         real(dp) :: ended
 
@@ -430,12 +431,12 @@ contains
         call new_trap(fixed, system, q, v, q0, v0)
         box(1)%item => watcher
         watcher%patience = 3
-        call new_plan(plan, 0.0_dp, 0.01_dp, 1.0_dp, 10_i8, error)
+        call new_time_grid(plan, 0.0_dp, 0.01_dp, 1.0_dp, 10_i8, error)
         call run(system, fixed, plan, box, q, v, error)
         call assertEqual("seen enough", error%message)
         call assertEqual([q0, v0], [q, v], message="fixed: as it was")
         watcher = watcher_t(patience=3)
-        call new_sampled_plan(plan, 0.0_dp, 1.0_dp, 10_i8, error)
+        call new_sample_times(plan, 0.0_dp, 1.0_dp, 10_i8, error)
         call run_dense(system, dense, plan, events, box, q, v, ended, error)
         call assertEqual([q0, v0], [q, v], message="dense: as it was")
     end subroutine an_observer_that_fails_leaves_the_state

@@ -9,7 +9,8 @@ module test_library_arguments
     use lagrangia_audit, only: audit_system
     use lagrangia_errors, only: status_library, status_numbers, status_usage
     use lagrangia_ledger, only: ledger_t
-    use lagrangia_run, only: new_plan, new_sampled_plan, plan_t, run
+    use lagrangia_run, only: run
+    use lagrangia_time_grid, only: new_sample_times, new_time_grid, time_grid_t
     use singular_systems, only: blind_t, fading_t, light_t, skew_t
     implicit none (type, external)
     private
@@ -74,24 +75,24 @@ contains
         real(dp), intent(in) :: t0, dt, duration
         integer(i8), intent(in) :: every
         character(*), intent(in) :: key, message
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(error_t), allocatable :: error
 
-        call new_plan(plan, t0, dt, duration, every, error)
+        call new_time_grid(plan, t0, dt, duration, every, error)
         call refused(error, message, status_usage)
         if (allocated(error)) call assertEqual(key, error%key)
     end subroutine no_plan
 
     subroutine sampled_plans_of_nonsense()
         !! The same where the method chooses its steps.
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(error_t), allocatable :: error
 
-        call new_sampled_plan(plan, 0.0_dp, 1.0_dp, 0_i8, error)
+        call new_sample_times(plan, 0.0_dp, 1.0_dp, 0_i8, error)
         call refused(error, "must be at least 1, not 0", status_usage)
-        call new_sampled_plan(plan, 0.0_dp, -1.0_dp, 10_i8, error)
+        call new_sample_times(plan, 0.0_dp, -1.0_dp, 10_i8, error)
         call refused(error, "must be finite and not negative, not -1.0", status_usage)
-        call new_sampled_plan(plan, ieee_value(1.0_dp, ieee_quiet_nan), 1.0_dp, 10_i8, error)
+        call new_sample_times(plan, ieee_value(1.0_dp, ieee_quiet_nan), 1.0_dp, 10_i8, error)
         call refused(error, "must be finite, not nan", status_usage)
     end subroutine sampled_plans_of_nonsense
 
@@ -102,10 +103,10 @@ contains
         type(error_t), allocatable, intent(out) :: error
         class(integrator_t), allocatable :: integrator
         type(observer_box_t) :: nobody(0)
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
 
         call new_integrator("rk4", integrator, error)
-        if (.not. allocated(error)) call new_plan(plan, 0.0_dp, 1e-2_dp, 0.1_dp, 1_i8, error)
+        if (.not. allocated(error)) call new_time_grid(plan, 0.0_dp, 1e-2_dp, 0.1_dp, 1_i8, error)
         if (.not. allocated(error)) call run(system, integrator, plan, nobody, q, v, error)
     end subroutine try_run
 
@@ -114,7 +115,7 @@ contains
         class(system_t), allocatable :: system
         class(integrator_t), allocatable :: integrator
         type(observer_box_t) :: nobody(0)
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(error_t), allocatable :: error
         real(dp) :: q(3), v(3)
 
@@ -136,7 +137,7 @@ contains
         plan%steps = 10
         plan%dt = 0.1_dp
         call run(system, integrator, plan, nobody, q(:2), v(:2), error)
-        call refused(error, "the plan is not one of new_plan", status_usage)
+        call refused(error, "the time grid is not one of new_time_grid", status_usage)
     end subroutine states_of_another_size
 
     subroutine systems_without_parameters()

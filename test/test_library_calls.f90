@@ -12,8 +12,9 @@ module test_library_calls
     use lagrangia_errors, only: status_usage
     use lagrangia_events, only: event_box_t
     use lagrangia_methods, only: nth_adaptive
-    use lagrangia_run, only: new_plan, new_sampled_plan, plan_t, run
+    use lagrangia_run, only: run
     use lagrangia_stepwise, only: new_stepwise, stepwise_t
+    use lagrangia_time_grid, only: new_sample_times, new_time_grid, time_grid_t
     use singular_systems, only: blind_t
     use test_library_arguments, only: refused
     implicit none (type, external)
@@ -82,14 +83,14 @@ contains
         type(recorder_t), target :: somebody
         type(observer_box_t) :: boxes(2)
         type(event_box_t) :: events(1)
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1), ended
 
         call new_system("oscillator", system, error)
         call system%configure([1.0_dp, 1.0_dp], error)
         call new_integrator("rk4", integrator, error)
-        call new_plan(plan, 0.0_dp, 0.1_dp, 1.0_dp, 1_i8, error)
+        call new_time_grid(plan, 0.0_dp, 0.1_dp, 1.0_dp, 1_i8, error)
         boxes(1)%item => somebody
         q = 1.0_dp
         v = 0.0_dp
@@ -111,7 +112,7 @@ contains
         class(dense_integrator_t), allocatable :: dense
         type(observer_box_t) :: nobody(0)
         type(event_box_t) :: events(0)
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1), both(2), ended
 
@@ -125,10 +126,10 @@ contains
         plan%dt = 0.1_dp
         call nth_adaptive(1, dense)
         call run_dense(system, dense, plan, events, nobody, q, v, ended, error)
-        call refused(error, "the plan is not one of new_plan", status_usage)
+        call refused(error, "the time grid is not one of new_time_grid", status_usage)
         call run_dense(system, dense, plan, events, nobody, q, both, ended, error)
         call refused(error, "v has 2 values; the system has 1 velocities", status_usage)
-        call new_sampled_plan(plan, 0.0_dp, 1.0_dp, 10_i8, error)
+        call new_sample_times(plan, 0.0_dp, 1.0_dp, 10_i8, error)
         call new_integrator("rk4", integrator, error)
         call drive(system, integrator, plan, events, nobody, q, v, ended, error)
         call refused(error, "rk4 has no dense output, which samples at equal times and events "// &

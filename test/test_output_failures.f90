@@ -3,11 +3,11 @@ module test_output_failures
     use, intrinsic :: iso_c_binding, only: c_int, c_null_char
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertTrue
     use lagrangia_c_library, only: c_access, c_chmod
+    use lagrangia_data_files, only: new_table
     use lagrangia_errors, only: error_t, fail, message_length, status_file, status_usage
     use lagrangia_interrupt, only: catch_interrupts
     use lagrangia_kinds, only: i8
     use lagrangia_output_file, only: output_file_t
-    use lagrangia_scene_files, only: new_table, send_header
     use lagrangia_table, only: table_t
     use lagrangia_text, only: shortened
     use test_scratch, only: c_symlink, contents, exit_status, limit_file_size, new_folder, &
@@ -253,7 +253,7 @@ contains
         call table%file%open(new_folder("header")//"/a", error)
         call table%begin(["title"], ["t", "x"], ["s", "m"], error)
         if (refused_before) call fail(error, "refused")
-        call send_header(table, error)
+        call table%send_header(error)
         status = 0
         if (allocated(error)) status = error%status
         if (table%file%is_open() .neqv. status == 0) status = 99

@@ -3,11 +3,11 @@ module test_output_file
     use, intrinsic :: iso_c_binding, only: c_int, c_null_char
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_c_library, only: c_chmod
+    use lagrangia_data_files, only: new_table
     use lagrangia_errors, only: error_t
     use lagrangia_files, only: facts_t, look_at, plain_path, same_file
     use lagrangia_kinds, only: dp, i8
     use lagrangia_output_file, only: output_file_t
-    use lagrangia_scene_files, only: new_table, send_header
     use lagrangia_table, only: table_t
     use test_scratch, only: c_link, c_symlink, contents, new_folder, remove_file, write_file
     implicit none (type, external)
@@ -75,7 +75,7 @@ contains
             call new_table(trim(formats(i)), table)
             call table%file%open(folder//"/a", error)
             call table%begin(["title"], ["t", "x"], ["s", "m"], error)
-            call send_header(table, error)
+            call table%send_header(error)
             call assertFalse(allocated(error), formats(i))
             before = len(contents(table%file%temporary_name()))
             call table%add_row([1.5_dp, -2.5_dp], error)

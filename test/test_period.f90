@@ -12,8 +12,9 @@ module test_period
     use lagrangia_period, only: period_t
     use lagrangia_reference, only: reference_t
     use lagrangia_rk4, only: new_rk4, rk4_t
-    use lagrangia_run, only: new_plan, new_sampled_plan, plan_t, run
+    use lagrangia_run, only: run
     use lagrangia_system, only: system_t
+    use lagrangia_time_grid, only: new_sample_times, new_time_grid, time_grid_t
     implicit none (type, external)
     private
     public :: period_suite
@@ -129,7 +130,7 @@ contains
         type(pendulum_t) :: system
         type(rk4_t) :: rk4
         type(gauss_adaptive_t) :: gauss16
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(period_t), target :: periods(size(rows), 2)
         type(observer_box_t) :: observers(1)
         type(event_box_t) :: events(0)
@@ -148,10 +149,10 @@ contains
                 q = 2.0_dp
                 v = 0.0_dp
                 if (k == 1) then
-                    call new_plan(plan, 0.0_dp, 0.01_dp, 15.003_dp, rows(i), error)
+                    call new_time_grid(plan, 0.0_dp, 0.01_dp, 15.003_dp, rows(i), error)
                     call run(system, rk4, plan, observers, q, v, error)
                 else
-                    call new_sampled_plan(plan, 0.0_dp, 15.003_dp, rows(i), error)
+                    call new_sample_times(plan, 0.0_dp, 15.003_dp, rows(i), error)
                     call run_dense(system, gauss16, plan, events, observers, q, v, ended, error)
                 end if
                 call assertFalse(allocated(error), "it runs")

@@ -11,8 +11,9 @@ module test_run
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: method_names, new_integrator, nth_integrator
     use lagrangia_observer, only: observer_box_t
-    use lagrangia_run, only: new_plan, plan_t, run
+    use lagrangia_run, only: run
     use lagrangia_system, only: system_t
+    use lagrangia_time_grid, only: new_time_grid, time_grid_t
     use run_doubles, only: exploding_t, watcher_t
     implicit none (type, external)
     private
@@ -44,7 +45,7 @@ contains
         !! Run with the method called `name`, watched.
         class(system_t), intent(in) :: system
         character(*), intent(in) :: name
-        type(plan_t), intent(in) :: plan
+        type(time_grid_t), intent(in) :: plan
         type(watcher_t), target, intent(inout) :: watcher
         real(dp), intent(inout) :: q(:), v(:)
         type(error_t), allocatable, intent(out) :: error
@@ -61,14 +62,14 @@ contains
     subroutine samples_come_at_t0_plus_k_dt()
         !! Every seventh of 100 steps, the start and the end; the state is that of the time.
         type(atwood_t) :: system
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(watcher_t) :: watcher
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1)
         integer :: k
 
         call system%configure([3.0_dp, 2.0_dp, 9.81_dp, 0.0_dp, 1.0_dp, 0.0_dp], error)
-        call new_plan(plan, 0.7_dp, 0.01_dp, 1.0_dp, 7_i8, error)
+        call new_time_grid(plan, 0.7_dp, 0.01_dp, 1.0_dp, 7_i8, error)
         q = 0.5_dp
         v = 0.25_dp
         call perform(system, "rk4", plan, watcher, q, v, error)
@@ -87,13 +88,13 @@ contains
     subroutine the_end_is_exactly_the_end()
         !! 3*0.1 is not 0.3; and a stride longer than the run shows start and end.
         type(atwood_t) :: system
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(watcher_t) :: watcher
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1)
 
         call system%configure([3.0_dp, 2.0_dp, 9.81_dp, 0.0_dp, 1.0_dp, 0.0_dp], error)
-        call new_plan(plan, 0.0_dp, 0.1_dp, 0.3_dp, huge(1_i8), error)
+        call new_time_grid(plan, 0.0_dp, 0.1_dp, 0.3_dp, huge(1_i8), error)
         q = 0.0_dp
         v = 0.0_dp
         call perform(system, "verlet", plan, watcher, q, v, error)
@@ -103,14 +104,14 @@ contains
     subroutine the_shortened_step_lands_on_the_end()
         !! The state is that of the end, not of the grid; it is no sample of the stride's.
         type(atwood_t) :: system
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(watcher_t) :: watcher
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1)
         integer(i8) :: evaluations
 
         call system%configure([3.0_dp, 2.0_dp, 9.81_dp, 0.0_dp, 1.0_dp, 0.0_dp], error)
-        call new_plan(plan, 0.1_dp, 0.3_dp, 1.0_dp, 2_i8, error)
+        call new_time_grid(plan, 0.1_dp, 0.3_dp, 1.0_dp, 2_i8, error)
         q = 0.0_dp
         v = 1.0_dp
         call perform(system, "rk4", plan, watcher, q, v, error, evaluations)
@@ -124,7 +125,7 @@ contains
         integer(i8), parameter :: strides(5) = [1_i8, 7_i8, 1024_i8, 1500_i8, huge(1_i8)]
         type(driven_pendulum_t) :: system
         class(integrator_t), allocatable :: method
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1), q_first(1), v_first(1)
         integer :: i, k
@@ -136,7 +137,7 @@ contains
             call nth_integrator(i, method)
             if (.not. allocated(method)) exit
             do k = 1, size(strides)
-                call new_plan(plan, 0.3_dp, 1e-3_dp, 1.5003_dp, strides(k), error)
+                call new_time_grid(plan, 0.3_dp, 1e-3_dp, 1.5003_dp, strides(k), error)
                 q = 2.9_dp
                 v = 0.1_dp
                 call run(system, method, plan, [observer_box_t ::], q, v, error)
@@ -156,14 +157,14 @@ contains
     subroutine evaluations_are_counted()
         !! Four a step and one a step, however the run is cut, and none for looking.
         type(driven_pendulum_t) :: system
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(watcher_t) :: watcher
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1)
         integer(i8) :: evaluations
 
         call system%configure([1.3_dp, 0.7_dp, 9.81_dp, 0.1_dp, 20.0_dp], error)
-        call new_plan(plan, 0.0_dp, 0.01_dp, 25.0_dp, 3_i8, error)
+        call new_time_grid(plan, 0.0_dp, 0.01_dp, 25.0_dp, 3_i8, error)
         q = 1.0_dp
         v = 0.0_dp
         call perform(system, "rk4", plan, watcher, q, v, error, evaluations)
@@ -175,14 +176,14 @@ contains
     subroutine an_explosion_keeps_what_was_good()
         !! \(\ddot x = \dot x^2\) from 1: infinite at t = 1. Status 3, the time, the last sample.
         type(exploding_t) :: system
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(watcher_t) :: watcher
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1)
         integer :: last
 
         system%ndof = 1
-        call new_plan(plan, 0.0_dp, 0.01_dp, 5.0_dp, 10_i8, error)
+        call new_time_grid(plan, 0.0_dp, 0.01_dp, 5.0_dp, 10_i8, error)
         q = 0.0_dp
         v = 1.0_dp
         call perform(system, "rk4", plan, watcher, q, v, error)
@@ -201,13 +202,13 @@ contains
     subroutine a_start_that_is_not_finite_fails()
         !! Before anybody sees it, and the state stays what it was.
         type(exploding_t) :: system
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(watcher_t) :: watcher
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1)
 
         system%ndof = 1
-        call new_plan(plan, 2.0_dp, 0.01_dp, 5.0_dp, 10_i8, error)
+        call new_time_grid(plan, 2.0_dp, 0.01_dp, 5.0_dp, 10_i8, error)
         q = 3.0_dp
         v = ieee_value(1.0_dp, ieee_positive_inf)
         call perform(system, "rk4", plan, watcher, q, v, error)
@@ -223,14 +224,14 @@ contains
     subroutine an_observer_may_stop_the_run()
         !! At its third sample; nothing is computed after it.
         type(driven_pendulum_t) :: system
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(watcher_t) :: watcher
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1)
         integer(i8) :: evaluations
 
         call system%configure([1.3_dp, 0.7_dp, 9.81_dp, 0.1_dp, 20.0_dp], error)
-        call new_plan(plan, 0.0_dp, 0.01_dp, 1.005_dp, 10_i8, error)
+        call new_time_grid(plan, 0.0_dp, 0.01_dp, 1.005_dp, 10_i8, error)
         q = 1.0_dp
         v = 0.0_dp
         watcher%patience = 3
@@ -245,13 +246,13 @@ contains
     subroutine a_method_that_refuses_does_not_run()
         !! Nobody sees a sample.
         type(double_pendulum_t) :: system
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(watcher_t) :: watcher
         type(error_t), allocatable :: error
         real(dp) :: q(2), v(2)
 
         call system%configure([1.0_dp, 2.0_dp, 1.5_dp, 0.5_dp, 9.81_dp], error)
-        call new_plan(plan, 0.0_dp, 0.01_dp, 1.0_dp, 10_i8, error)
+        call new_time_grid(plan, 0.0_dp, 0.01_dp, 1.0_dp, 10_i8, error)
         q = 1.0_dp
         v = 0.0_dp
         call perform(system, "verlet", plan, watcher, q, v, error)

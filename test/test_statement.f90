@@ -5,10 +5,10 @@ module test_statement
     use lagrangia_command_line, only: word_t
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
+    use lagrangia_final_values, only: final_value_t, final_values_line
     use lagrangia_kinds, only: dp
     use lagrangia_outcome, only: outcome_json, outcome_t
     use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
-    use lagrangia_statement, only: stated_t, statement_line
     use lagrangia_system, only: system_t
     use scene_runs, only: plan_and_run, read_and_plan
     implicit none (type, external)
@@ -67,9 +67,9 @@ contains
         call perform(swing, one("scene%duration=3"), outcome, error)
         call assertTrue(all(outcome%state%resolved()), "3 s")
         call perform(swing, [word_t ::], outcome, error)
-        call assertFalse(any(outcome%state%resolved()), statement_line(outcome%state))
+        call assertFalse(any(outcome%state%resolved()), final_values_line(outcome%state))
         call perform(adaptive, [word_t ::], outcome, error)
-        call assertFalse(any(outcome%state%resolved()), statement_line(outcome%state))
+        call assertFalse(any(outcome%state%resolved()), final_values_line(outcome%state))
     end subroutine chaos_leaves_no_digit
 
     subroutine the_time_of_an_event_has_an_error()
@@ -123,11 +123,11 @@ contains
         character(:), allocatable :: json
 
         allocate (outcome%state(3), outcome%drifts(0), outcome%others(0))
-        outcome%state = [stated_t("theta", "rad", 0.5_dp, 0.25_dp, 2.75_dp), &
-                         stated_t("x", "m", 0.5_dp, 0.25_dp, 2.5_dp), &
-                         stated_t("n", "1", 2.0_dp, 0.0_dp, 2.0_dp)]
+        outcome%state = [final_value_t("theta", "rad", 0.5_dp, 0.25_dp, 2.75_dp), &
+                         final_value_t("x", "m", 0.5_dp, 0.25_dp, 2.5_dp), &
+                         final_value_t("n", "1", 2.0_dp, 0.0_dp, 2.0_dp)]
         call assertEqual("theta = 0.5(3) rad, x = no digit left, n = 2.0", &
-                         statement_line(outcome%state))
+                         final_values_line(outcome%state))
         outcome%scene = "a"
         outcome%system = "b"
         outcome%method = "c"

@@ -2,6 +2,7 @@ module lagrangia_bench_files
     !! Run time against error as a data file and a picture.
     use lagrangia_bench_problems, only: bench_problem_t
     use lagrangia_contestant, only: set_by_names, source_closed_form, source_gsl
+    use lagrangia_data_files, only: data_path, script_path
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
     use lagrangia_gnuplot_script, only: begin_script, gnuplot_string, lines_t
@@ -10,7 +11,6 @@ module lagrangia_bench_files
     use lagrangia_output_file, only: commit_both, output_file_t, refuse_unwritable
     use lagrangia_places, only: places_t
     use lagrangia_scene_claims, only: claim_table
-    use lagrangia_scene_files, only: data_path, script_path
     use lagrangia_text, only: to_text
     use lagrangia_text_table, only: text_table_t
     use lagrangia_version, only: build_text, version

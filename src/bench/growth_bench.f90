@@ -15,12 +15,13 @@ module lagrangia_growth_bench
     use lagrangia_observer, only: observer_box_t
     use lagrangia_precision_curve, only: median
     use lagrangia_printed_table, only: count_cell, number_cell, printed_table_t, word_cell
-    use lagrangia_record, only: record_t
-    use lagrangia_run, only: new_plan, plan_t, run
+    use lagrangia_record, only: sample_record_t
+    use lagrangia_run, only: run
     use lagrangia_stopwatch, only: effort_t, seconds_since, ticks_now
     use lagrangia_system, only: default_values, system_t
     use lagrangia_table, only: table_t
     use lagrangia_text_table, only: text_table_t
+    use lagrangia_time_grid, only: new_time_grid, time_grid_t
     implicit none (type, external)
     private
     public :: measure_growth, measure_output
@@ -71,7 +72,7 @@ contains
         class(integrator_t), allocatable :: method
         type(observer_box_t) :: nobody(0)
         type(description_t) :: d
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         real(dp), allocatable :: p(:), q(:), v(:)
         integer(i8) :: start
         real(dp) :: seconds
@@ -88,7 +89,7 @@ contains
         end if
         call new_integrator("rk4", method, error)
         if (allocated(error)) return
-        call new_plan(plan, 0.0_dp, dt, steps*dt, steps, error)
+        call new_time_grid(plan, 0.0_dp, dt, steps*dt, steps, error)
         if (allocated(error)) return
         allocate (q(system%ndof), source=0.1_dp)
         allocate (v(system%ndof), source=0.0_dp)
@@ -110,8 +111,8 @@ contains
         class(system_t), allocatable :: system
         class(integrator_t), allocatable :: method
         type(observer_box_t) :: observers(1)
-        type(record_t), target :: record
-        type(plan_t) :: plan
+        type(sample_record_t), target :: record
+        type(time_grid_t) :: plan
         real(dp) :: q(1), v(1), seconds
         integer(i8) :: start
         logical :: fresh
@@ -120,7 +121,7 @@ contains
         if (allocated(error)) return
         call new_integrator("rk4", method, error)
         if (allocated(error)) return
-        call new_plan(plan, 0.0_dp, dt, rows*dt, 1_i8, error)
+        call new_time_grid(plan, 0.0_dp, dt, rows*dt, 1_i8, error)
         if (allocated(error)) return
         call new_columns(record%columns, names, system, .false., error)
         if (allocated(error)) return

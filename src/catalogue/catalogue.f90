@@ -32,8 +32,8 @@ contains
         !! Add a system of your own, behind the others. Fails, and adds nothing, where its name is
         !! taken or cannot be typed, its description has gaps, or its closed form is of another
         !! motion.
-        class(system_t), intent(in) :: system
-        type(error_t), allocatable, intent(out) :: error
+        class(system_t), intent(in) :: system  !! is copied, with its default parameters
+        type(error_t), allocatable, intent(out) :: error  !! what is wrong with the system
         type(system_box_t), allocatable :: longer(:)
         class(system_t), allocatable :: added
         integer :: i, n
@@ -53,8 +53,8 @@ contains
 
     subroutine nth_system(i, system)
         !! Entry `i` of the catalogue, with its default parameters; not allocated beyond the end.
-        integer, intent(in) :: i
-        class(system_t), allocatable, intent(out) :: system
+        integer, intent(in) :: i  !! from 1
+        class(system_t), allocatable, intent(out) :: system  !! not allocated beyond the end
         type(description_t) :: d
         type(error_t), allocatable :: error
 
@@ -83,9 +83,9 @@ contains
 
     subroutine new_system(name, system, error)
         !! The system called `name`, with its default parameters.
-        character(*), intent(in) :: name
-        class(system_t), allocatable, intent(out) :: system
-        type(error_t), allocatable, intent(out) :: error
+        character(*), intent(in) :: name  !! as `list systems` shows it
+        class(system_t), allocatable, intent(out) :: system  !! with its default parameters
+        type(error_t), allocatable, intent(out) :: error  !! no system has this name
         type(description_t) :: d
         integer :: i
 

@@ -34,7 +34,7 @@ contains
         !! another number of coordinates, does not go through that state, or does not obey the
         !! equations of motion there.
         class(system_t), intent(in) :: system             !! with parameters that are allowed
-        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable, intent(out) :: error  !! says which motion, and where
         class(system_t), allocatable :: drawn
         class(reference_t), allocatable :: motion
         type(random_t) :: random

@@ -21,9 +21,9 @@ contains
         !! Fails on a name that is `taken` or cannot be typed, on a description with gaps, on
         !! defaults that are not allowed, and on a closed form or a reduced system of another
         !! motion. `system` has its default parameters on return.
-        class(system_t), intent(inout) :: system
-        character(*), intent(in) :: taken(:)
-        type(error_t), allocatable, intent(out) :: error
+        class(system_t), intent(inout) :: system  !! gets its default parameters
+        character(*), intent(in) :: taken(:)  !! names of the systems that are there
+        type(error_t), allocatable, intent(out) :: error  !! what is wrong, and of which system
         type(description_t) :: d
 
         check: block

@@ -7,6 +7,7 @@ module lagrangia_bench
     use lagrangia_console, only: console_failed, flush_console, put_line
     use lagrangia_contestant, only: contestant_box_t
     use lagrangia_contestants, only: new_contestants
+    use lagrangia_data_files, only: draw
     use lagrangia_energy_bench, only: measure_energy
     use lagrangia_errors, only: error_t, fail
     use lagrangia_growth_bench, only: measure_growth, measure_output
@@ -15,7 +16,6 @@ module lagrangia_bench
     use lagrangia_observer, only: observer_t
     use lagrangia_printed_table, only: printed_table_t
     use lagrangia_progress, only: progress_t
-    use lagrangia_scene_files, only: draw
     use lagrangia_step_cost, only: measure_steps
     use lagrangia_version, only: build_text, is_optimised
     use lagrangia_work_precision, only: curve_t, measure_curves, points_table, times_table

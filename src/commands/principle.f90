@@ -6,6 +6,7 @@ module lagrangia_principle
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_constraints, only: constraints_principle
+    use lagrangia_data_files, only: data_path, draw, script_path
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_gauge, only: gauge_principle
     use lagrangia_gnuplot, only: gnuplot_script, new_panels, panel_t
@@ -17,7 +18,6 @@ module lagrangia_principle
     use lagrangia_places, only: places_t
     use lagrangia_report, only: picture_t, report_t
     use lagrangia_scene_claims, only: claim_table
-    use lagrangia_scene_files, only: data_path, draw, script_path
     use lagrangia_system, only: system_box_t
     use lagrangia_text, only: quoted, to_text
     use lagrangia_text_table, only: text_table_t

@@ -2,7 +2,9 @@ module lagrangia_run_command
     !! `lagrangia` and `lagrangia run SCENE...`: scenes, their files, the scorecard.
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: note, put, put_line
+    use lagrangia_data_files, only: check_format, draw
     use lagrangia_errors, only: error_t, fail, is_signal, status_not_held
+    use lagrangia_final_values, only: final_values_legend, final_values_line
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_json, outcome_t, scorecard_head, scorecard_legend, &
                                  scorecard_row
@@ -11,11 +13,9 @@ module lagrangia_run_command
     use lagrangia_run_plan, only: new_run_plan, run_plan_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_claims, only: claim_files, claim_scene, size_warning
-    use lagrangia_scene_files, only: check_format, draw
     use lagrangia_scene_reader, only: read_scene
     use lagrangia_scene_run, only: run_scene
     use lagrangia_shipped, only: find_scene, shipped_scenes
-    use lagrangia_statement, only: statement_legend, statement_line
     use lagrangia_step_warning, only: step_warning
     use lagrangia_system, only: system_t
     use lagrangia_text, only: quoted, to_text
@@ -41,7 +41,7 @@ contains
         type(error_t), allocatable :: scene_error
         type(chosen_t), allocatable :: chosen(:)
         type(progress_t), target :: progress
-        class(observer_t), pointer :: watcher
+        class(observer_t), pointer :: observer
         type(outcome_t) :: outcome
         character(:), allocatable :: folder, format, kind
         logical :: json, quiet, small, stated
@@ -66,7 +66,7 @@ contains
         if (.not. (is_optimised() .or. quiet)) call note("this build is not optimised; "// &
             "'fpm run --profile release' is several times faster")
 
-        watcher => progress
+        observer => progress
         missed = 0
         small = .false.
         stated = .false.
@@ -90,7 +90,7 @@ contains
             else if (.not. quiet) then
                 call put_line(scorecard_row(outcome))
                 if (allocated(outcome%state)) call put_line("    at the end: "// &
-                                                            statement_line(outcome%state))
+                                                            final_values_line(outcome%state))
                 stated = stated .or. allocated(outcome%state)
                 small = small .or. outcome%period_is_small()
             end if
@@ -111,7 +111,7 @@ contains
             call put(scorecard_legend//new_line("a"))
             if (small) call put_line("small: against 2 pi/omega of small oscillations, not the "// &
                                      "exact period")
-            if (stated) call put(statement_legend//new_line("a"))
+            if (stated) call put(final_values_legend//new_line("a"))
             call put_line("data files and gnuplot scripts: "//folder)
         end if
         if (missed > 0 .and. .not. allocated(error)) call fail(error, to_text(missed)//" of "// &
@@ -130,7 +130,7 @@ contains
             if (warning /= "" .and. much /= "") warning = warning//"; "
             warning = warning//much
             call progress%restart(trim(plan%scene%name), quiet)
-            call run_scene(plan, folder, format, watcher, outcome, error)
+            call run_scene(plan, folder, format, observer, outcome, error)
             outcome%warning = warning
             if (allocated(error) .or. .not. line%has("plot")) return
             call draw(outcome%file, kind, error)

@@ -44,11 +44,11 @@ contains
 
     pure subroutine new_columns(self, names, system, has_error, error)
         !! Resolve `names`; fails at one that the system does not have.
-        type(columns_t), intent(out) :: self
-        character(*), intent(in) :: names(:)
-        class(system_t), intent(in) :: system
+        type(columns_t), intent(out) :: self  !! the columns in the order of the names
+        character(*), intent(in) :: names(:)  !! each at most once
+        class(system_t), intent(in) :: system  !! with its parameters
         logical, intent(in) :: has_error  !! an `error` column can be given
-        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable, intent(out) :: error  !! blames an element of `columns`
         type(column_t), allocatable :: all(:)
         type(description_t) :: d
         integer :: i, j
@@ -78,8 +78,8 @@ contains
 
     pure function column_names(system, has_error) result(names)
         !! Every column that a system has.
-        class(system_t), intent(in) :: system
-        logical, intent(in) :: has_error
+        class(system_t), intent(in) :: system  !! with its parameters
+        logical, intent(in) :: has_error  !! `error` is one of them
         character(name_length), allocatable :: names(:)
         type(column_t), allocatable :: all(:)
         type(description_t) :: d
@@ -175,7 +175,7 @@ contains
     pure function names(self, count) result(list)
         !! The names of the first `count` columns.
         class(columns_t), intent(in) :: self
-        integer, intent(in) :: count
+        integer, intent(in) :: count  !! at most all
         character(name_length) :: list(count)
 
         list = self%items(:count)%name
@@ -184,7 +184,7 @@ contains
     pure function units(self, count) result(list)
         !! The units of the first `count` columns.
         class(columns_t), intent(in) :: self
-        integer, intent(in) :: count
+        integer, intent(in) :: count  !! at most all
         character(16) :: list(count)
 
         list = self%items(:count)%unit
@@ -193,10 +193,10 @@ contains
     subroutine evaluate(self, system, t, q, v, deviation, row)
         !! One number a column. The first call sets where drifts start.
         class(columns_t), intent(inout) :: self
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        class(system_t), intent(in) :: system  !! the one that the columns were made for
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)  !! s; coordinates, velocities
         real(dp), intent(in) :: deviation  !! what the column `error` shows
-        real(dp), intent(out) :: row(size(self%items))
+        real(dp), intent(out) :: row(size(self%items))  !! in the units of the columns
         real(dp) :: a(system%ndof), energy
         type(hyperdual_t) :: r(3, self%points), tt, qq(system%ndof)
         integer :: i

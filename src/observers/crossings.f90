@@ -52,9 +52,9 @@ contains
     subroutine start(self, events, system, t, q, v)
         !! Begin at a state: at the start of a run, and after an impact.
         class(watch_t), intent(inout) :: self
-        type(event_box_t), intent(inout) :: events(:)
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        type(event_box_t), intent(inout) :: events(:)  !! their functions are evaluated
+        class(system_t), intent(in) :: system  !! whose motion it is
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)  !! s; coordinates, velocities
         integer :: i
 
         self%side = [(sign_of(events(i)%item%value(system, t, q, v)), i=1, size(events))]
@@ -77,10 +77,10 @@ contains
     subroutine next(self, events, system, method, error)
         !! Go on to the next event in the latest step of `method`, or to its end (`which = 0`).
         class(watch_t), intent(inout) :: self
-        type(event_box_t), target, intent(inout) :: events(:)
-        class(system_t), target, intent(in) :: system
-        class(dense_integrator_t), target, intent(in) :: method
-        type(error_t), allocatable, intent(out) :: error
+        type(event_box_t), target, intent(inout) :: events(:)  !! those of `start`
+        class(system_t), target, intent(in) :: system  !! that of `start`
+        class(dense_integrator_t), target, intent(in) :: method  !! its latest step is searched
+        type(error_t), allocatable, intent(out) :: error  !! no root was found where a sign changes
         real(dp) :: t
 
         self%which = 0

@@ -41,8 +41,9 @@ module lagrangia_events
             import :: event_t, system_t, dp
             implicit none (type, external)
             class(event_t), intent(inout) :: self
-            class(system_t), intent(in) :: system
+            class(system_t), intent(in) :: system  !! whose motion it is
             real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+            !! s; coordinates, velocities
             real(dp) :: value
         end function value_i
     end interface
@@ -68,18 +69,19 @@ contains
     subroutine no_impact(self, system, t, q, v)
         !! What the event does to the state: most do nothing.
         class(event_t), intent(in) :: self
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t
+        class(system_t), intent(in) :: system  !! whose motion it is
+        real(dp), intent(in) :: t  !! s
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+        !! before the event; after it on return
     end subroutine no_impact
 
     subroutine new_column_event(self, text, system, error)
         !! An event as a scene has it: `NAME [= LEVEL] [rising|falling] [stop]`, where `NAME` is a
         !! column: `'theta = 0.5 rising'`, `'tension stop'`.
-        type(column_event_t), intent(out) :: self
-        character(*), intent(in) :: text
-        class(system_t), intent(in) :: system
-        type(error_t), allocatable, intent(out) :: error
+        type(column_event_t), intent(out) :: self  !! looks for the column's level
+        character(*), intent(in) :: text  !! as above, words between blanks
+        class(system_t), intent(in) :: system  !! has the column
+        type(error_t), allocatable, intent(out) :: error  !! not understood, or no such column
         character(word_length) :: words(7)
         character(name_length) :: name(1)
         character(:), allocatable :: problem
@@ -165,8 +167,8 @@ contains
 
     pure subroutine new_contact_event(self, contact)
         !! Contact number `contact` of a system.
-        type(contact_event_t), intent(out) :: self
-        integer, intent(in) :: contact
+        type(contact_event_t), intent(out) :: self  !! looks for the gap's zero
+        integer, intent(in) :: contact  !! from 1 to `system%contacts`
 
         self%label = "impact"
         if (contact > 1) self%label = "impact "//to_text(contact)

@@ -30,9 +30,10 @@ module lagrangia_observer
             import :: observer_t, system_t, dp, error_t
             implicit none (type, external)
             class(observer_t), intent(inout) :: self
-            class(system_t), intent(in) :: system
+            class(system_t), intent(in) :: system  !! whose motion it is
             real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
-            type(error_t), allocatable, intent(out) :: error
+            !! s; coordinates, velocities
+            type(error_t), allocatable, intent(out) :: error  !! ends the run
         end subroutine observe_i
     end interface
 
@@ -54,7 +55,7 @@ contains
     subroutine no_tick(self, done, steps)
         !! Hear, between samples too, that the run goes on: most don't care.
         class(observer_t), intent(inout) :: self
-        integer(i8), intent(in) :: done, steps
+        integer(i8), intent(in) :: done, steps  !! steps or samples so far, and in all
     end subroutine no_tick
 
     pure function no(self)
@@ -68,16 +69,16 @@ contains
     subroutine no_meet(self, system, event, t, q, v, error)
         !! Event number `event` of the run has happened; after an impact, with the state after it.
         class(observer_t), intent(inout) :: self
-        class(system_t), intent(in) :: system
-        integer, intent(in) :: event
-        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
-        type(error_t), allocatable, intent(out) :: error
+        class(system_t), intent(in) :: system  !! whose motion it is
+        integer, intent(in) :: event  !! number, from 1
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)  !! s; coordinates, velocities
+        type(error_t), allocatable, intent(out) :: error  !! ends the run
     end subroutine no_meet
 
     subroutine no_follow(self, system, t, q, v)
         !! See the state after each step of a method of fixed step; only who `follows`.
         class(observer_t), intent(inout) :: self
-        class(system_t), intent(in) :: system
+        class(system_t), intent(in) :: system  !! whose motion it is
         real(dp), intent(in) :: t              !! s
         real(dp), intent(in) :: q(system%ndof) !! coordinates
         real(dp), intent(in) :: v(system%ndof) !! velocities
@@ -86,7 +87,7 @@ contains
     subroutine no_follow_inside(self, method, t)
         !! See the motion up to `t` inside the latest step of `method`; only who `follows`.
         class(observer_t), intent(inout) :: self
-        class(dense_integrator_t), intent(in) :: method
+        class(dense_integrator_t), intent(in) :: method  !! has dense output of its latest step
         real(dp), intent(in) :: t              !! s
     end subroutine no_follow_inside
 end module lagrangia_observer

@@ -1,78 +1,128 @@
 module lagrangia_record
-    !! The observer that evaluates the columns, writes them down and remembers the worst.
+    !! The observers that evaluate columns, write them down and remember their range: one row a
+    !! sample, or one row an event with its number at the end.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_columns, only: columns_t
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_t
     use lagrangia_reference, only: reference_t
-    use lagrangia_shadow, only: distance, shadow_t
+    use lagrangia_second_run, only: distance, second_run_t
     use lagrangia_system, only: system_t
     use lagrangia_table, only: table_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: record_t
+    public :: event_record_t, record_t, sample_record_t
 
-    type, extends(observer_t) :: record_t
+    type, abstract, extends(observer_t) :: record_t
         type(columns_t) :: columns
-        integer :: shown = 0                              !! so many columns go into the table
         class(table_t), allocatable :: table              !! absent: nothing is written
-        class(reference_t), allocatable :: reference      !! a closed form,
-        type(shadow_t), allocatable :: shadow             !! or the run at half the step
-        real(dp), allocatable :: row(:)                   !! the latest sample
         real(dp), allocatable :: low(:), high(:)          !! range of each column so far
         integer(i8) :: rows = 0
     contains
-        procedure :: observe
+        procedure, private :: keep
+        procedure :: abandon
         procedure :: worst
     end type record_t
 
+    type, extends(record_t) :: sample_record_t
+        integer :: shown = 0                              !! so many columns go into the table
+        class(reference_t), allocatable :: reference      !! a closed form,
+        type(second_run_t), allocatable :: second_run     !! or the run at half the step
+    contains
+        procedure :: observe
+    end type sample_record_t
+
+    type, extends(record_t) :: event_record_t
+    contains
+        procedure :: observe => no_sample
+        procedure :: meet
+    end type event_record_t
+
 contains
 
-    subroutine observe(self, system, t, q, v, error)
-        !! Evaluate, remember, write. A number that is none ends the run: it would be neither a
-        !! good row nor, since `min` and `max` pass over NaN, a bad verdict.
+    subroutine keep(self, row, shown, error)
+        !! Remember, write.
         class(record_t), intent(inout) :: self
+        real(dp), intent(in), contiguous :: row(:)
+        integer, intent(in) :: shown                      !! numbers that are written
+        type(error_t), allocatable, intent(out) :: error  !! the row could not be written
+
+        if (.not. allocated(self%low)) then
+            allocate (self%low(size(row)), source=huge(row))
+            allocate (self%high(size(row)), source=-huge(row))
+        end if
+        self%low = min(self%low, row)
+        self%high = max(self%high, row)
+        if (allocated(self%table)) call self%table%add_row(row(:shown), error)
+        if (.not. allocated(error)) self%rows = self%rows + 1
+    end subroutine keep
+
+    subroutine abandon(self)
+        !! Leave no file behind.
+        class(record_t), intent(inout) :: self
+
+        if (allocated(self%table)) call self%table%file%abandon()
+    end subroutine abandon
+
+    pure function worst(self, i) result(value)
+        !! The largest magnitude of a column so far.
+        class(record_t), intent(in) :: self
+        integer, intent(in) :: i  !! number of the column
+        real(dp) :: value
+
+        value = max(abs(self%low(i)), abs(self%high(i)))
+    end function worst
+
+    subroutine observe(self, system, t, q, v, error)
+        !! See `observer_t`. A number that is none ends the run: it would be neither a good row nor,
+        !! since `min` and `max` pass over NaN, a bad verdict.
+        class(sample_record_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
         type(error_t), allocatable, intent(out) :: error
         real(dp) :: deviation, truth(system%ndof), ignored(system%ndof)
+        real(dp) :: row(size(self%columns%items))
         integer :: odd
 
         deviation = 0.0_dp
         if (allocated(self%reference)) then
             call self%reference%state_at(t, truth, ignored)
             deviation = distance(q, truth)
-        else if (allocated(self%shadow)) then
-            call self%shadow%estimate(system, t, q, deviation, error)
+        else if (allocated(self%second_run)) then
+            call self%second_run%estimate(system, t, q, deviation, error)
             if (allocated(error)) return
         end if
-        if (.not. allocated(self%row)) then
-            allocate (self%row(size(self%columns%items)))
-            allocate (self%low(size(self%row)), source=huge(t))
-            allocate (self%high(size(self%row)), source=-huge(t))
-        end if
-        call self%columns%evaluate(system, t, q, v, deviation, self%row)
-        odd = findloc(ieee_is_finite(self%row), .false., 1)
+        call self%columns%evaluate(system, t, q, v, deviation, row)
+        odd = findloc(ieee_is_finite(row), .false., 1)
         if (odd > 0) then
             call fail(error, "column '"//trim(self%columns%items(odd)%name)//"' is not finite "// &
                       "at t = "//to_text(t)//" s", status_numbers)
             return
         end if
-        self%low = min(self%low, self%row)
-        self%high = max(self%high, self%row)
-        if (allocated(self%table)) call self%table%add_row(self%row(:self%shown), error)
-        if (allocated(error)) return
-        self%rows = self%rows + 1
+        call self%keep(row, self%shown, error)
     end subroutine observe
 
-    pure function worst(self, i) result(value)
-        !! The largest magnitude of column `i` so far.
-        class(record_t), intent(in) :: self
-        integer, intent(in) :: i
-        real(dp) :: value
+    subroutine no_sample(self, system, t, q, v, error)
+        !! Samples don't matter.
+        class(event_record_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        type(error_t), allocatable, intent(out) :: error
+    end subroutine no_sample
 
-        value = max(abs(self%low(i)), abs(self%high(i)))
-    end function worst
+    subroutine meet(self, system, event, t, q, v, error)
+        !! See `observer_t`.
+        class(event_record_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: event
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        type(error_t), allocatable, intent(out) :: error
+        real(dp) :: row(size(self%columns%items) + 1)
+
+        call self%columns%evaluate(system, t, q, v, 0.0_dp, row(:size(row) - 1))
+        row(size(row)) = event
+        call self%keep(row, size(row), error)
+    end subroutine meet
 end module lagrangia_record

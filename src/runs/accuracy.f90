@@ -12,22 +12,22 @@ module lagrangia_accuracy
     !! form, or to the end by another method.
     !! Source: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.,
     !! sec. II.4.
+    use lagrangia_cross_check, only: by_closed_form, by_other_method, event_slope, lost_by_clock
     use lagrangia_dense_run, only: drive
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_events, only: event_box_t
+    use lagrangia_final_state, only: final_state_t
+    use lagrangia_final_values, only: final_value_t
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: new_adaptive
     use lagrangia_observer, only: observer_box_t, observer_t
     use lagrangia_reference, only: reference_t
     use lagrangia_scene, only: scene_t
-    use lagrangia_second_opinion, only: by_closed_form, by_other_method, event_slope, lost_by_clock
-    use lagrangia_statement, only: stated_t
     use lagrangia_system, only: system_t
     use lagrangia_tolerance_floor, only: sensible_tolerance
     use lagrangia_trajectory_plan, only: plan_steps, trajectory_plan_t
-    use lagrangia_witness, only: witness_t
     implicit none (type, external)
     private
     public :: estimate, plan_finer, state_accuracy
@@ -43,7 +43,7 @@ contains
         !! The two finer runs: one at half the step or a hundredth of the tolerance, one at the
         !! square of that; each from a state a last digit away from the scene's, to either side.
         type(scene_t), intent(in) :: scene                    !! its method is not `auto`
-        class(system_t), intent(in) :: system
+        class(system_t), intent(in) :: system  !! with the scene's parameters
         type(trajectory_plan_t), intent(out) :: finer(2)      !! still without their events
         type(error_t), allocatable, intent(out) :: error      !! the finest would be refused
         type(scene_t) :: near, fine
@@ -62,16 +62,17 @@ contains
                               error)
         !! Every number of the final state of `scene`, with its error; the time first if an event
         !! ended the run. Fails where a finer run fails.
-        type(scene_t), intent(in) :: scene
-        class(system_t), intent(in) :: system
+        type(scene_t), intent(in) :: scene  !! its method is not `auto`
+        class(system_t), intent(in) :: system  !! with the scene's parameters
         class(reference_t), allocatable, intent(in) :: closed_form  !! absent: none is known
         type(trajectory_plan_t), intent(inout) :: finer(2)   !! of `plan_finer`; used up
-        type(witness_t), intent(in) :: seen                  !! of the run itself,
+        type(final_state_t), intent(in) :: seen                  !! of the run itself,
         integer(i8), intent(in) :: steps                     !! and how many it took
         class(observer_t), pointer, intent(in) :: progress   !! hears the runs go on; may be null
-        type(stated_t), allocatable, intent(out) :: state(:)
-        type(error_t), allocatable, intent(out) :: error
-        type(witness_t) :: half, quarter
+        type(final_value_t), allocatable, intent(out) :: state(:)
+        !! (time,) coordinates, velocities
+        type(error_t), allocatable, intent(out) :: error  !! why a finer run failed
+        type(final_state_t) :: half, quarter
         real(dp), allocatable :: first(:), second(:), third(:), most(:), other(:), rounding(:)
         real(dp) :: shrinking, step
         logical :: known
@@ -114,7 +115,7 @@ contains
     function rounding_of_event(system, seen, h, events, rounding) result(dt)
         !! Of its time: that of its function, over how fast this changes.
         class(system_t), intent(in) :: system
-        type(witness_t), intent(in) :: seen
+        type(final_state_t), intent(in) :: seen
         real(dp), intent(in) :: h            !! over which the change is taken, s
         type(event_box_t), intent(inout) :: events(:)
         real(dp), intent(in) :: rounding(:)  !! of time and state
@@ -142,7 +143,7 @@ contains
         !! Of the state, by impacts: each is at a time that is rounded, which shifts the motion
         !! after it, to either side.
         class(system_t), intent(in) :: system
-        type(witness_t), intent(in) :: seen
+        type(final_state_t), intent(in) :: seen
         real(dp), intent(in) :: t_most  !! the latest time, s
         real(dp) :: lost(1 + 2*system%ndof), a(system%ndof)
 
@@ -156,7 +157,7 @@ contains
         !! Of the state, in all runs alike: their clock cannot stand at the end.
         type(scene_t), intent(in) :: scene
         class(system_t), intent(in) :: system
-        type(witness_t), intent(in) :: seen
+        type(final_state_t), intent(in) :: seen
         real(dp) :: lost(1 + 2*system%ndof), a(system%ndof)
 
         lost = 0.0_dp
@@ -168,7 +169,7 @@ contains
     pure subroutine name_state(system, state)
         !! Time, coordinates, velocities.
         class(system_t), intent(in) :: system
-        type(stated_t), allocatable, intent(out) :: state(:)
+        type(final_value_t), allocatable, intent(out) :: state(:)
         type(description_t) :: d
         integer :: i, n
 
@@ -189,7 +190,7 @@ contains
 
     pure function estimate(first, second, third, most, shrinking) result(error)
         !! Of the first of three runs, each number by itself.
-        real(dp), intent(in) :: first(:), second(:), third(:)
+        real(dp), intent(in) :: first(:), second(:), third(:)  !! ends of the runs, (n)
         real(dp), intent(in) :: most(:)    !! largest magnitudes
         real(dp), intent(in) :: shrinking  !! of the error from one run to the next, expected
         real(dp) :: error(size(first))
@@ -273,7 +274,7 @@ contains
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: longest  !! step of a method that chooses them, s
         class(observer_t), pointer, intent(in) :: progress
-        type(witness_t), target, intent(inout) :: seen
+        type(final_state_t), target, intent(inout) :: seen
         real(dp), intent(out) :: shrinking  !! of the error at half the step, a tenth of tolerance
         type(error_t), allocatable, intent(out) :: error
         type(observer_box_t) :: observers(2)
@@ -288,6 +289,6 @@ contains
         call drive(system, plan%integrator, plan%times, plan%events, &
                    observers(:merge(2, 1, associated(progress))), plan%q, plan%v, t, error)
         shrinking = 10.0_dp  ! at least, by a hundredth of the tolerance
-        if (plan%times%equal == 0) shrinking = 2.0_dp**plan%integrator%order
+        if (plan%times%samples == 0) shrinking = 2.0_dp**plan%integrator%order
     end subroutine run_finer
 end module lagrangia_accuracy

@@ -8,10 +8,11 @@ module lagrangia_dense_run
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: check_observers, observer_box_t
-    use lagrangia_run, only: plan_t, run
-    use lagrangia_start, only: blame_mass_matrix, check_start
+    use lagrangia_run, only: run
+    use lagrangia_state_check, only: blame_mass_matrix, check_start
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
+    use lagrangia_time_grid, only: time_grid_t
     implicit none (type, external)
     private
     public :: drive, run_dense
@@ -20,70 +21,71 @@ module lagrangia_dense_run
 
 contains
 
-    subroutine drive(system, integrator, plan, events, observers, q, v, ended, error)
+    subroutine drive(system, integrator, grid, events, observers, q, v, ended, error)
         !! `run_dense` where samples or events may lie between the steps, else `run`.
-        class(system_t), intent(in) :: system
+        class(system_t), intent(in) :: system  !! whose motion it is
         class(integrator_t), intent(inout) :: integrator
-        type(plan_t), intent(in) :: plan
-        type(event_box_t), intent(inout) :: events(:)
-        type(observer_box_t), intent(in) :: observers(:)
+        !! is prepared here; a dense one, if need be
+        type(time_grid_t), intent(in) :: grid  !! the times of steps and samples
+        type(event_box_t), intent(inout) :: events(:)  !! may be empty
+        type(observer_box_t), intent(in) :: observers(:)  !! are called in this order
         real(dp), intent(inout) :: q(:), v(:)  !! the start; the end on return, (system%ndof)
         real(dp), intent(out) :: ended  !! time of the last sample, s
-        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable, intent(out) :: error  !! why the run ended early
 
-        ended = plan%t0 + plan%duration
-        if (plan%equal > 0 .or. size(events) > 0) then
+        ended = grid%t0 + grid%duration
+        if (grid%samples > 0 .or. size(events) > 0) then
             select type (integrator)
             class is (dense_integrator_t)
-                call run_dense(system, integrator, plan, events, observers, q, v, ended, error)
+                call run_dense(system, integrator, grid, events, observers, q, v, ended, error)
             class default
                 call fail(error, trim(integrator%name)//" has no dense output, which samples "// &
                           "at equal times and events need: new_stepwise gives it one")
             end select
         else
-            call run(system, integrator, plan, observers, q, v, error)
+            call run(system, integrator, grid, observers, q, v, error)
         end if
     end subroutine drive
 
-    subroutine run_dense(system, method, plan, events, observers, q, v, ended, error)
-        !! Integrate from `plan%t0` over `plan%duration`, showing the samples of the plan and the
+    subroutine run_dense(system, method, grid, events, observers, q, v, ended, error)
+        !! Integrate from `grid%t0` over `grid%duration`, showing the samples of the grid and the
         !! end to `observers`, and every event. The number of samples costs no evaluations.
         !!
         !! A run that fails has shown what was good up to `ended`, and `q` and `v` are as they were.
-        class(system_t), intent(in) :: system
-        class(dense_integrator_t), intent(inout) :: method
-        type(plan_t), intent(in) :: plan
-        type(event_box_t), intent(inout) :: events(:)
-        type(observer_box_t), intent(in) :: observers(:)
+        class(system_t), intent(in) :: system  !! whose motion it is
+        class(dense_integrator_t), intent(inout) :: method  !! is prepared here
+        type(time_grid_t), intent(in) :: grid  !! only its samples count
+        type(event_box_t), intent(inout) :: events(:)  !! may be empty
+        type(observer_box_t), intent(in) :: observers(:)  !! are called in this order
         real(dp), intent(inout) :: q(:), v(:)  !! the start; the end on return, (system%ndof)
         real(dp), intent(out) :: ended  !! time of the last sample, s
-        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable, intent(out) :: error  !! why the run ended early
         type(watch_t) :: watch
         real(dp) :: t_end, q_end(system%ndof), v_end(system%ndof)
         integer(i8) :: shown, last
         integer :: i, impacts
         logical :: stopped, restarted
 
-        ended = plan%t0
-        call check_start(system, plan%t0, q, v, error)
+        ended = grid%t0
+        call check_start(system, grid%t0, q, v, error)
         if (.not. allocated(error)) call check_observers(observers, error)
         if (allocated(error)) return
-        if (plan%every < 1) call fail(error, "the plan is not one of new_plan")
+        if (grid%every < 1) call fail(error, "the time grid is not one of new_time_grid")
         do i = 1, size(events)
             if (.not. allocated(events(i)%item)) call fail(error, "event "//to_text(i)//" is "// &
                 "an empty box: allocate its item")
         end do
         if (allocated(error)) return
-        t_end = plan%t0 + plan%duration
-        last = plan%samples()
+        t_end = grid%t0 + grid%duration
+        last = grid%last_sample()
         shown = 0
         impacts = 0
         stopped = .false.
         call method%prepare(system, error)
         if (allocated(error)) return
-        call method%start(system, plan%t0, q, v, t_end)
-        call watch%start(events, system, plan%t0, q, v)
-        call show(plan%t0, watch%q, watch%v)
+        call method%start(system, grid%t0, q, v, t_end)
+        call watch%start(events, system, grid%t0, q, v)
+        call show(grid%t0, watch%q, watch%v)
         do while (method%t_new < t_end .and. .not. (stopped .or. allocated(error)))
             call method%step(system, error)
             if (allocated(error)) call blame_mass_matrix(system, ended, method%t_new - ended, &
@@ -155,7 +157,7 @@ contains
             real(dp) :: now, q_now(system%ndof), v_now(system%ndof)
 
             do while (shown <= last .and. .not. allocated(error))
-                now = plan%sample_time(shown)
+                now = grid%sample_time(shown)
                 if (now > t) exit
                 call method%state_at(now, q_now, v_now)
                 call show(now, q_now, v_now)

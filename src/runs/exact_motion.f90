@@ -24,8 +24,8 @@ contains
 
     subroutine new_exact_motion(self, closed_form)
         !! The motion that `closed_form` knows.
-        type(exact_motion_t), intent(out) :: self
-        class(reference_t), intent(in) :: closed_form
+        type(exact_motion_t), intent(out) :: self  !! needs no tolerance
+        class(reference_t), intent(in) :: closed_form  !! has the state; is copied
 
         self%name = "exact"
         self%looks = 32768  ! all of the motion is one step

@@ -6,7 +6,7 @@ module lagrangia_measures
     use lagrangia_ledger, only: claim_t
     use lagrangia_outcome, only: outcome_t
     use lagrangia_period, only: period_t
-    use lagrangia_record, only: record_t
+    use lagrangia_record, only: sample_record_t
     use lagrangia_reference, only: reference_t
     use lagrangia_scene, only: scene_t
     use lagrangia_small_oscillations, only: find_modes, is_oscillation, modes_t
@@ -19,11 +19,12 @@ contains
 
     pure subroutine take_measures(scene, record, period, reference, outcome)
         !! The worst of every drift and error, and the period beside what it should be.
-        type(scene_t), intent(in) :: scene
-        type(record_t), intent(in) :: record
-        type(period_t), intent(in) :: period
+        type(scene_t), intent(in) :: scene  !! says what is expected
+        type(sample_record_t), intent(in) :: record  !! of the samples, when the run has ended
+        type(period_t), intent(in) :: period  !! of the coordinate `period_of`
         class(reference_t), allocatable, intent(in) :: reference
-        type(outcome_t), intent(inout) :: outcome
+        !! absent: no closed form is known
+        type(outcome_t), intent(inout) :: outcome  !! gets the measures
         type(claim_t) :: m
         real(dp) :: measured
         integer :: i
@@ -66,9 +67,9 @@ contains
 
     subroutine take_modes(scene, system, outcome)
         !! The frequencies of the small oscillations, if the scene asks and there are any.
-        type(scene_t), intent(in) :: scene
-        class(system_t), intent(in) :: system
-        type(outcome_t), intent(inout) :: outcome
+        type(scene_t), intent(in) :: scene  !! says whether modes are asked for
+        class(system_t), intent(in) :: system  !! with the scene's parameters
+        type(outcome_t), intent(inout) :: outcome  !! gets the frequencies
         type(modes_t) :: modes
         type(error_t), allocatable :: error
         real(dp) :: start(system%ndof)

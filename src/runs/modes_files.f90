@@ -1,5 +1,6 @@
 module lagrangia_modes_files
     !! One period of a mode as a data file with its gnuplot script, ready to animate.
+    use lagrangia_data_files, only: data_path, script_path
     use lagrangia_description, only: description_t, name_length
     use lagrangia_disk_space, only: space_warning
     use lagrangia_errors, only: error_t
@@ -9,7 +10,6 @@ module lagrangia_modes_files
     use lagrangia_output_file, only: commit_both, output_file_t, refuse_unwritable
     use lagrangia_places, only: places_t
     use lagrangia_scene_claims, only: claim_table
-    use lagrangia_scene_files, only: data_path, script_path
     use lagrangia_small_oscillations, only: is_oscillation, is_unstable, modes_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
@@ -25,10 +25,10 @@ contains
     subroutine prepare_modes(system, folder, warning, error)
         !! Fails where two of the files are one, or the first could not be written now; says how
         !! much all will hold, if that is very much. To be called before modes are looked for.
-        class(system_t), intent(in) :: system
-        character(*), intent(in) :: folder
+        class(system_t), intent(in) :: system  !! with its parameters
+        character(*), intent(in) :: folder  !! of the files; is made if need be
         character(:), allocatable, intent(out) :: warning  !! a line for the user, or nothing
-        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable, intent(out) :: error  !! of a file
         type(places_t) :: places
         integer :: j
 
@@ -64,11 +64,12 @@ contains
         !! `SYSTEM_mode_J.dat`: the equilibrium plus a tenth of the shape times \(\cos\omega t\)
         !! over a period (with \(G\), of a shape that turns), \(\cosh\) over two growth times, or
         !! \(t\) over one second of a zero mode.
-        class(system_t), intent(in) :: system
-        type(modes_t), intent(in) :: modes
-        integer, intent(in) :: j
-        character(*), intent(in) :: folder
+        class(system_t), intent(in) :: system  !! with its parameters
+        type(modes_t), intent(in) :: modes  !! of this system
+        integer, intent(in) :: j  !! number of the mode, from 1
+        character(*), intent(in) :: folder  !! that of `prepare_modes`
         type(error_t), allocatable, intent(out) :: error
+        !! of a file; then none of this mode is left
         type(description_t) :: d
         type(text_table_t) :: table
         type(output_file_t) :: script

@@ -2,13 +2,13 @@ module lagrangia_outcome
     !! What came out of one scene: a row of the scorecard.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use lagrangia_characters, only: printable
+    use lagrangia_final_values, only: final_value_t, final_values_json
     use lagrangia_json, only: json_item, json_list, json_number, json_object, json_pair, &
                               json_string
     use lagrangia_kinds, only: dp, i8
     use lagrangia_ledger, only: claim_t
     use lagrangia_number_text, only: fixed, scientific
     use lagrangia_printed_table, only: left, right
-    use lagrangia_statement, only: stated_t, statement_json
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -37,7 +37,7 @@ module lagrangia_outcome
         integer(i8) :: rejected = 0                 !! steps that were tried and taken back
         type(claim_t), allocatable :: drifts(:)   !! of the invariants
         type(claim_t), allocatable :: others(:)   !! `error`, `period`, ...
-        type(stated_t), allocatable :: state(:)     !! final, with errors, if that was asked
+        type(final_value_t), allocatable :: state(:)     !! final, with errors, if that was asked
         integer :: error_from = 0                   !! 0: no error known
         real(dp) :: period = 0.0_dp                 !! measured, s; 0 if not
         real(dp) :: omega = 0.0_dp                  !! of the slowest small oscillation; or 0
@@ -155,7 +155,7 @@ contains
 
     function outcome_json(self) result(json)
         !! One object, as `--json` prints it.
-        type(outcome_t), intent(in) :: self
+        type(outcome_t), intent(in) :: self  !! of a run that has ended
         character(:), allocatable :: json, drifts, error_from, remark, state
         integer :: i
 
@@ -166,7 +166,7 @@ contains
             drifts = drifts//json_pair(self%drifts(i)%name, self%drifts(i)%value)
         end do
         state = "null"
-        if (allocated(self%state)) state = statement_json(self%state)
+        if (allocated(self%state)) state = final_values_json(self%state)
         error_from = ""
         if (.not. self%error() < 0.0_dp) error_from = trim(sources(self%error_from))
         json = json_pair("scene", self%scene)//json_pair("system", self%system)// &
@@ -235,7 +235,7 @@ contains
 
     function scorecard_row(self) result(line)
         !! One line a scene.
-        type(outcome_t), intent(in) :: self
+        type(outcome_t), intent(in) :: self  !! of a run that has ended
         character(:), allocatable :: line
         character(:), allocatable :: drift, error_text, period_text
         character(:), allocatable :: omega_text

@@ -4,9 +4,9 @@ module lagrangia_run_plan
     use lagrangia_accuracy, only: plan_finer
     use lagrangia_columns, only: new_columns
     use lagrangia_command_line, only: word_t
+    use lagrangia_cross_check, only: new_other_method
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_event_record, only: event_record_t
     use lagrangia_exact_motion, only: exact_motion_t
     use lagrangia_gnuplot, only: new_panels, panel_t
     use lagrangia_integrator, only: dense_integrator_t
@@ -14,12 +14,11 @@ module lagrangia_run_plan
     use lagrangia_methods, only: exact, new_adaptive, workhorse
     use lagrangia_outcome, only: from_closed_form, from_half_step, from_steps
     use lagrangia_period, only: period_t
-    use lagrangia_record, only: record_t
+    use lagrangia_record, only: event_record_t, sample_record_t
     use lagrangia_reference, only: reference_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene, read_scene
-    use lagrangia_second_opinion, only: new_other_method
-    use lagrangia_shadow, only: shadow_t
+    use lagrangia_second_run, only: second_run_t
     use lagrangia_stepwise, only: stepwise_t
     use lagrangia_system, only: system_t
     use lagrangia_trajectory_plan, only: plan_events, plan_steps, settle_method, trajectory_plan_t
@@ -37,7 +36,7 @@ module lagrangia_run_plan
         class(reference_t), allocatable :: closed_form  !! of the start; absent: none is known
         type(trajectory_plan_t) :: trajectory
         type(trajectory_plan_t) :: finer(2)             !! for `error_estimate`
-        type(record_t) :: record                        !! of the samples
+        type(sample_record_t) :: record                        !! of the samples
         type(panel_t), allocatable :: panels(:)
         type(event_record_t) :: event_record
         type(panel_t), allocatable :: event_panels(:)
@@ -50,8 +49,8 @@ contains
 
     subroutine read_run_plan(plan, path, overrides, error)
         !! Read a scene's file and plan its run: refuses whatever is wrong with it.
-        type(run_plan_t), intent(out) :: plan
-        character(*), intent(in) :: path
+        type(run_plan_t), intent(out) :: plan  !! ready to run
+        character(*), intent(in) :: path  !! of the scene
         type(word_t), intent(in) :: overrides(:)          !! the words behind `--set`
         type(error_t), allocatable, intent(out) :: error  !! names file, line and key
         class(system_t), allocatable :: system
@@ -63,8 +62,8 @@ contains
 
     subroutine parse_run_plan(plan, text, source, overrides, error)
         !! The same for a scene in `text`.
-        type(run_plan_t), intent(out) :: plan
-        character(*), intent(in) :: text
+        type(run_plan_t), intent(out) :: plan  !! ready to run
+        character(*), intent(in) :: text  !! lines between line feeds
         character(*), intent(in) :: source                !! the file that it came from
         type(word_t), intent(in) :: overrides(:)          !! the words behind `--set`
         type(error_t), allocatable, intent(out) :: error  !! names file, line and key
@@ -77,8 +76,8 @@ contains
 
     subroutine new_run_plan(plan, scene, system, error)
         !! Plan the run of a scene. Reads and writes no file.
-        type(run_plan_t), intent(out) :: plan
-        type(scene_t), intent(in) :: scene
+        type(run_plan_t), intent(out) :: plan  !! ready to run
+        type(scene_t), intent(in) :: scene  !! as it was read, or made
         class(system_t), intent(in) :: system             !! with the scene's parameters
         type(error_t), allocatable, intent(out) :: error
         !! names file, line and key where the scene was read from a file
@@ -168,8 +167,9 @@ contains
                     allocate (plan%record%reference, source=plan%closed_form)
                 else if (any(scene%expectations%name == "error") .or. scene%method == exact) then
                     if (scene%method /= exact) plan%error_from = from_half_step
-                    allocate (plan%record%shadow)
-                    call start_second_run(scene, system, plan%trajectory, plan%record%shadow, error)
+                    allocate (plan%record%second_run)
+                    call start_second_run(scene, system, plan%trajectory, &
+                                          plan%record%second_run, error)
                     if (allocated(error)) return
                 end if
             end if
@@ -177,13 +177,13 @@ contains
         call new_columns(plan%record%columns, names, system, plan%error_from > 0, error)
     end subroutine new_record
 
-    subroutine start_second_run(scene, system, trajectory, shadow, error)
+    subroutine start_second_run(scene, system, trajectory, second_run, error)
         !! A finer run beside the scene's, and another method's, to estimate its error; beside a
         !! closed form, steps.
         type(scene_t), intent(in) :: scene
         class(system_t), intent(in) :: system
         type(trajectory_plan_t), intent(in) :: trajectory
-        type(shadow_t), intent(inout) :: shadow
+        type(second_run_t), intent(inout) :: second_run
         type(error_t), allocatable, intent(out) :: error
         class(dense_integrator_t), allocatable :: steps, other
         real(dp) :: t_end
@@ -196,23 +196,23 @@ contains
             t_end = times%t0 + times%duration
             if (scene%method /= exact) then
                 call new_other_method(scene, system, other)
-                call shadow%start_other(other, system, times%t0, t_end, q, v)
+                call second_run%start_other(other, system, times%t0, t_end, q, v)
             end if
             select type (method => trajectory%integrator)
             type is (exact_motion_t)
                 call new_adaptive(workhorse, steps)
                 steps%tolerance = steps%least_tolerance
-                call shadow%start_adaptive(steps, system, times%t0, t_end, q, v, error)
+                call second_run%start_adaptive(steps, system, times%t0, t_end, q, v, error)
             type is (stepwise_t)
-                call shadow%start(method%method, system, times%t0, times%dt, q, v, error)
+                call second_run%start(method%method, system, times%t0, times%dt, q, v, error)
             class is (dense_integrator_t)
-                if (times%equal > 0) then
-                    call shadow%start_adaptive(method, system, times%t0, t_end, q, v, error)
+                if (times%samples > 0) then
+                    call second_run%start_adaptive(method, system, times%t0, t_end, q, v, error)
                 else
-                    call shadow%start(method, system, times%t0, times%dt, q, v, error)
+                    call second_run%start(method, system, times%t0, times%dt, q, v, error)
                 end if
             class default
-                call shadow%start(method, system, times%t0, times%dt, q, v, error)
+                call second_run%start(method, system, times%t0, times%dt, q, v, error)
             end select
         end associate
     end subroutine start_second_run

@@ -1,14 +1,13 @@
 module lagrangia_scene_claims
     !! All files of a scene, so that those of a run can be compared before any of them is written.
+    use lagrangia_data_files, only: data_path, event_path, script_path
     use lagrangia_disk_space, only: space_warning
     use lagrangia_errors, only: error_t
-    use lagrangia_event_files, only: event_path
     use lagrangia_kinds, only: dp
     use lagrangia_number_text, only: field_width
     use lagrangia_output_file, only: partial_ending
     use lagrangia_places, only: places_t
     use lagrangia_scene, only: scene_t
-    use lagrangia_scene_files, only: data_path, script_path
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -18,10 +17,10 @@ contains
 
     subroutine claim_alone(scene, system, folder, format, error)
         !! Of a run of this scene only: see `claim_files`.
-        type(scene_t), intent(in) :: scene
-        class(system_t), intent(in) :: system
-        character(*), intent(in) :: folder, format
-        type(error_t), allocatable, intent(out) :: error
+        type(scene_t), intent(in) :: scene  !! to be run
+        class(system_t), intent(in) :: system  !! with the scene's parameters
+        character(*), intent(in) :: folder, format  !! of the data files
+        type(error_t), allocatable, intent(out) :: error  !! two files are one
         type(places_t) :: places
 
         call claim_scene(scene, places, error)
@@ -30,9 +29,9 @@ contains
 
     subroutine claim_scene(scene, places, error)
         !! The file that the scene was read from; fails where it was claimed before.
-        type(scene_t), intent(in) :: scene
-        type(places_t), intent(inout) :: places
-        type(error_t), allocatable, intent(out) :: error
+        type(scene_t), intent(in) :: scene  !! was read from a file, or not
+        type(places_t), intent(inout) :: places  !! claimed so far; gets this one
+        type(error_t), allocatable, intent(out) :: error  !! it was claimed before
 
         if (allocated(scene%source)) call places%add(scene%source, "scene", "", error)
     end subroutine claim_scene
@@ -40,26 +39,27 @@ contains
     subroutine claim_files(scene, system, folder, format, places, error)
         !! What a run of the scene may write, or its scripts draw; fails (status 2) where a file of
         !! it is one that was claimed before. Claim all scenes of a run first.
-        type(scene_t), intent(in) :: scene
-        class(system_t), intent(in) :: system
-        character(*), intent(in) :: folder, format
-        type(places_t), intent(inout) :: places
-        type(error_t), allocatable, intent(out) :: error
-        character(:), allocatable :: owner
+        type(scene_t), intent(in) :: scene  !! to be run
+        class(system_t), intent(in) :: system  !! with the scene's parameters
+        character(*), intent(in) :: folder, format  !! of the data files
+        type(places_t), intent(inout) :: places  !! claimed so far; gets these
+        type(error_t), allocatable, intent(out) :: error  !! names both owners
+        character(:), allocatable :: owner, path
 
         owner = trim(scene%name)
-        call claim_table(data_path(folder, trim(scene%output), format), "data", owner, places, &
-                         error)
+        path = data_path(folder, trim(scene%output), format)
+        call claim_table(path, "data", owner, places, error)
         if (allocated(error)) return
         if (.not. (allocated(scene%events) .or. system%contacts > 0)) return
-        call claim_table(event_path(scene, folder, format), "event", owner, places, error)
+        call claim_table(event_path(path), "event", owner, places, error)
     end subroutine claim_files
 
     subroutine claim_table(path, kind, owner, places, error)
         !! The table at `path`, what remains of it where its run fails, its script and pictures.
         character(*), intent(in) :: path, kind, owner
-        type(places_t), intent(inout) :: places
-        type(error_t), allocatable, intent(out) :: error
+        !! of the table; `data` or `event`; a scene's name
+        type(places_t), intent(inout) :: places  !! claimed so far; gets these
+        type(error_t), allocatable, intent(out) :: error  !! names both owners
         character(:), allocatable :: stem
 
         stem = script_path(path)
@@ -75,8 +75,8 @@ contains
     function size_warning(scene, folder, format) result(text)
         !! A line for the user where a run of the scene would write very much, or more than there is
         !! room for; else nothing.
-        type(scene_t), intent(in) :: scene
-        character(*), intent(in) :: folder, format
+        type(scene_t), intent(in) :: scene  !! to be run
+        character(*), intent(in) :: folder, format  !! of the data files
         character(:), allocatable :: text
         real(dp) :: rows
         integer :: width

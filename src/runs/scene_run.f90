@@ -3,21 +3,18 @@ module lagrangia_scene_run
     use lagrangia_accuracy, only: state_accuracy
     use lagrangia_dense_run, only: drive
     use lagrangia_errors, only: error_t, fail, status_numbers
-    use lagrangia_event_files, only: finish_event_file, open_event_file
+    use lagrangia_final_state, only: final_state_t
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_measures, only: take_measures, take_modes
     use lagrangia_methods, only: exact
     use lagrangia_observer, only: observer_box_t, observer_t
     use lagrangia_outcome, only: outcome_t
-    use lagrangia_output_file, only: output_file_t
-    use lagrangia_partial_runs, only: keep_parts, planned
     use lagrangia_reduced_motion, only: reduced_motion_t
+    use lagrangia_run_files, only: abandon_files, finish_files, keep_parts, open_files
     use lagrangia_run_plan, only: run_plan_t
     use lagrangia_scene_claims, only: claim_alone
-    use lagrangia_scene_files, only: abandon_files, commit_files, finish_files, open_files
     use lagrangia_text, only: to_text
-    use lagrangia_witness, only: witness_t
     implicit none (type, external)
     private
     public :: run_scene
@@ -55,7 +52,7 @@ contains
         class(observer_t), pointer, intent(in) :: progress
         type(outcome_t), intent(inout) :: outcome
         type(error_t), allocatable, intent(out) :: error
-        type(witness_t), target :: seen
+        type(final_state_t), target :: seen
         type(observer_box_t) :: observers(5)
         type(error_t), allocatable :: file_error
         logical :: complete
@@ -65,15 +62,8 @@ contains
             if (folder /= "") then
                 call claim_alone(scene, system, folder, format, error)
                 if (allocated(error)) return
-                call open_files(scene, system, plan%choice, folder, format, plan%record, &
-                                outcome%file, error)
+                call open_files(plan, folder, format, outcome%file, error)
                 if (allocated(error)) return
-                if (size(plan%trajectory%events) > 0) call open_event_file(scene, system, folder, &
-                    format, plan%trajectory%events, plan%event_record, error)
-                if (allocated(error)) then
-                    call abandon_files(plan%record)
-                    return
-                end if
             end if
             n = 0
             call join(seen)
@@ -93,21 +83,17 @@ contains
                     outcome%v = seen%v
                 end if
                 if (error%status /= status_numbers) then
-                    call abandon_files(plan%record)
-                    if (allocated(plan%event_record%table)) then
-                        call plan%event_record%table%file%abandon()
-                    end if
+                    call abandon_files(plan)
                     return
                 end if
             end if
             call take_measures(scene, plan%record, plan%period, plan%closed_form, outcome)
             call take_modes(scene, system, outcome)
             if (.not. complete) then
-                call keep_parts(plan%trajectory%times, plan%record, plan%event_record, outcome, &
-                                error)
+                call keep_parts(plan, outcome, error)
                 return
             end if
-            call write_files(plan, folder, format, outcome, file_error)
+            call finish_files(plan, outcome, file_error)
             if (allocated(file_error) .and. .not. allocated(error)) then
                 call move_alloc(file_error, error)
             end if
@@ -121,33 +107,10 @@ contains
         end subroutine join
     end subroutine run_and_write
 
-    subroutine write_files(plan, folder, format, outcome, error)
-        !! Complete all files of the scene; where that succeeds they get their names, else none.
-        type(run_plan_t), intent(inout) :: plan
-        character(*), intent(in) :: folder, format
-        type(outcome_t), intent(inout) :: outcome
-        type(error_t), allocatable, intent(out) :: error
-        type(output_file_t) :: scripts(2)
-
-        call finish_event_file(plan%scene, folder, format, plan%event_record, plan%event_panels, &
-                               scripts(1), outcome%events, error)
-        if (.not. allocated(error)) call finish_files(plan%scene, folder, format, plan%record, &
-                                                      plan%panels, outcome, scripts(2), error)
-        if (.not. allocated(error)) call commit_files(plan%event_record%table, scripts(1), error)
-        if (.not. allocated(error)) call commit_files(plan%record%table, scripts(2), error)
-        if (.not. allocated(error)) return
-        outcome%file = ""
-        outcome%events = ""
-        call abandon_files(plan%record)
-        if (allocated(plan%event_record%table)) call plan%event_record%table%file%abandon()
-        call scripts(1)%abandon()
-        call scripts(2)%abandon()
-    end subroutine write_files
-
     subroutine timed_run(plan, seen, observers, outcome, error)
         !! The run itself, its final state and what it cost.
         type(run_plan_t), target, intent(inout) :: plan  !! the observers point into it
-        type(witness_t), target, intent(inout) :: seen   !! one of them
+        type(final_state_t), target, intent(inout) :: seen   !! one of them
         type(observer_box_t), intent(in) :: observers(:)
         type(outcome_t), intent(inout) :: outcome
         type(error_t), allocatable, intent(out) :: error
@@ -157,13 +120,13 @@ contains
             if (times%rest > 0.0_dp .and. plan%settled%method /= exact) outcome%remark = &
                 " (the last one shortened to "//to_text(times%rest)//" s)"
             call system_clock(start, rate)
-            outcome%steps = planned(times)
+            outcome%steps = times%step_count()
             call drive(plan%system, integrator, times, plan%trajectory%events, observers, &
                        outcome%q, outcome%v, outcome%t, error)
             call system_clock(finish)
             if (allocated(error)) outcome%steps = min(outcome%steps, &
                 times%every*max(0_i8, seen%samples - 1))
-            if (times%equal > 0 .or. size(plan%trajectory%events) > 0 .or. &
+            if (times%samples > 0 .or. size(plan%trajectory%events) > 0 .or. &
                 plan%settled%method == exact) then
                 select type (method => integrator)
                 class is (dense_integrator_t)

@@ -8,11 +8,12 @@ module lagrangia_solve
     use lagrangia_observer, only: observer_box_t
     use lagrangia_recorder, only: recorder_t
     use lagrangia_reference, only: reference_t
-    use lagrangia_run, only: new_plan, new_sampled_plan, run
+    use lagrangia_run, only: run
     use lagrangia_scene, only: scene_t
-    use lagrangia_start, only: check_start
+    use lagrangia_state_check, only: check_start
     use lagrangia_system, only: system_t
     use lagrangia_text, only: quoted, to_text
+    use lagrangia_time_grid, only: new_sample_times, new_time_grid
     use lagrangia_trajectory_plan, only: plan_events, plan_steps, settle_method, trajectory_plan_t
     implicit none (type, external)
     private
@@ -52,7 +53,7 @@ contains
         call make_plan()
         if (allocated(error)) return
         observers(1)%item => record
-        if (plan%times%equal > 0) then
+        if (plan%times%samples > 0) then
             call drive(system, plan%integrator, plan%times, plan%events, observers, plan%q, &
                        plan%v, ended, error)
         else
@@ -114,7 +115,7 @@ contains
             if (.not. allocated(error)) call plan_events(settled, system, plan%events, error)
             if (allocated(error)) return
             if (settled%tolerance <= 0.0_dp .and. size(plan%events) == 0) return
-            call new_sampled_plan(plan%times, t(1), scene%duration, scene%samples, error)
+            call new_sample_times(plan%times, t(1), scene%duration, scene%samples, error)
             plan%times%at = t
         end subroutine make_plan
 
@@ -125,8 +126,8 @@ contains
             call record%observe(system, t(1), plan%q, plan%v, error)
             do k = 2, size(t)
                 interval = t(k) - t(k - 1)
-                call new_plan(plan%times, t(k - 1), interval/ceiling(interval/dt, i8), interval, &
-                              1_i8, error)
+                call new_time_grid(plan%times, t(k - 1), interval/ceiling(interval/dt, i8), &
+                                   interval, 1_i8, error)
                 if (allocated(error)) return
                 call run(system, plan%integrator, plan%times, observers(:0), plan%q, plan%v, error)
                 if (allocated(error)) return

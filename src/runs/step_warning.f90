@@ -19,8 +19,8 @@ contains
         !! the fastest oscillation about it is too fast for `dt`; else nothing, and no modes are
         !! looked for where the method has no limit. Of splitting methods the limit is known only
         !! without gyroscopic forces.
-        type(scene_t), intent(in) :: scene
-        class(system_t), intent(in) :: system
+        type(scene_t), intent(in) :: scene  !! its step is looked at
+        class(system_t), intent(in) :: system  !! with the scene's parameters
         character(:), allocatable :: text
         class(integrator_t), allocatable :: method
         type(error_t), allocatable :: error

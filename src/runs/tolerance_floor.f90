@@ -19,10 +19,10 @@ contains
         result(tolerance)
         !! Which the method can keep, at least its `least_tolerance`, at most 0.1: upwards to two
         !! digits.
-        class(dense_integrator_t), intent(in) :: method
-        class(system_t), intent(in) :: system
+        class(dense_integrator_t), intent(in) :: method  !! says what it can keep
+        class(system_t), intent(in) :: system  !! whose motion it is
         real(dp), intent(in) :: t, duration                        !! s
-        real(dp), intent(in) :: q(system%ndof), v(system%ndof)
+        real(dp), intent(in) :: q(system%ndof), v(system%ndof)  !! coordinates, velocities at t
         real(dp) :: tolerance
         real(dp) :: a(system%ndof), q_near(system%ndof), slope, noise, rate, step
         character(12) :: digits

@@ -12,11 +12,11 @@ module lagrangia_trajectory_plan
                                  workhorse
     use lagrangia_reduced_motion, only: leave_cyclic
     use lagrangia_reference, only: reference_t
-    use lagrangia_run, only: new_plan, new_sampled_plan, plan_t
     use lagrangia_scene, only: scene_t
     use lagrangia_stepwise, only: new_stepwise, stepwise_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
+    use lagrangia_time_grid, only: new_sample_times, new_time_grid, time_grid_t
     use lagrangia_tolerance_floor, only: sensible_tolerance
     implicit none (type, external)
     private
@@ -24,7 +24,7 @@ module lagrangia_trajectory_plan
 
     type :: trajectory_plan_t
         !! A trajectory to be computed.
-        type(plan_t) :: times
+        type(time_grid_t) :: times
         class(integrator_t), allocatable :: integrator
         type(event_box_t), allocatable :: events(:)
         real(dp), allocatable :: q(:), v(:)             !! the start, (ndof)
@@ -34,10 +34,10 @@ contains
 
     subroutine settle_method(scene, system, reference, settled, choice)
         !! The scene with a method in the place of `auto`, and a line that says so.
-        type(scene_t), intent(in) :: scene
-        class(system_t), intent(in) :: system
+        type(scene_t), intent(in) :: scene  !! names a method, or `auto`
+        class(system_t), intent(in) :: system  !! with the scene's parameters
         class(reference_t), allocatable, intent(in) :: reference  !! of the scene's start
-        type(scene_t), intent(out) :: settled
+        type(scene_t), intent(out) :: settled  !! names a method
         character(:), allocatable, intent(out) :: choice          !! "" if the method was named
         character(:), allocatable :: why
 
@@ -89,9 +89,9 @@ contains
         !! The start, the times, and the scene's method, ready for the system. Where there are
         !! events, a method of fixed step is made dense.
         type(scene_t), intent(in) :: scene              !! its method is not `auto`
-        class(system_t), intent(in) :: system
+        class(system_t), intent(in) :: system  !! with the scene's parameters
         type(trajectory_plan_t), intent(out) :: plan    !! still without its events
-        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable, intent(out) :: error  !! blames a key of the scene
         class(reference_t), allocatable, intent(in), optional :: closed_form
         !! of the scene's start: takes the place of the method if that is `exact`
         class(dense_integrator_t), allocatable :: adaptive
@@ -102,9 +102,9 @@ contains
         plan%q = scene%q
         plan%v = scene%v
         if (scene%tolerance > 0.0_dp) then
-            call new_sampled_plan(plan%times, scene%t0, scene%duration, scene%samples, error)
+            call new_sample_times(plan%times, scene%t0, scene%duration, scene%samples, error)
         else
-            call new_plan(plan%times, scene%t0, scene%dt, scene%duration, scene%every, error)
+            call new_time_grid(plan%times, scene%t0, scene%dt, scene%duration, scene%every, error)
         end if
         if (allocated(error)) return
         if (scene%method == exact .and. present(closed_form)) then
@@ -139,10 +139,10 @@ contains
 
     subroutine plan_events(scene, system, events, error)
         !! The scene's events, and behind them the contacts of the system.
-        type(scene_t), intent(in) :: scene
-        class(system_t), intent(in) :: system
+        type(scene_t), intent(in) :: scene  !! names its own events
+        class(system_t), intent(in) :: system  !! with the scene's parameters
         type(event_box_t), allocatable, intent(out) :: events(:)  !! none: empty
-        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable, intent(out) :: error  !! blames a key of the scene
         type(column_event_t) :: column
         type(contact_event_t) :: contact
         type(description_t) :: d

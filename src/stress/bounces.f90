@@ -8,9 +8,9 @@ module lagrangia_bounces
     use lagrangia_ledger, only: ledger_t
     use lagrangia_observer, only: observer_box_t, observer_t
     use lagrangia_printed_table, only: short
-    use lagrangia_run, only: new_sampled_plan, plan_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
+    use lagrangia_time_grid, only: new_sample_times, time_grid_t
     implicit none (type, external)
     private
     public :: judge_elastic, judge_zeno
@@ -95,7 +95,7 @@ contains
         type(event_box_t) :: events(1)
         type(contact_event_t) :: contact
         type(error_t), allocatable :: error
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         real(dp) :: q(1), v(1), ended
 
         counter%count = 0
@@ -104,7 +104,7 @@ contains
         call new_contact_event(contact, 1)
         allocate (events(1)%item, source=contact)
         call system%configure([1.0_dp, g, e], error)
-        call new_sampled_plan(plan, 0.0_dp, duration, 10_i8, error)
+        call new_sample_times(plan, 0.0_dp, duration, 10_i8, error)
         q = 0.0_dp
         v = v0
         call run_dense(system, method, plan, events, observers, q, v, ended, error)

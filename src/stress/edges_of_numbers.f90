@@ -8,8 +8,9 @@ module lagrangia_edges_of_numbers
     use lagrangia_observer, only: observer_box_t, observer_t
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_rotating_wire, only: rotating_wire_t
-    use lagrangia_run, only: new_plan, plan_t, run
+    use lagrangia_run, only: run
     use lagrangia_system, only: system_t
+    use lagrangia_time_grid, only: new_time_grid, time_grid_t
     implicit none (type, external)
     private
     public :: judge_edges
@@ -66,13 +67,13 @@ contains
         type(observer_box_t) :: observers(1)
         type(last_t), target :: last
         type(error_t), allocatable :: error
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         real(dp) :: q(1), v(1)
 
         observers(1)%item => last
         q = x0
         v = 0.0_dp
-        call new_plan(plan, 0.0_dp, dt, duration, 50_i8, error)
+        call new_time_grid(plan, 0.0_dp, dt, duration, 50_i8, error)
         call run(system, method, plan, observers, q, v, error)
         x = last%x
         status = 0

@@ -10,8 +10,9 @@ module lagrangia_method_promises
     use lagrangia_method_orders, only: new_problem, problems, refuses
     use lagrangia_number_text, only: field_width, write_row
     use lagrangia_observer, only: observer_box_t
-    use lagrangia_run, only: new_plan, plan_t, run
+    use lagrangia_run, only: run
     use lagrangia_system, only: system_t
+    use lagrangia_time_grid, only: new_time_grid, time_grid_t
     implicit none (type, external)
     private
     public :: judge_bytes, judge_reversal, judge_scaling, judge_symplectic, judge_text
@@ -85,7 +86,7 @@ contains
         integer(i8), parameter :: strides(4) = [1000_i8, 1_i8, 7_i8, 64_i8]
         class(system_t), allocatable :: system
         type(observer_box_t) :: nobody(0)
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(error_t), allocatable :: error
         real(dp), allocatable :: q(:), v(:)
         real(dp) :: whole(most)
@@ -97,7 +98,7 @@ contains
             do i = 1, size(strides)
                 call new_problem(k, system, q, v)
                 if (refuses(method, system)) cycle
-                call new_plan(plan, 0.0_dp, dt, steps*dt, strides(i), error)
+                call new_time_grid(plan, 0.0_dp, dt, steps*dt, strides(i), error)
                 call run(system, method, plan, nobody, q, v, error)
                 if (i == 1) whole(:2*system%ndof) = [q, v]
                 different = different + differing([q, v], whole(:2*system%ndof))

@@ -12,6 +12,7 @@ module lagrangia_table
         integer(i8), private :: sent = 0       !! reading of the clock when rows last went to disk
     contains
         procedure :: add_row
+        procedure :: send_header
         procedure(begin_i), deferred :: begin  !! the header; `names` and `units` a column
         procedure(row_i), deferred :: row      !! one sample; failures are seen by `finish`
         procedure(finish_i), deferred :: finish
@@ -54,6 +55,19 @@ module lagrangia_table
     end interface
 
 contains
+
+    subroutine send_header(self, error)
+        !! After `begin`: to the disk, before anything is computed, for it may be full.
+        class(table_t), intent(inout) :: self
+        type(error_t), allocatable, intent(inout) :: error
+        !! that of `begin`, or one of the disk; then the file is abandoned
+
+        if (.not. allocated(error)) then
+            call self%file%flush()
+            call self%file%report(error)
+        end if
+        if (allocated(error)) call self%file%abandon()
+    end subroutine send_header
 
     subroutine add_row(self, values, error)
         !! One sample of a long run, which must not compute for hours what cannot be written: fails

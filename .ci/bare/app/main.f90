@@ -10,8 +10,9 @@ program main
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: adaptive_names, method_names, new_adaptive, new_integrator
     use lagrangia_observer, only: observer_box_t
-    use lagrangia_run, only: new_plan, plan_t, run
+    use lagrangia_run, only: run
     use lagrangia_system, only: system_t
+    use lagrangia_time_grid, only: new_time_grid, time_grid_t
     implicit none (type, external)
     real(dp), parameter :: dt = 1e-3_dp
     character(name_length) :: what, count, only_system
@@ -44,7 +45,7 @@ contains
         class(system_t), allocatable :: system
         class(integrator_t), allocatable :: method
         type(observer_box_t) :: nobody(0)
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         real(dp) :: q(1), v(1)
 
         call new_system("pendulum", system, error)
@@ -53,7 +54,7 @@ contains
         if (allocated(error)) return
         q = 1.0_dp
         v = 0.0_dp
-        call new_plan(plan, 0.0_dp, dt, steps*dt, steps, error)
+        call new_time_grid(plan, 0.0_dp, dt, steps*dt, steps, error)
         if (allocated(error)) return
         if (by_run) then
             call run(system, method, plan, nobody, q, v, error)

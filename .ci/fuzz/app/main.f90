@@ -4,6 +4,7 @@ module fuzzing
     use lagrangia_blas_threads, only: use_one_blas_thread
     use lagrangia_catalogue, only: new_system
     use lagrangia_command_line, only: command_line_t, parse_words, word_t
+    use lagrangia_data_files, only: check_format
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_files, only: read_whole_file
@@ -11,7 +12,6 @@ module fuzzing
     use lagrangia_registry, only: check_line, options
     use lagrangia_run_plan, only: parse_run_plan, run_plan_t
     use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
-    use lagrangia_scene_files, only: check_format
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_shipped, only: find_scene, shipped_scenes
     use lagrangia_system, only: system_t

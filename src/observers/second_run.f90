@@ -1,4 +1,4 @@
-module lagrangia_shadow
+module lagrangia_second_run
     !! The same run at half the step, or at a hundredth of the tolerance, in step with the run
     !! itself: where no closed form exists, their distance estimates the error (Richardson;
     !! Hairer, Nørsett & Wanner, sec. II.4). Rounding that both share shows in the distance to
@@ -9,9 +9,9 @@ module lagrangia_shadow
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: shadow_t, distance
+    public :: second_run_t, distance
 
-    type :: shadow_t
+    type :: second_run_t
         private
         class(integrator_t), allocatable :: integrator
         class(dense_integrator_t), allocatable :: adaptive
@@ -27,13 +27,13 @@ module lagrangia_shadow
         procedure :: start_other
         procedure, private :: go_finer
         procedure :: estimate
-    end type shadow_t
+    end type second_run_t
 
 contains
 
     pure function distance(q, truth) result(error)
         !! The largest difference, absolute below 1 and relative above.
-        real(dp), intent(in) :: q(:), truth(:)
+        real(dp), intent(in) :: q(:), truth(:)  !! of one size
         real(dp) :: error
 
         error = maxval(abs(q - truth)/max(1.0_dp, abs(truth)))
@@ -41,11 +41,12 @@ contains
 
     subroutine start(self, integrator, system, t0, dt, q, v, error)
         !! Get ready with an integrator of the run's kind.
-        class(shadow_t), intent(inout) :: self
-        class(integrator_t), intent(in) :: integrator
-        class(system_t), intent(in) :: system
+        class(second_run_t), intent(inout) :: self
+        class(integrator_t), intent(in) :: integrator  !! is copied
+        class(system_t), intent(in) :: system  !! whose motion it is
         real(dp), intent(in) :: t0, dt, q(system%ndof), v(system%ndof)
-        type(error_t), allocatable, intent(out) :: error
+        !! s; the run's step, s; coordinates, velocities at t0
+        type(error_t), allocatable, intent(out) :: error  !! the method does not suit the system
 
         allocate (self%integrator, source=integrator)
         call self%integrator%prepare(system, error)
@@ -59,11 +60,12 @@ contains
 
     subroutine start_adaptive(self, integrator, system, t0, t_end, q, v, error)
         !! Get ready with an adaptive integrator of the run's kind.
-        class(shadow_t), intent(inout) :: self
-        class(dense_integrator_t), intent(in) :: integrator
-        class(system_t), intent(in) :: system
+        class(second_run_t), intent(inout) :: self
+        class(dense_integrator_t), intent(in) :: integrator  !! is copied, with its tolerance
+        class(system_t), intent(in) :: system  !! whose motion it is
         real(dp), intent(in) :: t0, t_end, q(system%ndof), v(system%ndof)
-        type(error_t), allocatable, intent(out) :: error
+        !! s; coordinates, velocities at t0
+        type(error_t), allocatable, intent(out) :: error  !! the method does not suit the system
 
         allocate (self%adaptive, source=integrator)
         allocate (self%probe, source=integrator)
@@ -80,10 +82,11 @@ contains
 
     subroutine start_other(self, method, system, t0, t_end, q, v)
         !! Ask another method too, at its tolerance; one that cannot answer is not asked.
-        class(shadow_t), intent(inout) :: self
-        class(dense_integrator_t), intent(in) :: method
-        class(system_t), intent(in) :: system
+        class(second_run_t), intent(inout) :: self
+        class(dense_integrator_t), intent(in) :: method  !! is copied, with its tolerance
+        class(system_t), intent(in) :: system  !! whose motion it is
         real(dp), intent(in) :: t0, t_end, q(system%ndof), v(system%ndof)
+        !! s; coordinates, velocities at t0
         type(error_t), allocatable :: error
 
         allocate (self%other, source=method)
@@ -98,11 +101,12 @@ contains
     subroutine estimate(self, system, t, q, deviation, error)
         !! Go to time `t` and estimate the error of the run's coordinates `q` there: no less than
         !! their distance to the other method's. Fails where the tighter tolerance cannot be had.
-        class(shadow_t), intent(inout) :: self
-        class(system_t), intent(in) :: system
+        class(second_run_t), intent(inout) :: self
+        class(system_t), intent(in) :: system  !! that of `start`
         real(dp), intent(in) :: t, q(system%ndof)
-        real(dp), intent(out) :: deviation
-        type(error_t), allocatable, intent(out) :: error
+        !! s, not before the latest; the run's coordinates
+        real(dp), intent(out) :: deviation  !! as `distance` has it
+        type(error_t), allocatable, intent(out) :: error  !! why the second run fails
         type(error_t), allocatable :: unknown
         real(dp) :: q_other(system%ndof), v_other(system%ndof)
 
@@ -121,7 +125,7 @@ contains
 
     subroutine go_finer(self, system, t, q, deviation, error)
         !! To time `t`, and the error of `q` there as the finer steps see it.
-        class(shadow_t), intent(inout) :: self
+        class(second_run_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t, q(system%ndof)
         real(dp), intent(out) :: deviation
@@ -156,7 +160,7 @@ contains
     pure subroutine bound_steps(self, system)
         !! No step longer than half the run's mean one: a method may find no reason in the tighter
         !! tolerance to take shorter ones, and would repeat the run. One that fails will say so.
-        type(shadow_t), intent(inout) :: self
+        type(second_run_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         type(error_t), allocatable :: error
         real(dp) :: t0
@@ -170,4 +174,4 @@ contains
         end if
         deallocate (self%probe)
     end subroutine bound_steps
-end module lagrangia_shadow
+end module lagrangia_second_run

@@ -1,4 +1,4 @@
-module lagrangia_start
+module lagrangia_state_check
     !! What a run needs before its first step: a system with its parameters, a state of its size,
     !! equations of motion there.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -19,9 +19,9 @@ contains
         !! Fails (status 2) for a system that was never configured and arrays of another size; and,
         !! where a system has its Lagrangian only, for an L that is no number (status 3) or a mass
         !! matrix that leaves accelerations open (status 4).
-        class(system_t), intent(in) :: system
+        class(system_t), intent(in) :: system  !! whose motion it is
         real(dp), intent(in) :: t, q(:), v(:)  !! s, coordinates, velocities
-        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable, intent(out) :: error  !! says what is missing, and where
 
         call check_state(system, q, v, error)
         if (allocated(error)) return
@@ -38,11 +38,11 @@ contains
         !! Name, in the message of a run that failed in a step from this state on, the mass matrix
         !! of a Lagrangian where it is not positive definite in that step or soon after it. With
         !! accelerations by hand, or another reason, the message stays.
-        class(system_t), intent(in) :: system
+        class(system_t), intent(in) :: system  !! whose motion it is
         real(dp), intent(in) :: t         !! of the last state that is finite, s
         real(dp), intent(in) :: h         !! length of the step, s
         real(dp), intent(in) :: q(:), v(:)  !! that state
-        type(error_t), intent(inout) :: error
+        type(error_t), intent(inout) :: error  !! gets the cause behind its message
         integer, parameter :: places = 16, ahead = 4  !! places a step; steps
         type(error_t), allocatable :: cause
         type(euler_lagrange_t) :: terms
@@ -83,4 +83,4 @@ contains
         call system%accelerations(t, q, v, a)
         if (.not. all(ieee_is_finite(a))) call check_mass_matrix(terms%mass, error)
     end subroutine check_lagrangian
-end module lagrangia_start
+end module lagrangia_state_check

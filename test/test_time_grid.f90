@@ -1,20 +1,20 @@
-module test_plan
+module test_time_grid
     !! The grid of times of a run: whole steps counted in 64 bits, and a shortened last one.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_errors, only: error_t, status_usage
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_run, only: new_plan, new_sampled_plan, plan_t
+    use lagrangia_time_grid, only: new_sample_times, new_time_grid, time_grid_t
     implicit none (type, external)
     private
-    public :: plan_suite
+    public :: time_grid_suite
 
 contains
 
-    function plan_suite() result(suite)
+    function time_grid_suite() result(suite)
         !! The tests of this module.
         type(TestSuite) :: suite
 
-        suite = TestSuite("plan")
+        suite = TestSuite("time_grid")
         call suite%addTest(TestMethod("steps_that_divide_are_counted", &
                                       steps_that_divide_are_counted))
         call suite%addTest(TestMethod("the_last_step_is_shortened", the_last_step_is_shortened))
@@ -24,7 +24,7 @@ contains
                                       steps_that_stand_still_are_refused))
         call suite%addTest(TestMethod("samples_lie_four_doubles_apart", &
                                       samples_lie_four_doubles_apart))
-    end function plan_suite
+    end function time_grid_suite
 
     subroutine steps_that_divide_are_counted()
         !! Also where the quotient is not a whole number by rounding only, and beyond 2**31.
@@ -40,10 +40,10 @@ contains
         !! A plan of so many whole steps.
         real(dp), intent(in) :: t0, dt, duration
         integer(i8), intent(in) :: steps
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(error_t), allocatable :: error
 
-        call new_plan(plan, t0, dt, duration, 1_i8, error)
+        call new_time_grid(plan, t0, dt, duration, 1_i8, error)
         call assertFalse(allocated(error), "a plan")
         call assertEqual(steps, plan%steps)
         call assertEqual(0.0_dp, plan%rest, message="no rest")
@@ -52,13 +52,13 @@ contains
 
     subroutine the_last_step_is_shortened()
         !! Never stretched, however near the next whole step is.
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(error_t), allocatable :: error
         real(dp), parameter :: durations(4) = [1.0_dp, 0.95_dp, 0.9_dp + 1e-9_dp, 1.2_dp - 1e-9_dp]
         integer :: i
 
         do i = 1, size(durations)
-            call new_plan(plan, 0.0_dp, 0.3_dp, durations(i), 1_i8, error)
+            call new_time_grid(plan, 0.0_dp, 0.3_dp, durations(i), 1_i8, error)
             call assertFalse(allocated(error), "a plan")
             call assertEqual(3_i8, plan%steps)
             call assertEqual(durations(i) - 0.9_dp, plan%rest, 4*epsilon(1.0_dp), "the rest")
@@ -84,17 +84,17 @@ contains
 
     subroutine samples_lie_four_doubles_apart()
         !! \(2^{50}\) of them in the first second do, one more do not; none is refused.
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(error_t), allocatable :: error
 
-        call new_sampled_plan(plan, 0.0_dp, 1.0_dp, 2_i8**50, error)
+        call new_sample_times(plan, 0.0_dp, 1.0_dp, 2_i8**50, error)
         call assertFalse(allocated(error), "four apart")
-        call assertEqual(2_i8**50, plan%equal)
-        call new_sampled_plan(plan, 0.0_dp, 1.0_dp, 2_i8**50 + 1_i8, error)
+        call assertEqual(2_i8**50, plan%samples)
+        call new_sample_times(plan, 0.0_dp, 1.0_dp, 2_i8**50 + 1_i8, error)
         call assertTrue(allocated(error), "less than four apart")
         if (.not. allocated(error)) return
         call assertEqual("so many samples cannot be told apart near t = 1.0 s", error%message)
-        call new_sampled_plan(plan, 0.0_dp, 1.0_dp, 0_i8, error)
+        call new_sample_times(plan, 0.0_dp, 1.0_dp, 0_i8, error)
         call assertTrue(allocated(error), "no samples")
         if (.not. allocated(error)) return
         call assertEqual("must be at least 1, not 0", error%message)
@@ -104,14 +104,14 @@ contains
         !! Refused in words that begin so, and `dt` is to blame.
         real(dp), intent(in) :: t0, dt, duration
         character(*), intent(in) :: message
-        type(plan_t) :: plan
+        type(time_grid_t) :: plan
         type(error_t), allocatable :: error
 
-        call new_plan(plan, t0, dt, duration, 1_i8, error)
+        call new_time_grid(plan, t0, dt, duration, 1_i8, error)
         call assertTrue(allocated(error), "refused: "//message)
         if (.not. allocated(error)) return
         call assertEqual(1, index(error%message, message), error%message)
         call assertEqual("dt", error%key)
         call assertEqual(status_usage, error%status)
     end subroutine check_no_plan
-end module test_plan
+end module test_time_grid

@@ -1,4 +1,4 @@
-module test_shadow
+module test_second_run
     !! The run at half the step, which estimates the error where no closed form is known.
     use funit, only: TestMethod, TestSuite, assertEqual, assertGreaterThan, assertLessThan
     use lagrangia_dop853, only: dop853_t, new_dop853
@@ -11,19 +11,19 @@ module test_shadow
     use lagrangia_random_draws, only: random_t
     use lagrangia_reference, only: reference_t
     use lagrangia_rolling_disk, only: rolling_disk_t
-    use lagrangia_shadow, only: distance, shadow_t
+    use lagrangia_second_run, only: distance, second_run_t
     use lagrangia_wedge, only: wedge_t
     implicit none (type, external)
     private
-    public :: shadow_suite
+    public :: second_run_suite
 
 contains
 
-    function shadow_suite() result(suite)
+    function second_run_suite() result(suite)
         !! The tests of this module.
         type(TestSuite) :: suite
 
-        suite = TestSuite("shadow")
+        suite = TestSuite("second_run")
         call suite%addTest(TestMethod("distance_is_absolute_below_1_and_relative_above", &
                                       distance_is_absolute_below_1_and_relative_above))
         call suite%addTest(TestMethod("rk4_is_estimated_well", rk4_is_estimated_well))
@@ -33,7 +33,7 @@ contains
                                       steps_that_no_tolerance_shortens_are_estimated))
         call suite%addTest(TestMethod("rounding_that_both_runs_share_is_in_it", &
                                       rounding_that_both_runs_share_is_in_it))
-    end function shadow_suite
+    end function second_run_suite
 
     subroutine distance_is_absolute_below_1_and_relative_above()
         !! The worst of the coordinates; by the size of the truth.
@@ -69,7 +69,7 @@ contains
         type(pendulum_t) :: system
         class(integrator_t), allocatable :: method
         class(reference_t), allocatable :: reference
-        type(shadow_t) :: shadow
+        type(second_run_t) :: shadow
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1), truth(1), ignored(1), estimate, actual, t, largest
         integer :: k, counted
@@ -114,7 +114,7 @@ contains
         type(gauss_adaptive_t) :: method
         class(reference_t), allocatable :: reference
         type(random_t) :: random
-        type(shadow_t), allocatable :: shadow
+        type(second_run_t), allocatable :: shadow
         type(error_t), allocatable :: error
         real(dp), allocatable :: parameters(:), q(:), v(:)
         real(dp) :: truth(4), ignored(4), t, duration, estimate, actual
@@ -153,7 +153,7 @@ contains
         type(dop853_t) :: other
         class(reference_t), allocatable :: reference
         type(random_t) :: random
-        type(shadow_t), allocatable :: shadow
+        type(second_run_t), allocatable :: shadow
         type(error_t), allocatable :: error
         real(dp), allocatable :: parameters(:), q(:), v(:)
         real(dp) :: truth(2), ignored(2), t, dt, estimate, actual, worst, own
@@ -185,4 +185,4 @@ contains
         end do
         call assertGreaterThan(worst, 8.0_dp, message="more than a few last digits")
     end subroutine rounding_that_both_runs_share_is_in_it
-end module test_shadow
+end module test_second_run

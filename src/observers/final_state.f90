@@ -1,14 +1,15 @@
-module lagrangia_witness
-    !! The observer that keeps the latest sample, and how large each number of the state has been.
+module lagrangia_final_state
+    !! The observer that keeps the latest sample, which is the final state when the run has ended,
+    !! and how large each number of the state has been.
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_t
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: witness_t
+    public :: final_state_t
 
-    type, extends(observer_t) :: witness_t
+    type, extends(observer_t) :: final_state_t
         integer(i8) :: samples = 0                 !! seen so far
         integer(i8) :: events = 0                  !! met so far
         real(dp) :: t = 0.0_dp                     !! of the latest sample, s
@@ -17,13 +18,13 @@ module lagrangia_witness
     contains
         procedure :: observe
         procedure :: meet
-    end type witness_t
+    end type final_state_t
 
 contains
 
     subroutine observe(self, system, t, q, v, error)
         !! See `observer_t`. Never fails.
-        class(witness_t), intent(inout) :: self
+        class(final_state_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
         type(error_t), allocatable, intent(out) :: error
@@ -40,7 +41,7 @@ contains
 
     subroutine meet(self, system, event, t, q, v, error)
         !! See `observer_t`. Never fails.
-        class(witness_t), intent(inout) :: self
+        class(final_state_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         integer, intent(in) :: event
         real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
@@ -48,4 +49,4 @@ contains
 
         self%events = self%events + 1
     end subroutine meet
-end module lagrangia_witness
+end module lagrangia_final_state

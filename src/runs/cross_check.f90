@@ -1,4 +1,4 @@
-module lagrangia_second_opinion
+module lagrangia_cross_check
     !! The end of a run by other means: a closed form, or another method at its least tolerance.
     !!
     !! Finer runs of one method share what is wrong with all of them: steps too small to move a
@@ -7,6 +7,7 @@ module lagrangia_second_opinion
     !! 0 where the equations do not look at it.
     use lagrangia_errors, only: error_t
     use lagrangia_events, only: event_box_t
+    use lagrangia_final_state, only: final_state_t
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: new_adaptive
@@ -14,7 +15,6 @@ module lagrangia_second_opinion
     use lagrangia_scene, only: scene_t
     use lagrangia_system, only: system_t
     use lagrangia_tolerance_floor, only: sensible_tolerance
-    use lagrangia_witness, only: witness_t
     implicit none (type, external)
     private
     public :: by_closed_form, by_other_method, event_slope, lost_by_clock, new_other_method
@@ -23,12 +23,12 @@ contains
 
     subroutine by_closed_form(scene, system, seen, closed_form, state, known)
         !! Time, coordinates and velocities at the end of a run that no event ended.
-        type(scene_t), intent(in) :: scene
-        class(system_t), intent(in) :: system
-        type(witness_t), intent(in) :: seen                          !! of the run
+        type(scene_t), intent(in) :: scene  !! what was run
+        class(system_t), intent(in) :: system  !! with the scene's parameters
+        type(final_state_t), intent(in) :: seen                          !! of the run
         class(reference_t), allocatable, intent(in) :: closed_form   !! of its start
-        real(dp), intent(out) :: state(1 + 2*system%ndof)
-        logical, intent(out) :: known
+        real(dp), intent(out) :: state(1 + 2*system%ndof)  !! s, coordinates, velocities
+        logical, intent(out) :: known  !! else `state` is zero
         real(dp) :: q(system%ndof), v(system%ndof)
 
         state = 0.0_dp
@@ -43,13 +43,13 @@ contains
     subroutine by_other_method(scene, system, seen, events, allowed, state, known)
         !! Time, coordinates and velocities where the run ended, or where in truth the event is that
         !! ended it. Not known across impacts, or where that would take too long.
-        type(scene_t), intent(in) :: scene
-        class(system_t), intent(in) :: system
-        type(witness_t), intent(in) :: seen              !! of the run
+        type(scene_t), intent(in) :: scene  !! what was run
+        class(system_t), intent(in) :: system  !! with the scene's parameters
+        type(final_state_t), intent(in) :: seen              !! of the run
         type(event_box_t), intent(inout) :: events(:)    !! of the run
         integer(i8), intent(in) :: allowed               !! evaluations
-        real(dp), intent(out) :: state(1 + 2*system%ndof)
-        logical, intent(out) :: known
+        real(dp), intent(out) :: state(1 + 2*system%ndof)  !! s, coordinates, velocities
+        logical, intent(out) :: known  !! else `state` has no meaning
         class(dense_integrator_t), allocatable :: method
         type(error_t), allocatable :: error
         real(dp) :: q(system%ndof), v(system%ndof), start, elapsed, late, slope, value
@@ -85,9 +85,10 @@ contains
 
     subroutine new_other_method(scene, system, method)
         !! Not the scene's, at the least tolerance that makes sense from its start.
-        type(scene_t), intent(in) :: scene
-        class(system_t), intent(in) :: system
+        type(scene_t), intent(in) :: scene  !! what is run
+        class(system_t), intent(in) :: system  !! with the scene's parameters
         class(dense_integrator_t), allocatable, intent(out) :: method
+        !! neither prepared nor started
         real(dp) :: start
 
         call new_adaptive(merge("gauss16", "dop853 ", scene%method == "dop853"), method)
@@ -98,7 +99,7 @@ contains
 
     pure function lost_by_clock(start, elapsed) result(lost)
         !! What the end on the clock, `start + elapsed` rounded, leaves of `elapsed`, s.
-        real(dp), intent(in) :: start, elapsed
+        real(dp), intent(in) :: start, elapsed  !! s
         real(dp) :: lost
 
         lost = elapsed - ((start + elapsed) - start)
@@ -119,11 +120,11 @@ contains
 
     subroutine event_slope(system, t, h, q, v, events, value, slope)
         !! Of the final event that is nearest to a state: its function and how fast that changes.
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        class(system_t), intent(in) :: system  !! whose motion it is
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)  !! s; coordinates, velocities
         real(dp), intent(in) :: h            !! over which the change is taken, s
-        type(event_box_t), intent(inout) :: events(:)
-        real(dp), intent(out) :: value, slope
+        type(event_box_t), intent(inout) :: events(:)  !! at least one is final
+        real(dp), intent(out) :: value, slope  !! in the unit of the event's column; that per s
         real(dp) :: this, rate, later, q_later(system%ndof), v_later(system%ndof)
         integer :: i
 
@@ -143,4 +144,4 @@ contains
             slope = rate
         end do
     end subroutine event_slope
-end module lagrangia_second_opinion
+end module lagrangia_cross_check

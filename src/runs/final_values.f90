@@ -1,4 +1,4 @@
-module lagrangia_statement
+module lagrangia_final_values
     !! The final state of a run, each number only to the digits that its error leaves.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_concise, only: concise
@@ -7,16 +7,16 @@ module lagrangia_statement
     use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
-    public :: stated_t
-    public :: statement_json, statement_legend, statement_line
+    public :: final_value_t
+    public :: final_values_json, final_values_legend, final_values_line
 
-    character(*), parameter :: statement_legend = &
+    character(*), parameter :: final_values_legend = &
         "0.48312(2): 0.48312 give or take 0.00002, by the same run at a half and a quarter of "// &
         "the"//new_line("a")//"step, or at 1e-2 and 1e-4 of the tolerance and shorter steps, "// &
         "from starts a last digit away;"//new_line("a")//"by another method at its least "// &
         "tolerance; and by the closed form where there is one"
 
-    type :: stated_t
+    type :: final_value_t
         !! One number of the final state.
         character(name_length) :: name = ""
         character(16) :: unit = ""
@@ -26,13 +26,13 @@ module lagrangia_statement
     contains
         procedure :: resolved
         procedure :: text
-    end type stated_t
+    end type final_value_t
 
 contains
 
     elemental function resolved(self)
         !! Whether any digit is left: the error is less than a tenth of the amplitude.
-        class(stated_t), intent(in) :: self
+        class(final_value_t), intent(in) :: self
         logical :: resolved
 
         resolved = ieee_is_finite(self%error) .and. &
@@ -41,16 +41,16 @@ contains
 
     pure function text(self)
         !! `0.48312(2)`, or `no digit left`.
-        class(stated_t), intent(in) :: self
+        class(final_value_t), intent(in) :: self
         character(:), allocatable :: text
 
         text = "no digit left"
         if (self%resolved()) text = concise(self%value, self%error)
     end function text
 
-    pure function statement_line(state) result(line)
+    pure function final_values_line(state) result(line)
         !! `theta = 0.48312(2) rad, theta_dot = no digit left`.
-        type(stated_t), intent(in) :: state(:)
+        type(final_value_t), intent(in) :: state(:)  !! in the order of the line
         character(:), allocatable :: line
         integer :: i
 
@@ -60,21 +60,21 @@ contains
             line = line//trim(state(i)%name)//" = "//state(i)%text()
             if (state(i)%resolved()) line = trim(line//" "//unit_of(state(i)))
         end do
-    end function statement_line
+    end function final_values_line
 
     pure function unit_of(stated) result(unit)
         !! Its unit, if it has one.
-        type(stated_t), intent(in) :: stated
+        type(final_value_t), intent(in) :: stated
         character(:), allocatable :: unit
 
         unit = trim(stated%unit)
         if (unit == "1") unit = ""
     end function unit_of
 
-    pure function statement_json(state) result(json)
+    pure function final_values_json(state) result(json)
         !! `{"theta": {"value": , "error": , "text": "0.48312(2)"}}`; the text is `null` where no
         !! digit is left.
-        type(stated_t), intent(in) :: state(:)
+        type(final_value_t), intent(in) :: state(:)  !! in the order of the object
         character(:), allocatable :: json
         integer :: i
 
@@ -91,5 +91,5 @@ contains
             end if
         end do
         json = json//"}"
-    end function statement_json
-end module lagrangia_statement
+    end function final_values_json
+end module lagrangia_final_values

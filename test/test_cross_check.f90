@@ -1,27 +1,27 @@
-module test_second_opinion
+module test_cross_check
     !! Where three runs of one method agree and are wrong: none of their digits is stated.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertGreaterThan, &
                      assertLessThan, assertLessThanOrEqual, assertTrue
     use lagrangia_command_line, only: word_t
     use lagrangia_errors, only: error_t
+    use lagrangia_final_values, only: final_value_t, final_values_line
     use lagrangia_kinds, only: dp
     use lagrangia_outcome, only: from_closed_form, from_half_step, outcome_t, scorecard_legend
     use lagrangia_scene, only: scene_t
-    use lagrangia_statement, only: stated_t, statement_line
     use lagrangia_system, only: system_t
     use scene_runs, only: plan_and_run, read_and_plan
     use stated_text, only: read_concise
     implicit none (type, external)
     private
-    public :: second_opinion_suite
+    public :: cross_check_suite
 
 contains
 
-    function second_opinion_suite() result(suite)
+    function cross_check_suite() result(suite)
         !! The tests of this module.
         type(TestSuite) :: suite
 
-        suite = TestSuite("second_opinion")
+        suite = TestSuite("cross_check")
         call suite%addTest(TestMethod("three_hundred_bounces", three_hundred_bounces))
         call suite%addTest(TestMethod("lingering_at_a_saddle", lingering_at_a_saddle))
         call suite%addTest(TestMethod("steps_too_small_to_move", steps_too_small_to_move))
@@ -31,7 +31,7 @@ contains
         call suite%addTest(TestMethod("an_estimate_has_the_rounding_in_it", &
                                       an_estimate_has_the_rounding_in_it))
         call suite%addTest(TestMethod("an_error_is_of_coordinates", an_error_is_of_coordinates))
-    end function second_opinion_suite
+    end function cross_check_suite
 
     subroutine perform(text, outcome, plain)
         !! The scene in `text`, from beginning to end, with its error, if it is not to be `plain`.
@@ -53,7 +53,7 @@ contains
 
     subroutine check_claim(stated, truth)
         !! What is printed has the truth in it.
-        type(stated_t), intent(in) :: stated
+        type(final_value_t), intent(in) :: stated
         real(dp), intent(in) :: truth
         real(dp) :: centre, bracket
 
@@ -108,7 +108,7 @@ contains
         do i = 1, size(methods)
             call perform("system = 'pendulum', dt = 0.01, method = '"//trim(methods(i))// &
                          "', q = 3.141592653589793, duration = 38.0"//system, outcome)
-            call assertFalse(any(outcome%state%resolved()), statement_line(outcome%state))
+            call assertFalse(any(outcome%state%resolved()), final_values_line(outcome%state))
             do k = 1, 2  ! the double is 1.2e-16 below pi, which grows by cosh(t)
                 call perform("system = 'pendulum', dt = 0.01, method = '"//trim(methods(i))// &
                              "', q = 3.141592653589793, duration = "//ends(k)//system, outcome)
@@ -272,4 +272,4 @@ contains
         call assertEqual(x, outcome%error(), 1e-12_dp, "of x")
         call assertGreaterThan(abs(v - x), 0.1_dp*x, message="which is not that of the velocity")
     end subroutine an_error_is_of_coordinates
-end module test_second_opinion
+end module test_cross_check

@@ -1,0 +1,219 @@
+module lagrangia_run_files
+    !! The files of one run: data and events while it goes on, gnuplot scripts when it is done. All
+    !! get their names together; what remains of a run that fails is called `NAME.partial`.
+    use lagrangia_data_files, only: data_path, event_path, new_table, script_path
+    use lagrangia_description, only: description_t, name_length
+    use lagrangia_errors, only: error_t, message_length
+    use lagrangia_gnuplot, only: dots, gnuplot_script, panel_t
+    use lagrangia_outcome, only: outcome_t
+    use lagrangia_output_file, only: output_file_t, remove_partial
+    use lagrangia_record, only: record_t
+    use lagrangia_run_plan, only: run_plan_t
+    use lagrangia_scene, only: scene_line_length, scene_lines
+    use lagrangia_text, only: shortened, to_text
+    use lagrangia_version, only: build_text, version
+    implicit none (type, external)
+    private
+    public :: abandon_files, finish_files, keep_parts, open_files
+
+contains
+
+    subroutine open_files(plan, folder, format, path, error)
+        !! Open the data file and, where there are events, theirs, under temporary names until
+        !! `finish_files`, and write their headers.
+        type(run_plan_t), intent(inout) :: plan  !! its records get their tables
+        character(*), intent(in) :: folder                    !! is made if need be
+        character(*), intent(in) :: format                    !! text, csv or npy
+        character(:), allocatable, intent(out) :: path        !! of the data file
+        type(error_t), allocatable, intent(out) :: error      !! then none is open
+        character(scene_line_length), allocatable :: header(:)
+        character(scene_line_length) :: last(2)
+        type(description_t) :: d
+        integer :: i, n
+
+        call plan%system%describe(d)
+        associate (record => plan%record, events => plan%event_record, scene => plan%scene)
+            path = data_path(folder, trim(scene%output), format)
+            header = [character(scene_line_length) :: "lagrangia "//version//": "//scene%title, &
+                      scene_lines(scene, d)]
+            last(1) = plan%choice
+            last(2) = "build: "//build_text()
+            n = record%shown
+            call open_table(record, format, path, [header, pack(last, last /= "")], &
+                            record%columns%names(n), record%columns%units(n), error)
+            if (allocated(error) .or. size(plan%trajectory%events) == 0) return
+            header = [header, last(2:)]
+            do i = 1, size(plan%trajectory%events)
+                header = [character(scene_line_length) :: header, &
+                          "event "//to_text(i)//": "//plan%trajectory%events(i)%item%label]
+            end do
+            n = size(events%columns%items)
+            call open_table(events, format, event_path(path), header, &
+                            [character(name_length) :: events%columns%names(n), "event"], &
+                            [character(16) :: events%columns%units(n), "1"], error)
+            if (allocated(error)) call record%abandon()
+        end associate
+    end subroutine open_files
+
+    subroutine open_table(record, format, path, header, names, units, error)
+        !! Under a temporary name, with its header on the disk.
+        class(record_t), intent(inout) :: record
+        character(*), intent(in) :: format, path, header(:), names(:), units(:)
+        type(error_t), allocatable, intent(out) :: error
+
+        call new_table(format, record%table)
+        call record%table%file%open(path, error)
+        if (allocated(error)) return
+        call record%table%begin(header, names, units, error)
+        call record%table%send_header(error)
+    end subroutine open_table
+
+    subroutine finish_files(plan, outcome, error)
+        !! Complete all files of the run; where that succeeds they get their names, else none.
+        type(run_plan_t), intent(inout) :: plan  !! its run has succeeded
+        type(outcome_t), intent(inout) :: outcome         !! gets the name of the file of events
+        type(error_t), allocatable, intent(out) :: error  !! of a file
+        type(output_file_t) :: scripts(2)
+
+        call complete_files(plan, outcome, scripts, error)
+        if (.not. allocated(error)) call commit_files(plan%event_record, scripts(1), error)
+        if (.not. allocated(error)) call commit_files(plan%record, scripts(2), error)
+        if (.not. allocated(error)) return
+        outcome%file = ""
+        outcome%events = ""
+        call abandon_files(plan)
+        call scripts(1)%abandon()
+        call scripts(2)%abandon()
+    end subroutine finish_files
+
+    subroutine complete_files(plan, outcome, scripts, error)
+        !! All but their names: the tables' last lines, and the scripts beside them; that of the
+        !! events only where there is more than one.
+        type(run_plan_t), intent(inout) :: plan
+        type(outcome_t), intent(inout) :: outcome
+        type(output_file_t), intent(inout) :: scripts(2)  !! of the events, of the samples
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: rejected
+        integer :: n
+
+        associate (record => plan%record, events => plan%event_record, title => plan%scene%title)
+            if (allocated(events%table)) then
+                call events%table%finish("events: "//to_text(events%rows), error)
+                if (allocated(error)) return
+                n = size(events%columns%items)
+                if (events%rows > 1 .and. size(plan%event_panels) > 0) then
+                    call write_script(events, n, trim(title)//": events", plan%event_panels, &
+                                      scripts(1), error, dots)
+                    if (allocated(error)) return
+                    outcome%events = events%table%file%name()
+                end if
+            end if
+            if (.not. allocated(record%table)) return
+            rejected = ""
+            if (plan%scene%tolerance > 0) rejected = " accepted, "//to_text(outcome%rejected)// &
+                " rejected"
+            call record%table%finish( &
+                "steps: "//to_text(outcome%steps)//rejected//outcome%remark// &
+                ", force evaluations: "//to_text(outcome%evaluations)// &
+                ", energy evaluations: "//to_text(outcome%energy_evaluations)// &
+                ", rows: "//to_text(outcome%rows), error)
+            if (allocated(error)) return
+            call write_script(record, record%shown, trim(title), plan%panels, scripts(2), error)
+        end associate
+    end subroutine complete_files
+
+    subroutine write_script(record, shown, title, panels, script, error, style)
+        !! The gnuplot script beside a table, complete but for its name.
+        class(record_t), intent(in) :: record
+        integer, intent(in) :: shown  !! columns
+        character(*), intent(in) :: title
+        type(panel_t), intent(in) :: panels(:)
+        type(output_file_t), intent(inout) :: script
+        type(error_t), allocatable, intent(out) :: error
+        character(*), intent(in), optional :: style
+        character(:), allocatable :: path
+
+        path = record%table%file%name()
+        call script%open(script_path(path), error)
+        if (allocated(error)) return
+        call script%write(gnuplot_script( &
+            path(index(path, "/", back=.true.) + 1:), record%table%reading(), title, &
+            record%columns%names(shown), record%columns%units(shown), record%low, record%high, &
+            panels, style))
+        call script%complete(error)
+    end subroutine write_script
+
+    subroutine commit_files(record, script, error)
+        !! Give the table, if there is one, and its script their names; what an earlier run that
+        !! failed has left of the table goes.
+        class(record_t), intent(inout) :: record
+        type(output_file_t), intent(inout) :: script
+        type(error_t), allocatable, intent(out) :: error
+
+        if (.not. allocated(record%table)) return
+        call record%table%file%commit(error)
+        if (allocated(error)) return
+        call remove_partial(record%table%file%name())
+        if (script%is_open()) call script%commit(error)
+    end subroutine commit_files
+
+    subroutine abandon_files(plan)
+        !! Leave nothing behind.
+        type(run_plan_t), intent(inout) :: plan  !! its run has failed
+
+        call plan%record%abandon()
+        call plan%event_record%abandon()
+    end subroutine abandon_files
+
+    subroutine keep_parts(plan, outcome, error)
+        !! The rows before the numbers failed, in files of their own; `error`, which says why they
+        !! did, then names them too.
+        type(run_plan_t), intent(inout) :: plan  !! its run has failed on its numbers
+        type(outcome_t), intent(inout) :: outcome  !! gets the name of the data file
+        type(error_t), intent(inout) :: error      !! why the run failed
+        type(error_t), allocatable :: file_error
+        character(:), allocatable :: ending, steps
+
+        associate (times => plan%trajectory%times, record => plan%record, &
+                   events => plan%event_record)
+            steps = to_text(outcome%steps)
+            if (times%steps > 0) steps = steps//" of "//to_text(times%step_count())
+            ending = "the run ended at t = "//to_text(outcome%t)//" s after "//steps// &
+                     " steps: "//error%message
+            outcome%file = ""
+            call keep_part(events, ending, file_error)
+            if (allocated(file_error)) then
+                call record%abandon()
+            else
+                call keep_part(record, ending, file_error)
+                if (allocated(record%table) .and. record%rows > 0 .and. &
+                    .not. allocated(file_error)) then
+                    outcome%file = record%table%file%name()
+                    error%message = error%message//"; the rows before are in '"// &
+                                    outcome%file//"'"
+                end if
+            end if
+        end associate
+        if (allocated(file_error)) error%message = error%message//"; "//file_error%message
+        error%message = shortened(error%message, message_length)
+    end subroutine keep_parts
+
+    subroutine keep_part(record, ending, error)
+        !! What a run wrote that failed: the rows that were good are called `NAME.partial`, and
+        !! say for what `ending`, where the format has a place for it. Without rows there is no
+        !! such file, nor one of an earlier run. The file `NAME` stays as it is.
+        class(record_t), intent(inout) :: record
+        character(*), intent(in) :: ending
+        type(error_t), allocatable, intent(out) :: error
+
+        if (.not. allocated(record%table)) return
+        if (record%rows == 0) then
+            call remove_partial(record%table%file%name())
+            call record%abandon()
+            return
+        end if
+        record%table%file%partial = .true.
+        call record%table%finish("PARTIAL, rows: "//to_text(record%rows)//"; "//ending, error)
+        if (.not. allocated(error)) call record%table%file%commit(error)
+    end subroutine keep_part
+end module lagrangia_run_files
