@@ -40,10 +40,10 @@ one_line() { # one line of at most 300 bytes on stderr, by us, and no backtrace
     [ "$(wc -l <"$work/err")" -eq 1 ] && [ "$(wc -c <"$work/err")" -le 301 ] && grep -q '^lagrangia: ' "$work/err" && ! grep -qi 'backtrace\|#0 ' "$work/err"
 }
 
-refuses() { # refuses STATUS TEXT WORDS...: one line on stderr with TEXT, nothing on stdout, this status
-    local text=$2
+refuses() { # refuses STATUS TEXT WORDS...: one line on stderr with TEXT, no blanks but the user's that are too many, nothing on stdout, this status
+    local text=$2 words=${*:3}
     run "${@:3}"
-    check "status $1: ${*:3}" eval '[ $status -eq '"$1"' ] && one_line && [ ! -s "$work/out" ] && grep -qF -- "$text" "$work/err"'
+    check "status $1: ${*:3}" eval '[ $status -eq '"$1"' ] && one_line && [ ! -s "$work/out" ] && grep -qF -- "$text" "$work/err" && { [[ $words = *"  "* ]] || ! grep -q "  \| $" "$work/err"; }'
 }
 
 leftovers() { # no temporary file anywhere below $work
@@ -292,6 +292,7 @@ if command -v gnuplot >/dev/null; then
 fi
 for words in list "describe pendulum" errata "errata E1" principle "principle gauge" "check pendulum" "modes pendulum" "run pendulum --output $work/o" --help; do
     run $words
+    check "$words: no line ends with a blank" eval '! grep -q " $" "$work/out"'
     check "$words: no empty line first, last, or beside another" eval '[ $status -eq 0 ] && [ -n "$(head -n 1 "$work/out")" ] && [ -n "$(tail -n 1 "$work/out")" ] && [ "$(cat -s "$work/out")" = "$(cat "$work/out")" ]'
 done
 
