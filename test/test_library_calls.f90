@@ -1,6 +1,6 @@
 module test_library_calls
-    !! Calls in the wrong order, empty boxes, arrays of another size: NaN, or an error where there is
-    !! a place for one.
+    !! Calls in the wrong order, empty boxes, arrays of another size: NaN, or an error where
+    !! there is a place for one.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_positive_inf, ieee_quiet_nan, &
                                              ieee_value
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue

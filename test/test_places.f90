@@ -141,7 +141,8 @@ contains
         call assertEqual(free, free_space("./none/of/these"), 0.5_dp*free, "a folder to come")
         call assertTrue(free_space("/proc") <= 0.0_dp, "no room for anything in /proc")
         call assertEqual("", space_warning(1e3_dp, "/proc/none"), "no room at all is an error")
-        call assertEqual(1, index(space_warning(999.95e9_dp, "/proc"), "up to 1.0 TB "), "1000.0 GB")
+        call assertEqual(1, index(space_warning(999.95e9_dp, "/proc"), "up to 1.0 TB "), &
+                         "1000.0 GB")
         call assertEqual(1, index(space_warning(999.94e9_dp, "/proc"), "up to 999.9 GB "), "less")
         call assertTrue(index(space_warning(2.0_dp*free, "."), " are to be written, but only ") &
                         > 0, "twice as much as there is room for")

@@ -41,7 +41,7 @@ contains
 
     pure subroutine check_observers(observers, error)
         !! Fails for a box that nobody is in.
-        type(observer_box_t), intent(in) :: observers(:)
+        type(observer_box_t), intent(in) :: observers(:)        !! of a run
         type(error_t), allocatable, intent(out) :: error  !! status 2
         integer :: i
 

@@ -341,7 +341,7 @@ contains
         !! Fails for a system that was never configured, and for arrays of another size.
         class(system_t), intent(in) :: self
         real(dp), intent(in) :: q(:), v(:)                !! to be coordinates and velocities
-        type(error_t), allocatable, intent(out) :: error  !! status 2
+        type(error_t), allocatable, intent(out) :: error  !! status 2           !! whose arrays they are to be
 
         if (self%ndof < 1) then
             call fail(error, "the system has no coordinates: configure it first")

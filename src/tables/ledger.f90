@@ -1,8 +1,8 @@
 module lagrangia_ledger
     !! What was claimed and what came out: a row for every claim, with the value that was measured,
     !! the bounds of what is allowed, and the verdict. `check`, `principle`, `errata` and `stress`
-    !! fill one, and `lagrangia_ledger_text` makes lines and JSON objects of it; what a scene expects
-    !! are claims too.
+    !! fill one, and `lagrangia_ledger_text` makes lines and JSON objects of it; what a scene
+    !! expects are claims too.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
     use lagrangia_kinds, only: dp
     implicit none (type, external)

@@ -214,8 +214,9 @@ contains
         if (system%contacts > 0) then
             t = drawn%t0 + drawn%duration
             if (first == 1) t = drawn%t
-            if (drawn%level_of == 1 .and. abs(drawn%level) <= 0.0_dp) &  ! it ends before the impact
+            if (drawn%level_of == 1 .and. abs(drawn%level) <= 0.0_dp) then  ! ends before the impact
                 t = t - 1e-7_dp*(t - drawn%t0)
+            end if
             call bounce(drawn, t - drawn%t0, q, v)
             known = .true.
             if (first == 1) call to_level(system, drawn, t, q, v, known)
