@@ -210,10 +210,11 @@ contains
         class(curve_t), intent(in) :: self
         real(dp), intent(in) :: wanted  !! error
         real(dp) :: seconds
+        real(dp), dimension(self%count) :: error, spent  ! of the points, one behind the other
 
-        associate (points => self%points(:self%count))
-            seconds = time_to_error(points%error, points%seconds, wanted)
-        end associate
+        error = self%points(:self%count)%error
+        spent = self%points(:self%count)%seconds
+        seconds = time_to_error(error, spent, wanted)
     end function time_to
 
     pure function least_error(self) result(error)
