@@ -12,11 +12,10 @@ module lagrangia_accuracy
     !! form, or to the end by another method.
     !! Source: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.,
     !! sec. II.4.
-    use lagrangia_cross_check, only: by_closed_form, by_other_method, event_slope, lost_by_clock
+    use lagrangia_cross_check, only: by_closed_form, by_other_method
     use lagrangia_dense_run, only: drive
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
-    use lagrangia_events, only: event_box_t
     use lagrangia_final_state, only: final_state_t
     use lagrangia_final_values, only: final_value_t
     use lagrangia_integrator, only: dense_integrator_t
@@ -95,14 +94,8 @@ contains
         state%value = first
         state%most = most
         rounding = 2.0_dp*epsilon(most)*most
-        if (seen%t < scene%t0 + scene%duration) then
-            step = 1e-4_dp*(seen%t - scene%t0)
-            rounding(1) = rounding(1) + rounding_of_event(system, seen, step, finer(2)%events, &
-                                                        rounding)
-        end if
         state%error = vouched*max(estimate(first, second, third, most, shrinking), &
-                                  rounding + rounding_of_clock(system, seen, most(1))) &
-                      + late(scene, system, seen)
+                                  rounding + rounding_of_clock(system, seen, most(1)))
         call by_other_method(scene, system, seen, finer(2)%events, 100_i8*steps + 100000_i8, &
                              other, known)
         if (known) state%error = agreement(first, second, third, other, most, &
@@ -111,33 +104,6 @@ contains
         if (known) state%error = max(state%error, abs(first - other))
         if (seen%t >= scene%t0 + scene%duration) state = state(2:)
     end subroutine state_accuracy
-
-    function rounding_of_event(system, seen, h, events, rounding) result(dt)
-        !! Of its time: that of its function, over how fast this changes.
-        class(system_t), intent(in) :: system
-        type(final_state_t), intent(in) :: seen
-        real(dp), intent(in) :: h            !! over which the change is taken, s
-        type(event_box_t), intent(inout) :: events(:)
-        real(dp), intent(in) :: rounding(:)  !! of time and state
-        real(dp) :: dt
-        real(dp) :: value, slope, there, q(system%ndof), v(system%ndof)
-        integer :: i
-
-        call event_slope(system, seen%t, h, seen%q, seen%v, events, value, slope)
-        dt = 0.0_dp
-        do i = 1, system%ndof
-            q = seen%q
-            v = seen%v
-            q(i) = q(i) + rounding(1 + i)*2.0_dp**20
-            call event_slope(system, seen%t, h, q, v, events, there, slope)
-            dt = dt + abs((there - value)/slope)
-            q(i) = seen%q(i)
-            v(i) = v(i) + rounding(1 + system%ndof + i)*2.0_dp**20
-            call event_slope(system, seen%t, h, q, v, events, there, slope)
-            dt = dt + abs((there - value)/slope)
-        end do
-        dt = dt*2.0_dp**(-20)
-    end function rounding_of_event
 
     pure function rounding_of_clock(system, seen, t_most) result(lost)
         !! Of the state, by impacts: each is at a time that is rounded, which shifts the motion
@@ -152,19 +118,6 @@ contains
         call system%accelerations(seen%t, seen%q, seen%v, a)
         lost(2:) = sqrt(real(seen%events, dp))*epsilon(lost)*t_most*abs([seen%v_most, a])
     end function rounding_of_clock
-
-    pure function late(scene, system, seen) result(lost)
-        !! Of the state, in all runs alike: their clock cannot stand at the end.
-        type(scene_t), intent(in) :: scene
-        class(system_t), intent(in) :: system
-        type(final_state_t), intent(in) :: seen
-        real(dp) :: lost(1 + 2*system%ndof), a(system%ndof)
-
-        lost = 0.0_dp
-        if (seen%t < scene%t0 + scene%duration) return
-        call system%accelerations(seen%t, seen%q, seen%v, a)
-        lost(2:) = abs(lost_by_clock(scene%t0, scene%duration)*[seen%v, a])
-    end function late
 
     pure subroutine name_state(system, state)
         !! Time, coordinates, velocities.

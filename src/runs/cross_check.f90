@@ -17,7 +17,7 @@ module lagrangia_cross_check
     use lagrangia_tolerance_floor, only: sensible_tolerance
     implicit none (type, external)
     private
-    public :: by_closed_form, by_other_method, event_slope, lost_by_clock, new_other_method
+    public :: by_closed_form, by_other_method, new_other_method
 
 contains
 
