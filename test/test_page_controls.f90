@@ -1,6 +1,7 @@
 module test_page_controls
     !! What is false on purpose on the pages of the principles is false for the reason that the page
     !! gives: both numbers, computed here by the formula that a student would write.
+    use formula, only: formula_value, names_t
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
@@ -27,6 +28,7 @@ contains
         call suite%addTest(TestMethod("light", light))
         call suite%addTest(TestMethod("virtual_and_actual", virtual_and_actual))
         call suite%addTest(TestMethod("made_up_fields", made_up_fields))
+        call suite%addTest(TestMethod("headings_have_their_signs", headings_have_their_signs))
         call suite%addTest(TestMethod("every_control_is_known", every_control_is_known))
     end function page_controls_suite
 
@@ -188,6 +190,51 @@ contains
             value = a(1)%re
         end function a_at
     end subroutine made_up_fields
+
+    subroutine headings_have_their_signs()
+        !! The formulae over the made-up fields: \(Q\) of the charge at rest, from the slopes of
+        !! \(U\); and \(Q_y\) where \(A = \nabla\chi\), from \(\chi\) as it is printed.
+        type(report_t) :: report
+        type(error_t), allocatable :: error
+        type(test_charge_t) :: charge
+        type(names_t) :: letters
+        character(:), allocatable :: text
+        real(dp), parameter :: t = 0.7_dp, e = -0.8_dp, q(3) = [0.4_dp, 0.9_dp, -0.6_dp]
+        real(dp), parameter :: h = 1e-3_dp
+        real(dp) :: slope(3), induced(3), b(3), value, size_of, mixed
+        integer :: at, i, k
+        logical :: ok
+
+        call principle_report("virtual-work", report, error)
+        call assertFalse(allocated(error), "virtual-work")
+        if (anyExceptions()) return
+        call charge%fields(t, q, slope, induced, b)
+        at = findloc(index(report%rows%name, "at rest: Q_x = ") == 1, .true., 1)
+        text = trim(report%rows(at)%group)
+        text = text(index(text, "Q = ") + 4:index(text, "  [N]") - 1)
+        call letters%set("dU/dq", -e*slope(1))
+        call letters%set("d/dt dU/dq_dot", e*induced(1))
+        call formula_value(text, letters, value, size_of, ok)
+        call assertTrue(ok, text)
+        call assertEqual(report%rows(at)%left, value, rounding, text)
+        at = findloc(index(report%rows%name, "B = 0: Q_y = ") == 1, .true., 1)
+        text = trim(report%rows(at)%group)
+        text = text(index(text, "chi = ") + 6:index(text, ";") - 1)
+        mixed = 0.0_dp
+        do i = -1, 1, 2
+            do k = -1, 1, 2
+                call letters%set("x", q(1))
+                call letters%set("y", q(2) + i*h)
+                call letters%set("z", q(3))
+                call letters%set("t", t + k*h)
+                call letters%set("cos t", cos(t + k*h))
+                call formula_value(text, letters, value, size_of, ok)
+                call assertTrue(ok, text)
+                mixed = mixed + i*k*value/(4.0_dp*h**2)
+            end do
+        end do
+        call assertEqual(report%rows(at)%left, e*slope(2) - e*mixed, 1e-6_dp, text)
+    end subroutine headings_have_their_signs
 
     subroutine every_control_is_known()
         !! So many on each page: a new one is to be computed here.

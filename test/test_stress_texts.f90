@@ -1,5 +1,6 @@
 module test_stress_texts
     !! What the rows of `lagrangia stress` say in words, shown in numbers.
+    use formula, only: formula_value, names_t
     use funit, only: TestMethod, TestSuite, assertEqual, assertGreaterThan, assertLessThan, &
                      assertTrue
     use lagrangia_chaos, only: judge_chaos
@@ -30,7 +31,27 @@ contains
         call suite%addTest(TestMethod("a_sum_drops_half_a_unit_at_most", &
                                       a_sum_drops_half_a_unit_at_most))
         call suite%addTest(TestMethod("the_exponent_has_an_error", the_exponent_has_an_error))
+        call suite%addTest(TestMethod("a_sum_of_powers_becomes_their_number", &
+                                      a_sum_of_powers_becomes_their_number))
     end function stress_texts_suite
+
+    subroutine a_sum_of_powers_becomes_their_number()
+        !! \(1 + e + \dots + e^{n-1}\) as the text has it, \(1 - e = \delta = 10^{-6}\): five of
+        !! them are \(5 - 10\delta\), but for \(10\delta^2\) and the rounding over \(\delta\).
+        type(names_t) :: letters
+        character(:), allocatable :: text
+        real(dp), parameter :: e = 1.0_dp - 1e-6_dp
+        real(dp) :: value, size_of
+        logical :: ok
+
+        text = trim(rows(findloc(rows%name == "elastic", .true., 1))%meaning)
+        text = text(:index(text, " becomes n;") - 1)
+        call letters%set("e", e)
+        call letters%set("e^n", e**5)
+        call formula_value(text, letters, value, size_of, ok)
+        call assertTrue(ok, text)
+        call assertEqual(5.0_dp - 1e-5_dp, value, 2e-9_dp, text)
+    end subroutine a_sum_of_powers_becomes_their_number
 
     subroutine says(row, text)
         !! The row's meaning contains this.
