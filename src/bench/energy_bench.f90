@@ -5,7 +5,7 @@ module lagrangia_energy_bench
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_methods, only: nth_integrator
+    use lagrangia_methods, only: method_names, nth_integrator
     use lagrangia_observer, only: observer_t
     use lagrangia_printed_table, only: printed_table_t, count_cell, number_cell, word_cell
     use lagrangia_stopwatch, only: effort_t, seconds_since, ticks_now
@@ -40,7 +40,7 @@ contains
             call nth_integrator(i, method)
             if (.not. allocated(method)) exit
             if (size(chosen) > 0 .and. .not. any(chosen == method%name)) cycle
-            call look_around(watcher, min(i, 20), 20, error)
+            call look_around(watcher, i, size(method_names()), error)
             if (allocated(error)) return
             call long_run(method, "plain", merge(short_run_steps, long_run_steps, plan%quick), &
                           table, error)
