@@ -1,14 +1,14 @@
 module lagrangia_mass_matrix
     !! The mass matrix \(M = \partial^2L/\partial\dot q\,\partial\dot q\): whether it is positive
-    !! definite, and linear systems with it.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+    !! definite.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_eigen, only: normal_modes
     use lagrangia_errors, only: error_t, fail, status_library
     use lagrangia_kinds, only: dp
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: check_mass_matrix, list_of, solve_positive
+    public :: check_mass_matrix, list_of
 
 contains
 
@@ -41,32 +41,6 @@ contains
                       to_text(lambda(1))//" beside "//to_text(lambda(n)), status_library)
         end if
     end subroutine check_mass_matrix
-
-    pure subroutine solve_positive(matrix, least, x)
-        !! Solve \(M x = b\) by Gauss's elimination without pivoting, which a positive definite
-        !! \(M\) does not need; NaN where a pivot is at most `least`.
-        real(dp), intent(inout) :: matrix(:, :)  !! \(M\), symmetric, (n, n); overwritten
-        real(dp), intent(in) :: least(:)         !! the bound of each pivot, (n)
-        real(dp), intent(inout) :: x(:)          !! \(b\), becomes \(x\), (n)
-        real(dp) :: factor
-        integer :: i, j, n
-
-        n = size(x)
-        do i = 1, n
-            if (.not. matrix(i, i) > least(i)) then
-                x = ieee_value(x, ieee_quiet_nan)
-                return
-            end if
-            do j = i + 1, n
-                factor = matrix(j, i)/matrix(i, i)
-                x(j) = x(j) - factor*x(i)
-                matrix(j, i:) = matrix(j, i:) - factor*matrix(i, i:)
-            end do
-        end do
-        do i = n, 1, -1
-            x(i) = (x(i) - dot_product(matrix(i, i + 1:), x(i + 1:)))/matrix(i, i)
-        end do
-    end subroutine solve_positive
 
     pure function list_of(x) result(text)
         !! The first four numbers of a state, as a message has them.

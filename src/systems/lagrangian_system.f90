@@ -10,11 +10,11 @@ module lagrangia_lagrangian_system
     !! L must be of degree two in the velocities, its mass matrix positive definite.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_description, only: description_t
+    use lagrangia_elimination, only: solve_positive
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: accelerations_from_lagrangian, energy_from_lagrangian, &
                                   euler_lagrange_t, expand_lagrangian
-    use lagrangia_mass_matrix, only: solve_positive
     use lagrangia_system, only: check_parameters, system_t
     implicit none (type, external)
     private

@@ -5,11 +5,11 @@ module lagrangia_system
     !! takes its parameters (`configure`), and gives its equations of motion twice: as derived by
     !! hand (`accelerations`), and as the Lagrangian from which they were derived.
     use lagrangia_description, only: check_parameter, default_values, description_t
+    use lagrangia_elimination, only: solve_positive
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
-    use lagrangia_mass_matrix, only: solve_positive
     use lagrangia_reference, only: reference_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
