@@ -339,9 +339,9 @@ contains
 
     pure subroutine check_state(self, q, v, error)
         !! Fails for a system that was never configured, and for arrays of another size.
-        class(system_t), intent(in) :: self
+        class(system_t), intent(in) :: self           !! whose they are to be
         real(dp), intent(in) :: q(:), v(:)                !! to be coordinates and velocities
-        type(error_t), allocatable, intent(out) :: error  !! status 2           !! whose arrays they are to be
+        type(error_t), allocatable, intent(out) :: error  !! status 2
 
         if (self%ndof < 1) then
             call fail(error, "the system has no coordinates: configure it first")
