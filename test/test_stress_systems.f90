@@ -163,8 +163,8 @@ contains
         type(error_t), allocatable :: error
         type(ledger_t) :: verdicts
         integer :: i
-        character(13), parameter :: turns(3) = [character(13) :: "wire, omega", "disk, omega", &
-                                                "charge, B"]
+        character(13), parameter :: turns(4) = [character(13) :: "wire, omega", "disk, omega", &
+                                                "charge, B", ""]
         character(16), parameter :: names(4) = [character(16) :: "rotating_wire", "rolling_disk", &
                                                 "charged_particle", "oscillator"]
 

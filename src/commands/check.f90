@@ -42,7 +42,7 @@ contains
         integer :: i, shown
 
         call choose(line, audited, methods, error)
-        if (allocated(error)) return
+        if (allocated(error) .or. .not. allocated(audited)) return
         json = line%has("json")
         shown = 0
         if (json) call put_line("[")
