@@ -72,6 +72,7 @@ contains
 
         allocate (slips, source=slips_of_the_notes())
         total = 0
+        read_signs = ""
         do i = 1, size(slips)
             quoted = ""
             do k = 1, size(slips(i)%quotes)
