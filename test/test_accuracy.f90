@@ -135,7 +135,7 @@ contains
                 counted = counted + 1
                 actual = 0.0_dp
                 estimate = 0.0_dp
-                do n = 1, size(truth)
+                do n = 1, size(outcome%state)
                     associate (s => outcome%state(n))
                         if (s%resolved()) then
                             call read_concise(s%text(), centre, bracket)

@@ -48,7 +48,7 @@ contains
 
         q = 0.5_dp
         v = 0.25_dp
-        call accelerations_from_lagrangian(own, 0.0_dp, none, none, none, none, error)
+        call accelerations_from_lagrangian(own, 0.0_dp, none, none, a(:0), q(:0), error)
         call refused(error, "the system has no coordinates: configure it first", status_usage)
         call assertTrue(ieee_is_nan(energy_from_lagrangian(own, 0.0_dp, none, none)), &
                         message="energy of nothing")
