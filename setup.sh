@@ -180,7 +180,13 @@ install_wheels() { # install_wheels WHEEL...: into the virtual environment, whic
     # pip brings its own certificates; behind a proxy the system's may be the right ones
     pip_install "$@" || pip_install --cert /etc/ssl/certs/ca-certificates.crt "$@" || {
         tail -n 4 "$trial/pip.log" >&2
-        complain "pip could not install $*: no network, or no wheel for this machine?"
+        if grep -q CERTIFICATE_VERIFY_FAILED "$trial/pip.log"; then
+            complain "pip could not install $*: this machine does not know the certificate of the" \
+                "package index, or of a proxy; put that into /usr/local/share/ca-certificates and" \
+                "run update-ca-certificates"
+        else
+            complain "pip could not install $*: no network, or no wheel for this machine?"
+        fi
         return 1
     }
 }

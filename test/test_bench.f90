@@ -183,6 +183,12 @@ contains
         call refused("--problems=P5", "unknown problem 'P5'; did you mean 'P1'?")
         call refused("--methods=gsl_rk8", "unknown method 'gsl_rk8'; did you mean 'gsl_rk4'?")
         call refused("--systems=pendlum", "unknown system 'pendlum'; did you mean 'pendulum'?")
+        call refused("--methods="//repeat("m", 31), "unknown method '"//repeat("m", 31)// &
+                     "'; there are", begins=.true.)
+        call refused("--methods="//repeat("m", 32), "unknown method '"//repeat("m", 32)// &
+                     "'; there are", begins=.true.)
+        call refused("--methods="//repeat("m", 33), "unknown method '"//repeat("m", 31)// &
+                     "?'; there are", begins=.true.)
         call refused("step", "unknown part 'step'; did you mean 'steps'?")
         call refused("speed", "unknown part 'speed'; there are precision, steps, energy, "// &
                      "growth, modes, output")
@@ -218,12 +224,15 @@ contains
             if (.not. allocated(error)) call read_options(line, choice, error)
         end subroutine choose
 
-        subroutine refused(word, message)
+        subroutine refused(word, message, begins)
             character(*), intent(in) :: word, message
+            logical, intent(in), optional :: begins  !! the message goes on
 
-            call choose([character(40) :: "bench", word])
+            call choose([character(48) :: "bench", word])
             call assertTrue(allocated(error), message)
-            if (allocated(error)) call assertEqual(message, error%message)
+            if (.not. allocated(error)) return
+            if (present(begins)) error%message = error%message(:len(message))
+            call assertEqual(message, error%message)
         end subroutine refused
     end subroutine choices_are_checked
 end module test_bench

@@ -11,9 +11,15 @@ module test_mirror
     use lagrangia_methods, only: nth_adaptive, nth_integrator
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
+    use steep_wall, only: steep_wall_t
     implicit none (type, external)
     private
     public :: mirror_suite
+
+    type, extends(steep_wall_t) :: two_walls_t
+    contains
+        procedure :: accelerations => between_walls
+    end type two_walls_t
 
     character(name_length), parameter :: odd(*) = [character(name_length) :: "oscillator", &
         "pendulum", "double_pendulum", "cart_pendulum", "rotating_wire", "rotating_hoop"]
@@ -28,6 +34,7 @@ contains
         suite = TestSuite("mirror")
         call suite%addTest(TestMethod("accelerations_are_odd", accelerations_are_odd))
         call suite%addTest(TestMethod("steps_by_tolerance", steps_by_tolerance))
+        call suite%addTest(TestMethod("steps_over_a_kink", steps_over_a_kink))
         call suite%addTest(TestMethod("steps_of_one_length", steps_of_one_length))
     end function mirror_suite
 
@@ -69,6 +76,32 @@ contains
             call assertEqual(2, methods, "methods that choose their steps")
         end do
     end subroutine steps_by_tolerance
+
+    subroutine steps_over_a_kink()
+        !! Walls on both sides, where the force has a kink that the methods must notice.
+        type(two_walls_t) :: system
+        class(dense_integrator_t), allocatable :: method, other
+        type(error_t), allocatable :: error
+        integer :: k
+
+        call system%configure([1.0_dp], error)
+        do k = 1, 2
+            call nth_adaptive(k, method)
+            call nth_adaptive(k, other)
+            method%tolerance = 1e-9_dp
+            other%tolerance = 1e-9_dp
+            call step_both(system, method, other, "two walls by "//trim(method%name))
+        end do
+    end subroutine steps_over_a_kink
+
+    pure subroutine between_walls(self, t, q, v, a)
+        !! $$ \ddot x = -x - 3\,\mathrm{sgn}(x)\max(0, |x| - 1/2) $$
+        class(two_walls_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: a(self%ndof)
+
+        a(1) = -q(1) - sign(3.0_dp*max(0.0_dp, abs(q(1)) - 0.5_dp), q(1))
+    end subroutine between_walls
 
     subroutine step_both(system, method, other, what)
         !! Each step ends at the same time, in the image of the same state.

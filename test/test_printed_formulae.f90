@@ -38,6 +38,8 @@ contains
         call suite%addTest(TestMethod("closed_forms_are_what_they_say", &
                                       closed_forms_are_what_they_say, setUp=restart_random))
         call suite%addTest(TestMethod("wrong_formulae_are_seen", wrong_formulae_are_seen))
+        call suite%addTest(TestMethod("a_sum_over_bobs_is_what_it_says", &
+                                      a_sum_over_bobs_is_what_it_says, setUp=restart_random))
     end function printed_formulae_suite
 
     subroutine formulae_are_read()
@@ -273,6 +275,44 @@ contains
         call letters%set("sinh(omega t)", sinh(value))
         if (comma > 0 .and. comma < len(text)) call define(text(comma + 2:), letters)
     end subroutine define
+
+    subroutine a_sum_over_bobs_is_what_it_says()
+        !! The chain's L_z is said as "sum of ...": each bob's term is read and computed from its
+        !! place and velocity, with gravity and without.
+        class(system_t), allocatable :: system
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+        type(hyperdual_t) :: r(3, 4)
+        type(names_t) :: bob
+        real(dp), allocatable :: q(:), v(:)
+        real(dp) :: t, value, size_of, total
+        integer :: draw, k
+        logical :: ok
+
+        call new_system("hanging_chain", system, error)
+        do draw = 1, draws
+            call system%configure([4.0_dp, 0.7_dp, 1.3_dp, 9.81_dp*mod(draw, 2)], error)
+            call system%describe(d)
+            call draw_state(system, t, q, v)
+            call system%positions(hyperdual(t), [(hyperdual_t(q(k), d1=v(k)), k=1, 4)], r)
+            total = 0.0_dp
+            associate (words => d%quantities(1)%meaning)
+                call assertEqual(1, index(words, "sum of "), trim(words))
+                do k = 1, 4
+                    call bob%set("m", d%points(k)%mass)
+                    call bob%set("x", r(1, k)%re)
+                    call bob%set("y", r(2, k)%re)
+                    call bob%set("x_dot", r(1, k)%d1)
+                    call bob%set("y_dot", r(2, k)%d1)
+                    call formula_value(words(8:index(words, ":") - 1), bob, value, size_of, ok)
+                    call assertTrue(ok, trim(words))
+                    total = total + value
+                end do
+            end associate
+            call assertEqual(total, system%quantity(1, t, q, v), 1e-13_dp*(1.0_dp + abs(total)), &
+                             "L_z")
+        end do
+    end subroutine a_sum_over_bobs_is_what_it_says
 
     subroutine wrong_formulae_are_seen()
         !! What `describe atwood` once printed: an equation with a_s, an L without it, and a rope
