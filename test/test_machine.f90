@@ -42,7 +42,7 @@ contains
         with = peak_memory()
         call assertTrue(sum(held) > 0.0_dp, "held until here")
         deallocate (held)
-        call assertEqual(with, peak_memory(), 2.0_dp, "a peak stays")
+        call assertTrue(peak_memory() > with - 2.0_dp, "a peak stays")
         call forget_peak_memory(done)
         after = peak_memory()
         call assertEqual(64.0_dp, with - before, 2.0_dp, "64 MB more")

@@ -30,6 +30,8 @@ module lagrangia_gauss_dense
         real(dp), allocatable :: q_new(:), v_new(:)   !! and at its end
         integer :: sweeps = 0                         !! of the last `fit`, 16 evaluations each
         real(dp) :: t_at(points, 0:points + 1) = 0.0_dp    !! \(T_k\) at the points
+        real(dp) :: t_of(0:points - 1, points) = 0.0_dp    !! the same, point by point
+        real(dp) :: p_at(points, lanes) = 0.0_dp      !! Legendre's polynomials at the points
         real(dp), allocatable :: f(:, :)              !! accelerations at the points
         real(dp), allocatable :: a(:, :)              !! their Chebyshev coefficients
         real(dp), allocatable :: v(:, :), q(:, :)     !! those of velocities and coordinates
@@ -78,6 +80,10 @@ contains
             do j = 1, points
                 self%t_at(j, k) = cosine(mod((2*j - 1)*k, 4*points))
             end do
+        end do
+        self%t_of = transpose(self%t_at(:, :points - 1))
+        do k = 0, lanes, lanes
+            self%p_at(k + 1:k + lanes, :) = legendre(0.5_dp + 0.5_dp*self%t_at(k + 1:k + lanes, 1))
         end do
     end subroutine prepare
 
@@ -149,17 +155,13 @@ contains
         type(gauss_dense_t), intent(inout) :: self
         integer, intent(in) :: n
         real(dp), intent(in) :: modes(lanes, n)
-        real(dp) :: x(lanes), p(lanes, lanes)
-        integer :: d, group, i
+        integer :: d, k
 
         self%sweeps = 0
-        do group = 0, lanes, lanes
-            x = 0.5_dp + 0.5_dp*self%t_at(group + 1:group + lanes, 1)
-            p = legendre(x)
-            do d = 1, n
-                do i = 1, lanes
-                    self%f(group + i, d) = dot_product(p(i, :), modes(:, d))
-                end do
+        do d = 1, n
+            self%f(:, d) = self%p_at(:, 1)*modes(1, d)
+            do k = 2, lanes
+                self%f(:, d) = self%f(:, d) + self%p_at(:, k)*modes(k, d)
             end do
         end do
     end subroutine from_modes
@@ -168,11 +170,14 @@ contains
         !! Series of accelerations, velocities and coordinates from the accelerations.
         type(gauss_dense_t), intent(inout) :: self
         integer, intent(in) :: d
-        integer :: k
+        real(dp) :: c(0:points - 1)
+        integer :: j
 
-        do k = 0, points - 1
-            self%a(k, d) = 2.0_dp/points*dot_product(self%t_at(:, k), self%f(:, d))
+        c = 0.0_dp
+        do j = 1, points
+            c = c + self%t_of(:, j)*self%f(j, d)
         end do
+        self%a(:points - 1, d) = 2.0_dp/points*c
         self%a(0, d) = 0.5_dp*self%a(0, d)
         call integrate_series(self, d)
     end subroutine integrate

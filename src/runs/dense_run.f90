@@ -92,7 +92,7 @@ contains
                                                          q_end, v_end, error)
             if (allocated(error)) exit
             restarted = .false.
-            do while (.not. (stopped .or. restarted .or. allocated(error)))
+            do while (size(events) > 0 .and. .not. (stopped .or. restarted .or. allocated(error)))
                 call watch%next(events, system, method, error)
                 if (allocated(error) .or. watch%which == 0) exit
                 call show_samples(watch%t)
