@@ -37,6 +37,7 @@ module lagrangia_gauss_adaptive
         real(dp) :: rate = 1.0_dp                !! of the last sweep: change over change, squared
         real(dp) :: won = 1.0_dp                 !! the same of all sweeps of the step
         real(dp), allocatable :: weight(:)       !! 1/(wanted error of `f`), squared
+        real(dp), allocatable :: first(:)        !! accelerations at the start of the step
     contains
         procedure :: prepare
         procedure :: start
@@ -73,6 +74,7 @@ contains
         call self%s%prepare(system%ndof)
         call self%inside%prepare(system%ndof)
         self%weight = self%s%v
+        self%first = self%s%v
         self%coordinates = system%ndof
         self%evaluations = 0
         self%accepted = 0
@@ -149,11 +151,10 @@ contains
         type(gauss_adaptive_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         logical, intent(out) :: good
-        real(dp) :: first(self%s%n)
 
         do
             call self%inside%keep(self%t_new, self%s%q, self%s%v)
-            first = self%s%start
+            self%first(:) = self%s%start
             call take_step(self, system, good)
             if (.not. good) return
             if (.not. self%dense) call self%inside%keep(self%t_new, self%s%q, self%s%v)
@@ -161,8 +162,8 @@ contains
             call self%inside%fit(system, self%t_new, self%s%q, self%s%v, self%s%known, &
                                  self%weight, good)
             self%evaluations = self%evaluations + 2*stages*self%inside%sweeps
-            if (good) call self%inside%check_smooth(system, self%tolerance, first, self%s%start, &
-                                                    self%evaluations, good)
+            if (good) call self%inside%check_smooth(system, self%tolerance, self%first, &
+                                                    self%s%start, self%evaluations, good)
             if (good) return
             call take_back(self, system)
         end do

@@ -155,7 +155,26 @@ contains
         class(hanging_chain_t), intent(in) :: self
         real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
         real(dp), intent(out) :: a(lanes, self%ndof)
-        real(dp), dimension(lanes, self%n) :: tau, s, c, pivot  ! too much for a small stack
+        integer, parameter :: few = 32  !! bobs, whose work arrays the stack may have: 32 kB
+        real(dp) :: work(lanes, few, 4)
+        real(dp), allocatable :: more(:, :, :)
+
+        if (self%n <= few) then
+            call along_and_across(self, q, v, a, work(:, :self%n, 1), work(:, :self%n, 2), &
+                                  work(:, :self%n, 3), work(:, :self%n, 4))
+        else
+            allocate (more(lanes, self%n, 4))
+            call along_and_across(self, q, v, a, more(:, :, 1), more(:, :, 2), more(:, :, 3), &
+                                  more(:, :, 4))
+        end if
+    end subroutine accelerations_lanes
+
+    pure subroutine along_and_across(self, q, v, a, tau, s, c, pivot)
+        !! See `accelerations_lanes`; the last four are work arrays.
+        class(hanging_chain_t), intent(in) :: self
+        real(dp), intent(in) :: q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+        real(dp), dimension(lanes, self%n), intent(out) :: tau, s, c, pivot
         integer :: k
 
         associate (n => self%n, g => self%g, l => self%l/self%n)
@@ -179,7 +198,7 @@ contains
             end do
             a(:, n) = a(:, n)/l
         end associate
-    end subroutine accelerations_lanes
+    end subroutine along_and_across
 
     pure function lagrangian(self, t, q, v) result(l)
         !! $$ L = \sum_k \tfrac12 m(\dot x_k^2 + \dot y_k^2) - mgy_k,\quad
