@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What CONTRIBUTING.md and README.md say of the house is so: the rooms and their order are those of
-# check_layers.sh and of src, the files and folders that they name are there, so are the suites.
+# What CONTRIBUTING.md, README.md and docs/reliability.md say of the house is so: the rooms and
+# their order are those of check_layers.sh and of src; files, folders, suites and tests are there.
 set -u
 cd "$(dirname "$0")/.." || exit 2
 bad=0
@@ -21,5 +21,13 @@ done
 for suite in $(grep -oE 'suites? (`[a-z_]+`(, | and )?)+' CONTRIBUTING.md | grep -o '`[a-z_]*`' | tr -d '`'); do
     grep -q "TestSuite(\"$suite\")" test/*.f90 || complain "CONTRIBUTING.md: there is no suite $suite"
 done
+while IFS= read -r row; do # `suite`: test, test
+    suite=$(sed 's/`\([^`]*\)`.*/\1/' <<<"$row")
+    [[ $suite == lagrangia* ]] && continue
+    grep -q "TestSuite(\"$suite\")" test/*.f90 || complain "docs/reliability.md: there is no suite $suite"
+    for name in $(sed -n 's/^`[^`]*`: //p' <<<"$row" | tr ',' ' '); do
+        grep -q "TestMethod(\"$name" test/*.f90 || complain "docs/reliability.md: there is no test $suite: $name"
+    done
+done < <(awk -F'|' 'NF >= 4 { print $3 }' docs/reliability.md | grep -oE '`[a-z_ ]+`(: [a-z_, ]+)?')
 [ "$(wc -l <CONTRIBUTING.md)" -lt 250 ] || complain "CONTRIBUTING.md is too long for an evening"
 exit $bad
