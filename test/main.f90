@@ -64,6 +64,7 @@ module suites
     use test_lapack, only: lapack_suite
     use test_lapack_band, only: lapack_band_suite
     use test_least_time, only: least_time_suite
+    use test_ledger_text, only: ledger_text_suite
     use test_library_arguments, only: library_arguments_suite
     use test_library_calls, only: library_calls_suite
     use test_machine, only: machine_suite
@@ -201,6 +202,7 @@ contains
         call suite%addTest(lanes_suite())
         call suite%addTest(lapack_suite())
         call suite%addTest(lapack_band_suite())
+        call suite%addTest(ledger_text_suite())
         call suite%addTest(least_time_suite())
         call suite%addTest(library_arguments_suite())
         call suite%addTest(library_calls_suite())
