@@ -30,6 +30,7 @@ module lagrangia_record
         integer :: shown = 0                              !! so many columns go into the table
         class(reference_t), allocatable :: reference      !! a closed form,
         type(second_run_t), allocatable :: second_run     !! or the run at half the step
+        real(dp), allocatable, private :: row(:)          !! the latest sample
     contains
         procedure :: observe
     end type sample_record_t
@@ -53,8 +54,8 @@ contains
             allocate (self%low(size(row)), source=huge(row))
             allocate (self%high(size(row)), source=-huge(row))
         end if
-        self%low = min(self%low, row)
-        self%high = max(self%high, row)
+        self%low(:) = min(self%low, row)
+        self%high(:) = max(self%high, row)
         if (allocated(self%table)) call self%table%add_row(row(:shown), error)
         if (.not. allocated(error)) self%rows = self%rows + 1
     end subroutine keep
@@ -82,27 +83,36 @@ contains
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
         type(error_t), allocatable, intent(out) :: error
-        real(dp) :: deviation, truth(system%ndof), ignored(system%ndof)
-        real(dp) :: row(size(self%columns%items))
+        real(dp) :: deviation
         integer :: odd
 
         deviation = 0.0_dp
         if (allocated(self%reference)) then
-            call self%reference%state_at(t, truth, ignored)
-            deviation = distance(q, truth)
+            deviation = distance_to(self%reference, t, q)
         else if (allocated(self%second_run)) then
             call self%second_run%estimate(system, t, q, deviation, error)
             if (allocated(error)) return
         end if
-        call self%columns%evaluate(system, t, q, v, deviation, row)
-        odd = findloc(ieee_is_finite(row), .false., 1)
+        if (.not. allocated(self%row)) allocate (self%row(size(self%columns%items)))
+        call self%columns%evaluate(system, t, q, v, deviation, self%row)
+        odd = findloc(ieee_is_finite(self%row), .false., 1)
         if (odd > 0) then
             call fail(error, "column '"//trim(self%columns%items(odd)%name)//"' is not finite "// &
                       "at t = "//to_text(t)//" s", status_numbers)
             return
         end if
-        call self%keep(row, self%shown, error)
+        call self%keep(self%row, self%shown, error)
     end subroutine observe
+
+    pure function distance_to(reference, t, q) result(deviation)
+        !! Of the coordinates `q` at `t` to those of a closed form.
+        class(reference_t), intent(in) :: reference
+        real(dp), intent(in) :: t, q(:)
+        real(dp) :: deviation, truth(size(q)), ignored(size(q))
+
+        call reference%state_at(t, truth, ignored)
+        deviation = distance(q, truth)
+    end function distance_to
 
     subroutine no_sample(self, system, t, q, v, error)
         !! Samples don't matter.
