@@ -1,5 +1,6 @@
 module test_solve
     !! The library's one call: the motion at given times, by every way of stepping.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia, only: dp, error_t, new_system, recorder_t, solve, system_t
     implicit none (type, external)
@@ -135,12 +136,15 @@ contains
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
         real(dp), allocatable :: q(:, :), v(:, :)
-        real(dp), parameter :: zero(1) = 0.0_dp, t(2) = [0.0_dp, 1.0_dp]
+        real(dp), parameter :: q0 = 0.0_dp, zero(1) = q0, t(2) = [0.0_dp, 1.0_dp]
 
         call oscillator(system)
         call solve(system, "rk4", [0.0_dp], zero, zero, q, v, error, dt=0.1_dp)
         call refused("t needs two times at least")
         call solve(system, "rk4", [0.0_dp, 0.0_dp], zero, zero, q, v, error, dt=0.1_dp)
+        call refused("each time must be later than the one before")
+        call solve(system, "gauss16", [0.0_dp, ieee_value(q0, ieee_quiet_nan), 2.0_dp], zero, &
+                   zero, q, v, error)
         call refused("each time must be later than the one before")
         call solve(system, "rk4", t, zero, zero, q, v, error)
         call refused("the method 'rk4' needs dt")

@@ -168,13 +168,9 @@ contains
         real(dp), intent(in) :: t0
         real(dp), intent(in) :: q(system%ndof), v(system%ndof)
         real(dp), intent(in), optional :: t_end
-        logical :: refused
 
-        call self%refuse_system(system, refused)
-        if (refused) return
-        self%failure_reason = ""
-        self%q_low(:) = 0.0_dp
-        self%v_low(:) = 0.0_dp
+        call start(self, system, t0, q, v)
+        if (self%failure_reason /= "") return
         call system%accelerations(t0, q, v, self%a)
         self%evaluations = self%evaluations + 1
     end subroutine start_velocities

@@ -13,7 +13,7 @@ module lagrangia_solve
     use lagrangia_state_check, only: check_start
     use lagrangia_system, only: system_t
     use lagrangia_text, only: quoted, to_text
-    use lagrangia_time_grid, only: new_sample_times, new_time_grid
+    use lagrangia_time_grid, only: new_given_times, new_time_grid, time_grid_t
     use lagrangia_trajectory_plan, only: plan_events, plan_steps, settle_method, trajectory_plan_t
     implicit none (type, external)
     private
@@ -44,6 +44,7 @@ contains
         type(recorder_t), target :: record
         type(trajectory_plan_t) :: plan
         type(scene_t) :: scene
+        type(time_grid_t) :: samples
         type(observer_box_t) :: observers(1)
         real(dp) :: ended
 
@@ -68,13 +69,11 @@ contains
             logical :: adaptive
             class(dense_integrator_t), allocatable :: by_tolerance
 
+            call new_given_times(samples, t, error)
+            if (allocated(error)) return
             call new_adaptive(method, by_tolerance)
             adaptive = allocated(by_tolerance) .or. method == auto
-            if (size(t) < 2) then
-                call fail(error, "t needs two times at least", key="t")
-            else if (any(t(2:) <= t(:size(t) - 1))) then
-                call fail(error, "each time must be later than the one before", key="t")
-            else if (present(dt) .and. present(tolerance)) then
+            if (present(dt) .and. present(tolerance)) then
                 call fail(error, "give dt or tolerance, not both", key="dt")
             else if (.not. (adaptive .or. present(dt))) then
                 call fail(error, "the method "//quoted(method)//" needs dt", key="dt")
@@ -88,11 +87,11 @@ contains
         subroutine make_scene()
             !! What the arguments say.
             scene%method = method
-            scene%t0 = t(1)
-            scene%duration = t(size(t)) - t(1)
+            scene%t0 = samples%t0
+            scene%duration = samples%duration
             scene%q = q0
             scene%v = v0
-            scene%samples = size(t) - 1
+            scene%samples = samples%samples
             if (present(dt)) then
                 scene%dt = dt
             else
@@ -114,9 +113,7 @@ contains
             call plan_steps(settled, system, plan, error, closed_form)
             if (.not. allocated(error)) call plan_events(settled, system, plan%events, error)
             if (allocated(error)) return
-            if (settled%tolerance <= 0.0_dp .and. size(plan%events) == 0) return
-            call new_sample_times(plan%times, t(1), scene%duration, scene%samples, error)
-            plan%times%at = t
+            if (settled%tolerance > 0.0_dp .or. size(plan%events) > 0) plan%times = samples
         end subroutine make_plan
 
         subroutine step_from_time_to_time()

@@ -8,7 +8,7 @@ module lagrangia_time_grid
     implicit none (type, external)
     private
     public :: time_grid_t
-    public :: new_sample_times, new_time_grid
+    public :: new_given_times, new_sample_times, new_time_grid
 
     type :: time_grid_t
         !! Whole steps, and perhaps a shorter one that lands on the end; or, where a method chooses
@@ -20,7 +20,7 @@ module lagrangia_time_grid
         real(dp) :: rest = 0.0_dp     !! length of the last, shortened step, s; 0: there is none
         integer(i8) :: every = 1      !! steps between samples
         integer(i8) :: samples = 0    !! so many at equal times; 0: as the steps have it
-        real(dp), allocatable :: at(:)  !! or at these times, s, (samples + 1)
+        real(dp), allocatable, private :: at(:)  !! or at these times, s, (samples + 1)
     contains
         procedure :: last_sample
         procedure :: sample_time
@@ -89,6 +89,24 @@ contains
         grid%duration = duration
         grid%samples = samples
     end subroutine new_sample_times
+
+    pure subroutine new_given_times(grid, times, error)
+        !! Samples at given times, the first of which is the start.
+        type(time_grid_t), intent(out) :: grid            !! of samples
+        real(dp), intent(in) :: times(:)                  !! two at least, rising, s
+        type(error_t), allocatable, intent(out) :: error  !! blames `t`, `t0`, `duration`, `samples`
+        integer :: n
+
+        n = size(times)
+        if (n < 2) then
+            call fail(error, "t needs two times at least", key="t")
+        else if (.not. all(times(2:) > times(:n - 1))) then
+            call fail(error, "each time must be later than the one before", key="t")
+        else
+            call new_sample_times(grid, times(1), times(n) - times(1), int(n - 1, i8), error)
+        end if
+        if (.not. allocated(error)) grid%at = times
+    end subroutine new_given_times
 
     pure subroutine check_times(t0, duration, error)
         !! Both finite, as is the end; time does not run backwards.
