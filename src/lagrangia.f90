@@ -35,6 +35,7 @@ module lagrangia
                                      quantity, quantity_t, real_number, real_vector, whole_number
     use lagrangia_eigen, only: residual_ratio
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_generalised_forces, only: energy_rate, momentum_rates
     use lagrangia_hyperdual, only: abs, assignment(=), atan, cos, cosh, dot_product, exp, &
                                    hyperdual, hyperdual_t, log, operator(*), operator(**), &
                                    operator(+), operator(-), operator(/), operator(<), &

@@ -50,6 +50,7 @@ module suites
     use test_gauss_control, only: gauss_control_suite
     use test_gauss_dense, only: gauss_dense_suite
     use test_gauss_tables, only: gauss_tables_suite
+    use test_generalised_forces, only: generalised_forces_suite
     use test_gnuplot, only: gnuplot_suite
     use test_gsl, only: gsl_suite
     use test_gsl_odeiv, only: gsl_odeiv_suite
@@ -192,6 +193,7 @@ contains
         call suite%addTest(gauss_control_suite())
         call suite%addTest(gauss_dense_suite())
         call suite%addTest(gauss_tables_suite())
+        call suite%addTest(generalised_forces_suite())
         call suite%addTest(gnuplot_suite())
         call suite%addTest(gsl_suite())
         call suite%addTest(gsl_odeiv_suite())

@@ -159,7 +159,8 @@ contains
     end subroutine audit_lanes
 
     subroutine audit_rates(audit, system, nearby, motion)
-        !! \(\dot h = -\partial L/\partial t - b\cdot\lambda\), and declared invariants stay.
+        !! \(\dot h = Q\cdot\dot q - \partial L/\partial t - b\cdot\lambda\), and declared
+        !! invariants stay.
         type(ledger_t), intent(inout) :: audit  !! gets the rows
         class(system_t), intent(in) :: system  !! with its parameters
         type(nearby_t), intent(in) :: nearby  !! the state and its neighbours
@@ -167,16 +168,25 @@ contains
         type(description_t) :: d
         type(hyperdual_t) :: rows(system%constraints, system%ndof), b(system%constraints)
         type(hyperdual_t) :: place(system%ndof)
-        real(dp) :: expected, rounded, with_time(0:neighbours)
+        real(dp) :: expected, rounded, with_time(0:neighbours), work_rate(0:neighbours)
         integer :: k
 
         place%re = nearby%q(:, 0)
         call system%constraint_rows(hyperdual_t(re=nearby%t(0)), place, rows, b)
         with_time = nearby%terms%dl_dt
-        expected = -with_time(0) - dot_product(b%re, motion%multipliers)
+        do k = 0, neighbours
+            work_rate(k) = dot_product(nearby%terms(k)%beside, nearby%v(:, k))
+        end do
+        expected = work_rate(0) - with_time(0) - dot_product(b%re, motion%multipliers)
         rounded = epsilon(1.0_dp)*(term_size(with_time) &
                                    + dot_product(abs(b%re), motion%multiplier_size))
-        call try_rate("energy changes by -dL/dt", 0)
+        if (system%nonconservative) then
+            rounded = rounded + epsilon(1.0_dp)*(term_size(work_rate) &
+                      + dot_product(abs(nearby%terms(0)%beside), abs(nearby%v(:, 0))))
+            call try_rate("energy changes by Q v - dL/dt", 0)
+        else
+            call try_rate("energy changes by -dL/dt", 0)
+        end if
         call system%describe(d)
         if (.not. allocated(d%quantities)) return
         expected = 0.0_dp

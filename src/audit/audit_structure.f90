@@ -18,14 +18,16 @@ module lagrangia_audit_structure
 contains
 
     subroutine audit_flags(audit, system, t, q, v, other_t, other_v, generic)
-        !! `velocity_forces` and `time_dependent` say what is true: one that is false always, one
-        !! that is true for parameters off the edges of their domains. Equal means equal bits.
+        !! `velocity_forces`, `time_dependent` and `nonconservative` say what is true: one that is
+        !! false always, one that is true for parameters off the edges of their domains. Equal
+        !! means equal bits.
         type(ledger_t), intent(inout) :: audit  !! gets the rows
         class(system_t), intent(in) :: system  !! with its parameters
         real(dp), intent(in) :: t, q(:), v(:), other_t, other_v(:)
         !! a state, and another time and velocities
         logical, intent(in) :: generic  !! no parameter is on the edge of its domain or given
         type(euler_lagrange_t) :: terms, later
+        type(hyperdual_t), dimension(system%ndof) :: qq, vv, now, then
         real(dp) :: by_velocity, by_time
         logical :: bound
 
@@ -42,14 +44,25 @@ contains
         end if
         call expand_lagrangian(system, t, q, v, terms)
         call expand_lagrangian(system, other_t, q, v, later)
+        qq%re = q
+        vv%re = v
+        call system%generalised_forces(hyperdual_t(re=t), qq, vv, now)
+        call system%generalised_forces(hyperdual_t(re=other_t), qq, vv, then)
+        if (.not. system%nonconservative) then
+            if (any(abs(now%re) > 0.0_dp)) call verdict(.false., "nonconservative", &
+                "nonconservative is false, yet there are generalised forces")
+        else
+            call verdict(any(abs(now%re) > 0.0_dp), "nonconservative", &
+                         "nonconservative is true, yet no generalised force acts")
+        end if
         if (.not. system%time_dependent) then
             call verdict(by_time <= 0.0_dp, "time_dependent", &
                          "time_dependent is false, yet the accelerations depend on the time")
             call verdict(abs(later%l - terms%l) <= 0.0_dp, "time_dependent", &
                          "time_dependent is false, yet L depends on the time")
         else if (generic) then
-            call verdict(abs(later%l - terms%l) > 0.0_dp, "time_dependent", &
-                         "time_dependent is true, yet L has no time in it")
+            call verdict(abs(later%l - terms%l) > 0.0_dp .or. any(abs(then%re - now%re) > 0.0_dp), &
+                         "time_dependent", "time_dependent is true, yet L has no time in it")
         end if
     contains
         subroutine verdict(good, flag, remark)
@@ -74,7 +87,8 @@ contains
     end function change
 
     subroutine audit_cyclic(audit, system, t, q, v)
-        !! The slope of L along the cyclic coordinate is zero, and there is such a coordinate.
+        !! The slope of L along the cyclic coordinate is zero, as is the generalised force on it,
+        !! and there is such a coordinate.
         type(ledger_t), intent(inout) :: audit  !! gets the rows
         class(system_t), intent(in) :: system  !! with its parameters
         real(dp), intent(in) :: t, q(:), v(:)  !! s; coordinates and velocities, (ndof)
@@ -91,9 +105,14 @@ contains
         call expand_lagrangian(system, t, q, v, terms)
         call audit%try(claim, abs(terms%dl_dq(system%cyclic)) &
                        /(maxval(abs(terms%dl_dq)) + tiny(no)), epsilon(no), 1.0_dp)
-        if (abs(terms%dl_dq(system%cyclic)) <= 0.0_dp) return
         call system%describe(d)
-        call audit%say(claim, "L depends on "//d%coordinates(system%cyclic)%name)
+        if (abs(terms%dl_dq(system%cyclic)) > 0.0_dp) then
+            call audit%say(claim, "L depends on "//d%coordinates(system%cyclic)%name)
+        else if (abs(terms%beside(system%cyclic)) > 0.0_dp) then
+            call audit%try(claim, no, epsilon(no), 1.0_dp)
+            call audit%say(claim, "a generalised force acts on "// &
+                           d%coordinates(system%cyclic)%name)
+        end if
     end subroutine audit_cyclic
 
     subroutine audit_mass(audit, system, t, q, v)

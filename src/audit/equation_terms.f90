@@ -1,7 +1,7 @@
 module lagrangia_equation_terms
     !! The terms of Lagrange's equations one by one, as they stand on the page:
     !! $$ \sum_j M_{ij}\ddot q_j = f_i(t, q) + \sum_j g_{ij}\dot q_j
-    !!    + \sum_{j\le k} c_{ijk}\dot q_j\dot q_k\;(+\; A^\top\lambda)_i $$
+    !!    + \sum_{j\le k} c_{ijk}\dot q_j\dot q_k + Q_i\;(+\; A^\top\lambda)_i $$
     !! for a Lagrangian of degree two in the velocities, as it is in all the lectures.
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
@@ -23,7 +23,7 @@ contains
         integer, intent(in) :: n  !! coordinates
         integer :: number
 
-        number = 1 + n + n*(n + 1)/2
+        number = 1 + n + n*(n + 1)/2 + 1
     end function term_count
 
     pure subroutine equation_terms(system, t, q, v, terms)
@@ -34,6 +34,7 @@ contains
         real(dp), allocatable, intent(out) :: terms(:, :)  !! (ndof, terms)
         real(dp), dimension(system%ndof) :: none, one, rest, plus, minus
         real(dp) :: alone(system%ndof, system%ndof)
+        type(euler_lagrange_t) :: here
         integer :: j, k, column
 
         allocate (terms(system%ndof, term_count(system%ndof)))
@@ -63,6 +64,8 @@ contains
                 end if
             end do
         end do
+        call expand_lagrangian(system, t, q, v, here)
+        terms(:, column + 1) = here%beside
     contains
         pure function forces(velocities) result(right)
             real(dp), intent(in) :: velocities(:)
@@ -70,7 +73,7 @@ contains
             type(euler_lagrange_t) :: expanded
 
             call expand_lagrangian(system, t, q, velocities, expanded)
-            right = expanded%force
+            right = expanded%force - expanded%beside
         end function forces
     end subroutine equation_terms
 
@@ -94,6 +97,7 @@ contains
                 end do
             end associate
         end do
+        names(column + 1) = "generalised force"
     end function term_names
 
     subroutine acceleration_terms(system, t, q, v, terms, error)

@@ -148,8 +148,9 @@ contains
             end if
             rows(:, k) = matmul(near, x) - right
         end do
-        associate (terms => nearby%terms(0))  ! both halves of the right-hand side
-            row_size(:n) = row_size(:n) + abs(terms%dl_dq) + abs(terms%force - terms%dl_dq)
+        associate (terms => nearby%terms(0))  ! all parts of the right-hand side
+            row_size(:n) = row_size(:n) + abs(terms%dl_dq) + abs(terms%beside) &
+                           + abs(terms%force - terms%beside - terms%dl_dq)
         end associate
         do i = 1, all
             row_size(i) = row_size(i) + term_size(rows(i, :))

@@ -6,13 +6,15 @@ module lagrangia_canonical
     !! \(\partial H/\partial p = v(q, p)\) and
     !! \(-\partial H/\partial q = \partial L/\partial q = f(q, v)\) a step needs only the system's
     !! `momenta`, `velocities` and `forces`. Each step starts from \((q, v)\) and ends there, so
-    !! that nothing is carried from step to step.
+    !! that nothing is carried from step to step. Generalised forces \(Q(t, q, v)\) add to \(f\):
+    !! the step stays symmetric and of order 2; their motion is no canonical map.
     !!
     !! The equations of a step are solved by iteration until rounding stops the progress.
     !! Source: Hairer, Lubich & Wanner, *Geometric Numerical Integration*, 2nd ed., secs. VI.3,
     !! VI.4 (Theorem 3.4; midpoint rule) and VIII.6.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_generalised_forces, only: momentum_rates
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: system_t
@@ -173,7 +175,7 @@ contains
         half = 0.5_dp*h
         self%p_mid = self%p
         do
-            call system%forces(t, q, self%u, self%f)
+            call momentum_rates(system, t, q, self%u, self%f)
             self%next = self%p + half*self%f
             self%size_of = abs(self%p) + abs(half*self%f)
             call progress%judge(self%next, self%p_mid, self%size_of, done, solved)
@@ -196,7 +198,7 @@ contains
             if (done) exit
         end do
         q = self%x
-        call system%forces(t + h, q, self%u, self%f)
+        call momentum_rates(system, t + h, q, self%u, self%f)
         self%p = self%p_mid + half*self%f
     end subroutine stormer_verlet_step
 
@@ -219,7 +221,7 @@ contains
             self%size_of = abs(q) + abs(half*self%u)
             call progress%judge(self%next, self%x, self%size_of, done, solved)
             self%x = self%next
-            call system%forces(t + half, self%x, self%u, self%f)
+            call momentum_rates(system, t + half, self%x, self%u, self%f)
             self%next = self%p + half*self%f
             self%size_of = abs(self%p) + abs(half*self%f)
             call progress_p%judge(self%next, self%p_mid, self%size_of, done_p, solved_p)

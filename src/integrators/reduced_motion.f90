@@ -29,8 +29,8 @@ contains
 
     subroutine leave_cyclic(method, system)
         !! Let `method` leave the cyclic coordinate of `system` out, if that pays (the method says
-        !! so) and the system knows how. `lagrangia bench` has it gain a fifth with `gauss16`, a
-        !! third with `dop853`, and nothing to speak of with the others.
+        !! so), the system knows how, and no generalised force acts on it. `lagrangia bench` has
+        !! it gain a fifth with `gauss16`, a third with `dop853`, nothing to speak of with others.
         class(integrator_t), allocatable, intent(inout) :: method  !! perhaps another type then
         class(system_t), intent(in) :: system                      !! the whole one
         class(reduced_t), allocatable :: reduced
@@ -38,6 +38,7 @@ contains
         type(stepwise_t) :: steps
 
         if (.not. method%leaves_cyclic) return
+        if (system%nonconservative .and. system%cyclic == 0) return
         call system%reduce(reduced)
         if (.not. allocated(reduced)) return
         select type (method)

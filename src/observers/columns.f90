@@ -10,7 +10,7 @@ module lagrangia_columns
     implicit none (type, external)
     private
     public :: columns_t, new_columns, column_names
-    public :: is_error
+    public :: is_error, why_energy_changes
 
     integer, parameter :: is_time = 1, is_coordinate = 2, is_velocity = 3, is_acceleration = 4
     integer, parameter :: is_energy = 5, is_quantity = 6, is_position = 7
@@ -54,14 +54,14 @@ contains
         integer :: i, j
 
         call system%describe(d)
-        call every_column(d, system%time_dependent, has_error, all)
+        call every_column(d, system%conserves_energy(), has_error, all)
         allocate (self%items(size(names)))
         do i = 1, size(names)
             do j = 1, size(all)
                 if (all(j)%name == names(i)) exit
             end do
             if (j > size(all)) then
-                call refuse(trim(names(i)), d, all, error)
+                call refuse(trim(names(i)), system, d, all, error)
             else if (any(names(:i - 1) == names(i))) then
                 call fail(error, "the column is there already")
             end if
@@ -85,14 +85,14 @@ contains
         type(description_t) :: d
 
         call system%describe(d)
-        call every_column(d, system%time_dependent, has_error, all)
+        call every_column(d, system%conserves_energy(), has_error, all)
         names = all%name
     end function column_names
 
-    pure subroutine every_column(d, time_dependent, has_error, all)
+    pure subroutine every_column(d, conserves_energy, has_error, all)
         !! The whole list of a system's columns.
         type(description_t), intent(in) :: d
-        logical, intent(in) :: time_dependent, has_error
+        logical, intent(in) :: conserves_energy, has_error
         type(column_t), allocatable, intent(out) :: all(:)
         character(1), parameter :: axes(3) = ["x", "y", "z"]
         type(column_t) :: c
@@ -110,7 +110,7 @@ contains
         end do
         c = column_t("energy", "J", is_energy, scale=d%energy_scale)
         call append(all, c)
-        if (.not. time_dependent) call append(all, drift_of(c))
+        if (conserves_energy) call append(all, drift_of(c))
         do i = 1, size(d%quantities)
             associate (f => d%quantities(i))
                 c = column_t(f%name, f%unit, is_quantity, i, scale=f%scale)
@@ -145,9 +145,19 @@ contains
         list = [list, item]
     end subroutine append
 
-    pure subroutine refuse(name, d, all, error)
+    pure function why_energy_changes(system) result(text)
+        !! Of a system that does not conserve its energy.
+        class(system_t), intent(in) :: system  !! with its parameters
+        character(:), allocatable :: text
+
+        text = "L contains the time"
+        if (system%nonconservative) text = "generalised forces do work"
+    end function why_energy_changes
+
+    pure subroutine refuse(name, system, d, all, error)
         !! Say why there is no column `name`.
         character(*), intent(in) :: name
+        class(system_t), intent(in) :: system
         type(description_t), intent(in) :: d
         type(column_t), intent(in) :: all(:)
         type(error_t), allocatable, intent(out) :: error
@@ -161,7 +171,7 @@ contains
                       "start; with expect_error it is estimated")
         else if (name == "energy_drift") then
             call fail(error, "column 'energy_drift': the energy of this "//trim(d%name)// &
-                      " is not conserved, for L contains the time")
+                      " is not conserved, for "//why_energy_changes(system))
         else if (index(name, ",") > 0) then
             call fail(error, "is one text; each column has its own quotes, as in 't', 'x'")
         else if (near /= "") then

@@ -63,6 +63,7 @@ module lagrangia_gauged_system
         procedure :: configure
         procedure :: accelerations
         procedure :: lagrangian
+        procedure :: generalised_forces
         procedure :: energy
         procedure :: constraint_rows
     end type gauged_system_t
@@ -151,6 +152,7 @@ contains
         self%ndof = plain%ndof
         self%constraints = plain%constraints
         self%velocity_forces = plain%velocity_forces
+        self%nonconservative = plain%nonconservative
         self%time_dependent = .true.
         self%cyclic = 0
     end subroutine set
@@ -189,6 +191,15 @@ contains
 
         l = self%plain%lagrangian(t, q, v) + self%gauge%rate(t, q, v)
     end function lagrangian
+
+    pure subroutine generalised_forces(self, t, q, v, f)
+        !! The plain system's.
+        class(gauged_system_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t), intent(out) :: f(self%ndof)
+
+        call self%plain%generalised_forces(t, q, v, f)
+    end subroutine generalised_forces
 
     pure function energy(self, t, q, v) result(e)
         !! $$ h' = h - \frac{\partial F}{\partial t} $$

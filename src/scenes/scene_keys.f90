@@ -1,6 +1,6 @@
 module lagrangia_scene_keys
     !! The keys of the group `&scene`, each checked as far as it can be by itself.
-    use lagrangia_columns, only: column_names
+    use lagrangia_columns, only: column_names, why_energy_changes
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
@@ -140,7 +140,7 @@ contains
 
         call system%describe(d)
         scene%columns = [character(name_length) :: "t", d%coordinates%name]
-        if (.not. system%time_dependent) scene%columns = &
+        if (system%conserves_energy()) scene%columns = &
             [character(name_length) :: scene%columns, "energy_drift"]
         call get_strings(tree, "scene", "columns", 1, most, scene%columns, error)
         if (allocated(error)) return
@@ -160,9 +160,11 @@ contains
                               coordinates(d), error)
             return
         end if
-        if (system%time_dependent .and. has_key(tree, "scene", "expect_energy_drift")) then
+        if (.not. system%conserves_energy() .and. &
+            has_key(tree, "scene", "expect_energy_drift")) then
             call refuse_value(tree, "scene", "expect_energy_drift", "the energy of this "// &
-                              trim(d%name)//" is not conserved, for L contains the time", error)
+                              trim(d%name)//" is not conserved, for "// &
+                              why_energy_changes(system), error)
             return
         end if
         names = judged(system)

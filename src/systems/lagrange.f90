@@ -1,16 +1,18 @@
 module lagrangia_lagrange
-    !! Equations of motion from a Lagrangian alone: the oracle of every hand-derived equation.
+    !! Equations of motion from a Lagrangian and the generalised forces beside it: the oracle of
+    !! every hand-derived equation.
     !!
     !! Lagrange's equations written out are
     !! $$ M\,\ddot q = \frac{\partial L}{\partial q}
     !!    - \frac{\partial^2 L}{\partial\dot q\,\partial q}\,\dot q
-    !!    - \frac{\partial^2 L}{\partial\dot q\,\partial t} + A^\top\lambda,\qquad
+    !!    - \frac{\partial^2 L}{\partial\dot q\,\partial t} + Q + A^\top\lambda,\qquad
     !!    M = \frac{\partial^2 L}{\partial\dot q\,\partial\dot q}, $$
     !! with \(A\ddot q = -\dot A\dot q - \dot b\) where there are constraints \(A\dot q + b = 0\)
     !! (Lagrange-d'Alembert: the constraint is *not* put into \(L\)). All derivatives are exact:
     !! `L` is evaluated on hyper-dual numbers.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_generalised_forces, only: add_generalised_forces
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
@@ -22,10 +24,11 @@ module lagrangia_lagrange
     public :: equations_of_motion, energy_from_lagrangian
 
     type :: euler_lagrange_t
-        !! The Lagrangian's derivatives at one state.
+        !! The Lagrangian's derivatives at one state, and the generalised forces.
         real(dp) :: l = 0.0_dp
         real(dp) :: dl_dt = 0.0_dp
-        real(dp), allocatable :: dl_dq(:), dl_dv(:)  !! generalised force and momentum
+        real(dp), allocatable :: dl_dq(:), dl_dv(:)  !! force and momentum
+        real(dp), allocatable :: beside(:)           !! \(Q\), generalised forces that L lacks
         real(dp), allocatable :: mass(:, :)          !! \(\partial^2L/\partial v\partial v\)
         real(dp), allocatable :: force(:)            !! right-hand side of \(M\ddot q\)
     end type euler_lagrange_t
@@ -44,13 +47,16 @@ contains
         integer :: i, j, n
 
         n = system%ndof
-        allocate (terms%dl_dq(n), terms%dl_dv(n), terms%mass(n, n), terms%force(n))
+        allocate (terms%dl_dq(n), terms%dl_dv(n), terms%beside(n), terms%mass(n, n), &
+                  terms%force(n))
+        terms%beside = 0.0_dp
         call check_state(system, q, v, error)
         if (allocated(error)) then
             terms%l = ieee_value(t, ieee_quiet_nan)
             terms%dl_dt = terms%l
             terms%dl_dq = terms%l
             terms%dl_dv = terms%l
+            terms%beside = terms%l
             terms%mass = terms%l
             terms%force = terms%l
             return
@@ -86,6 +92,9 @@ contains
         terms%l = l%re
         terms%dl_dt = l%d1
         terms%force = terms%force + terms%dl_dq
+        if (.not. system%nonconservative) return
+        call add_generalised_forces(system, t, q, v, terms%beside)
+        terms%force = terms%force + terms%beside
     end subroutine expand_lagrangian
 
     pure subroutine equations_of_motion(system, t, q, v, terms, matrix, right)

@@ -7,11 +7,13 @@ module lagrangia_lagrangian_system
     !! structure is found by trying. Formulae by hand may be added later, one by one, as the
     !! bindings of `system_t`: the audit checks them against L.
     !!
-    !! L must be of degree two in the velocities, its mass matrix positive definite.
+    !! L must be of degree two in the velocities, its mass matrix positive definite. Forces that L
+    !! lacks are in `generalised_forces`.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_description, only: description_t
     use lagrangia_elimination, only: solve_positive
     use lagrangia_errors, only: error_t
+    use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: accelerations_from_lagrangian, energy_from_lagrangian, &
                                   euler_lagrange_t, expand_lagrangian
@@ -105,18 +107,22 @@ contains
     end subroutine configure
 
     pure subroutine find_structure(self)
-        !! Whether accelerations depend on the velocities, whether L depends on the time, and the
-        !! first cyclic coordinate, from up to four states at which L is finite: of state \(k\),
-        !! \(|q| \le 0.8^k\). Without any, L counts as dependent on everything.
+        !! Whether accelerations depend on the velocities, whether L or a generalised force depends
+        !! on the time, whether there is such a force, and the first cyclic coordinate, from up to
+        !! four states at which L is finite: of state \(k\), \(|q| \le 0.8^k\). Without any, L
+        !! counts as dependent on everything.
         class(lagrangian_system_t), intent(inout) :: self
         type(euler_lagrange_t) :: terms
         real(dp), dimension(self%ndof) :: q, v, a, b
-        logical :: cyclic(self%ndof), moves
+        logical :: cyclic(self%ndof), moves, acted
+        type(hyperdual_t) :: tt, qq(self%ndof), vv(self%ndof), beside(self%ndof)
         real(dp) :: t
         integer :: i, k, used
 
         self%velocity_forces = .false.
         self%time_dependent = .false.
+        self%nonconservative = .true.
+        acted = .false.
         cyclic = .true.
         moves = .false.
         used = 0
@@ -128,7 +134,14 @@ contains
             call expand_lagrangian(self, t, q, v, terms)
             if (.not. all(ieee_is_finite([terms%l, terms%dl_dt, terms%dl_dq]))) cycle
             cyclic = cyclic .and. abs(terms%dl_dq) <= 0.0_dp
-            self%time_dependent = self%time_dependent .or. abs(terms%dl_dt) > 0.0_dp
+            tt = hyperdual_t(re=t, d1=1.0_dp)
+            qq%re = q
+            vv%re = v
+            call self%generalised_forces(tt, qq, vv, beside)
+            acted = acted .or. any(abs(beside%re) > 0.0_dp)
+            cyclic = cyclic .and. abs(beside%re) <= 0.0_dp
+            self%time_dependent = self%time_dependent .or. abs(terms%dl_dt) > 0.0_dp &
+                                  .or. any(abs(beside%d1) > 0.0_dp)
             call self%accelerations(t, q, v, a)
             v = 2.0_dp*v
             call self%accelerations(t, q, v, b)
@@ -139,6 +152,7 @@ contains
             used = used + 1
             if (used == 4) exit
         end do
+        self%nonconservative = acted
         if (.not. moves) self%velocity_forces = .true.
         if (used == 0) then
             self%time_dependent = .true.

@@ -3,7 +3,8 @@ module lagrangia_system
     !!
     !! The state is the pair \((q, v)\), \(v = \dot q\). A system says what it is (`describe`),
     !! takes its parameters (`configure`), and gives its equations of motion twice: as derived by
-    !! hand (`accelerations`), and as the Lagrangian from which they were derived.
+    !! hand (`accelerations`), and as the Lagrangian from which they were derived, with the
+    !! generalised forces beside it.
     use lagrangia_description, only: check_parameter, default_values, description_t
     use lagrangia_elimination, only: solve_positive
     use lagrangia_errors, only: error_t, fail
@@ -22,9 +23,11 @@ module lagrangia_system
     type, abstract :: system_t
         integer :: ndof = 0                  !! number of coordinates
         logical :: velocity_forces = .true.  !! accelerations depend on the velocities
-        logical :: time_dependent = .false.  !! the Lagrangian contains the time
+        logical :: time_dependent = .false.  !! the Lagrangian or a generalised force has t in it
+        logical :: nonconservative = .false. !! there are `generalised_forces`
         integer :: constraints = 0           !! rows of non-holonomic constraints
-        integer :: cyclic = 0                !! index of a cyclic coordinate, 0 if none
+        integer :: cyclic = 0                !! index of a coordinate that is neither in L nor has
+        !! a generalised force, so that its momentum is conserved; 0 if none
         integer :: contacts = 0              !! unilateral constraints: each has a gap and impacts
     contains
         procedure(describe_i), deferred :: describe
@@ -32,10 +35,12 @@ module lagrangia_system
         procedure(accelerations_i), deferred :: accelerations
         procedure :: accelerations_lanes => each_lane
         procedure(lagrangian_i), deferred :: lagrangian
+        procedure :: generalised_forces => no_generalised_forces
         procedure(energy_i), deferred :: energy
         procedure :: momenta => momenta_of_lagrangian
         procedure :: velocities => velocities_of_lagrangian
         procedure :: forces => forces_of_lagrangian
+        procedure, non_overridable :: conserves_energy
         procedure :: quantity => no_quantity
         procedure :: positions => no_positions
         procedure :: constraint_rows => no_constraint_rows
@@ -103,7 +108,8 @@ module lagrangia_system
 
         pure function energy_i(self, t, q, v) result(e)
             !! The energy function \(\dot q\,\partial L/\partial\dot q - L\), J. It is conserved
-            !! unless `time_dependent`, and is \(T + V\) unless the coordinates move by themselves.
+            !! unless `time_dependent` or `nonconservative`, and is \(T + V\) unless the
+            !! coordinates move by themselves.
             import :: system_t, dp
             implicit none (type, external)
             class(system_t), intent(in) :: self
@@ -180,7 +186,7 @@ contains
     end subroutine velocities_of_lagrangian
 
     pure subroutine forces_of_lagrangian(self, t, q, v, f)
-        !! Generalised forces \(\partial L/\partial q\), which change the momenta.
+        !! The forces \(\partial L/\partial q\), which change the momenta, without those beside L.
         class(system_t), intent(in) :: self
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)  !! time, s; state
         real(dp), intent(out) :: f(self%ndof)                  !! N, or N m on an angle
@@ -197,6 +203,27 @@ contains
             qq(i)%d1 = 0.0_dp
         end do
     end subroutine forces_of_lagrangian
+
+    pure subroutine no_generalised_forces(self, t, q, v, f)
+        !! The forces \(Q_j\) in \(d/dt\,\partial L/\partial\dot q_j - \partial L/\partial q_j
+        !! = Q_j\) that are not in L: friction, a motor. \(\sum_j Q_j\,\delta q_j\) is their
+        !! virtual work. On hyper-dual numbers, so that all derivatives are exact. Here there are
+        !! none; who has some sets `nonconservative`, and `velocity_forces` where they depend on
+        !! velocities.
+        class(system_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)  !! time, s; state
+        type(hyperdual_t), intent(out) :: f(self%ndof)                  !! N, or N m on an angle
+
+        f = hyperdual_t()
+    end subroutine no_generalised_forces
+
+    pure function conserves_energy(self)
+        !! No time in L, and no force beside it.
+        class(system_t), intent(in) :: self
+        logical :: conserves_energy
+
+        conserves_energy = .not. (self%time_dependent .or. self%nonconservative)
+    end function conserves_energy
 
     pure subroutine each_lane(self, t, q, v, a)
         !! `accelerations` of several states, lane by lane. A system may do better: the same
@@ -322,7 +349,8 @@ contains
     end subroutine no_impact
 
     subroutine not_reduced(self, reduced)
-        !! The same without its cyclic coordinate; not allocated if none is known.
+        !! The same without its cyclic coordinate; not allocated if none is known. Generalised
+        !! forces on the others stay.
         class(system_t), intent(in) :: self
         class(reduced_t), allocatable, intent(out) :: reduced  !! of one coordinate less, configured
     end subroutine not_reduced
