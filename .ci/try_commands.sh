@@ -118,6 +118,14 @@ for system in $systems; do
     [ "$status" -eq 0 ] && grep -q '^L =$' "$work/out" || { check "describe $system" false; }
 done
 check "describe: every system of the list" [ "$(wc -w <<<"$systems")" -eq 13 ]
+run describe atwood
+check "describe atwood: no lift, no pulley, short" grep -q '^  (m1 + m2)/2 x_dot^2 + (m1 - m2) g x$' "$work/out"
+run describe atwood_lift
+check "describe: a scene's parameters" grep -q 'default 0.0; any finite number' "$work/out"
+check "describe: what holds for them" grep -q 'a_s t x_dot' "$work/out"
+run describe atwood --set atwood%pulley_inertia=0.02
+check "describe: --set" grep -q '^  (m1 + m2 + I/R^2) x_ddot = (m1 - m2) g$' "$work/out"
+refuses 2 "unknown key 'n'" describe oscillator --set oscillator%n=1
 run describe hanging_chain
 check "describe: a whole number" grep -q 'default 3;' "$work/out"
 

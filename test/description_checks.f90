@@ -3,8 +3,8 @@ module description_checks
     use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_quiet_nan, ieee_value
     use funit, only: anyExceptions, assertEqual, assertFalse, assertGreaterThan, assertLessThan, &
                      assertTrue
-    use lagrangia_description, only: description_t, line_length, name_length, parameter_t, &
-                                     quantity_t
+    use lagrangia_description, only: description_t, formula_length, line_length, name_length, &
+                                     parameter_t, quantity_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_system, only: default_values, system_t
@@ -28,7 +28,6 @@ contains
         call assertGreaterThan(len(name), 0, message="a system without a name")
         call assertTrue(allocated(d%coordinates), name//": coordinates")
         call assertTrue(allocated(d%parameters), name//": parameters")
-        call assertTrue(allocated(d%lagrangian), name//": lagrangian")
         call assertTrue(allocated(d%equations), name//": equations")
         if (anyExceptions()) return
         call system%configure(default_values(d), error)
@@ -36,14 +35,10 @@ contains
         if (anyExceptions()) return
         call assertEqual(system%ndof, size(d%coordinates), name//": ndof")
         call check_line(d%title, name//": title")
-        call check_line(d%energy, name//": energy")
         call check_line(d%constraint, name//": constraint")
         call check_line(d%source, name//": source")
-        do i = 1, size(d%lagrangian)
-            call check_line(d%lagrangian(i), name//": lagrangian")
-        end do
         do i = 1, size(d%equations)
-            call check_line(d%equations(i), name//": equations")
+            call assertLessThan(len_trim(d%equations(i)), formula_length, message=name//": cut off")
         end do
         if (allocated(d%notes)) then
             do i = 1, size(d%notes)
@@ -77,6 +72,8 @@ contains
                 call assertGreaterThan(unit, 0, message=name//": quantity without unit")
             end associate
             call check_line(items(i)%meaning, name//": "//trim(items(i)%name))
+            call assertLessThan(len_trim(items(i)%formula), formula_length, &
+                                message=name//": cut off")
         end do
     end subroutine check_quantities
 

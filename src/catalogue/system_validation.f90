@@ -84,7 +84,6 @@ contains
         missing = ""
         if (.not. allocated(d%notes)) missing = "notes"
         if (.not. allocated(d%equations)) missing = "equations"
-        if (.not. allocated(d%lagrangian)) missing = "lagrangian"
         if (.not. allocated(d%points)) missing = "points"
         if (.not. allocated(d%quantities)) missing = "quantities"
         if (.not. allocated(d%parameters)) missing = "parameters"

@@ -1,15 +1,19 @@
 module lagrangia_describe
-    !! `lagrangia describe SYSTEM`: what a lecturer would write on the blackboard.
-    use lagrangia_catalogue, only: new_system
-    use lagrangia_command_line, only: command_line_t
+    !! `lagrangia describe SYSTEM`: what a lecturer would write on the blackboard, with these
+    !! parameters.
+    use lagrangia_catalogue, only: new_system, system_names
+    use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: put_line
-    use lagrangia_description, only: description_t, line_length, quantity_t
+    use lagrangia_description, only: constraint_text, description_t, parameter_t, quantity_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
     use lagrangia_methods, only: auto, workhorse
     use lagrangia_printed_table, only: left
     use lagrangia_random_draws, only: random_t
     use lagrangia_reference, only: reference_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_scene_reader, only: read_named_system, read_scene
+    use lagrangia_shipped, only: find_scene
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -19,20 +23,21 @@ module lagrangia_describe
 contains
 
     subroutine describe_command(line, error)
-        !! Print the description of one system.
+        !! Print the description of one system, named or of a scene.
         type(command_line_t), intent(in) :: line  !! what was typed
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         class(system_t), allocatable :: system
-        type(description_t) :: d
+        type(description_t) :: d, fresh
         integer :: i
 
         if (size(line%arguments) == 0) then
             call fail(error, "describe what? 'lagrangia list systems' shows the names")
             return
         end if
-        call new_system(line%arguments(1)%text, system, error)
+        call read_described(line%arguments(1)%text, line%values_of("set"), system, error)
         if (allocated(error)) return
         call system%describe(d)
+        call describe_fresh(trim(d%name), fresh)
         call put_line(trim(d%name)//": "//trim(d%title))
         call put_line("source: "//trim(d%source))
         call put_line("")
@@ -42,16 +47,9 @@ contains
         end do
         call put_line("parameters of &"//trim(d%name))
         do i = 1, size(d%parameters)
-            associate (p => d%parameters(i))
-                call put_line("  "//left(p%name, 22)//left("["//trim(p%unit)//"]", 12)// &
-                              trim(p%meaning)//"; default "//default_text(i)//"; "//p%domain())
-            end associate
+            call put_parameter(d%parameters(i), fresh%parameters(i))
         end do
-        call put_block("L =", d%lagrangian)
-        call put_block("equations of motion", d%equations)
-        call put_line("energy (v dL/dv - L)"//trim(merge(", not conserved", "               ", &
-                                                         system%time_dependent)))
-        call put_line("  "//trim(d%energy))
+        call put_formulas(d, system%time_dependent)
         if (any(d%quantities%conserved)) call put_line("conserved besides")
         do i = 1, size(d%quantities)
             if (d%quantities(i)%conserved) call put_quantity(d%quantities(i))
@@ -64,7 +62,7 @@ contains
         call put_line("  the largest of a coordinate, not of a velocity, absolute below 1 and "// &
                       "relative above")
         call put_line("constraints")
-        call put_line("  "//trim(d%constraint))
+        call put_wrapped(constraint_text(d))
         call put_line("structure")
         call put_line("  "//structure(system))
         call put_line("method = '"//auto//"'")
@@ -74,24 +72,183 @@ contains
         else
             call put_line("  "//workhorse//"; no closed form is known")
         end if
-        if (size(d%notes) > 0) call put_block("notes", d%notes)
-    contains
-        function default_text(i) result(text)
-            integer, intent(in) :: i
-            character(:), allocatable :: text
-            integer :: k
-
-            associate (p => d%parameters(i))
-                text = trim(p%computed)
-                if (text /= "") return
-                text = to_text(p%value(1))
-                if (p%whole) text = to_text(nint(p%value(1)))
-                do k = 2, p%count
-                    text = text//", "//to_text(p%value(k))
-                end do
-            end associate
-        end function default_text
+        if (size(d%notes) > 0) call put_line("notes")
+        do i = 1, size(d%notes)
+            call put_line("  "//trim(d%notes(i)))
+        end do
     end subroutine describe_command
+
+    subroutine read_described(word, overrides, system, error)
+        !! The system of that name; that of a scene's file, or of a scene that is shipped.
+        character(*), intent(in) :: word
+        type(word_t), intent(in) :: overrides(:)
+        class(system_t), allocatable, intent(out) :: system
+        type(error_t), allocatable, intent(out) :: error
+        type(scene_t) :: scene
+        type(error_t), allocatable :: no_scene
+        character(:), allocatable :: path
+
+        if (all(system_names() /= word)) then
+            call find_scene(word, path, no_scene)
+            if (.not. allocated(no_scene)) then
+                call read_scene(path, overrides, scene, system, error)
+                return
+            end if
+            if (index(word, "/") > 0 .or. index(word, ".nml") > 0) then
+                call move_alloc(no_scene, error)
+                return
+            end if
+        end if
+        call read_named_system(word, overrides, system, error)
+    end subroutine read_described
+
+    subroutine describe_fresh(name, d)
+        !! What the system says with its defaults.
+        character(*), intent(in) :: name
+        type(description_t), intent(out) :: d
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+
+        call new_system(name, system, error)
+        if (.not. allocated(error)) call system%describe(d)
+    end subroutine describe_fresh
+
+    subroutine put_parameter(p, default)
+        !! `  m   [kg]   mass; default 1.0; greater than 0.0`; another value than the default first.
+        type(parameter_t), intent(in) :: p, default
+        character(:), allocatable :: value
+
+        value = ""
+        if (value_text(p) /= value_text(default)) value = "= "//value_text(p)//", "
+        value = value//"default "
+        if (p%computed == "") then
+            value = value//value_text(default)
+        else
+            value = value//trim(p%computed)
+        end if
+        call put_line("  "//left(p%name, 22)//left("["//trim(p%unit)//"]", 12)//trim(p%meaning)// &
+                      "; "//value//"; "//p%domain())
+    end subroutine put_parameter
+
+    pure function value_text(p) result(text)
+        !! The value, or the components.
+        type(parameter_t), intent(in) :: p
+        character(:), allocatable :: text
+        integer :: k
+
+        text = to_text(p%value(1))
+        if (p%whole) text = to_text(nint(p%value(1)))
+        do k = 2, p%count
+            text = text//", "//to_text(p%value(k))
+        end do
+    end function value_text
+
+    subroutine put_formulas(d, time_dependent)
+        !! From T and V to the frequencies, as far as the system says them.
+        type(description_t), intent(in) :: d
+        logical, intent(in) :: time_dependent
+        character(:), allocatable :: letters
+        integer :: i
+
+        letters = ""
+        if (allocated(d%letters)) then
+            do i = 1, size(d%letters)
+                letters = letters//", "//trim(d%letters(i)%name)//" = "// &
+                          trim(d%letters(i)%formula)
+            end do
+        end if
+        if (letters /= "") call put_line("letters")
+        if (letters /= "") call put_wrapped(letters(3:))
+        if (allocated(d%kinetic_energy)) call put_formula("T =", d%kinetic_energy)
+        if (allocated(d%potential_energy)) call put_formula("V =", d%potential_energy)
+        if (allocated(d%lagrangian)) then
+            call put_formula("L =", d%lagrangian)
+        else
+            call put_formula("L =", "as the program has it")
+        end if
+        call put_line("equations of motion")
+        do i = 1, size(d%equations)
+            call put_wrapped(trim(d%equations(i)))
+        end do
+        if (size(d%equations) == 0) then
+            call put_line("  d/dt dL/dq_dot - dL/dq = 0, by exact derivatives of L")
+        end if
+        if (allocated(d%accelerations)) then
+            call put_line("solved")
+            do i = 1, size(d%accelerations)
+                call put_wrapped(trim(d%accelerations(i)))
+            end do
+        end if
+        if (allocated(d%motion)) then
+            call put_line("closed form, from x_0, x_dot_0 at t = 0")
+            do i = 1, size(d%motion)
+                call put_wrapped(trim(d%motion(i)))
+            end do
+        end if
+        if (allocated(d%frequencies)) then
+            call put_line("small oscillations")
+            do i = 1, size(d%frequencies)
+                call put_wrapped(trim(d%frequencies(i)%equation)//"  about "// &
+                                 trim(d%frequencies(i)%equilibrium))
+            end do
+        end if
+        call put_line("energy (v dL/dv - L)"//trim(merge(", not conserved", "               ", &
+                                                         time_dependent)))
+        if (allocated(d%energy)) then
+            call put_wrapped(d%energy)
+        else
+            call put_line("  q_dot dL/dq_dot - L, by exact derivatives of L")
+        end if
+    end subroutine put_formulas
+
+    subroutine put_formula(head, formula)
+        !! A line for what it is of, and the formula.
+        character(*), intent(in) :: head, formula
+
+        call put_line(head)
+        call put_wrapped(formula)
+    end subroutine put_formula
+
+    subroutine put_wrapped(text)
+        !! Indented by two blanks, by four from the second line on.
+        character(*), intent(in) :: text
+        integer, parameter :: widest = 96
+        character(:), allocatable :: rest, indentation
+        integer :: at
+
+        rest = text
+        indentation = "  "
+        do while (len(rest) > widest)
+            at = best_break(rest(:widest))
+            if (at == 0) exit
+            call put_line(indentation//trim(rest(:at)))
+            rest = rest(at + 1:)
+            indentation = "    "
+        end do
+        call put_line(indentation//rest)
+    end subroutine put_wrapped
+
+    pure function best_break(text) result(best)
+        !! The blank at which a formula is broken best: behind a comma, else in front of a sign
+        !! inside as few brackets as can be, and as late as can be; 0 if there is none.
+        character(*), intent(in) :: text
+        integer :: best, at, depth, rank, least
+
+        best = 0
+        least = huge(least)
+        depth = 0
+        do at = 2, len(text) - 2
+            if (text(at:at) == "(") depth = depth + 1
+            if (text(at:at) == ")") depth = depth - 1
+            if (text(at:at) /= " ") cycle
+            rank = 100
+            if (scan(text(at + 1:at + 1), "+-=") == 1) rank = 1 + depth
+            if (text(at - 1:at - 1) == ",") rank = depth
+            if (rank > least .or. at < len(text)/3) cycle
+            least = rank
+            best = at
+        end do
+    end function best_break
 
     function has_closed_form(system) result(yes)
         !! One is known of the motion from some state, with some parameters: from one of 40 drawn,
@@ -121,23 +278,20 @@ contains
     end function has_closed_form
 
     subroutine put_quantity(item)
-        !! `  theta   [rad]   angle ...`.
+        !! `  tension   [N]   m g cos(theta): force along the rod`; a long formula is on its own.
         type(quantity_t), intent(in) :: item
+        character(:), allocatable :: text
 
-        call put_line("  "//left(item%name, 22)//left("["//trim(item%unit)//"]", 12)// &
-                      trim(item%meaning))
+        text = "  "//left(item%name, 22)//left("["//trim(item%unit)//"]", 12)
+        if (item%formula == "") then
+            call put_line(text//trim(item%meaning))
+        else if (len(text) + len_trim(item%formula) + len_trim(item%meaning) <= 98) then
+            call put_line(text//trim(item%formula)//": "//trim(item%meaning))
+        else
+            call put_line(text//trim(item%meaning)//",")
+            call put_wrapped("  = "//trim(item%formula))
+        end if
     end subroutine put_quantity
-
-    subroutine put_block(title, lines)
-        !! A title and its lines, indented.
-        character(*), intent(in) :: title, lines(:)
-        integer :: i
-
-        call put_line(title)
-        do i = 1, size(lines)
-            call put_line("  "//trim(lines(i)))
-        end do
-    end subroutine put_block
 
     pure function structure(system) result(text)
         !! What integrators and tests need to know, in words.

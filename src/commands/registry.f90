@@ -58,7 +58,8 @@ module lagrangia_registry
         command_t("stress", "[ROW...]", "numerical stability: limits, long runs, hard numbers; "// &
                   "rows by name", -1, "long json quiet"), &
         command_t("list", "[systems|methods|scenes]", "what there is, one a line", 1, ""), &
-        command_t("describe", "SYSTEM", "coordinates, parameters, L, equations, invariants", 1, "")]
+        command_t("describe", "SYSTEM|SCENE", "parameters, T, V, L, equations, invariants", 1, &
+                  "set")]
 
 contains
 

@@ -1,7 +1,7 @@
 module lagrangia_trajectory_plan
     !! From a scene to the trajectory that is to be computed: its method, its times, its events.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use lagrangia_description, only: description_t, name_length
+    use lagrangia_description, only: constraint_text, description_t, name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_events, only: column_event_t, contact_event_t, event_box_t, new_column_event, &
                                 new_contact_event
@@ -163,7 +163,7 @@ contains
         do i = 1, system%contacts
             if (system%gap(i, scene%t0, scene%q, scene%v) < 0.0_dp) then
                 call system%describe(d)
-                call fail(error, "violates the constraint, "//trim(d%constraint), key="q")
+                call fail(error, "violates the constraint, "//constraint_text(d), key="q")
                 return
             end if
             call new_contact_event(contact, i)

@@ -4,8 +4,9 @@ module lagrangia_atwood
     !! Source: Hamilton's Principle, case I. The notes write \((m_1+m_2)\,d\dot x^2/dt^2\) for
     !! \((m_1+m_2)\,\ddot x\). The pulley's inertia \(I\) and the support's upward acceleration
     !! \(a_s\), both zero in the notes, are added: \(a_s\) makes the constraint rheonomic.
-    use lagrangia_description, only: conserved, coordinate, description_t, mass_point, &
-                                     nonnegative, positive, quantity, real_number
+    use lagrangia_description, only: conserved, coordinate, description_t, formula_length, &
+                                     letter_t, mass_point, nonnegative, positive, quantity, &
+                                     real_number
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(+), operator(-)
     use lagrangia_kinds, only: dp
@@ -55,6 +56,7 @@ contains
         !! See `system_t`.
         class(atwood_t), intent(in) :: self
         type(description_t), intent(out) :: d
+        character(:), allocatable :: pulley, gravity
 
         d%name = "atwood"
         d%title = "two masses on a string over a pulley"
@@ -69,32 +71,54 @@ contains
             real_number("support_acceleration", "m/s^2", &
                         "upward acceleration of the support, a_s", &
                         self%support_acceleration)]
-        d%quantities = [ &
-            conserved("energy_support", "J", "(m1 + m2 + I/R^2)/2 x_dot^2 - (m1 - m2)(g + a_s)"// &
-                      " x: energy in the support's frame", 0.0_dp), &
-            quantity("p_x", "kg m/s", "(m1 + m2 + I/R^2) x_dot - (m1 - m2) a_s t: momentum of x"), &
-            quantity("total_energy", "J", "T + V in the inertial frame, to which the support "// &
-                     "does work"), &
-            quantity("tension1", "N", "m1 (g + a_s)(2 m2 + I/R^2)/(m1 + m2 + I/R^2): string "// &
-                     "at m1"), &
-            quantity("tension2", "N", "m2 (g + a_s)(2 m1 + I/R^2)/(m1 + m2 + I/R^2): string "// &
-                     "at m2")]
-        if (free(self)) d%quantities(2) = &
-            conserved("p_x", "kg m/s", "(m1 + m2 + I/R^2) x_dot - (m1 - m2) a_s t: momentum "// &
-                      "of x, cyclic if (m1 - m2) g = 0", 0.0_dp)
+        pulley = ""
+        if (self%pulley_inertia > 0.0_dp) pulley = " + I/R^2"
+        gravity = "g"
+        if (self%time_dependent) gravity = "(g + a_s)"
+        associate (total => "(m1 + m2"//pulley//")")
+            d%letters = [letter_t("I", "pulley_inertia"), letter_t("R", "radius"), &
+                             letter_t("a_s", "support_acceleration")]
+            d%quantities = [ &
+                conserved("energy_support", "J", "energy in the support's frame", 0.0_dp, &
+                          total//"/2 x_dot^2 - (m1 - m2) "//gravity//" x"), &
+                quantity("p_x", "kg m/s", "momentum of x", total//" x_dot"), &
+                quantity("total_energy", "J", "in the inertial frame, to which the support "// &
+                         "does work", "T + V"), &
+                quantity("tension1", "N", "string at m1", &
+                         "m1 "//gravity//" (2 m2"//pulley//")/"//total), &
+                quantity("tension2", "N", "string at m2", &
+                         "m2 "//gravity//" (2 m1"//pulley//")/"//total)]
+            if (pulley == "") d%quantities(4:5)%formula = "2 m1 m2 "//gravity//"/(m1 + m2)"
+            if (free(self)) d%quantities(2) = &
+                conserved("p_x", "kg m/s", "momentum of x, cyclic if (m1 - m2) g = 0", 0.0_dp, &
+                          total//" x_dot")
+            d%kinetic_energy = "(m1 + m2"//pulley//")/2 x_dot^2"
+            d%potential_energy = "- (m1 - m2) g x"
+            d%lagrangian = total//"/2 x_dot^2 + (m1 - m2) g x"
+            d%energy = total//"/2 x_dot^2 - (m1 - m2) g x"
+            d%constraint = "holonomic, scleronomic"
+            d%constraint_equations = [character(len(d%title)) :: "y_m1 + y_m2 = 0"]
+            if (self%time_dependent) then
+                d%quantities(2)%formula = total//" x_dot - (m1 - m2) a_s t"
+                d%kinetic_energy = "m1/2 (a_s t - x_dot)^2 + m2/2 (a_s t + x_dot)^2"
+                if (pulley /= "") d%kinetic_energy = d%kinetic_energy//" + I/2 (x_dot/R)^2"
+                d%potential_energy = "m1 g (a_s/2 t^2 - x) + m2 g (a_s/2 t^2 + x)"
+                d%lagrangian = total//"/2 x_dot^2 + (m1 - m2)(g x - a_s t x_dot) "// &
+                               "+ (m1 + m2)/2 (a_s - g) a_s t^2"
+                d%energy = total//"/2 x_dot^2 - (m1 - m2) g x - (m1 + m2)/2 (a_s - g) a_s t^2"
+                d%constraint = "holonomic, rheonomic"
+                d%constraint_equations = [character(len(d%title)) :: "y_m1 + y_m2 = a_s t^2"]
+            end if
+            d%equations = [character(formula_length) :: &
+                total//" x_ddot = (m1 - m2) "//gravity]
+            d%motion = [character(formula_length) :: &
+                "x = x_0 + x_dot_0 t + (m1 - m2) "//gravity//"/(2 "//total//") t^2"]
+        end associate
         d%points = [mass_point("m1", self%m1), mass_point("m2", self%m2)]
         d%rotors = [mass_point("pulley", self%pulley_inertia)]
         d%reactions = [ &
-            quantity("tension1", "N", "of the string at m1: y1 - a_s t^2/2 + R phi = 0"), &
-            quantity("tension2", "N", "of the string at m2: y2 - a_s t^2/2 - R phi = 0")]
-        d%equations = [character(len(d%title)) :: &
-            "(m1 + m2 + I/R^2) x_ddot = (m1 - m2)(g + a_s)"]
-        d%lagrangian = [character(len(d%title)) :: &
-            "(m1 + m2 + I/R^2)/2 x_dot^2 + (m1 - m2)(g x - a_s t x_dot)", &
-            "+ (m1 + m2)/2 (a_s - g) a_s t^2"]
-        d%energy = "(m1 + m2 + I/R^2)/2 x_dot^2 - (m1 - m2) g x - (m1 + m2)/2 (a_s - g) a_s t^2"
-        d%constraint = "holonomic, scleronomic (rheonomic unless a_s = 0): y_m1 + y_m2 = a_s t^2"
-        if (self%time_dependent) d%constraint = "holonomic, rheonomic: y_m1 + y_m2 = a_s t^2"
+            quantity("tension1", "N", "of the string at m1", "y_m1 - a_s/2 t^2 + R phi_pulley"), &
+            quantity("tension2", "N", "of the string at m2", "y_m2 - a_s/2 t^2 - R phi_pulley")]
         d%notes = [character(len(d%title)) :: &
             "The notes' machine: a_s = 0, I = 0. The scan has (m1 + m2) d(x_dot^2)/dt^2: read "// &
             "(m1 + m2) x_ddot.", &

@@ -6,8 +6,9 @@ module lagrangia_bouncing_ball
     !! a throw from the floor, at \(\frac{2v_0}{g}\frac{1-e^n}{1-e}\), and after infinitely many
     !! of them in a finite time the ball rests, held by \(\lambda = mg\):
     !! $$ y \ge 0,\quad \lambda \ge 0,\quad \lambda y = 0 $$
-    use lagrangia_description, only: between, coordinate, description_t, mass_point, nonnegative, &
-                                     positive, quantity, quantity_t
+    use lagrangia_description, only: between, coordinate, description_t, formula_length, &
+                                     letter_t, mass_point, nonnegative, positive, quantity, &
+                                     quantity_t
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(-)
     use lagrangia_kinds, only: dp
@@ -63,18 +64,23 @@ contains
                         between("restitution", "1", "speed after an impact over that before", &
                                 self%restitution, 0.0_dp, 1.0_dp)]
         d%energy_scale = self%m*self%g
-        d%quantities = [quantity("contact_force", "N", "lambda = m (y_ddot + g): of the floor "// &
-                                 "on the ball, without the impacts")]
+        d%quantities = [quantity("contact_force", "N", "of the floor on the ball, without the "// &
+                                 "impacts", "m (y_ddot + g)")]
         d%points = [mass_point("ball", self%m)]
         d%reactions = [quantity_t ::]
-        d%lagrangian = [character(len(d%title)) :: "m/2 y_dot^2 - m g y"]
+        d%letters = [letter_t("lambda", "contact_force")]
+        d%kinetic_energy = "m/2 y_dot^2"
+        d%potential_energy = "m g y"
+        d%lagrangian = "m/2 y_dot^2 - m g y"
         d%energy = "m/2 y_dot^2 + m g y"
-        d%equations = [character(len(d%title)) :: &
-            "y > 0: y_ddot = -g", &
-            "y = 0, y_dot < 0: y_dot -> -restitution*y_dot", &
-            "y = 0, y_dot = 0: y_ddot = 0, lambda = m g"]
-        d%constraint = "unilateral: y >= 0, lambda >= 0, lambda y = 0"
+        d%equations = [character(formula_length) :: "m y_ddot = - m g + lambda"]
+        d%constraint = "unilateral"
+        d%constraint_equations = [character(len(d%title)) :: "y >= 0", "lambda >= 0", &
+                                  "lambda y = 0"]
         d%notes = [character(len(d%title)) :: &
+            "In flight lambda = 0, at rest on the floor lambda = m g; where it meets the floor "// &
+            "with y_dot < 0,", &
+            "y_dot becomes - restitution y_dot.", &
             "The energy is that of a flight: it is multiplied by restitution^2 at every bounce.", &
             "Thrown from the floor with v0 it rests after 2 v0/(g (1 - restitution)); elastic, "// &
             "never.", &

@@ -5,8 +5,8 @@ module lagrangia_cart_pendulum
     !! \(-m_2 g\ell\sin\theta\) in the \(\theta\)-equation, against their own Lagrangian and
     !! their own frequency; the sign below is the one that follows from \(L\).
     use lagrangia_cart_swing, only: cart_swing_t
-    use lagrangia_description, only: conserved, coordinate, description_t, mass_point, &
-                                     nonnegative, positive, quantity
+    use lagrangia_description, only: conserved, coordinate, description_t, formula_length, &
+                                     frequency_t, mass_point, nonnegative, positive, quantity
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, dot_product, hyperdual_t, operator(*), operator(**), &
                                    operator(+), operator(-), sin
@@ -70,29 +70,37 @@ contains
         associate (m => self%m1 + self%m2)
             d%energy_scale = self%m2*self%g*self%l
             d%quantities = [ &
-                conserved("p_x", "kg m/s", "(m1 + m2) x_dot + m2 l theta_dot cos(theta): "// &
-                          "momentum along x, which is cyclic", m*sqrt(self%g*self%l)), &
-                conserved("x_com", "m", "x + m2/(m1 + m2) l sin(theta) - p_x t/(m1 + m2): "// &
-                          "start of the centre of mass", self%l), &
-                quantity("tension", "N", "m1 m2 (l theta_dot^2 + g cos(theta))/"// &
-                         "(m1 + m2 sin(theta)^2): force along the rod")]
+                conserved("p_x", "kg m/s", "momentum along x, which is cyclic", &
+                          m*sqrt(self%g*self%l), "(m1 + m2) x_dot + m2 l theta_dot cos(theta)"), &
+                conserved("x_com", "m", "start of the centre of mass", self%l, &
+                          "x + m2/(m1 + m2) l sin(theta) - p_x t/(m1 + m2)"), &
+                quantity("tension", "N", "force along the rod", &
+                         "m1 m2 (l theta_dot^2 + g cos(theta))/(m1 + m2 sin(theta)^2)")]
         end associate
         d%points = [mass_point("cart", self%m1), mass_point("bob", self%m2)]
         d%reactions = [ &
-            quantity("track_force", "N", "of the track on the cart, upwards: y_cart = 0"), &
-            quantity("tension", "N", "of the rod: (l^2 - (x_bob - x)^2 - y_bob^2)/(2 l) = 0")]
-        d%lagrangian = [character(len(d%title)) :: &
-            "(m1 + m2)/2 x_dot^2 + m2/2 l^2 theta_dot^2 + m2 l x_dot theta_dot cos(theta)", &
-            "+ m2 g l cos(theta)"]
-        d%energy = "(m1 + m2)/2 x_dot^2 + m2/2 l^2 theta_dot^2 "// &
-                   "+ m2 l x_dot theta_dot cos(theta) - m2 g l cos(theta)"
-        d%equations = [character(len(d%title)) :: &
+            quantity("track_force", "N", "of the track on the cart, upwards", "y_cart"), &
+            quantity("tension", "N", "of the rod", "(l^2 - (x_bob - x_cart)^2 "// &
+                     "- (y_bob - y_cart)^2)/(2 l)")]
+        d%kinetic_energy = "(m1 + m2)/2 x_dot^2 + m2/2 l^2 theta_dot^2 "// &
+                           "+ m2 l x_dot theta_dot cos(theta)"
+        d%potential_energy = "- m2 g l cos(theta)"
+        d%lagrangian = d%kinetic_energy//" + m2 g l cos(theta)"
+        d%energy = d%kinetic_energy//" - m2 g l cos(theta)"
+        d%equations = [character(formula_length) :: &
             "(m1 + m2) x_ddot + m2 l theta_ddot cos(theta) - m2 l theta_dot^2 sin(theta) = 0", &
             "l theta_ddot + x_ddot cos(theta) + g sin(theta) = 0"]
-        d%constraint = "holonomic, scleronomic: (x_bob - x)^2 + y_bob^2 = l^2"
+        d%accelerations = [character(formula_length) :: &
+            "x_ddot = m2 sin(theta) (l theta_dot^2 + g cos(theta))/(m1 + m2 sin(theta)^2)", &
+            "theta_ddot = - sin(theta) ((m1 + m2) g + m2 l theta_dot^2 cos(theta))"// &
+            "/(l (m1 + m2 sin(theta)^2))"]
+        d%frequencies = [frequency_t("omega^2 = (m1 + m2) g/(m1 l)", "theta = 0"), &
+                         frequency_t("omega^2 = - (m1 + m2) g/(m1 l)", "theta = pi")]
+        d%constraint = "holonomic, scleronomic"
+        d%constraint_equations = [character(len(d%title)) :: &
+            "(x_bob - x_cart)^2 + y_bob^2 = l^2", "y_cart = 0"]
         d%notes = [character(len(d%title)) :: &
             "The notes have - m2 g l sin(theta): a slip, see their own L and frequency.", &
-            "Small oscillations: omega^2 = (m1 + m2) g/(m1 l), exact for the linearised system.", &
             "With p_x = 0 the bob moves on an ellipse of semi-axes m1 l/(m1 + m2) and l."]
         d%source = "Phys 601, 1 September 2011: cart-pendulum"
     end subroutine describe

@@ -5,9 +5,9 @@ module lagrangia_charged_particle
     !! \(L = \tfrac12 mv^2 - e\varphi + e\,A\cdot v\). The notes say that \(B = 0\) gives
     !! \(F = -\nabla\varphi\): the charge is missing, \(F = -e\nabla\varphi\), and also
     !! \(\partial A/\partial t\) must vanish, as it does here.
-    use lagrangia_description, only: conserved, coordinate, description_t, mass_point, &
-                                     nonnegative, positive, quantity, quantity_t, real_number, &
-                                     real_vector
+    use lagrangia_description, only: conserved, coordinate, description_t, formula_length, &
+                                     frequency_t, letter_t, mass_point, nonnegative, positive, &
+                                     quantity, quantity_t, real_number, real_vector
     use lagrangia_errors, only: error_t
     use lagrangia_gyrating_system, only: gyrating_system_t
     use lagrangia_hyperdual, only: dot_product, hyperdual_t, operator(*), operator(+), operator(-)
@@ -77,18 +77,27 @@ contains
                         nonnegative("trap", "N/m", "spring constant of an isotropic trap", &
                                     self%trap)]
         d%energy_scale = self%m*per_speed**2
+        call name_vectors(self, d%letters)
         d%quantities = [ &
-            quantity("pseudo_x", "kg m/s", "(m v + e B x r - e E t)_x: conserved without a trap"), &
-            quantity("pseudo_y", "kg m/s", "(m v + e B x r - e E t)_y: conserved without a trap"), &
-            quantity("pseudo_z", "kg m/s", "(m v + e B x r - e E t)_z: conserved without a trap"), &
-            quantity("L_axis", "kg m^2/s", "n.(s x m v) + e |B| s_perp^2/2, s = r - e E/trap "// &
-                     "(or r), n along B: see the notes"), &
-            conserved("energy_axis", "J", "m/2 v_n^2 - e E_n r_n + trap/2 r_n^2: of the motion "// &
-                      "along B (n)", d%energy_scale), &
-            quantity("speed", "m/s", "|v|: conserved without electric field and trap"), &
-            quantity("p_x", "kg m/s", "(m v + e A)_x: canonical momentum, depends on the gauge"), &
-            quantity("p_y", "kg m/s", "(m v + e A)_y: canonical momentum, depends on the gauge"), &
-            quantity("p_z", "kg m/s", "(m v + e A)_z: canonical momentum, depends on the gauge")]
+            quantity("pseudo_x", "kg m/s", "conserved without a trap", &
+                     "m x_dot + e (B_y z - B_z y) - e E_x t"), &
+            quantity("pseudo_y", "kg m/s", "conserved without a trap", &
+                     "m y_dot + e (B_z x - B_x z) - e E_y t"), &
+            quantity("pseudo_z", "kg m/s", "conserved without a trap", &
+                     "m z_dot + e (B_x y - B_y x) - e E_z t"), &
+            quantity("L_axis", "kg m^2/s", "angular momentum along n: see the notes", &
+                     "m (n_x (s_y z_dot - s_z y_dot) + n_y (s_z x_dot - s_x z_dot) + n_z "// &
+                     "(s_x y_dot - s_y x_dot)) + e B/2 (s_x^2 + s_y^2 + s_z^2 - s_n^2)"), &
+            conserved("energy_axis", "J", "of the motion along n", d%energy_scale, &
+                      "m/2 v_n^2 - e E_n r_n + trap/2 r_n^2"), &
+            quantity("speed", "m/s", "conserved without electric field and trap", &
+                     "sqrt(x_dot^2 + y_dot^2 + z_dot^2)"), &
+            quantity("p_x", "kg m/s", "canonical momentum, depends on the gauge", &
+                     "m x_dot + e A_x"), &
+            quantity("p_y", "kg m/s", "canonical momentum, depends on the gauge", &
+                     "m y_dot + e A_y"), &
+            quantity("p_z", "kg m/s", "canonical momentum, depends on the gauge", &
+                     "m z_dot + e A_z")]
         if (self%trap <= 0.0_dp) then
             d%quantities(1:3)%conserved = .true.
             d%quantities(6)%conserved = length(self%charge*self%electric) <= 0.0_dp
@@ -103,21 +112,79 @@ contains
         d%points = [mass_point("particle", self%m)]
         d%reactions = [quantity_t ::]
         d%dimensions = 3
-        d%lagrangian = [character(len(d%title)) :: &
-            "m/2 v.v + e E.r + e A.v - trap/2 r.r,   A = B x r/2 (symmetric gauge)"]
-        d%energy = "m/2 v.v - e E.r + trap/2 r.r"
-        d%equations = [character(len(d%title)) :: "m v_dot = e (E + v x B) - trap r"]
-        d%constraint = "none: three free coordinates"
+        d%kinetic_energy = "m/2 (x_dot^2 + y_dot^2 + z_dot^2)"
+        d%potential_energy = "trap/2 (x^2 + y^2 + z^2) - e (E_x x + E_y y + E_z z) "// &
+                             "- e (A_x x_dot + A_y y_dot + A_z z_dot)"
+        d%lagrangian = d%kinetic_energy//" + e (E_x x + E_y y + E_z z) "// &
+                       "+ e (A_x x_dot + A_y y_dot + A_z z_dot) - trap/2 (x^2 + y^2 + z^2)"
+        d%energy = d%kinetic_energy// &
+                   " - e (E_x x + E_y y + E_z z) + trap/2 (x^2 + y^2 + z^2)"
+        d%equations = [character(formula_length) :: &
+            "m x_ddot = e (E_x + y_dot B_z - z_dot B_y) - trap x", &
+            "m y_ddot = e (E_y + z_dot B_x - x_dot B_z) - trap y", &
+            "m z_ddot = e (E_z + x_dot B_y - y_dot B_x) - trap z"]
+        if (self%trap > 0.0_dp) d%frequencies = [ &
+            frequency_t("omega^2 = trap/m", "s_x = 0, s_y = 0, s_z = 0"), &
+            frequency_t("omega = sqrt(trap/m + (e B/(2 m))^2) + |e| B/(2 m)", &
+                        "s_x = 0, s_y = 0, s_z = 0"), &
+            frequency_t("omega = sqrt(trap/m + (e B/(2 m))^2) - |e| B/(2 m)", &
+                        "s_x = 0, s_y = 0, s_z = 0")]
+        d%constraint = "none"
         d%notes = [character(len(d%title)) :: &
+            "L = m/2 v.v + e E.r + e A.v - trap/2 r.r with A = B x r/2, the symmetric gauge.", &
+            "m v_dot = e (E + v x B) - trap r. V contains v: U = e phi - e A.v, phi = - E.r.", &
             "The notes have F = - grad(phi) for B = 0: a slip, e is missing: - e grad(phi).", &
-            "General: L = m/2 v.v - e phi + e A.v; here phi = - E.r. B does no work.", &
+            "n: along B, without B along E; r = s + e E/trap, without a trap r = s.", &
             "Any gauge, one motion: m v + e A depends on it, m v + e B x r - e E t does not.", &
             "Free: drift E x B/B^2, turning at omega_c = e B/m, falling freely along B.", &
             "L_axis is conserved in a trap; without one where E is parallel to B or zero.", &
-            "Trap, E = 0: omega = sqrt(omega0^2 + omega_c^2/4) +- omega_c/2 across B, "// &
-            "omega0 along it."]
+            "In the trap two of the frequencies belong to turning across B."]
         d%source = "Phys 601, 1 September 2011: velocity-dependent generalized potentials"
     end subroutine describe
+
+    pure subroutine name_vectors(self, letters)
+        !! The letters of the formulas: components of E, B, A, of n along the axis and of s from the
+        !! middle of the motion; what is along n.
+        class(charged_particle_t), intent(in) :: self
+        type(letter_t), allocatable, intent(out) :: letters(:)
+        character, parameter :: axes(3) = ["x", "y", "z"]
+        integer :: i
+
+        letters = [letter_t("e", "charge"), &
+                       letter_t("E_x", "electric_x"), letter_t("E_y", "electric_y"), &
+                       letter_t("E_z", "electric_z"), letter_t("B_x", "magnetic_x"), &
+                       letter_t("B_y", "magnetic_y"), letter_t("B_z", "magnetic_z"), &
+                       letter_t("B", "sqrt(B_x^2 + B_y^2 + B_z^2)"), &
+                       letter_t("A_x", "(B_y z - B_z y)/2"), &
+                       letter_t("A_y", "(B_z x - B_x z)/2"), &
+                       letter_t("A_z", "(B_x y - B_y x)/2")]
+        do i = 1, 3
+            associate (w => axes(i))
+                if (length(self%magnetic) > 0.0_dp) then
+                    letters = [letters, letter_t("n_"//w, "B_"//w//"/B")]
+                else if (length(self%electric) > 0.0_dp) then
+                    letters = [letters, letter_t( &
+                        "n_"//w, "E_"//w//"/sqrt(E_x^2 + E_y^2 + E_z^2)")]
+                else
+                    letters = [letters, letter_t("n_"//w, merge("1", "0", i == 3))]
+                end if
+            end associate
+        end do
+        do i = 1, 3
+            associate (w => axes(i))
+                if (self%trap > 0.0_dp) then
+                    letters = [letters, letter_t("s_"//w, w//" - e E_"//w//"/trap")]
+                else
+                    letters = [letters, letter_t("s_"//w, w)]
+                end if
+            end associate
+        end do
+        letters = [letters, &
+                       letter_t("s_n", "n_x s_x + n_y s_y + n_z s_z"), &
+                       letter_t("r_n", "n_x x + n_y y + n_z z"), &
+                       letter_t("v_n", "n_x x_dot + n_y y_dot + n_z z_dot"), &
+                       letter_t("E_n", "n_x E_x + n_y E_y + n_z E_z")]
+    end subroutine name_vectors
 
     pure subroutine configure(self, values, error)
         !! In this order: m, charge, electric(3), magnetic(3), trap.

@@ -6,20 +6,22 @@ module lagrangia_description
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: description_t, quantity_t, parameter_t, point_t
+    public :: description_t, quantity_t, parameter_t, point_t, letter_t, frequency_t
     public :: coordinate, conserved, quantity, positive, nonnegative, between, real_number, &
               whole_number, real_vector, mass_point
-    public :: check_parameter, default_values
-    public :: name_length, line_length
+    public :: check_parameter, constraint_text, default_values, value_names
+    public :: name_length, line_length, formula_length
 
-    integer, parameter :: name_length = 32   !! of a name
-    integer, parameter :: line_length = 120  !! of a line of text
+    integer, parameter :: name_length = 32      !! of a name
+    integer, parameter :: line_length = 120     !! of a line of text
+    integer, parameter :: formula_length = 200  !! of a formula
 
     type :: quantity_t
         !! A coordinate, or a function of the state.
         character(name_length) :: name = ""
         character(16) :: unit = "1"
         character(line_length) :: meaning = ""
+        character(formula_length) :: formula = ""  !! "": none is printed
         logical :: conserved = .false.
         real(dp) :: scale = 0.0_dp  !! what a drift is compared with where the start value is small
     end type quantity_t
@@ -46,8 +48,26 @@ module lagrangia_description
         real(dp) :: mass = 0.0_dp  !! kg
     end type point_t
 
+    type :: letter_t
+        !! A letter of the formulas, and what it stands for: `I = pulley_inertia`. The letter with
+        !! `_dot` is its time derivative.
+        character(name_length) :: name = ""
+        character(formula_length) :: formula = ""
+    end type letter_t
+
+    type :: frequency_t
+        !! Of a small oscillation about an equilibrium.
+        character(formula_length) :: equation = ""  !! `omega^2 = g/l`, whatever is on the left
+        character(line_length) :: equilibrium = ""  !! what holds there: `theta = 0`
+    end type frequency_t
+
     type :: description_t
         !! All that a system says of itself, in SI units.
+        !!
+        !! Formulas are for people and for the program, whose audit compares them with the code.
+        !! They are of t, the coordinates and their derivatives (`x_dot`, `x_ddot`), the parameters
+        !! (of a vector `electric_x`, ...), the `letters`, momenta `p_x`, T and V, quantities by
+        !! their names, and the places of points (`x_bob`). What is left out is not checked.
         character(name_length) :: name = ""
         character(line_length) :: title = ""          !! a few words for a list
         type(quantity_t), allocatable :: coordinates(:)
@@ -58,10 +78,17 @@ module lagrangia_description
         type(quantity_t), allocatable :: reactions(:)    !! of `newton`; empty: none is given
         integer :: dimensions = 2                        !! of the space that the points move in
         real(dp) :: energy_scale = 0.0_dp                !! J
-        character(line_length) :: energy = ""            !! its formula
-        character(line_length), allocatable :: lagrangian(:)
-        character(line_length), allocatable :: equations(:)
-        character(line_length) :: constraint = ""        !! class and equation of its constraints
+        type(letter_t), allocatable :: letters(:)  !! of those before it, too
+        character(:), allocatable :: kinetic_energy        !! T
+        character(:), allocatable :: potential_energy      !! V, perhaps with velocities: L = T - V
+        character(:), allocatable :: lagrangian            !! L
+        character(:), allocatable :: energy  !! \(\dot q\,\partial L/\partial\dot q - L\)
+        character(formula_length), allocatable :: equations(:)      !! of motion, `left = right`
+        character(formula_length), allocatable :: accelerations(:)  !! solved: `x_ddot = ...`
+        character(line_length) :: constraint = ""        !! class of its constraints, in words
+        character(line_length), allocatable :: constraint_equations(:)  !! with `=` or `>=`
+        type(frequency_t), allocatable :: frequencies(:)
+        character(formula_length), allocatable :: motion(:)  !! `x = x_0 + x_dot_0 t`, from t = 0
         character(line_length), allocatable :: notes(:)  !! slips corrected, limits, remarks
         character(line_length) :: source = ""            !! where in the lecture notes
     end type description_t
@@ -77,25 +104,28 @@ contains
         item = quantity(name, unit, meaning)
     end function coordinate
 
-    pure function quantity(name, unit, meaning) result(item)
+    pure function quantity(name, unit, meaning, formula) result(item)
         !! A function of the state that may change.
         character(*), intent(in) :: name, unit, meaning
         !! as scenes and files have it; SI unit; a few words
+        character(*), intent(in), optional :: formula  !! of it, as on paper
         type(quantity_t) :: item
 
         item%name = name
         item%unit = unit
         item%meaning = meaning
+        if (present(formula)) item%formula = formula
     end function quantity
 
-    pure function conserved(name, unit, meaning, scale) result(item)
+    pure function conserved(name, unit, meaning, scale, formula) result(item)
         !! A function of the state that the motion conserves.
         character(*), intent(in) :: name, unit, meaning
         !! as scenes and files have it; SI unit; a few words
-        real(dp), intent(in) :: scale  !! a natural size, from the parameters
+        real(dp), intent(in) :: scale                  !! a natural size, from the parameters
+        character(*), intent(in), optional :: formula  !! of it, as on paper
         type(quantity_t) :: item
 
-        item = quantity(name, unit, meaning)
+        item = quantity(name, unit, meaning, formula)
         item%conserved = .true.
         item%scale = scale
     end function conserved
@@ -250,4 +280,35 @@ contains
             values = [values, d%parameters(i)%value(:d%parameters(i)%count)]
         end do
     end function default_values
+
+    pure function value_names(d) result(names)
+        !! What formulas call the entries of `default_values`: `m`, or of a vector `electric_x`, ...
+        type(description_t), intent(in) :: d  !! of any system
+        character(name_length), allocatable :: names(:)
+        character, parameter :: axes(3) = ["x", "y", "z"]
+        integer :: i, k
+
+        allocate (names(0))
+        if (.not. allocated(d%parameters)) return
+        do i = 1, size(d%parameters)
+            do k = 1, d%parameters(i)%count
+                names = [character(name_length) :: names, d%parameters(i)%name]
+                if (d%parameters(i)%count == 1) cycle
+                names(size(names)) = trim(names(size(names)))//"_"//axes(k)
+            end do
+        end do
+    end function value_names
+
+    pure function constraint_text(d) result(text)
+        !! Class and equations of the constraints: `holonomic, scleronomic: y_cart = 0`.
+        type(description_t), intent(in) :: d  !! of any system
+        character(:), allocatable :: text
+        integer :: i
+
+        text = trim(d%constraint)
+        if (.not. allocated(d%constraint_equations)) return
+        do i = 1, size(d%constraint_equations)
+            text = text//merge(": ", ", ", i == 1)//trim(d%constraint_equations(i))
+        end do
+    end function constraint_text
 end module lagrangia_description

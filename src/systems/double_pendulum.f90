@@ -3,8 +3,9 @@ module lagrangia_double_pendulum
     !!
     !! The notes write both constraints as \(f_i = x_i^2 + y_i^2 = \ell_i^2\); this is true for
     !! the first rod only. The second is \((x_2-x_1)^2 + (y_2-y_1)^2 = \ell_2^2\).
-    use lagrangia_description, only: conserved, coordinate, description_t, mass_point, &
-                                     nonnegative, positive, quantity
+    use lagrangia_description, only: conserved, coordinate, description_t, formula_length, &
+                                     frequency_t, letter_t, mass_point, nonnegative, positive, &
+                                     quantity
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, dot_product, hyperdual_t, operator(*), operator(**), &
                                    operator(+), operator(-), sin
@@ -56,39 +57,45 @@ contains
                         positive("l2", "m", "length of the lower rod", self%l2), &
                         nonnegative("g", "m/s^2", "gravity", self%g)]
         d%energy_scale = self%g*((self%m1 + self%m2)*self%l1 + self%m2*self%l2)
+        d%letters = [letter_t("D", "theta1 - theta2")]
         d%quantities = [ &
-            quantity("L_z", "kg m^2/s", "p_theta1 + p_theta2: angular momentum about the pivot"), &
-            quantity("tension1", "N", "m1 (l1 theta1_dot^2 + g cos(theta1)) "// &
-                     "+ tension2 cos(theta1 - theta2): force along rod 1"), &
-            quantity("tension2", "N", "m1 m2 (l1 theta1_dot^2 cos(D) + l2 theta2_dot^2 "// &
-                     "+ g cos(theta1) cos(D))/(m1 + m2 sin(D)^2): rod 2")]
+            quantity("L_z", "kg m^2/s", "angular momentum about the pivot", &
+                     "p_theta1 + p_theta2"), &
+            quantity("tension1", "N", "force along rod 1", &
+                     "m1 (l1 theta1_dot^2 + g cos(theta1)) + tension2 cos(D)"), &
+            quantity("tension2", "N", "force along rod 2", &
+                     "m1 m2 (l1 theta1_dot^2 cos(D) + l2 theta2_dot^2 + g cos(theta1) cos(D))"// &
+                     "/(m1 + m2 sin(D)^2)")]
         if (self%g <= 0.0_dp) d%quantities(1) = &
-            conserved("L_z", "kg m^2/s", "p_theta1 + p_theta2: angular momentum about the "// &
-                      "pivot, conserved without gravity", 0.0_dp)
+            conserved("L_z", "kg m^2/s", "angular momentum about the pivot, conserved without "// &
+                      "gravity", 0.0_dp, "p_theta1 + p_theta2")
         d%points = [mass_point("bob1", self%m1), mass_point("bob2", self%m2)]
         d%reactions = [ &
-            quantity("tension1", "N", "of the upper rod: (l1^2 - x1^2 - y1^2)/(2 l1) = 0"), &
-            quantity("tension2", "N", "of the lower rod: (l2^2 - (x2 - x1)^2 - (y2 - y1)^2)"// &
-                     "/(2 l2) = 0")]
-        d%lagrangian = [character(len(d%title)) :: &
-            "(m1 + m2)/2 l1^2 theta1_dot^2 + m2/2 l2^2 theta2_dot^2", &
-            "+ m2 l1 l2 theta1_dot theta2_dot cos(D) + (m1 + m2) g l1 cos(theta1)", &
-            "+ m2 g l2 cos(theta2),  D = theta1 - theta2"]
-        d%energy = "(m1 + m2)/2 l1^2 theta1_dot^2 + m2/2 l2^2 theta2_dot^2 + m2 l1 l2 "// &
-                   "theta1_dot theta2_dot cos(D) + V"
-        d%equations = [character(len(d%title)) :: &
-            "(m1 + m2) l1 theta1_ddot + m2 l2 theta2_ddot cos(D) + m2 l2 theta2_dot^2 sin(D)", &
-            "    + (m1 + m2) g sin(theta1) = 0", &
-            "l2 theta2_ddot + l1 theta1_ddot cos(D) - l1 theta1_dot^2 sin(D)", &
-            "    + g sin(theta2) = 0,  D = theta1 - theta2"]
-        d%constraint = "holonomic, scleronomic: x1^2 + y1^2 = l1^2, "// &
-                       "(x2 - x1)^2 + (y2 - y1)^2 = l2^2"
+            quantity("tension1", "N", "of the upper rod", "(l1^2 - x_bob1^2 - y_bob1^2)/(2 l1)"), &
+            quantity("tension2", "N", "of the lower rod", &
+                     "(l2^2 - (x_bob2 - x_bob1)^2 - (y_bob2 - y_bob1)^2)/(2 l2)")]
+        d%kinetic_energy = "(m1 + m2)/2 l1^2 theta1_dot^2 + m2/2 l2^2 theta2_dot^2 "// &
+                           "+ m2 l1 l2 theta1_dot theta2_dot cos(D)"
+        d%potential_energy = "- (m1 + m2) g l1 cos(theta1) - m2 g l2 cos(theta2)"
+        d%lagrangian = d%kinetic_energy// &
+                       " + (m1 + m2) g l1 cos(theta1) + m2 g l2 cos(theta2)"
+        d%energy = d%kinetic_energy//" - (m1 + m2) g l1 cos(theta1) - m2 g l2 cos(theta2)"
+        d%equations = [character(formula_length) :: &
+            "(m1 + m2) l1 theta1_ddot + m2 l2 theta2_ddot cos(D) + m2 l2 theta2_dot^2 sin(D) "// &
+            "+ (m1 + m2) g sin(theta1) = 0", &
+            "l2 theta2_ddot + l1 theta1_ddot cos(D) - l1 theta1_dot^2 sin(D) + g sin(theta2) = 0"]
+        d%frequencies = [ &
+            frequency_t("omega^2 = g/(2 m1 l1 l2) ((m1 + m2)(l1 + l2) + sqrt((m1 + m2)^2 "// &
+                        "(l1 + l2)^2 - 4 m1 (m1 + m2) l1 l2))", "theta1 = 0, theta2 = 0"), &
+            frequency_t("omega^2 = g/(2 m1 l1 l2) ((m1 + m2)(l1 + l2) - sqrt((m1 + m2)^2 "// &
+                        "(l1 + l2)^2 - 4 m1 (m1 + m2) l1 l2))", "theta1 = 0, theta2 = 0")]
+        d%constraint = "holonomic, scleronomic"
+        d%constraint_equations = [character(len(d%title)) :: &
+            "x_bob1^2 + y_bob1^2 = l1^2", "(x_bob2 - x_bob1)^2 + (y_bob2 - y_bob1)^2 = l2^2"]
         d%notes = [character(len(d%title)) :: &
-            "V = -(m1 + m2) g l1 cos(theta1) - m2 g l2 cos(theta2).", &
             "The notes have x2^2 + y2^2 = l2^2: a slip, the second rod starts at the first bob.", &
             "dx2 = l1 cos(theta1) dtheta1 + l2 cos(theta2) dtheta2, and the same for delta x2.", &
-            "omega^2 = g/(2 m1 l1 l2) ((m1 + m2)(l1 + l2) +- sqrt(...)); all equal: (2 +- "// &
-            "sqrt(2)) g/l."]
+            "Masses and lengths all equal: omega^2 = (2 +- sqrt(2)) g/l."]
         d%source = "Phys 601, 1 September 2011: double planar pendulum"
     end subroutine describe
 

@@ -8,8 +8,9 @@ module lagrangia_driven_pendulum
     !!
     !! Signs: \(y\) and \(y_p = a\cos\Omega t\) count upwards, \(\theta\) from the downward
     !! vertical; \(g + \ddot y_p\) is the gravity that the bob feels.
-    use lagrangia_description, only: coordinate, description_t, mass_point, nonnegative, &
-                                     positive, quantity, real_number
+    use lagrangia_description, only: coordinate, description_t, formula_length, frequency_t, &
+                                     letter_t, mass_point, nonnegative, positive, quantity, &
+                                     real_number
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-), sin
@@ -72,15 +73,17 @@ contains
             nonnegative("drive_frequency", "rad/s", "W, angular frequency of the pivot", &
                         self%drive_frequency)]
         d%energy_scale = self%m*(self%g*self%l + (self%amplitude*self%drive_frequency)**2)
+        d%letters = [letter_t("a", "amplitude"), letter_t("W", "drive_frequency"), &
+                         letter_t("y_p", "a cos(W t)")]
         d%quantities = [ &
-            quantity("mechanical_energy", "J", "T + V, with the pivot's motion in T"), &
-            quantity("p_theta", "kg m^2/s", "m l^2 theta_dot + m l y_p_dot sin(theta): free of "// &
-                     "the drive's fast part"), &
-            quantity("slow_energy", "J", "p_theta^2/(2 m l^2) - m g l cos(theta) + "// &
-                     "m/4 (a W sin(theta))^2: Kapitza's average"), &
-            quantity("tension", "N", "m (l theta_dot^2 + (g + y_p_ddot) cos(theta)): force "// &
-                     "along the rod"), &
-            quantity("pivot", "m", "y_p = a cos(W t): height of the pivot")]
+            quantity("mechanical_energy", "J", "with the pivot's motion in T", "T + V"), &
+            quantity("p_theta", "kg m^2/s", "free of the drive's fast part", &
+                     "m l^2 theta_dot + m l y_p_dot sin(theta)"), &
+            quantity("slow_energy", "J", "Kapitza's average", "p_theta^2/(2 m l^2) "// &
+                     "- m g l cos(theta) + m/4 (a W sin(theta))^2"), &
+            quantity("tension", "N", "force along the rod", &
+                     "m (l theta_dot^2 + (g + y_p_ddot) cos(theta))"), &
+            quantity("pivot", "m", "height of the pivot", "y_p")]
         if (.not. self%driven()) then
             d%quantities(1)%conserved = .true.
             d%quantities(3)%conserved = .true.
@@ -88,19 +91,25 @@ contains
             d%quantities(1:3:2)%scale = d%energy_scale
         end if
         d%points = [mass_point("bob", self%m)]
-        d%reactions = [quantity("tension", "N", "of the rod: (l^2 - x^2 - (y - y_p)^2)/(2 l) = 0")]
-        d%lagrangian = [character(len(d%title)) :: &
-            "m/2 (l^2 theta_dot^2 + 2 l theta_dot y_p_dot sin(theta) + y_p_dot^2)", &
-            "- m g (y_p - l cos(theta))"]
+        d%reactions = [quantity("tension", "N", "of the rod", &
+                                "(l^2 - x_bob^2 - (y_bob - y_p)^2)/(2 l)")]
+        d%kinetic_energy = "m/2 (l^2 theta_dot^2 + 2 l theta_dot y_p_dot sin(theta) + y_p_dot^2)"
+        d%potential_energy = "m g (y_p - l cos(theta))"
+        d%lagrangian = d%kinetic_energy//" - m g (y_p - l cos(theta))"
         d%energy = "m/2 (l^2 theta_dot^2 - y_p_dot^2) + m g (y_p - l cos(theta))"
-        d%equations = [character(len(d%title)) :: &
-            "l theta_ddot + (g + y_p_ddot) sin(theta) = 0,   y_p_ddot = - a W^2 cos(W t)"]
-        d%constraint = "holonomic, rheonomic: x^2 + (y - a cos(W t))^2 = l^2"
-        if (.not. self%driven()) d%constraint = "holonomic, scleronomic: x^2 + (y - a)^2 = l^2"
+        d%equations = [character(formula_length) :: &
+            "l theta_ddot + (g + y_p_ddot) sin(theta) = 0"]
+        d%constraint = "holonomic, rheonomic"
+        d%constraint_equations = [character(len(d%title)) :: "x_bob^2 + (y_bob - y_p)^2 = l^2"]
+        if (.not. self%driven()) then
+            d%frequencies = [frequency_t("omega^2 = g/l", "theta = 0")]
+            d%constraint = "holonomic, scleronomic"
+            d%constraint_equations = [character(len(d%title)) :: "x_bob^2 + (y_bob - a)^2 = l^2"]
+        end if
         d%notes = [character(len(d%title)) :: &
             "As the notes say: V = m g y has no t, V(theta, t) has, by way of y(theta, t).", &
             "Lagrange's equations hold; h is not conserved: dh/dt = - dL/dt.", &
-            "a, W: amplitude, drive_frequency. y, y_p count upwards; at t = 0 the pivot is at a.", &
+            "y_p, the pivot's height, counts upwards; at t = 0 it is a.", &
             "A function of t alone may be left out of L (uniqueness): then h changes, not theta.", &
             "Upside down it is stable for a fast drive: (a W)^2 > 2 g l, a << l (Kapitza)."]
         d%source = "Hamilton's Principle: rheonomic constraints (the notes define the concept only)"

@@ -3,8 +3,9 @@ module lagrangia_hanging_chain
     !!
     !! One bob is the pendulum, two are the double pendulum. The equations are solved for the
     !! tensions of the rods first: their matrix is tridiagonal, so accelerations cost O(n).
-    use lagrangia_description, only: conserved, coordinate, description_t, mass_point, &
-                                     nonnegative, positive, quantity, whole_number
+    use lagrangia_description, only: conserved, coordinate, description_t, formula_length, &
+                                     letter_t, mass_point, nonnegative, positive, quantity, &
+                                     whole_number
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: assignment(=), cos, dot_product, hyperdual_t, operator(*), &
                                    operator(**), operator(+), operator(-), sin
@@ -18,6 +19,7 @@ module lagrangia_hanging_chain
     public :: hanging_chain_t
 
     integer, parameter :: most = 1000  !! bobs
+    integer, parameter :: spelled = 5  !! bobs, each with its term in the formulas
 
     type, extends(system_t) :: hanging_chain_t
         !! The coordinates are \(\theta_k\), rad, of rod k from the downward vertical.
@@ -56,32 +58,77 @@ contains
                         nonnegative("g", "m/s^2", "gravity", self%g)]
         d%energy_scale = 0.5_dp*(self%n + 1)*self%m*self%g*self%l
         d%quantities = [ &
-            quantity("L_z", "kg m^2/s", "sum of m (x y_dot - y x_dot): angular momentum about "// &
-                     "the pivot"), &
+            quantity("L_z", "kg m^2/s", "angular momentum about the pivot"), &
             quantity("tension1", "N", "of the uppermost rod")]
         if (self%g <= 0.0_dp) d%quantities(1) = &
-            conserved("L_z", "kg m^2/s", "sum of m (x y_dot - y x_dot): angular momentum about "// &
-                      "the pivot, conserved without gravity", 0.0_dp)
+            conserved("L_z", "kg m^2/s", "angular momentum about the pivot, conserved without "// &
+                      "gravity", 0.0_dp)
         d%points = [(mass_point("bob"//to_text(k), self%m), k=1, self%n)]
-        d%reactions = [(quantity("tension"//to_text(k), "N", "of rod "//to_text(k)// &
-                                 ": (l/n - (r_k - r_(k-1))^2 n/l)/2 = 0"), k=1, self%n)]
-        d%lagrangian = [character(len(d%title)) :: &
-            "sum over k of m/2 (x_k_dot^2 + y_k_dot^2) - m g y_k", &
-            "x_k = l/n sum over i <= k of sin(theta_i), y_k = -l/n sum of cos(theta_i)"]
-        d%energy = "sum over k of m/2 (x_k_dot^2 + y_k_dot^2) + m g y_k"
-        d%equations = [character(len(d%title)) :: &
-            "m l/n theta_k_ddot = T_(k+1) sin(theta_(k+1) - theta_k)", &
-            "    - T_(k-1) sin(theta_k - theta_(k-1)),  k > 1", &
-            "m l/n theta_1_ddot = T_2 sin(theta_2 - theta_1) - m g sin(theta_1)", &
-            "2 T_k - T_(k+1) cos(theta_(k+1) - theta_k) - T_(k-1) cos(theta_k - theta_(k-1))", &
-            "    = m l/n theta_k_dot^2,  k > 1,  T_(n+1) = 0", &
-            "T_1 - T_2 cos(theta_2 - theta_1) = m l/n theta_1_dot^2 + m g cos(theta_1)"]
-        d%constraint = "holonomic, scleronomic: (x_k - x_(k-1))^2 + (y_k - y_(k-1))^2 = (l/n)^2"
+        d%reactions = [(quantity("tension"//to_text(k), "N", "of rod "//to_text(k)), k=1, self%n)]
+        d%constraint = "holonomic, scleronomic"
+        d%equations = [character(formula_length) ::]
         d%notes = [character(len(d%title)) :: &
             "omega^2 = n g/l times the zeros of Laguerre's polynomial L_n.", &
             "As n grows omega goes to j0,k/2 sqrt(g/l), j0,k the zeros of Bessel's J_0."]
+        if (self%n <= spelled) then
+            call spell(self, d)
+        else
+            d%notes = [character(len(d%title)) :: &
+                "The formulas are printed for at most "//to_text(spelled)//" bobs.", d%notes]
+        end if
         d%source = "Phys 601, 1 September 2011: double planar pendulum, continued"
     end subroutine describe
+
+    pure subroutine spell(self, d)
+        !! The formulas, with a term for each bob. The equation of rod k is Newton's for the bobs
+        !! that hang from it, across the rod.
+        class(hanging_chain_t), intent(in) :: self
+        type(description_t), intent(inout) :: d
+        character(:), allocatable :: k, x, y, squares, heights, moments, up, across
+        integer :: i
+
+        allocate (d%letters(0))
+        deallocate (d%equations)
+        allocate (d%equations(self%n), d%constraint_equations(self%n))
+        squares = ""
+        heights = ""
+        moments = ""
+        do i = 1, self%n
+            k = to_text(i)
+            x = "l/n sin(theta"//k//")"
+            y = "- l/n cos(theta"//k//")"
+            if (i > 1) x = "x"//to_text(i - 1)//" + "//x
+            if (i > 1) y = "y"//to_text(i - 1)//" "//y
+            d%letters = [d%letters, letter_t("x"//k, x), letter_t("y"//k, y)]
+            squares = squares//" + x"//k//"_dot^2 + y"//k//"_dot^2"
+            heights = heights//" + y"//k
+            moments = moments//" + x"//k//" y"//k//"_dot - y"//k//" x"//k//"_dot"
+            x = "x_bob"//k
+            y = "y_bob"//k
+            if (i > 1) x = "("//x//" - x_bob"//to_text(i - 1)//")"
+            if (i > 1) y = "("//y//" - y_bob"//to_text(i - 1)//")"
+            d%constraint_equations(i) = x//"^2 + "//y//"^2 = (l/n)^2"
+            d%reactions(i)%formula = "((l/n)^2 - "//x//"^2 - "//y//"^2)/(2 l/n)"
+        end do
+        up = ""
+        across = ""
+        do i = self%n, 1, -1
+            k = to_text(i)
+            across = " + x"//k//"_ddot"//across
+            up = " + y"//k//"_ddot"//up
+            x = "("//across(4:)//")"
+            if (i == self%n) x = across(4:)
+            y = "("//up(4:)//" + "//to_text(self%n + 1 - i)//" g)"
+            if (i == self%n) y = "("//up(4:)//" + g)"
+            d%equations(i) = x//" cos(theta"//k//") + "//y//" sin(theta"//k//") = 0"
+        end do
+        d%quantities(1)%formula = "m ("//moments(4:)//")"
+        d%quantities(2)%formula = "m "//y//" cos(theta1) - m "//x//" sin(theta1)"
+        d%kinetic_energy = "m/2 ("//squares(4:)//")"
+        d%potential_energy = "m g ("//heights(4:)//")"
+        d%lagrangian = d%kinetic_energy//" - "//d%potential_energy
+        d%energy = d%kinetic_energy//" + "//d%potential_energy
+    end subroutine spell
 
     pure subroutine configure(self, values, error)
         !! In this order: n, m, l, g.

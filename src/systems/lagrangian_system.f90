@@ -70,15 +70,7 @@ contains
         if (.not. allocated(d%quantities)) allocate (d%quantities(0))
         if (.not. allocated(d%points)) allocate (d%points(0))
         if (.not. allocated(d%notes)) allocate (d%notes(0))
-        if (.not. allocated(d%lagrangian)) then
-            allocate (d%lagrangian(1))
-            d%lagrangian(1) = "as the program has it"
-        end if
-        if (.not. allocated(d%equations)) then
-            allocate (d%equations(1))
-            d%equations(1) = "d/dt dL/dq_dot - dL/dq = 0, by exact derivatives of L"
-        end if
-        if (d%energy == "") d%energy = "q_dot dL/dq_dot - L, by exact derivatives of L"
+        if (.not. allocated(d%equations)) allocate (d%equations(0))
         if (d%constraint == "") d%constraint = "in the choice of coordinates"
         if (d%source == "") d%source = "your own"
         if (.not. allocated(self%p)) return

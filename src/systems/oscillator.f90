@@ -3,8 +3,9 @@ module lagrangia_oscillator
     !!
     !! The notes write \(\partial L/\partial\dot x = m\,d\dot x/dt\), one derivative too many:
     !! the momentum is \(m\dot x\), and only its time derivative is \(m\ddot x\).
-    use lagrangia_description, only: conserved, coordinate, description_t, mass_point, &
-                                     nonnegative, positive, quantity, quantity_t
+    use lagrangia_description, only: conserved, coordinate, description_t, formula_length, &
+                                     frequency_t, letter_t, mass_point, nonnegative, positive, &
+                                     quantity, quantity_t
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(-)
     use lagrangia_kinds, only: dp
@@ -57,19 +58,29 @@ contains
         d%parameters = [positive("m", "kg", "mass", self%m), &
                         nonnegative("k", "N/m", "stiffness of the spring", self%k)]
         d%quantities = [ &
-            quantity("force", "N", "-k x: force of the spring"), &
-            quantity("p_x", "kg m/s", "m x_dot: momentum")]
+            quantity("force", "N", "force of the spring", "- k x"), &
+            quantity("p_x", "kg m/s", "momentum", "m x_dot")]
         if (self%k <= 0.0_dp) d%quantities(2) = &
-            conserved("p_x", "kg m/s", "m x_dot: momentum, x is cyclic without a spring", 0.0_dp)
+            conserved("p_x", "kg m/s", "momentum, x is cyclic without a spring", 0.0_dp, "m x_dot")
         d%points = [mass_point("mass", self%m)]
         d%reactions = [quantity_t ::]
-        d%lagrangian = [character(len(d%title)) :: "m/2 x_dot^2 - k/2 x^2"]
+        d%kinetic_energy = "m/2 x_dot^2"
+        d%potential_energy = "k/2 x^2"
+        d%lagrangian = "m/2 x_dot^2 - k/2 x^2"
         d%energy = "m/2 x_dot^2 + k/2 x^2"
-        d%equations = [character(len(d%title)) :: "m x_ddot + k x = 0"]
+        d%equations = [character(formula_length) :: "m x_ddot + k x = 0"]
         d%constraint = "none"
+        d%letters = [letter_t("omega", "sqrt(k/m)")]
+        d%frequencies = [frequency_t("omega^2 = k/m", "x = 0")]
+        if (self%k > 0.0_dp) then
+            d%motion = [character(formula_length) :: &
+                "x = x_0 cos(omega t) + x_dot_0/omega sin(omega t)"]
+        else
+            d%motion = [character(formula_length) :: "x = x_0 + x_dot_0 t"]
+        end if
         d%notes = [character(len(d%title)) :: &
             "The scan has dL/dx_dot = m d(x_dot)/dt: read dL/dx_dot = m x_dot, the momentum.", &
-            "omega^2 = k/m at any amplitude; x = x0 cos(omega t) + v0/omega sin(omega t).", &
+            "The frequency is the same at any amplitude.", &
             "The actual path makes the action stationary; it is a minimum only for t < pi/omega."]
         d%source = "Hamilton's Principle: example HSM"
     end subroutine describe

@@ -3,8 +3,8 @@ module lagrangia_pendulum
     !!
     !! The notes give \(L = \tfrac12 m\ell^2\dot\theta^2 + mg\ell\cos\theta - \mathrm{const}\),
     !! where the constant is free; here it is zero, so \(E = -mg\ell\) at rest at the bottom.
-    use lagrangia_description, only: conserved, coordinate, description_t, mass_point, &
-                                     nonnegative, positive, quantity
+    use lagrangia_description, only: conserved, coordinate, description_t, formula_length, &
+                                     frequency_t, mass_point, nonnegative, positive, quantity
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, dot_product, hyperdual_t, operator(*), operator(**), &
                                    operator(+), operator(-), sin
@@ -63,17 +63,23 @@ contains
                         nonnegative("g", "m/s^2", "gravity", self%g)]
         d%energy_scale = self%m*self%g*self%l
         d%quantities = [ &
-            quantity("L_z", "kg m^2/s", "m l^2 theta_dot: angular momentum about the pivot"), &
-            quantity("tension", "N", "m (l theta_dot^2 + g cos(theta)): force along the rod")]
+            quantity("L_z", "kg m^2/s", "angular momentum about the pivot", "m l^2 theta_dot"), &
+            quantity("tension", "N", "force along the rod", "m (l theta_dot^2 + g cos(theta))")]
         if (self%g <= 0.0_dp) d%quantities(1) = &
-            conserved("L_z", "kg m^2/s", "m l^2 theta_dot: angular momentum, theta is cyclic "// &
-                      "without gravity", 0.0_dp)
+            conserved("L_z", "kg m^2/s", "angular momentum, theta is cyclic without gravity", &
+                      0.0_dp, "m l^2 theta_dot")
         d%points = [mass_point("bob", self%m)]
-        d%reactions = [quantity("tension", "N", "of the rod: (l^2 - x^2 - y^2)/(2 l) = 0")]
-        d%lagrangian = [character(len(d%title)) :: "m/2 l^2 theta_dot^2 + m g l cos(theta)"]
+        d%reactions = [quantity("tension", "N", "of the rod", &
+                                "(l^2 - x_bob^2 - y_bob^2)/(2 l)")]
+        d%kinetic_energy = "m/2 l^2 theta_dot^2"
+        d%potential_energy = "- m g l cos(theta)"
+        d%lagrangian = "m/2 l^2 theta_dot^2 + m g l cos(theta)"
         d%energy = "m/2 l^2 theta_dot^2 - m g l cos(theta)"
-        d%equations = [character(len(d%title)) :: "l theta_ddot + g sin(theta) = 0"]
-        d%constraint = "holonomic, scleronomic: x_bob^2 + y_bob^2 = l^2"
+        d%equations = [character(formula_length) :: "l theta_ddot + g sin(theta) = 0"]
+        d%frequencies = [frequency_t("omega^2 = g/l", "theta = 0"), &
+                         frequency_t("omega^2 = - g/l", "theta = pi")]
+        d%constraint = "holonomic, scleronomic"
+        d%constraint_equations = [character(len(d%title)) :: "x_bob^2 + y_bob^2 = l^2"]
         d%notes = [character(len(d%title)) :: &
             "A constant, or a total time derivative, may be added to L: the equation stays.", &
             "Period 2 pi sqrt(l/g)/agm(1, cos(theta0/2)), agm the arithmetic-geometric mean.", &

@@ -8,8 +8,9 @@ module lagrangia_rolling_disk
     !! integrating factor exists, \(a\wedge da = R\cos\theta\,dx\wedge d\varphi\wedge d\theta\ne 0\)
     !! (Frobenius): the conclusion stands.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
-    use lagrangia_description, only: between, conserved, coordinate, description_t, mass_point, &
-                                     nonnegative, positive, quantity
+    use lagrangia_description, only: between, conserved, coordinate, description_t, &
+                                     formula_length, letter_t, mass_point, nonnegative, &
+                                     positive, quantity
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: assignment(=), cos, hyperdual_t, operator(*), operator(**), &
                                    operator(+), operator(-), sin
@@ -94,48 +95,58 @@ contains
         d%energy_scale = self%m*self%g*self%r
         associate (speed => sqrt(self%g*self%r))
             d%quantities = [ &
-                conserved("p_theta", "kg m^2/s", "i_yaw theta_dot: steering goes on", &
-                          self%m*self%r*speed), &
-                quantity("p_phi", "kg m^2/s", "(i_roll + m r^2) phi_dot: about the contact; "// &
-                         "conserved on the level"), &
-                conserved("roll_yaw", "J", "(i_roll + m r^2) phi_dot theta_dot + "// &
-                          "m g r sin(incline) cos(theta): on any incline", d%energy_scale), &
-                conserved("orbit_x", "m/s^2", "theta_dot (theta_dot x + r phi_dot cos(theta)) "// &
-                          "- r kappa sin(theta)^2/2: level, theta_dot^2 times the centre's x", &
-                          self%g), &
-                conserved("orbit_y", "m/s^2", "theta_dot (theta_dot y + r phi_dot sin(theta)) "// &
-                          "- r kappa (theta_dot t - sin(2 theta)/2)/2", self%g), &
-                conserved("slip_x", "m/s", "x_dot - r sin(theta) phi_dot: zero, it rolls", speed), &
-                conserved("slip_y", "m/s", "y_dot + r cos(theta) phi_dot: zero, it rolls", speed), &
-                quantity("friction_x", "N", "lambda_x: force of the plane that keeps it rolling"), &
-                quantity("friction_y", "N", "lambda_y: force of the plane that keeps it rolling"), &
-                quantity("p_x", "kg m/s", "m x_dot: changes, although on the level L has no x"), &
-                quantity("p_y", "kg m/s", "m y_dot: changes, although L has no y")]
+                conserved("p_theta", "kg m^2/s", "steering goes on", self%m*self%r*speed, &
+                          "i_yaw theta_dot"), &
+                quantity("p_phi", "kg m^2/s", "about the contact; conserved on the level", &
+                         "(i_roll + m r^2) phi_dot"), &
+                conserved("roll_yaw", "J", "on any incline", d%energy_scale, &
+                          "(i_roll + m r^2) phi_dot theta_dot + m g r sin(incline) cos(theta)"), &
+                conserved("orbit_x", "m/s^2", "level, theta_dot^2 times the centre's x", self%g, &
+                          "theta_dot (theta_dot x + r phi_dot cos(theta)) "// &
+                          "- r kappa sin(theta)^2/2"), &
+                conserved("orbit_y", "m/s^2", "level, theta_dot^2 times the centre's y", self%g, &
+                          "theta_dot (theta_dot y + r phi_dot sin(theta)) "// &
+                          "- r kappa (theta_dot t - sin(2 theta)/2)/2"), &
+                conserved("slip_x", "m/s", "zero, it rolls", speed, &
+                          "x_dot - r sin(theta) phi_dot"), &
+                conserved("slip_y", "m/s", "zero, it rolls", speed, &
+                          "y_dot + r cos(theta) phi_dot"), &
+                quantity("friction_x", "N", "force of the plane that keeps it rolling", &
+                         "m x_ddot - m g sin(incline)"), &
+                quantity("friction_y", "N", "force of the plane that keeps it rolling", &
+                         "m y_ddot"), &
+                quantity("p_x", "kg m/s", "changes, although on the level L has no x", "m x_dot"), &
+                quantity("p_y", "kg m/s", "changes, although L has no y", "m y_dot")]
             if (abs(self%pull()) <= 0.0_dp) d%quantities(2) = &
-                conserved("p_phi", "kg m^2/s", "(i_roll + m r^2) phi_dot: about the contact; "// &
-                          "the plane is level", &
-                          self%m*self%r*speed)
+                conserved("p_phi", "kg m^2/s", "about the contact; the plane is level", &
+                          self%m*self%r*speed, "(i_roll + m r^2) phi_dot")
         end associate
         d%points = [mass_point("centre", self%m)]
         d%rotors = [mass_point("roll", self%i_roll), mass_point("heading", self%i_yaw)]
         d%reactions = [ &
-            quantity("plane_force", "N", "of the plane on the disk, off it: z = r"), &
-            quantity("friction_x", "N", "x_dot - r sin(theta) phi_dot = 0"), &
-            quantity("friction_y", "N", "y_dot + r cos(theta) phi_dot = 0")]
+            quantity("plane_force", "N", "of the plane on the disk, off it", "z_centre - r"), &
+            quantity("friction_x", "N", "that keeps it rolling", "x_dot - r sin(theta) phi_dot"), &
+            quantity("friction_y", "N", "that keeps it rolling", "y_dot + r cos(theta) phi_dot")]
         d%dimensions = 3
-        d%lagrangian = [character(len(d%title)) :: &
-            "m/2 (x_dot^2 + y_dot^2) + i_roll/2 phi_dot^2 + i_yaw/2 theta_dot^2 "// &
-            "+ m g x sin(incline)"]
-        d%energy = "m/2 (x_dot^2 + y_dot^2) + i_roll/2 phi_dot^2 + i_yaw/2 theta_dot^2 "// &
-                   "- m g x sin(incline)"
-        d%equations = [character(len(d%title)) :: &
-            "m x_ddot = m g sin(incline) + lambda_x,   m y_ddot = lambda_y", &
+        d%letters = [ &
+            letter_t("kappa", "m g r sin(incline)/(i_roll + m r^2)"), &
+            letter_t("lambda_x", "friction_x"), letter_t("lambda_y", "friction_y")]
+        d%kinetic_energy = "m/2 (x_dot^2 + y_dot^2) + i_roll/2 phi_dot^2 + i_yaw/2 theta_dot^2"
+        d%potential_energy = "- m g x sin(incline)"
+        d%lagrangian = d%kinetic_energy//" + m g x sin(incline)"
+        d%energy = d%kinetic_energy//" - m g x sin(incline)"
+        d%equations = [character(formula_length) :: &
+            "m x_ddot = m g sin(incline) + lambda_x", &
+            "m y_ddot = lambda_y", &
             "i_roll phi_ddot = - r sin(theta) lambda_x + r cos(theta) lambda_y", &
-            "i_yaw theta_ddot = 0", &
-            "without lambda: phi_ddot = kappa sin(theta),   "// &
-            "kappa = m g r sin(incline)/(i_roll + m r^2)"]
-        d%constraint = "nonholonomic, scleronomic: x_dot - r sin(theta) phi_dot = 0, "// &
-                       "y_dot + r cos(theta) phi_dot = 0"
+            "i_yaw theta_ddot = 0"]
+        d%accelerations = [character(formula_length) :: &
+            "phi_ddot = kappa sin(theta)", &
+            "x_ddot = r (phi_ddot sin(theta) + phi_dot theta_dot cos(theta))", &
+            "y_ddot = r (- phi_ddot cos(theta) + phi_dot theta_dot sin(theta))"]
+        d%constraint = "nonholonomic, scleronomic"
+        d%constraint_equations = [character(len(d%title)) :: &
+            "x_dot - r sin(theta) phi_dot = 0", "y_dot + r cos(theta) phi_dot = 0"]
         d%notes = [character(len(d%title)) :: &
             "The notes' test (unequal partials of A) shows only that A.dq is not exact;", &
             "Frobenius decides: of the notes' dx a^da = r cos(theta) dx^dphi^dtheta: no "// &

@@ -4,8 +4,8 @@ module lagrangia_rotating_hoop
     !! Source: Hamilton's Principle, where the notes define the concept only: a constraint that
     !! contains the time is rheonomic. Beyond \(\omega^2 = g/R\) the bottom is unstable and the
     !! bead finds two tilted equilibria, \(\cos\theta_* = g/(\omega^2R)\).
-    use lagrangia_description, only: coordinate, description_t, mass_point, nonnegative, &
-                                     positive, quantity, real_number
+    use lagrangia_description, only: coordinate, description_t, formula_length, frequency_t, &
+                                     mass_point, nonnegative, positive, quantity, real_number
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, dot_product, hyperdual_t, operator(*), operator(**), &
                                    operator(+), operator(-), sin
@@ -64,37 +64,44 @@ contains
                         nonnegative("g", "m/s^2", "gravity", self%g)]
         d%energy_scale = self%m*self%r*(self%g + self%omega**2*self%r)
         d%quantities = [ &
-            quantity("mechanical_energy", "J", "m/2 r^2 (theta_dot^2 + omega^2 sin(theta)^2) "// &
-                     "- m g r cos(theta): T + V"), &
-            quantity("L_z", "kg m^2/s", "m r^2 omega sin(theta)^2: angular momentum about the "// &
-                     "vertical"), &
-            quantity("torque", "N m", "2 m r^2 omega theta_dot sin(theta) cos(theta): what "// &
-                     "keeps the hoop turning"), &
-            quantity("hoop_force", "N", "m (r theta_dot^2 + r omega^2 sin(theta)^2 + "// &
-                     "g cos(theta)): towards the centre")]
+            quantity("mechanical_energy", "J", "of the bead", "T + V"), &
+            quantity("L_z", "kg m^2/s", "angular momentum about the vertical", &
+                     "m r^2 omega sin(theta)^2"), &
+            quantity("torque", "N m", "what keeps the hoop turning", &
+                     "2 m r^2 omega theta_dot sin(theta) cos(theta)"), &
+            quantity("hoop_force", "N", "towards the centre", &
+                     "m (r theta_dot^2 + r omega^2 sin(theta)^2 + g cos(theta))")]
         if (abs(self%omega) <= 0.0_dp) then
             d%quantities(1)%conserved = .true.
             d%quantities(1)%scale = d%energy_scale
         end if
         d%points = [mass_point("bead", self%m)]
         d%reactions = [ &
-            quantity("side_force", "N", "across the hoop: y cos(omega t) - x sin(omega t) = 0"), &
-            quantity("hoop_force", "N", "to its centre: (r^2 - x^2 - y^2 - z^2)/(2 r) = 0")]
+            quantity("side_force", "N", "across the hoop", &
+                     "y_bead cos(omega t) - x_bead sin(omega t)"), &
+            quantity("hoop_force", "N", "to its centre", &
+                     "(r^2 - x_bead^2 - y_bead^2 - z_bead^2)/(2 r)")]
         d%dimensions = 3
-        d%lagrangian = [character(len(d%title)) :: &
-            "m/2 r^2 (theta_dot^2 + omega^2 sin(theta)^2) + m g r cos(theta)"]
+        d%kinetic_energy = "m/2 r^2 (theta_dot^2 + omega^2 sin(theta)^2)"
+        d%potential_energy = "- m g r cos(theta)"
+        d%lagrangian = "m/2 r^2 (theta_dot^2 + omega^2 sin(theta)^2) + m g r cos(theta)"
         d%energy = "m/2 r^2 (theta_dot^2 - omega^2 sin(theta)^2) - m g r cos(theta)"
-        d%equations = [character(len(d%title)) :: &
+        d%equations = [character(formula_length) :: &
             "theta_ddot = sin(theta) (omega^2 cos(theta) - g/r)"]
-        d%constraint = "holonomic, rheonomic: x sin(omega t) - y cos(omega t) = 0, "// &
-                       "x^2 + y^2 + z^2 = r^2"
+        d%frequencies = [frequency_t("Omega^2 = g/r - omega^2", "theta = 0"), &
+                         frequency_t("Omega^2 = - g/r - omega^2", "theta = pi")]
+        if (self%omega**2*self%r > self%g) d%frequencies = [d%frequencies, &
+            frequency_t("Omega^2 = omega^2 - g^2/(omega r)^2", "cos(theta) = g/(omega^2 r)")]
+        d%constraint = "holonomic, rheonomic"
+        d%constraint_equations = [character(len(d%title)) :: &
+            "x_bead sin(omega t) - y_bead cos(omega t) = 0", &
+            "x_bead^2 + y_bead^2 + z_bead^2 = r^2"]
         d%notes = [character(len(d%title)) :: &
             "The notes only define the concept: a constraint containing the time is rheonomic.", &
             "L has no t, so h = theta_dot dL/dtheta_dot - L is conserved; T + V is not.", &
             "Power of the drive: d(T + V)/dt = omega torque, torque = dL_z/dt.", &
-            "Bottom: Omega^2 = g/r - omega^2, stable while it is positive. The top never is.", &
-            "Tilted, if omega^2 r > g: cos(theta) = g/(omega^2 r), "// &
-            "Omega^2 = omega^2 - g^2/(omega r)^2."]
+            "At the bottom it is stable while omega^2 < g/r, at the top never. Faster, it "// &
+            "stands tilted."]
         d%source = "Hamilton's Principle: rheonomic constraints (the notes define the concept only)"
     end subroutine describe
 

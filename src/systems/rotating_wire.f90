@@ -4,8 +4,8 @@ module lagrangia_rotating_wire
     !! Source: Hamilton's Principle, where the notes define the concept only: a constraint that
     !! contains the time is rheonomic. This is its simplest case: what is conserved is the energy
     !! function \(h = \dot r\,\partial L/\partial\dot r - L\), which is not the energy.
-    use lagrangia_description, only: conserved, coordinate, description_t, mass_point, positive, &
-                                     quantity, real_number
+    use lagrangia_description, only: conserved, coordinate, description_t, formula_length, &
+                                     frequency_t, mass_point, positive, quantity, real_number
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-), sin
@@ -61,24 +61,31 @@ contains
                                     self%omega)]
         d%energy_scale = self%m*(self%omega*per_length)**2
         d%quantities = [ &
-            conserved("outward", "m/s", "(r_dot + |omega| r) exp(-|omega| t): start of the "// &
-                      "growing part", abs(self%omega)*per_length), &
-            quantity("mechanical_energy", "J", "m/2 (r_dot^2 + omega^2 r^2): T, to which the "// &
-                     "wire does work"), &
-            quantity("L_z", "kg m^2/s", "m omega r^2: angular momentum, fed by the wire"), &
-            quantity("wire_force", "N", "2 m omega r_dot: push of the wire, across it")]
+            conserved("outward", "m/s", "start of the growing part", &
+                      abs(self%omega)*per_length, "(r_dot + |omega| r) exp(- |omega| t)"), &
+            quantity("mechanical_energy", "J", "to which the wire does work", "T"), &
+            quantity("L_z", "kg m^2/s", "angular momentum, fed by the wire", "m omega r^2"), &
+            quantity("wire_force", "N", "push of the wire, across it", "2 m omega r_dot")]
         d%quantities(2)%conserved = abs(self%omega) <= 0.0_dp
         d%points = [mass_point("bead", self%m)]
-        d%reactions = [quantity("wire_force", "N", "of the wire, across it: y cos(omega t) - "// &
-                                "x sin(omega t) = 0")]
-        d%lagrangian = [character(len(d%title)) :: "m/2 (r_dot^2 + omega^2 r^2)"]
+        d%reactions = [quantity("wire_force", "N", "of the wire, across it", &
+                                "y_bead cos(omega t) - x_bead sin(omega t)")]
+        d%kinetic_energy = "m/2 (r_dot^2 + omega^2 r^2)"
+        d%potential_energy = "0"
+        d%lagrangian = "m/2 (r_dot^2 + omega^2 r^2)"
         d%energy = "m/2 (r_dot^2 - omega^2 r^2)"
-        d%equations = [character(len(d%title)) :: "r_ddot = omega^2 r"]
-        d%constraint = "holonomic, rheonomic: x sin(omega t) - y cos(omega t) = 0"
+        d%equations = [character(formula_length) :: "r_ddot = omega^2 r"]
+        d%frequencies = [frequency_t("Omega^2 = - omega^2", "r = 0")]
+        d%motion = [character(formula_length) :: &
+            "r = r_0 cosh(omega t) + r_dot_0/omega sinh(omega t)"]
+        if (abs(self%omega) <= 0.0_dp) d%motion(1) = "r = r_0 + r_dot_0 t"
+        d%constraint = "holonomic, rheonomic"
+        d%constraint_equations = [character(len(d%title)) :: &
+            "x_bead sin(omega t) - y_bead cos(omega t) = 0"]
         d%notes = [character(len(d%title)) :: &
             "The notes only define the concept: a constraint containing the time is rheonomic.", &
             "L has no t: h = r_dot dL/dr_dot - L is conserved. T is not: the wire does work.", &
-            "r = r0 cosh(omega t) + (r_dot0/omega) sinh(omega t): at rest only on the axis.", &
+            "At rest only on the axis; everywhere else it is thrown out.", &
             "Turning is horizontal: gravity does not enter."]
         d%source = "Hamilton's Principle: rheonomic constraints (the notes define the concept only)"
     end subroutine describe

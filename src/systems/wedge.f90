@@ -4,8 +4,9 @@ module lagrangia_wedge
     !! Source: Hamilton's Principle, case II. The notes end with \(mg\sin\alpha =
     !! M(\ddot q_1 + \ddot q_2\cos\alpha)\), where it must be the mass of the block, \(m\): with
     !! \(M\) the acceleration is off by \(m/M\) and contradicts the \(\ddot q_1\) they state.
-    use lagrangia_description, only: between, conserved, coordinate, description_t, mass_point, &
-                                     nonnegative, positive, quantity
+    use lagrangia_description, only: between, conserved, coordinate, description_t, &
+                                     formula_length, letter_t, mass_point, nonnegative, &
+                                     positive, quantity
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(+), operator(-)
     use lagrangia_kinds, only: dp
@@ -64,39 +65,50 @@ contains
                         between("alpha", "rad", "angle of the incline", self%alpha, &
                                 0.0_dp, right_angle), &
                         nonnegative("g", "m/s^2", "gravity", self%g)]
+        d%letters = [letter_t("m", "m_block"), letter_t("M", "m_wedge")]
         d%quantities = [ &
-            conserved("p_q2", "kg m/s", "M q2_dot + m (q2_dot + q1_dot cos(alpha)): horizontal "// &
-                      "momentum, q2 is cyclic", 0.0_dp), &
-            conserved("x_com", "m", "q2 + m/(M + m) q1 cos(alpha) - p_q2 t/(M + m): start of "// &
-                      "the centre of mass", 0.0_dp), &
-            quantity("p_q1", "kg m/s", "m (q1_dot + q2_dot cos(alpha)): momentum along the "// &
-                     "incline"), &
-            quantity("normal_force", "N", "m M g cos(alpha)/(M + m sin(alpha)^2): of the wedge "// &
-                     "on the block")]
+            conserved("p_q2", "kg m/s", "horizontal momentum, q2 is cyclic", 0.0_dp, &
+                      "M q2_dot + m (q2_dot + q1_dot cos(alpha))"), &
+            conserved("x_com", "m", "start of the centre of mass", 0.0_dp, &
+                      "q2 + m/(M + m) q1 cos(alpha) - p_q2 t/(M + m)"), &
+            quantity("p_q1", "kg m/s", "momentum along the incline", &
+                     "m (q1_dot + q2_dot cos(alpha))"), &
+            quantity("normal_force", "N", "of the wedge on the block", &
+                     "m M g cos(alpha)/(M + m sin(alpha)^2)")]
         if (level(self)) d%quantities(3) = &
-            conserved("p_q1", "kg m/s", "m (q1_dot + q2_dot cos(alpha)): momentum along the "// &
-                      "incline, q1 is cyclic if g sin(alpha) = 0", 0.0_dp)
+            conserved("p_q1", "kg m/s", "momentum along the incline, q1 is cyclic if "// &
+                      "g sin(alpha) = 0", 0.0_dp, "m (q1_dot + q2_dot cos(alpha))")
         d%points = [mass_point("block", self%m_block), mass_point("wedge", self%m_wedge)]
         d%reactions = [ &
-            quantity("plane_force", "N", "of the plane on the wedge, upwards: y_wedge = 0"), &
-            quantity("normal_force", "N", "of the wedge on the block: (x - q2) sin(alpha) + "// &
-                     "(y - y_wedge) cos(alpha) = 0")]
-        d%lagrangian = [character(len(d%title)) :: &
-            "(M + m)/2 q2_dot^2 + m/2 (q1_dot^2 + 2 q1_dot q2_dot cos(alpha)) + m g q1 sin(alpha)"]
+            quantity("plane_force", "N", "of the plane on the wedge, upwards", "y_wedge"), &
+            quantity("normal_force", "N", "of the wedge on the block", &
+                     "(x_block - x_wedge) sin(alpha) + (y_block - y_wedge) cos(alpha)")]
+        d%kinetic_energy = "M/2 q2_dot^2 + m/2 (q1_dot^2 + q2_dot^2 "// &
+                           "+ 2 q1_dot q2_dot cos(alpha))"
+        d%potential_energy = "- m g q1 sin(alpha)"
+        d%lagrangian = "(M + m)/2 q2_dot^2 + m/2 (q1_dot^2 + 2 q1_dot q2_dot cos(alpha)) "// &
+                       "+ m g q1 sin(alpha)"
         d%energy = "(M + m)/2 q2_dot^2 + m/2 (q1_dot^2 + 2 q1_dot q2_dot cos(alpha)) "// &
                    "- m g q1 sin(alpha)"
-        d%equations = [character(len(d%title)) :: &
+        d%equations = [character(formula_length) :: &
             "m (q1_ddot + q2_ddot cos(alpha)) = m g sin(alpha)", &
             "(M + m) q2_ddot + m q1_ddot cos(alpha) = 0"]
-        d%constraint = "holonomic, scleronomic: (x_block - q2) sin(alpha) + y_block cos(alpha) "// &
-                       "= 0, y_wedge = 0"
+        d%accelerations = [character(formula_length) :: &
+            "q1_ddot = (M + m) g sin(alpha)/(M + m sin(alpha)^2)", &
+            "q2_ddot = - m g sin(alpha) cos(alpha)/(M + m sin(alpha)^2)"]
+        d%motion = [character(formula_length) :: &
+            "q1 = q1_0 + q1_dot_0 t + (M + m) g sin(alpha)/(2 (M + m sin(alpha)^2)) t^2", &
+            "q2 = q2_0 + q2_dot_0 t - m g sin(alpha) cos(alpha)/(2 (M + m sin(alpha)^2)) t^2"]
+        d%constraint = "holonomic, scleronomic"
+        d%constraint_equations = [character(len(d%title)) :: &
+            "(x_block - x_wedge) sin(alpha) + y_block cos(alpha) = 0", "y_wedge = 0"]
         d%notes = [character(len(d%title)) :: &
-            "m = m_block, M = m_wedge: Fortran does not tell m from M.", &
+            "The parameters are called m_block and m_wedge, as keys do not tell m from M.", &
             "The notes end with m g sin(alpha) = M (q1_ddot + q2_ddot cos(alpha)): a slip, the "// &
             "mass is m.", &
-            "q1_ddot = g sin(alpha)/(1 - m cos(alpha)^2/(M + m)) is constant: K = 0, no "// &
-            "oscillation.", &
-            "M -> infinity: g sin(alpha); alpha = pi/2: free fall beside a wedge that stays."]
+            "The accelerations are constant: K = 0, no oscillation.", &
+            "M -> infinity: q1_ddot -> g sin(alpha); alpha = pi/2: free fall beside a wedge "// &
+            "that stays."]
         d%source = "Hamilton's Principle: case II, a block sliding on a wedge"
     end subroutine describe
 

@@ -1,8 +1,8 @@
 module spherical_by_hand
     !! The second step: equations of motion by hand, faster, and checked against the Lagrangian;
     !! what is conserved; where the bob is; and what Newton would say.
-    use lagrangia, only: conserved, cos, description_t, dot_product, dp, hyperdual_t, &
-                         line_length, mass_point, operator(*), operator(-), quantity, sin
+    use lagrangia, only: conserved, cos, description_t, dot_product, dp, formula_length, &
+                         hyperdual_t, mass_point, operator(*), operator(-), quantity, sin
     use spherical_pendulum, only: spherical_pendulum_t
     implicit none (type, external)
     private
@@ -27,16 +27,18 @@ contains
         call self%spherical_pendulum_t%outline(d)
         d%name = "spherical_by_hand"
         d%quantities = [ &
-            conserved("L_z", "kg m^2/s", "m l^2 sin(theta)^2 phi_dot: phi is cyclic", 0.0_dp), &
-            quantity("tension", "N", "m (l theta_dot^2 + l (sin(theta) phi_dot)^2 + g cos(theta))")]
+            conserved("L_z", "kg m^2/s", "phi is cyclic", 0.0_dp, &
+                      "m l^2 sin(theta)^2 phi_dot"), &
+            quantity("tension", "N", "force along the rod", &
+                     "m (l theta_dot^2 + l (sin(theta) phi_dot)^2 + g cos(theta))")]
         d%dimensions = 3
         d%points = [mass_point("bob", self%value(1, 1.0_dp))]
-        d%reactions = [quantity("tension", "N", "of the rod: (l^2 - x^2 - y^2 - z^2)/(2 l) = 0")]
-        d%lagrangian = [character(line_length) :: &
-            "m/2 l^2 (theta_dot^2 + phi_dot^2 sin(theta)^2) + m g l cos(theta)"]
-        d%equations = [character(line_length) :: &
+        d%reactions = [quantity("tension", "N", "of the rod", &
+                                "(l^2 - x_bob^2 - y_bob^2 - z_bob^2)/(2 l)")]
+        d%lagrangian = "m/2 l^2 (theta_dot^2 + phi_dot^2 sin(theta)^2) + m g l cos(theta)"
+        d%equations = [character(formula_length) :: &
             "theta_ddot = sin(theta) (cos(theta) phi_dot^2 - g/l)", &
-            "phi_ddot = -2 theta_dot phi_dot cos(theta)/sin(theta)"]
+            "phi_ddot = - 2 theta_dot phi_dot cos(theta)/sin(theta)"]
     end subroutine outline
 
     pure subroutine accelerations(self, t, q, v, a)
