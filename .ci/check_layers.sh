@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The rules of the house that no compiler knows:
 #
-# - arrows point left: core < posix < namelist < numerics < systems < tables < references, integrators
+# - arrows point left: core < posix < namelist < numerics < formulas < systems < tables < references, integrators
 #   < oscillations < observers < catalogue < audit < principles < scenes < runs < ensembles < bench < stress
 #   < commands < app. src/lagrangia.f90 uses what it likes; nobody uses it.
 # - integrators and observers name no concrete system, observers no concrete integrator.
@@ -113,7 +113,7 @@ function examine(statement, head, word, used) {
 }
 
 BEGIN {
-    rooms = split("core posix namelist numerics systems tables middle oscillations observers catalogue audit principles" \
+    rooms = split("core posix namelist numerics formulas systems tables middle oscillations observers catalogue audit principles" \
                   " scenes runs ensembles bench stress commands app", order, " ")
     for (i = 1; i <= rooms; i++) {
         level[order[i]] = i

@@ -44,6 +44,8 @@ module suites
     use test_events, only: events_suite
     use test_exact_maps, only: exact_maps_suite
     use test_failure_contract, only: failure_contract_suite
+    use test_formula_parser, only: formula_parser_suite
+    use test_formula_program, only: formula_program_suite
     use test_gauge, only: gauge_suite
     use test_gauss, only: gauss_suite
     use test_gauss_adaptive, only: gauss_adaptive_suite
@@ -187,6 +189,8 @@ contains
         call suite%addTest(events_suite())
         call suite%addTest(exact_maps_suite())
         call suite%addTest(failure_contract_suite())
+        call suite%addTest(formula_parser_suite())
+        call suite%addTest(formula_program_suite())
         call suite%addTest(gauge_suite())
         call suite%addTest(gauss_suite())
         call suite%addTest(gauss_adaptive_suite())

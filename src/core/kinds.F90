@@ -7,10 +7,11 @@ module lagrangia_kinds
     use, intrinsic :: iso_fortran_env, only: int64, real128, real64
     implicit none (type, external)
     private
-    public :: dp, i8, qp
+    public :: dp, i8, lanes, qp
 
     integer, parameter :: qp = real128  !! coefficients before they are rounded, and references
     integer, parameter :: i8 = int64    !! step and evaluation counters
+    integer, parameter :: lanes = 8     !! states that one call takes, for vector registers
 #ifdef REAL128
     integer, parameter :: dp = qp       !! working precision
 #else

@@ -4,7 +4,9 @@ module lagrangia_names
     use lagrangia_text, only: join, lower, quoted
     implicit none (type, external)
     private
-    public :: abbreviation, advice, nearest_name, refuse_name
+    public :: abbreviation, advice, nearest_name, refuse_name, name_length
+
+    integer, parameter :: name_length = 32  !! of a name that a user may type
 
 contains
 

@@ -3,6 +3,7 @@ module lagrangia_description
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
+    use lagrangia_names, only: name_length
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -12,7 +13,6 @@ module lagrangia_description
     public :: check_parameter, constraint_text, default_values, value_names
     public :: name_length, line_length, formula_length
 
-    integer, parameter :: name_length = 32      !! of a name
     integer, parameter :: line_length = 120     !! of a line of text
     integer, parameter :: formula_length = 200  !! of a formula
 

@@ -9,7 +9,7 @@ module lagrangia_system
     use lagrangia_elimination, only: solve_positive
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
-    use lagrangia_kinds, only: dp
+    use lagrangia_kinds, only: dp, lanes
     use lagrangia_linearised, only: linearised_t
     use lagrangia_reference, only: reference_t
     use lagrangia_text, only: to_text
@@ -17,8 +17,6 @@ module lagrangia_system
     private
     public :: system_t, system_box_t, reduced_t
     public :: lanes, check_parameter, check_parameters, check_state, default_values
-
-    integer, parameter :: lanes = 8  !! states that `accelerations_lanes` takes at once
 
     type, abstract :: system_t
         integer :: ndof = 0                  !! number of coordinates

@@ -1,0 +1,354 @@
+module lagrangia_formula_parser
+    !! Reads a formula as the course writes it: `m2 l x_dot theta_dot cos(theta) + (m1 + m2)/2 x^2`.
+    !!
+    !! Factors side by side are a product, of the same rank as `*` and `/`, from left to right:
+    !! `1/2 m v^2` is (1/2) m v^2. `^` binds tighter than these and than a sign. `f(x)` is a
+    !! function for the names in `function_names`, else a product; `sin^2(x)` is sin(x)^2, `|x|` is
+    !! abs(x). What has two readings, `a^b^c` or `a*-b`, is refused.
+    use lagrangia_errors, only: error_t
+    use lagrangia_exact_number, only: real_number
+    use lagrangia_expression, only: expression_t, f_abs, function_names, kind_difference, &
+                                    kind_function, kind_negation, kind_power, kind_product, &
+                                    kind_quotient, kind_sum
+    use lagrangia_formula_reader, only: begins_factor, check_size, go_deeper, is_time_in_brackets, &
+                                        next_is, reader_t, refuse, refuse_missing, &
+                                        refuse_unknown, skip_sign, start, typed_number
+    use lagrangia_formula_tokens, only: is_end, is_name, is_number, is_sign, token_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_symbols, only: symbols_t
+    use lagrangia_text, only: quoted, to_text
+    implicit none (type, external)
+    private
+    public :: parse_equation, parse_formula
+
+    real(dp), parameter :: pi = acos(-1.0_dp)
+
+contains
+
+    pure subroutine parse_formula(text, symbols, expression, error)
+        !! The formula that `text` means.
+        character(*), intent(in) :: text                  !! at most 10000 characters, UTF-8
+        type(symbols_t), intent(in) :: symbols            !! the names that it may use
+        type(expression_t), intent(out) :: expression     !! of these symbols
+        type(error_t), allocatable, intent(out) :: error  !! column and remedy in one line
+        type(reader_t) :: reader
+        integer :: root
+
+        call start(reader, text, symbols, error)
+        if (allocated(error)) return
+        call read_side(reader, symbols, root, error)
+        if (allocated(error)) return
+        if (reader%tokens%token(reader%at)%kind /= is_end) then
+            call refuse(reader, "'=' makes an equation; one formula is needed here", error)
+            return
+        end if
+        expression = reader%expression%pruned(root)
+        call check_size(expression, error)
+    end subroutine parse_formula
+
+    pure subroutine parse_equation(text, symbols, left, right, error)
+        !! Both sides of an equation, with one `=` between them.
+        character(*), intent(in) :: text                  !! at most 10000 characters, UTF-8
+        type(symbols_t), intent(in) :: symbols            !! the names that it may use
+        type(expression_t), intent(out) :: left, right    !! of these symbols
+        type(error_t), allocatable, intent(out) :: error  !! column and remedy in one line
+        type(reader_t) :: reader
+        integer :: first, second
+
+        call start(reader, text, symbols, error)
+        if (allocated(error)) return
+        call read_side(reader, symbols, first, error)
+        if (allocated(error)) return
+        if (reader%tokens%token(reader%at)%kind == is_end) then
+            call refuse(reader, "'=' and the other side are missing; write an equation, "// &
+                        "left side = right side", error)
+            return
+        end if
+        reader%at = reader%at + 1
+        call read_side(reader, symbols, second, error)
+        if (allocated(error)) return
+        if (reader%tokens%token(reader%at)%kind /= is_end) then
+            call refuse(reader, "a second '='; an equation has one", error)
+            return
+        end if
+        left = reader%expression%pruned(first)
+        right = reader%expression%pruned(second)
+        call check_size(left, error)
+        if (.not. allocated(error)) call check_size(right, error)
+    end subroutine parse_equation
+
+    pure subroutine read_side(reader, symbols, root, error)
+        !! A sum up to the end or to `=`.
+        type(reader_t), intent(inout) :: reader
+        type(symbols_t), intent(in) :: symbols
+        integer, intent(out) :: root
+        type(error_t), allocatable, intent(out) :: error
+
+        call read_sum(reader, symbols, root, error)
+        if (allocated(error)) return
+        if (reader%tokens%token(reader%at)%kind == is_end .or. next_is(reader, "=")) return
+        if (next_is(reader, ")")) then
+            call refuse(reader, "')' closes no bracket; delete it or open one before", error)
+        else
+            call refuse(reader, quoted(reader%tokens%word(reader%at))//" is not expected", error)
+        end if
+    end subroutine read_side
+
+    pure recursive subroutine read_sum(reader, symbols, node, error)
+        !! Products with signs between them, perhaps one before the first.
+        type(reader_t), intent(inout) :: reader
+        type(symbols_t), intent(in) :: symbols
+        integer, intent(out) :: node
+        type(error_t), allocatable, intent(out) :: error
+        integer :: kind, left, right
+        logical :: negative
+
+        negative = next_is(reader, "-")
+        if (negative .or. next_is(reader, "+")) call skip_sign(reader, error)
+        if (allocated(error)) return
+        call read_product(reader, symbols, node, error)
+        if (allocated(error)) return
+        if (negative) then
+            left = node
+            call reader%expression%add_operation(kind_negation, left, 0, node)
+        end if
+        do while (next_is(reader, "+") .or. next_is(reader, "-"))
+            kind = merge(kind_sum, kind_difference, next_is(reader, "+"))
+            call skip_sign(reader, error)
+            if (allocated(error)) return
+            call read_product(reader, symbols, right, error)
+            if (allocated(error)) return
+            left = node
+            call reader%expression%add_operation(kind, left, right, node)
+        end do
+    end subroutine read_sum
+
+    pure recursive subroutine read_product(reader, symbols, node, error)
+        !! Factors side by side, or with `*` or `/` between them.
+        type(reader_t), intent(inout) :: reader
+        type(symbols_t), intent(in) :: symbols
+        integer, intent(out) :: node
+        type(error_t), allocatable, intent(out) :: error
+        integer :: kind, left, right
+
+        call read_power(reader, symbols, node, error)
+        do while (.not. allocated(error))
+            kind = kind_product
+            if (next_is(reader, "*") .or. next_is(reader, "/")) then
+                if (next_is(reader, "/")) kind = kind_quotient
+                call skip_sign(reader, error)
+            else if (next_is(reader, "^")) then
+                call refuse(reader, "a second '^' has two meanings; write x^(2^3) or (x^2)^3", &
+                            error)
+            else if (reader%tokens%token(reader%at)%kind == is_number) then
+                call refuse(reader, "the number "//quoted(reader%tokens%word(reader%at))// &
+                            " follows a factor; write it before, or with * or ^", error)
+            else if (.not. begins_factor(reader)) then
+                return
+            end if
+            if (allocated(error)) return
+            call read_power(reader, symbols, right, error)
+            if (allocated(error)) return
+            left = node
+            call reader%expression%add_operation(kind, left, right, node)
+        end do
+    end subroutine read_product
+
+    pure recursive subroutine read_power(reader, symbols, node, error)
+        !! A factor, perhaps to a power.
+        type(reader_t), intent(inout) :: reader
+        type(symbols_t), intent(in) :: symbols
+        integer, intent(out) :: node
+        type(error_t), allocatable, intent(out) :: error
+        integer :: exponent, left
+        logical :: negative
+
+        call read_factor(reader, symbols, node, error)
+        if (allocated(error)) return
+        if (.not. next_is(reader, "^")) return
+        reader%at = reader%at + 1
+        negative = next_is(reader, "-")
+        if (negative .or. next_is(reader, "+")) reader%at = reader%at + 1
+        if (reader%tokens%token(reader%at)%kind == is_end .or. &
+            .not. (begins_factor(reader) .or. &
+                   reader%tokens%token(reader%at)%kind == is_number)) then
+            call refuse(reader, "'^' lacks its exponent; write x^2, x^-1, x^(a + b)", error)
+        else if (any(function_names == reader%tokens%word(reader%at))) then
+            call refuse(reader, "a function as an exponent needs brackets, x^("// &
+                        reader%tokens%word(reader%at)//"(...))", error)
+        end if
+        if (allocated(error)) return
+        call read_factor(reader, symbols, exponent, error)
+        if (allocated(error)) return
+        if (negative) then
+            left = exponent
+            call reader%expression%add_operation(kind_negation, left, 0, exponent)
+        end if
+        left = node
+        call reader%expression%add_operation(kind_power, left, exponent, node)
+    end subroutine read_power
+
+    pure recursive subroutine read_factor(reader, symbols, node, error)
+        !! A number, a name, a function, or a sum in brackets or between bars.
+        type(reader_t), intent(inout) :: reader
+        type(symbols_t), intent(in) :: symbols
+        integer, intent(out) :: node
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: word
+        type(token_t) :: token
+        integer :: bars, left
+
+        node = 0
+        token = reader%tokens%token(reader%at)
+        word = reader%tokens%word(reader%at)
+        select case (token%kind)
+        case (is_number)
+            call reader%expression%add_number(typed_number(word, token%value), node)
+            reader%at = reader%at + 1
+        case (is_name)
+            call read_name(reader, symbols, word, node, error)
+        case (is_sign)
+            if (word == "(") then
+                call read_bracket(reader, symbols, node, error)
+            else if (word == "|") then
+                call go_deeper(reader, error)
+                if (allocated(error)) return
+                bars = reader%bars
+                reader%bars = bars + 1
+                reader%at = reader%at + 1
+                call read_sum(reader, symbols, left, error)
+                if (allocated(error)) return
+                if (.not. next_is(reader, "|")) then
+                    call refuse(reader, "'|' of column "//to_text(token%column)// &
+                                " is not closed; write |x| or abs(x)", error)
+                    return
+                end if
+                reader%at = reader%at + 1
+                reader%bars = bars
+                reader%depth = reader%depth - 1
+                call reader%expression%add_operation(kind_function, left, 0, node, f_abs)
+            else
+                call refuse_missing(reader, error)
+            end if
+        case default
+            call refuse_missing(reader, error)
+        end select
+    end subroutine read_factor
+
+    pure recursive subroutine read_bracket(reader, symbols, node, error)
+        !! A sum in brackets.
+        type(reader_t), intent(inout) :: reader
+        type(symbols_t), intent(in) :: symbols
+        integer, intent(out) :: node
+        type(error_t), allocatable, intent(out) :: error
+        integer :: bars, column
+
+        node = 0
+        column = reader%tokens%token(reader%at)%column
+        call go_deeper(reader, error)
+        if (allocated(error)) return
+        bars = reader%bars
+        reader%bars = 0
+        reader%at = reader%at + 1
+        if (next_is(reader, ")")) then
+            call refuse(reader, "the brackets are empty; write a formula into them", error)
+            return
+        end if
+        call read_sum(reader, symbols, node, error)
+        if (allocated(error)) return
+        if (.not. next_is(reader, ")")) then
+            if (reader%tokens%token(reader%at)%kind == is_end .or. next_is(reader, "=")) then
+                call refuse(reader, "the bracket of column "//to_text(column)// &
+                            " is not closed; write ')'", error)
+            else
+                call refuse(reader, quoted(reader%tokens%word(reader%at))//" is not expected", &
+                            error)
+            end if
+            return
+        end if
+        reader%at = reader%at + 1
+        reader%bars = bars
+        reader%depth = reader%depth - 1
+    end subroutine read_bracket
+
+    pure recursive subroutine read_name(reader, symbols, name, node, error)
+        !! A symbol, a definition, `pi`, or a function with its argument.
+        type(reader_t), intent(inout) :: reader
+        type(symbols_t), intent(in) :: symbols
+        character(*), intent(in) :: name
+        integer, intent(out) :: node
+        type(error_t), allocatable, intent(out) :: error
+        integer :: which
+
+        node = 0
+        which = findloc(function_names == name, .true., 1)
+        if (which > 0) then
+            call read_function(reader, symbols, which, node, error)
+            return
+        end if
+        if (symbols%find(name) > 0) then
+            call reader%expression%add_symbol(symbols%find(name), node)
+        else if (symbols%find_definition(name) > 0) then
+            which = symbols%find_definition(name)
+            if (reader%root_of(which) == 0) then
+                call reader%expression%append(symbols%definitions(which)%meaning, node)
+                reader%root_of(which) = node
+            end if
+            node = reader%root_of(which)
+        else if (name == "pi") then
+            call reader%expression%add_number(real_number(pi), node)
+        else
+            call refuse_unknown(reader, symbols, name, error)
+            return
+        end if
+        reader%at = reader%at + 1
+        if (is_time_in_brackets(reader)) then
+            call refuse(reader, quoted(name//"(t)")//" would be a product; write "// &
+                        quoted(name)//", or "//quoted(name//" t")//" if one is meant", error)
+        end if
+    end subroutine read_name
+
+    pure recursive subroutine read_function(reader, symbols, which, node, error)
+        !! `sin(x)`, or `sin^2(x)` with a whole number.
+        type(reader_t), intent(inout) :: reader
+        type(symbols_t), intent(in) :: symbols
+        integer, intent(in) :: which
+        integer, intent(out) :: node
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: name
+        type(token_t) :: token
+        integer :: argument, exponent
+
+        node = 0
+        name = trim(function_names(which))
+        reader%at = reader%at + 1
+        token = token_t()
+        if (next_is(reader, "^")) then
+            reader%at = reader%at + 1
+            token = reader%tokens%token(reader%at)
+            if (token%kind /= is_number .or. abs(token%value - anint(token%value)) > 0.0_dp) then
+                call refuse(reader, "'"//name//"^' takes a whole number, "//name//"^2(x); "// &
+                            "write 1/"//name//"(x) or "//name//"(x)^n for others", error)
+                return
+            end if
+            reader%at = reader%at + 1
+        end if
+        if (.not. next_is(reader, "(")) then
+            if (reader%tokens%token(reader%at)%kind == is_name .or. &
+                reader%tokens%token(reader%at)%kind == is_number) then
+                call refuse(reader, "'"//name//"' needs brackets; write "// &
+                            quoted(name//"("//reader%tokens%word(reader%at)//")"), error)
+            else
+                call refuse(reader, "'"//name//"' lacks its argument; write '"//name//"(x)'", error)
+            end if
+            return
+        end if
+        call read_bracket(reader, symbols, argument, error)
+        if (allocated(error)) return
+        call reader%expression%add_operation(kind_function, argument, 0, node, which)
+        if (token%kind /= is_number) return
+        argument = node
+        call reader%expression%add_number(real_number(token%value), exponent)
+        call reader%expression%add_operation(kind_power, argument, exponent, node)
+    end subroutine read_function
+end module lagrangia_formula_parser

@@ -1,0 +1,167 @@
+module lagrangia_formula_tokens
+    !! A formula cut into numbers, names and signs, each with its column.
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_formula_characters, only: plain_formula
+    use lagrangia_kinds, only: dp
+    use lagrangia_number_reader, only: read_number
+    use lagrangia_text, only: quoted, to_text
+    implicit none (type, external)
+    private
+    public :: cut, token_t, tokens_t
+    public :: is_end, is_name, is_number, is_sign
+
+    integer, parameter :: is_end = 0, is_number = 1, is_name = 2, is_sign = 3
+    character(*), parameter :: digits = "0123456789"
+    character(*), parameter :: letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+    character(*), parameter :: inside = letters//"_"//digits
+    integer, parameter :: longest = 10000
+
+    type :: token_t
+        integer :: kind = is_end
+        integer :: first = 1            !! of its letters in the plain text
+        integer :: last = 0
+        integer :: column = 0           !! in what was typed, in characters from 1
+        real(dp) :: value = 0.0_dp      !! of a number
+        logical :: glued = .false.      !! nothing between it and the token before
+    end type token_t
+
+    type :: tokens_t
+        character(:), allocatable :: text           !! plain
+        type(token_t), allocatable :: token(:)      !! the last one is the end
+    contains
+        procedure :: word
+    end type tokens_t
+
+contains
+
+    pure function word(self, k) result(text)
+        !! The letters of token `k`; empty for the end.
+        class(tokens_t), intent(in) :: self
+        integer, intent(in) :: k  !! from 1
+        character(:), allocatable :: text
+
+        text = self%text(self%token(k)%first:self%token(k)%last)
+    end function word
+
+    pure subroutine cut(text, tokens, error)
+        !! Find the tokens of a formula.
+        character(*), intent(in) :: text                  !! as typed, at most 10000 characters
+        type(tokens_t), intent(out) :: tokens             !! of it
+        type(error_t), allocatable, intent(out) :: error  !! what cannot be one, and its column
+        integer, allocatable :: columns(:)
+        type(token_t) :: new
+        integer :: at, count
+
+        if (len_trim(text) > longest) then
+            call fail(error, "the formula has more than "//to_text(longest)// &
+                      " characters; give parts of it names, D = theta1 - theta2")
+            return
+        end if
+        call plain_formula(trim(text), tokens%text, columns, error)
+        if (allocated(error)) return
+        allocate (tokens%token(len(tokens%text) + 1))
+        count = 0
+        at = 1
+        do
+            new = token_t(glued=count > 0)
+            do while (at <= len(tokens%text))
+                if (tokens%text(at:at) /= " ") exit
+                new%glued = .false.
+                at = at + 1
+            end do
+            if (at > len(tokens%text)) exit
+            new%first = at
+            new%column = columns(at)
+            call take(tokens%text, new, error)
+            if (allocated(error)) return
+            at = new%last + 1
+            count = count + 1
+            tokens%token(count) = new
+        end do
+        new%first = at
+        new%last = at - 1
+        new%column = 1
+        if (len(tokens%text) > 0) new%column = columns(len(tokens%text)) + 1
+        tokens%token(count + 1) = new
+        tokens%token = tokens%token(:count + 1)
+    end subroutine cut
+
+    pure subroutine take(text, token, error)
+        !! One token from its first letter on.
+        character(*), intent(in) :: text
+        type(token_t), intent(inout) :: token
+        type(error_t), allocatable, intent(out) :: error
+        character :: letter
+
+        letter = text(token%first:token%first)
+        if (scan(letter, letters) == 1) then
+            token%kind = is_name
+            token%last = token%first + verify(text(token%first:)//" ", inside) - 2
+        else if (scan(letter, digits) == 1 .or. &
+                 scan(text(token%first:)//" ", ".") == 1 .and. &
+                 scan(text(token%first:)//" ", digits) == 2) then
+            call take_number(text, token, error)
+        else if (scan(letter, "+-*/^()|=") == 1) then
+            token%kind = is_sign
+            token%last = token%first
+            if (index(text(token%first:), "**") == 1) token%last = token%first + 1
+        else
+            call fail(error, "column "//to_text(token%column)//": "//advice(letter))
+        end if
+    end subroutine take
+
+    pure subroutine take_number(text, token, error)
+        !! Digits with a point, and an exponent if digits follow its letter.
+        character(*), intent(in) :: text
+        type(token_t), intent(inout) :: token
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: problem
+        integer :: at, behind
+
+        at = token%first + verify(text(token%first:)//" ", digits//".") - 1
+        if (scan(text(at:)//" ", "eE") == 1) then
+            behind = at + 1
+            if (scan(text(min(behind, len(text)):), "+-") == 1) behind = behind + 1
+            if (scan(text(min(behind, len(text) + 1):)//" ", digits) == 1) then
+                at = behind + verify(text(behind:)//" ", digits) - 1
+            end if
+        end if
+        token%kind = is_number
+        token%last = at - 1
+        if (scan(text(at:)//" ", letters//"_") == 1) then
+            behind = at + verify(text(at:)//" ", inside) - 2
+            call fail(error, "column "//to_text(token%column)//": a blank is missing in "// &
+                      quoted(text(token%first:behind))//"; write "// &
+                      quoted(text(token%first:at - 1)//" "//text(at:behind)))
+            return
+        end if
+        call read_number(text(token%first:token%last), token%value, problem)
+        if (problem == "") return
+        if (index(problem, "is not a number") == 1) problem = "is not a number; write it like 0.01"
+        call fail(error, "column "//to_text(token%column)//": "// &
+                  quoted(text(token%first:token%last))//" "//problem)
+    end subroutine take_number
+
+    pure function advice(letter) result(text)
+        !! What to write in the place of a sign that has no meaning.
+        character, intent(in) :: letter
+        character(:), allocatable :: text
+
+        select case (letter)
+        case (",")
+            text = "',' has no meaning here; decimals have a point: 0.5"
+        case ("[", "]", "{", "}")
+            text = quoted(letter)//" is no bracket of a formula; write ( and )"
+        case ("\")
+            text = "LaTeX is not read; write theta_dot, sqrt(x), a/b"
+        case ("'")
+            text = "''' is no derivative; write x_dot, x_ddot"
+        case ("_")
+            text = "a name begins with a letter, not with '_'"
+        case (".")
+            text = "a point stands alone; write * for a product, 0.5 for a decimal"
+        case default
+            text = quoted(letter)//" has no meaning in a formula"
+        end select
+    end function advice
+end module lagrangia_formula_tokens
