@@ -1,7 +1,7 @@
 module random_formulas
     !! Formulas at random, the same ones in every run, and a plain evaluation of them with a bound
     !! of its rounding.
-    use lagrangia_exact_number, only: fraction, real_number
+    use lagrangia_exact_number, only: number_of, ratio
     use lagrangia_expression, only: expression_t, f_abs, f_atan, f_cos, f_cosh, f_exp, f_log, &
                                     f_sin, f_sinh, f_sqrt, f_tan, kind_difference, &
                                     kind_function, kind_negation, kind_number, kind_power, &
@@ -50,7 +50,7 @@ contains
             case (2, 3, 4)
                 call e%add_operation(kind_function, left, 0, node, draw_number(11))
             case (5, 6)
-                call e%add_number(real_number(real(draw_number(7) - 3, dp)), right)
+                call e%add_number(number_of(real(draw_number(7) - 3, dp)), right)
                 call e%add_operation(kind_power, left, right, node)
             case default
                 right = pool(draw_number(size_of_pool))
@@ -68,11 +68,11 @@ contains
 
         select case (draw_number(4))
         case (1)
-            call e%add_number(fraction(int(draw_number(9), i8), int(draw_number(20), i8)), node)
+            call e%add_number(ratio(int(draw_number(9), i8), int(draw_number(20), i8)), node)
         case (2)
-            call e%add_number(real_number(uniform(0.0_dp, 3.0_dp)), node)
+            call e%add_number(number_of(uniform(0.0_dp, 3.0_dp)), node)
         case default
-            call e%add_number(fraction(int(draw_number(5), i8), 1_i8), node)
+            call e%add_number(ratio(int(draw_number(5), i8), 1_i8), node)
         end select
     end subroutine draw_constant
 

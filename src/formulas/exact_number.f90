@@ -6,7 +6,7 @@ module lagrangia_exact_number
     implicit none (type, external)
     private
     public :: number_t
-    public :: fraction, real_number, power
+    public :: number_of, ratio, power
     public :: operator(+), operator(-), operator(*), operator(/), operator(==)
 
     type :: number_t
@@ -60,7 +60,7 @@ contains
         yes = self%denominator == 1_i8
     end function is_whole
 
-    elemental function fraction(numerator, denominator) result(number)
+    elemental function ratio(numerator, denominator) result(number)
         !! \(p/q\) in lowest terms; a real if a term is not below \(2^{53}\).
         integer(i8), intent(in) :: numerator    !! \(p\), at most \(2^{62}\) in size
         integer(i8), intent(in) :: denominator  !! \(q\), the same, not 0
@@ -72,9 +72,9 @@ contains
         number%denominator = denominator/divisor
         number%value = real(number%numerator, dp)/real(number%denominator, dp)
         if (max(abs(number%numerator), number%denominator) >= limit) number%denominator = 0_i8
-    end function fraction
+    end function ratio
 
-    elemental function real_number(value) result(number)
+    elemental function number_of(value) result(number)
         !! A double: a whole number if it is one below \(2^{53}\), else a real.
         real(dp), intent(in) :: value  !! any finite number
         type(number_t) :: number
@@ -83,7 +83,7 @@ contains
         if (abs(value) >= real(limit, dp) .or. .not. ieee_is_finite(value)) return
         if (abs(value - aint(value)) > 0.0_dp) return
         number = number_t(int(value, i8), 1_i8, value)
-    end function real_number
+    end function number_of
 
     elemental function add(a, b) result(c)
         type(number_t), intent(in) :: a, b
@@ -91,10 +91,10 @@ contains
 
         if (fits(a%numerator, b%denominator) .and. fits(b%numerator, a%denominator) &
             .and. fits(a%denominator, b%denominator) .and. a%is_exact() .and. b%is_exact()) then
-            c = fraction(a%numerator*b%denominator + b%numerator*a%denominator, &
+            c = ratio(a%numerator*b%denominator + b%numerator*a%denominator, &
                          a%denominator*b%denominator)
         else
-            c = real_number(a%value + b%value)
+            c = number_of(a%value + b%value)
         end if
     end function add
 
@@ -119,9 +119,9 @@ contains
 
         if (fits(a%numerator, b%numerator) .and. fits(a%denominator, b%denominator) &
             .and. a%is_exact() .and. b%is_exact()) then
-            c = fraction(a%numerator*b%numerator, a%denominator*b%denominator)
+            c = ratio(a%numerator*b%numerator, a%denominator*b%denominator)
         else
-            c = real_number(a%value*b%value)
+            c = number_of(a%value*b%value)
         end if
     end function multiply
 
@@ -132,9 +132,9 @@ contains
 
         if (fits(a%numerator, b%denominator) .and. fits(a%denominator, b%numerator) &
             .and. a%is_exact() .and. b%is_exact()) then
-            c = fraction(a%numerator*b%denominator, a%denominator*b%numerator)
+            c = ratio(a%numerator*b%denominator, a%denominator*b%numerator)
         else
-            c = real_number(a%value/b%value)
+            c = number_of(a%value/b%value)
         end if
     end function divide
 
@@ -145,12 +145,12 @@ contains
         type(number_t) :: c
         integer :: k
 
-        c = fraction(1_i8, 1_i8)
+        c = ratio(1_i8, 1_i8)
         do k = 1, abs(n)
             c = c*a
         end do
-        if (n < 0) c = fraction(1_i8, 1_i8)/c
-        if (.not. c%is_exact()) c = real_number(a%value**n)
+        if (n < 0) c = ratio(1_i8, 1_i8)/c
+        if (.not. c%is_exact()) c = number_of(a%value**n)
     end function power
 
     elemental function equal(a, b) result(yes)

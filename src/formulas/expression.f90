@@ -3,7 +3,7 @@ module lagrangia_expression
     !!
     !! Nodes may be shared, so that a derivative grows no faster than its formula. Symbols are
     !! numbers, the places of their names in a `symbols_t`.
-    use lagrangia_exact_number, only: fraction, number_t, real_number
+    use lagrangia_exact_number, only: number_of, number_t, ratio
     use lagrangia_kinds, only: dp, i8
     implicit none (type, external)
     private
@@ -78,7 +78,7 @@ contains
         type(expression_t) :: e
 
         allocate (e%nodes(1))
-        e%nodes(1)%number = real_number(value)
+        e%nodes(1)%number = number_of(value)
         e%count = 1
     end function constant
 
@@ -88,7 +88,7 @@ contains
         type(expression_t) :: e
 
         allocate (e%nodes(1))
-        e%nodes(1)%number = fraction(int(value, i8), 1_i8)
+        e%nodes(1)%number = ratio(int(value, i8), 1_i8)
         e%count = 1
     end function whole
 

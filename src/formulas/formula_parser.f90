@@ -6,7 +6,7 @@ module lagrangia_formula_parser
     !! function for the names in `function_names`, else a product; `sin^2(x)` is sin(x)^2, `|x|` is
     !! abs(x). What has two readings, `a^b^c` or `a*-b`, is refused.
     use lagrangia_errors, only: error_t
-    use lagrangia_exact_number, only: real_number
+    use lagrangia_exact_number, only: number_of
     use lagrangia_expression, only: expression_t, f_abs, function_names, kind_difference, &
                                     kind_function, kind_negation, kind_power, kind_product, &
                                     kind_quotient, kind_sum
@@ -296,7 +296,7 @@ contains
             end if
             node = reader%root_of(which)
         else if (name == "pi") then
-            call reader%expression%add_number(real_number(pi), node)
+            call reader%expression%add_number(number_of(pi), node)
         else
             call refuse_unknown(reader, symbols, name, error)
             return
@@ -348,7 +348,7 @@ contains
         call reader%expression%add_operation(kind_function, argument, 0, node, which)
         if (token%kind /= is_number) return
         argument = node
-        call reader%expression%add_number(real_number(token%value), exponent)
+        call reader%expression%add_number(number_of(token%value), exponent)
         call reader%expression%add_operation(kind_power, argument, exponent, node)
     end subroutine read_function
 end module lagrangia_formula_parser

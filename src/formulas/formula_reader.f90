@@ -1,7 +1,7 @@
 module lagrangia_formula_reader
     !! How far the reading of a formula has come, and what it says where it cannot go on.
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_exact_number, only: fraction, number_t, real_number
+    use lagrangia_exact_number, only: number_of, number_t, ratio
     use lagrangia_expression, only: expression_t, function_names
     use lagrangia_formula_tokens, only: cut, is_end, is_name, is_number, is_sign, tokens_t
     use lagrangia_kinds, only: dp, i8
@@ -87,7 +87,7 @@ contains
         integer(i8) :: digits
         logical :: point
 
-        number = real_number(value)
+        number = number_of(value)
         mantissa = scan(word, "eE") - 1
         behind = 0
         status = 0
@@ -110,7 +110,7 @@ contains
             digits = 10_i8*digits + iachar(word(i:i)) - iachar("0")
             if (point) behind = behind + 1
         end do
-        if (behind > 0 .and. behind <= 9) number = fraction(digits, 10_i8**behind)
+        if (behind > 0 .and. behind <= 9) number = ratio(digits, 10_i8**behind)
     end function typed_number
 
     pure subroutine skip_sign(reader, error)

@@ -38,7 +38,7 @@ contains
         do i = 1, expression%count
             call write_node(expression, symbols, i, texts)
         end do
-        call move_alloc(texts(expression%count)%text, text)
+        text = texts(expression%count)%text
     end function formula_text
 
     pure subroutine write_node(expression, symbols, i, texts)
@@ -72,12 +72,12 @@ contains
             case (kind_quotient)
                 text = bracketed(node%left, rank_product)//"/"//bracketed(node%right, rank_power)
             case (kind_power)
-                text = bracketed(node%left, rank_factor)//"^"//exponent(node%right)
+                text = bracketed(node%left, rank_factor)//"^"//raised(node%right)
             case default
                 text = trim(function_names(node%which))//"("//texts(node%left)%text//")"
             end select
         end associate
-        call move_alloc(text, texts(i)%text)
+        texts(i)%text = text
     contains
         pure function bracketed(k, least) result(text)
             !! The text of an operand, in brackets if it binds less tightly than `least`.
@@ -88,7 +88,7 @@ contains
             if (rank_of(expression%nodes(k)) < least) text = "("//text//")"
         end function bracketed
 
-        pure function exponent(k) result(text)
+        pure function raised(k) result(text)
             !! A whole number with its sign, a name, or brackets.
             integer, intent(in) :: k
             character(:), allocatable :: text
@@ -103,7 +103,7 @@ contains
                 if (node%kind == kind_function .or. rank_of(node) < rank_factor) return
                 text = texts(k)%text
             end associate
-        end function exponent
+        end function raised
     end subroutine write_node
 
     pure function rank_of(node) result(rank)
