@@ -133,6 +133,8 @@ module suites
     use test_virtual_work, only: virtual_work_suite
     use test_walls, only: walls_suite
     use test_whole_file, only: whole_file_suite
+    use test_written_refusals, only: written_refusals_suite
+    use test_written_system, only: written_system_suite
     implicit none (type, external)
     private
     public :: load_tests
@@ -274,6 +276,8 @@ contains
         call suite%addTest(virtual_work_suite())
         call suite%addTest(walls_suite())
         call suite%addTest(whole_file_suite())
+        call suite%addTest(written_refusals_suite())
+        call suite%addTest(written_system_suite())
         call suite%addTest(own_closed_form_suite())  ! the last two: their systems stay in the
         call suite%addTest(register_suite())         ! catalogue
     end function load_tests

@@ -276,6 +276,6 @@ contains
         call refuse_value(tree, "a", "m", "must be positive", error)
         call failed(error, "--set a%m=0: &a: m = 0: must be positive")
         call refuse_value(tree, "a", "g", "must be positive", error)
-        call failed(error, "a.nml: &a: g: must be positive")
+        call failed(error, "a.nml:1:1: &a: g: must be positive")
     end subroutine values_the_caller_refuses
 end module test_namelist_values

@@ -1,5 +1,6 @@
 module lagrangia_check
-    !! `lagrangia check [SYSTEM...]`: the audit of systems and methods, a table each.
+    !! `lagrangia check [SYSTEM...]`: the audit of systems, also those of scenes, and of methods, a
+    !! table each.
     use lagrangia_audit, only: audit_system
     use lagrangia_catalogue, only: new_system, system_names
     use lagrangia_command_line, only: command_line_t, word_t
@@ -16,6 +17,7 @@ module lagrangia_check
                                   refuse_value
     use lagrangia_names, only: refuse_name
     use lagrangia_progress, only: about
+    use lagrangia_scene_reader, only: names_scene, read_named_system
     use lagrangia_system, only: check_parameter, default_values, system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -132,14 +134,27 @@ contains
     end subroutine announce
 
     subroutine choose(line, audited, methods, error)
-        !! The systems named, where `methods` is a name too; or everything.
+        !! The systems named, where `methods` is a name too, then those of scenes; or everything.
         type(command_line_t), intent(in) :: line
         type(audited_t), allocatable, intent(out) :: audited(:)
         logical, intent(out) :: methods
         type(error_t), allocatable, intent(out) :: error
         character(name_length), allocatable :: names(:)
-        integer :: i
+        type(audited_t), allocatable :: named(:)
+        logical, allocatable :: is_scene(:)
+        integer :: i, k
 
+        allocate (is_scene(size(line%arguments)))
+        do i = 1, size(is_scene)
+            is_scene(i) = names_scene(line%arguments(i)%text) &
+                          .and. line%arguments(i)%text /= "methods"
+        end do
+        if (any(is_scene)) then
+            if (size(is_scene) > 1 .and. line%has("set")) then
+                call fail(error, "--set goes with one scene, or with systems by their names")
+                return
+            end if
+        end if
         methods = size(line%arguments) == 0
         if (methods) then
             allocate (names, source=system_names())
@@ -147,15 +162,47 @@ contains
             allocate (names(size(line%arguments)))
             do i = 1, size(names)
                 names(i) = line%arguments(i)%text
-                if (len(line%arguments(i)%text) <= name_length) cycle
+                if (len(line%arguments(i)%text) <= name_length .or. is_scene(i)) cycle
                 call refuse_name("system", line%arguments(i)%text, system_names(), error)
                 return
             end do
             methods = any(names == "methods")
-            names = pack(names, names /= "methods")
+            names = pack(names, names /= "methods" .and. .not. is_scene)
         end if
-        call read_audited(names, line%values_of("set"), audited, error)
+        if (any(is_scene)) then
+            call read_audited(names, [word_t ::], named, error)
+        else
+            call read_audited(names, line%values_of("set"), named, error)
+        end if
+        if (allocated(error)) return
+        allocate (audited(size(named) + count(is_scene)))
+        do i = 1, size(named)
+            audited(i) = named(i)
+        end do
+        k = size(named)
+        do i = 1, size(is_scene)
+            if (.not. is_scene(i)) cycle
+            k = k + 1
+            call read_scene_system(line%arguments(i)%text, line%values_of("set"), audited(k), error)
+            if (allocated(error)) return
+        end do
     end subroutine choose
+
+    subroutine read_scene_system(name, words, audited, error)
+        !! The system of a scene, with all its parameters as the scene has them.
+        character(*), intent(in) :: name
+        type(word_t), intent(in) :: words(:)  !! `GROUP%KEY=VALUE`
+        type(audited_t), intent(inout) :: audited
+        type(error_t), allocatable, intent(out) :: error
+        type(description_t) :: d
+
+        call read_named_system(name, words, audited%system, error)
+        if (allocated(error)) return
+        call audited%system%describe(d)
+        allocate (audited%given, source=default_values(d))
+        allocate (audited%fixed(size(audited%given)))
+        audited%fixed = .true.
+    end subroutine read_scene_system
 
     subroutine put_summary(audit)
         !! Below all tables.

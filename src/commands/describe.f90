@@ -1,8 +1,8 @@
 module lagrangia_describe
     !! `lagrangia describe SYSTEM`: what a lecturer would write on the blackboard, with these
     !! parameters.
-    use lagrangia_catalogue, only: new_system, system_names
-    use lagrangia_command_line, only: command_line_t, word_t
+    use lagrangia_catalogue, only: new_system
+    use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_description, only: constraint_text, description_t, parameter_t, quantity_t
     use lagrangia_errors, only: error_t, fail
@@ -11,9 +11,7 @@ module lagrangia_describe
     use lagrangia_printed_table, only: left
     use lagrangia_random_draws, only: random_t
     use lagrangia_reference, only: reference_t
-    use lagrangia_scene, only: scene_t
-    use lagrangia_scene_reader, only: read_named_system, read_scene
-    use lagrangia_shipped, only: find_scene
+    use lagrangia_scene_reader, only: read_named_system
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -34,7 +32,7 @@ contains
             call fail(error, "describe what? 'lagrangia list systems' shows the names")
             return
         end if
-        call read_described(line%arguments(1)%text, line%values_of("set"), system, error)
+        call read_named_system(line%arguments(1)%text, line%values_of("set"), system, error)
         if (allocated(error)) return
         call system%describe(d)
         call describe_fresh(trim(d%name), fresh)
@@ -47,7 +45,11 @@ contains
         end do
         call put_line("parameters of &"//trim(d%name))
         do i = 1, size(d%parameters)
-            call put_parameter(d%parameters(i), fresh%parameters(i))
+            if (allocated(fresh%parameters)) then
+                call put_parameter(d%parameters(i), fresh%parameters(i))
+            else
+                call put_given(d%parameters(i))
+            end if
         end do
         call put_formulas(d, system%time_dependent)
         if (any(d%quantities%conserved)) call put_line("conserved besides")
@@ -78,32 +80,8 @@ contains
         end do
     end subroutine describe_command
 
-    subroutine read_described(word, overrides, system, error)
-        !! The system of that name; that of a scene's file, or of a scene that is shipped.
-        character(*), intent(in) :: word
-        type(word_t), intent(in) :: overrides(:)
-        class(system_t), allocatable, intent(out) :: system
-        type(error_t), allocatable, intent(out) :: error
-        type(scene_t) :: scene
-        type(error_t), allocatable :: no_scene
-        character(:), allocatable :: path
-
-        if (all(system_names() /= word)) then
-            call find_scene(word, path, no_scene)
-            if (.not. allocated(no_scene)) then
-                call read_scene(path, overrides, scene, system, error)
-                return
-            end if
-            if (index(word, "/") > 0 .or. index(word, ".nml") > 0) then
-                call move_alloc(no_scene, error)
-                return
-            end if
-        end if
-        call read_named_system(word, overrides, system, error)
-    end subroutine read_described
-
     subroutine describe_fresh(name, d)
-        !! What the system says with its defaults.
+        !! What the system says with its defaults; nothing of one that only a scene has.
         character(*), intent(in) :: name
         type(description_t), intent(out) :: d
         class(system_t), allocatable :: system
@@ -129,6 +107,17 @@ contains
         call put_line("  "//left(p%name, 22)//left("["//trim(p%unit)//"]", 12)//trim(p%meaning)// &
                       "; "//value//"; "//p%domain())
     end subroutine put_parameter
+
+    subroutine put_given(p)
+        !! `  m   [kg]   mass; = 1.0`, of a system that has no defaults.
+        type(parameter_t), intent(in) :: p
+        character(:), allocatable :: meaning
+
+        meaning = ""
+        if (p%meaning /= "") meaning = trim(p%meaning)//"; "
+        call put_line("  "//left(p%name, 22)//left("["//trim(p%unit)//"]", 12)//meaning// &
+                      "= "//value_text(p))
+    end subroutine put_given
 
     pure function value_text(p) result(text)
         !! The value, or the components.

@@ -1,5 +1,6 @@
 module lagrangia_modes_command
-    !! `lagrangia modes SYSTEM`: small oscillations, LAPACK's answer beside the page's.
+    !! `lagrangia modes SYSTEM`: small oscillations, LAPACK's answer beside the page's. A scene's name
+    !! or path stands for its system.
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: note, put, put_line
     use lagrangia_description, only: description_t
@@ -12,7 +13,8 @@ module lagrangia_modes_command
     use lagrangia_number_text, only: scientific
     use lagrangia_progress, only: progress_t
     use lagrangia_scene_reader, only: read_named_system
-    use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, modes_t
+    use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, &
+                                            likely_equilibrium, modes_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -32,6 +34,7 @@ contains
         type(command_line_t), intent(in) :: line  !! what was typed
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         class(system_t), allocatable :: system
+        type(description_t) :: d
         type(modes_t) :: modes, others
         type(progress_t) :: progress
         real(dp), allocatable :: at(:)
@@ -48,7 +51,8 @@ contains
         if (allocated(error)) return
         call read_named_system(line%arguments(1)%text, line%values_of("set"), system, error)
         if (allocated(error)) return
-        allocate (at(system%ndof), source=0.0_dp)
+        call system%describe(d)
+        allocate (at, source=likely_equilibrium(system))
         if (line%has("at")) call read_numbers("--at", line%value_of("at", ""), at, error)
         if (allocated(error)) return
         if (line%has("output")) then
@@ -62,9 +66,9 @@ contains
         if (elsewhere) call find_modes(system, modes%analytic%elsewhere, .true., others, error)
         if (allocated(error)) return
         if (line%has("json")) then
-            call put_json(line%arguments(1)%text, modes)
+            call put_json(trim(d%name), modes)
             if (elsewhere) call put(', "elsewhere": ')
-            if (elsewhere) call put_json(line%arguments(1)%text, others)
+            if (elsewhere) call put_json(trim(d%name), others)
             call put_line(repeat("}", merge(2, 1, elsewhere)))
         else if (.not. line%has("quiet")) then
             call print_modes(system, modes)

@@ -124,6 +124,10 @@ contains
             character(:), allocatable :: warning, much
 
             warning = step_warning(plan%scene, plan%system)
+            if (allocated(plan%scene%warning)) then
+                if (warning /= "") warning = "; "//warning
+                warning = plan%scene%warning//warning
+            end if
             much = size_warning(plan%scene, folder, format)
             if (warning /= "" .and. .not. quiet) call note(path//": "//warning)
             if (much /= "" .and. .not. quiet) call note(path//": "//much)

@@ -10,9 +10,9 @@ module lagrangia_namelist
     use lagrangia_namelist_lexer, only: stray, truth_of
     use lagrangia_namelist_parser, only: apply_override, parse_namelist
     use lagrangia_namelist_tree, only: fail_at, find_entry, find_group, in_override, kind_number, &
-                                       kind_word, label, namelist_t, raw_text, refuse_missing, &
-                                       refuse_picked, refuse_unknown_groups, refuse_unknown_keys, &
-                                       text_of
+                                       kind_string, kind_word, label, namelist_t, raw_text, &
+                                       refuse_missing, refuse_picked, refuse_unknown_groups, &
+                                       refuse_unknown_keys, spelling, text_of, value_t
     use lagrangia_number_reader, only: misread, read_number, to_integer
     use lagrangia_text, only: escaped, lower, quoted, to_text
     implicit none (type, external)
@@ -114,7 +114,7 @@ contains
         if (size(picked) == 1) call convert_string(tree, picked(1), value, error)
     end subroutine get_string
 
-    pure subroutine get_strings(tree, group, key, least, most, values, error)
+    pure subroutine get_strings(tree, group, key, least, most, values, error, required)
         !! The texts at `key`.
         type(namelist_t), intent(inout) :: tree  !! its key is marked as used
         character(*), intent(in) :: group, key   !! in lower case
@@ -122,11 +122,12 @@ contains
         ! allow(assumed-size-character-intent): nothing is cut
         character(*), allocatable, intent(inout) :: values(:)  !! as `value` of `get_string`
         type(error_t), allocatable, intent(out) :: error  !! status 2: the place, and what is needed
+        logical, intent(in), optional :: required  !! fail when the key is absent
         integer, allocatable :: picked(:)
         character(len(values)), allocatable :: texts(:)
         integer :: i
 
-        call pick(tree, group, key, picked, error, least, most)
+        call pick(tree, group, key, picked, error, least, most, required)
         if (size(picked) == 0) return
         allocate (texts(size(picked)))
         do i = 1, size(picked)
@@ -359,26 +360,61 @@ contains
         end associate
     end subroutine convert_string
 
-    pure subroutine refuse_value(tree, group, key, problem, error, element)
+    pure subroutine refuse_value(tree, group, key, problem, error, element, column)
         !! For checks that only the caller can make: refuse the value of `key` (or of one
-        !! `element`) with its place, as in `a.nml:3:8: &scene: dt = -1: must be positive`.
+        !! `element`) with its place, as in `a.nml:3:8: &scene: dt = -1: must be positive`; with a
+        !! `column`, one character of a text, as in `a.nml:3:12: &scene: title: is no word`.
         type(namelist_t), intent(in) :: tree              !! of a file
         character(*), intent(in) :: group, key            !! in lower case
         character(*), intent(in) :: problem               !! what is wrong with it
         type(error_t), allocatable, intent(out) :: error  !! status 2: that message
         integer, intent(in), optional :: element          !! from 1
+        integer, intent(in), optional :: column           !! from 1, in what `get_strings` gives
         integer, allocatable :: picked(:)
-        integer :: i, position
+        integer :: at, i, position
 
         allocate (picked, source=elements(tree, group, key))
         i = 1
         if (present(element)) i = max(1, element)
         position = 0
         if (i <= size(picked)) position = picked(i)
-        if (position > 0) then
+        at = 0
+        if (present(column)) at = column
+        if (position > 0 .and. at > 0) then
+            i = find_entry(tree, group, key)
+            at = byte_of(tree, tree%values(position), at)
+            call fail_at(tree, at, label(group, spelling(tree, tree%entries(i)))//": "// &
+                         problem, error)
+        else if (position > 0) then
             call refuse_picked(tree, position, problem, error)
         else
-            call fail_at(tree, 0, label(group, key)//": "//problem, error)
+            i = find_group(tree, group)
+            if (i > 0) position = tree%groups(i)%at
+            call fail_at(tree, position, label(group, key)//": "//problem, error)
         end if
     end subroutine refuse_value
+
+    pure function byte_of(tree, value, column) result(at)
+        !! Where the tree's text has the character `column` of what `text_of` gives, several bytes of
+        !! UTF-8 being one; at most the end of the value.
+        type(namelist_t), intent(in) :: tree
+        type(value_t), intent(in) :: value
+        integer, intent(in) :: column
+        integer :: at
+        integer :: i
+
+        at = value%first
+        if (value%kind == kind_string) at = at + 1
+        do i = 2, column
+            if (at >= value%last) exit
+            ! a doubled quote is one character
+            if (value%kind == kind_string .and. &
+                tree%text(at:at) == tree%text(value%first:value%first)) at = at + 1
+            at = at + 1
+            do while (at < value%last .and. iand(ichar(tree%text(at:at)), 192) == 128)
+                at = at + 1
+            end do
+        end do
+        at = min(at, value%last)
+    end function byte_of
 end module lagrangia_namelist

@@ -11,7 +11,7 @@ module lagrangia_namelist_tree
     public :: entry_t, group_t, namelist_t, value_t
     public :: add_entry, add_group, add_value, fail_at, find_entry, find_group, in_override, &
               label, line_of, new_namelist, raw_text, refuse_missing, refuse_picked, &
-              refuse_unknown_groups, refuse_unknown_keys, settle_twins, text_of
+              refuse_unknown_groups, refuse_unknown_keys, settle_twins, spelling, text_of
     public :: kind_number, kind_string, kind_word, max_values, name_length
 
     integer, parameter :: name_length = 63    !! of a group or key, as in Fortran
@@ -285,10 +285,20 @@ contains
             if (tree%entries(i)%last_value >= position) exit
         end do
         associate (item => tree%entries(i), value => tree%values(position))
-            call fail_at(tree, value%first, label(tree%groups(item%group)%name, item%key)// &
-                         " = "//escaped(raw_text(tree, value))//": "//problem, error)
+            call fail_at(tree, value%first, label(tree%groups(item%group)%name, &
+                                                  spelling(tree, item))//" = "// &
+                         escaped(raw_text(tree, value))//": "//problem, error)
         end associate
     end subroutine refuse_picked
+
+    pure function spelling(tree, item) result(key)
+        !! The key of an entry as it was written.
+        type(namelist_t), intent(in) :: tree  !! of a file
+        type(entry_t), intent(in) :: item     !! of this tree
+        character(:), allocatable :: key
+
+        key = tree%text(item%at:item%at + len_trim(item%key) - 1)
+    end function spelling
 
     pure subroutine refuse_missing(tree, owner, group, key, error)
         !! Demand `key`, or its whole group, if nothing there seems to be a slip for it.
@@ -336,6 +346,7 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! status 2
         logical, intent(in), optional :: early            !! false unless given
         character(len(allowed)), allocatable :: absent(:)
+        character(:), allocatable :: text
         logical :: spared
         integer :: i, k, owner
 
@@ -349,8 +360,11 @@ contains
                 allocate (absent, source=pack(allowed, &
                     [(in_override(tree, item%at) .or. item%key == allowed(k) .or. &
                       find_entry(tree, group, allowed(k)) == 0, k=1, size(allowed))]))
-                call fail_at(tree, item%at, "&"//escaped(trim(group), 30)//": "// &
-                             advice("key ", trim(item%key), absent), error)
+                text = advice("key ", trim(item%key), absent)
+                if (size(absent) == 0 .and. size(allowed) > 0 .and. &
+                    .not. any(allowed == item%key)) text = "unknown key "// &
+                    quoted(trim(item%key))//"; there are "//escaped(join(allowed, ", "), 160)
+                call fail_at(tree, item%at, "&"//escaped(trim(group), 30)//": "//text, error)
                 return
             end associate
         end do

@@ -22,7 +22,7 @@ module lagrangia_small_oscillations
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: modes_t, find_modes
+    public :: modes_t, find_modes, likely_equilibrium
     public :: is_oscillation, is_zero_mode, is_unstable
 
     integer, parameter :: largest_expansion = 60  !! coordinates; beyond, L is not differentiated
@@ -93,6 +93,18 @@ contains
         end if
         call label_modes(modes)
     end subroutine find_modes
+
+    pure function likely_equilibrium(system) result(q)
+        !! Where an equilibrium is looked for first: where the description says, or at zero.
+        class(system_t), intent(in) :: system  !! configured
+        real(dp) :: q(system%ndof)
+        type(description_t) :: d
+
+        q = 0.0_dp
+        call system%describe(d)
+        if (.not. allocated(d%equilibrium)) return
+        if (size(d%equilibrium) == system%ndof) q = d%equilibrium
+    end function likely_equilibrium
 
     subroutine check_system(system, start, error)
         !! Refuse a system without a constant \(M\), \(G\) and \(K\): not configured, with

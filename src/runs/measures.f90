@@ -9,7 +9,7 @@ module lagrangia_measures
     use lagrangia_record, only: sample_record_t
     use lagrangia_reference, only: reference_t
     use lagrangia_scene, only: scene_t
-    use lagrangia_small_oscillations, only: find_modes, is_oscillation, modes_t
+    use lagrangia_small_oscillations, only: find_modes, is_oscillation, likely_equilibrium, modes_t
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -72,12 +72,10 @@ contains
         type(outcome_t), intent(inout) :: outcome  !! gets the frequencies
         type(modes_t) :: modes
         type(error_t), allocatable :: error
-        real(dp) :: start(system%ndof)
         integer :: j
 
         if (.not. scene%modes) return
-        start = 0.0_dp
-        call find_modes(system, start, .false., modes, error)
+        call find_modes(system, likely_equilibrium(system), .false., modes, error)
         if (allocated(error)) return
         do j = 1, size(modes%omega2)
             if (modes%label(j) /= is_oscillation) cycle

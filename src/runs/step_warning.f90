@@ -5,7 +5,7 @@ module lagrangia_step_warning
     use lagrangia_kinds, only: dp
     use lagrangia_methods, only: new_integrator
     use lagrangia_scene, only: scene_t
-    use lagrangia_small_oscillations, only: find_modes, is_oscillation, modes_t
+    use lagrangia_small_oscillations, only: find_modes, is_oscillation, likely_equilibrium, modes_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -25,15 +25,14 @@ contains
         class(integrator_t), allocatable :: method
         type(error_t), allocatable :: error
         type(modes_t) :: modes
-        real(dp) :: guess(system%ndof), omega
+        real(dp) :: omega
 
         text = ""
         if (scene%tolerance > 0.0_dp) return
         call new_integrator(trim(scene%method), method, error)
         if (allocated(error)) return
         if (method%step_limit <= 0.0_dp) return
-        guess = 0.0_dp
-        call find_modes(system, guess, .false., modes, error)
+        call find_modes(system, likely_equilibrium(system), .false., modes, error)
         if (allocated(error)) return
         if (method%reversible .and. any(abs(modes%gyroscopic) > 0.0_dp)) return
         omega = sqrt(maxval([0.0_dp, pack(modes%omega2, modes%label == is_oscillation)]))

@@ -7,7 +7,7 @@ module lagrangia_scene
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: scene_t, expectation_t, scene_lines, scene_line_length
+    public :: scene_t, expectation_t, add_texts, scene_lines, scene_line_length
 
     integer, parameter :: scene_line_length = 600  !! what a single value may need
     integer, parameter :: short_line = 100         !! a list goes on in the next line
@@ -41,6 +41,9 @@ module lagrangia_scene
         logical :: modes = .false.                 !! show omega of the small oscillations
         character(name_length) :: period_of = ""   !! a coordinate whose period is measured
         type(expectation_t), allocatable :: expectations(:)
+        character(scene_line_length), allocatable :: formulas(:)
+        !! the group `&lagrangian` of a system in formulas, line by line; else absent
+        character(:), allocatable :: warning       !! about what is there for nothing; else absent
         type(namelist_t), allocatable :: file      !! where each key stands; absent: nowhere
     contains
         procedure :: locate
@@ -86,12 +89,12 @@ contains
         end if
         call add("  q = "//numbers(scene%q))
         call add("  v = "//numbers(scene%v))
-        call add_texts("columns", scene%columns)
-        call add_texts("plot", scene%plots)
+        call add_texts(lines, "columns", scene%columns)
+        call add_texts(lines, "plot", scene%plots)
         if (allocated(scene%events)) then
-            call add_texts("event", scene%events)
-            call add_texts("event_columns", scene%event_columns)
-            call add_texts("event_plot", scene%event_plots)
+            call add_texts(lines, "event", scene%events)
+            call add_texts(lines, "event_columns", scene%event_columns)
+            call add_texts(lines, "event_plot", scene%event_plots)
         end if
         if (scene%error_estimate) call add("  error_estimate = .true.")
         if (scene%modes) call add("  modes = .true.")
@@ -102,6 +105,8 @@ contains
         end do
         call add("  output = "//text_value(scene%output))
         call add("/")
+        if (allocated(scene%formulas)) lines = [character(scene_line_length) :: lines, &
+                                                scene%formulas]
         call add("&"//scene%system)
         first = 1
         do i = 1, size(d%parameters)
@@ -118,26 +123,27 @@ contains
 
             lines = [character(scene_line_length) :: lines, line]
         end subroutine add
-
-        subroutine add_texts(key, values)
-            !! `  columns = 't', 'theta'`, on as many lines as it takes; nothing without values.
-            character(*), intent(in) :: key, values(:)
-            character(:), allocatable :: line, item
-            integer :: i
-
-            line = "  "//key//" ="
-            do i = 1, size(values)
-                item = text_value(values(i))
-                if (i < size(values)) item = item//","
-                if (len(line) + len(item) > short_line .and. i > 1) then
-                    call add(line)
-                    line = "   "
-                end if
-                line = line//" "//item
-            end do
-            if (size(values) > 0) call add(line)
-        end subroutine add_texts
     end function scene_lines
+
+    pure subroutine add_texts(lines, key, values)
+        !! Add `  columns = 't', 'theta'`, on as many lines as it takes; nothing without values.
+        character(scene_line_length), allocatable, intent(inout) :: lines(:)  !! of a group
+        character(*), intent(in) :: key, values(:)  !! values of at most a short line each
+        character(:), allocatable :: line, item
+        integer :: i
+
+        line = "  "//key//" ="
+        do i = 1, size(values)
+            item = text_value(values(i))
+            if (i < size(values)) item = item//","
+            if (len(line) + len(item) > short_line .and. i > 1) then
+                lines = [character(scene_line_length) :: lines, line]
+                line = "   "
+            end if
+            line = line//" "//item
+        end do
+        if (size(values) > 0) lines = [character(scene_line_length) :: lines, line]
+    end subroutine add_texts
 
     pure function numbers(values) result(text)
         !! `1, 2.5`.

@@ -2,24 +2,32 @@ module lagrangia_scene_reader
     !! From a scene file to a scene and its system. What the text alone shows to be wrong is refused
     !! here; what only a method or a column shows, where the run is planned (`lagrangia_run_plan`).
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-    use lagrangia_catalogue, only: new_system
+    use lagrangia_catalogue, only: new_system, system_names
     use lagrangia_command_line, only: word_t
     use lagrangia_description, only: description_t, name_length
-    use lagrangia_errors, only: error_t
+    use lagrangia_errors, only: error_t, fail
     use lagrangia_files, only: read_whole_file
+    use lagrangia_formula_start, only: check_formulas_at_start
     use lagrangia_kinds, only: dp
-    use lagrangia_namelist, only: apply_override, get_reals, get_string, has_key, namelist_t, &
-                                  parse_namelist, refuse_unknown_groups, &
+    use lagrangia_lagrangian_group, only: formula_group => group, formula_lines, read_formulas, &
+                                          read_values, refuse_formula
+    use lagrangia_namelist, only: apply_override, get_reals, get_string, has_group, has_key, &
+                                  namelist_t, parse_namelist, refuse_unknown_groups, &
                                   refuse_unknown_keys, refuse_value
+    use lagrangia_names, only: nearest_name
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_keys, only: coordinates, expectation_keys, key_length, keys, &
                                     read_columns, read_state, read_times
-    use lagrangia_shipped, only: scene_name
+    use lagrangia_shipped, only: find_scene, looks_like_path, scene_name
     use lagrangia_system, only: check_parameter, default_values, system_t
     use lagrangia_text, only: lower, quoted
+    use lagrangia_written_expressions, only: read_expressions, unused_parameters, &
+                                             written_expressions_t
+    use lagrangia_written_formulas, only: written_formulas_t
+    use lagrangia_written_system, only: new_written_system, written_system_t
     implicit none (type, external)
     private
-    public :: read_scene, read_named_system, parse_scene
+    public :: read_scene, read_named_system, names_scene, parse_scene
 
 contains
 
@@ -38,15 +46,22 @@ contains
     end subroutine read_scene
 
     subroutine read_named_system(name, overrides, system, error)
-        !! The system called `name`, its parameters set by the words behind `--set`.
-        character(*), intent(in) :: name  !! as 'list' shows it
-        type(word_t), intent(in) :: overrides(:)  !! parameters of this system only
+        !! The system called `name`, its parameters set by the words behind `--set`; or that of the
+        !! scene `name`, with the scene's parameters.
+        character(*), intent(in) :: name  !! as 'list' shows it, or a path
+        type(word_t), intent(in) :: overrides(:)  !! of a system its parameters only
         class(system_t), allocatable, intent(out) :: system  !! with these parameters
         type(error_t), allocatable, intent(out) :: error  !! unknown, or a parameter is not allowed
+        character(:), allocatable :: path
         type(namelist_t) :: tree
         type(scene_t) :: scene
         integer :: i
 
+        if (names_scene(name)) then
+            call find_scene(name, path, error)
+            if (.not. allocated(error)) call read_scene(path, overrides, scene, system, error)
+            return
+        end if
         call new_system(name, system, error)
         if (allocated(error)) return
         call parse_namelist("&scene system = '"//name//"' /", name, tree, error)
@@ -64,6 +79,19 @@ contains
         if (allocated(error)) return
         call refuse_unknown_groups(tree, [scene%system], error)
     end subroutine read_named_system
+
+    function names_scene(name) result(yes)
+        !! Is `name` a path, or that of a shipped scene and of no system?
+        character(*), intent(in) :: name  !! what was typed
+        logical :: yes
+        character(:), allocatable :: path
+        type(error_t), allocatable :: error
+
+        yes = looks_like_path(name)
+        if (yes .or. any(system_names() == name)) return
+        call find_scene(name, path, error)
+        yes = .not. allocated(error)
+    end function names_scene
 
     subroutine parse_scene(text, source, overrides, scene, system, error)
         !! The scene in `text`, which came from the file `source`.
@@ -98,13 +126,14 @@ contains
             call read_times(tree, scene, error)
             if (allocated(error)) exit read_groups
             call read_state(tree, system, scene, error)
+            if (.not. allocated(error)) call check_formulas_at_start(tree, system, scene, error)
             if (allocated(error)) exit read_groups
             call read_columns(tree, system, scene, error)
             if (allocated(error)) exit read_groups
             call refuse_unknown_keys(tree, "scene", allowed, error)
             if (allocated(error)) exit read_groups
-            call refuse_unknown_groups(tree, [character(name_length) :: "scene", scene%system], &
-                                       error)
+            call refuse_unknown_groups(tree, [character(name_length) :: "scene", scene%system, &
+                                              formula_group], error)
         end block read_groups
         call move_alloc(tree, scene%file)
     end subroutine parse_scene
@@ -145,9 +174,17 @@ contains
 
         call get_string(tree, "scene", "system", scene%system, error, required=.true.)
         if (allocated(error)) return
+        if (has_group(tree, formula_group)) then
+            call read_formula_system(tree, scene, system, error)
+            return
+        end if
         call new_system(trim(scene%system), system, found)
         if (allocated(found)) then
-            call refuse_value(tree, "scene", "system", found%message, error)
+            if (nearest_name(formula_group, tree%groups(:tree%group_count)%name) /= "") then
+                call refuse_unknown_groups(tree, [formula_group], error)
+            else
+                call refuse_value(tree, "scene", "system", found%message, error)
+            end if
             return
         end if
         call system%describe(d)
@@ -177,4 +214,82 @@ contains
         call system%describe(d)
         scene%parameters = default_values(d)
     end subroutine read_system
+
+    subroutine read_formula_system(tree, scene, system, error)
+        !! The system that the scene itself gives in formulas.
+        type(namelist_t), intent(inout) :: tree
+        type(scene_t), intent(inout) :: scene  !! has the system's name
+        class(system_t), allocatable, intent(out) :: system
+        type(error_t), allocatable, intent(out) :: error
+        type(written_formulas_t) :: formulas
+        type(written_expressions_t) :: expressions
+        type(written_system_t), allocatable :: written
+        type(error_t), allocatable :: found
+        character(:), allocatable :: unused
+
+        if (any(system_names() == scene%system)) then
+            call refuse_value(tree, "scene", "system", "is a system of the lectures; give that "// &
+                              "of &lagrangian another name", error)
+        else if (any(["scene     ", "methods   ", "lagrangian"] == scene%system)) then
+            call refuse_value(tree, "scene", "system", "is the name of something else; give "// &
+                              "the system of &lagrangian another one", error)
+        else if (.not. is_group_name(trim(scene%system))) then
+            call refuse_value(tree, "scene", "system", "names the group with the parameters: "// &
+                              "small letters, digits and _ make a name, a letter first", error)
+        end if
+        if (allocated(error)) return
+        formulas%name = scene%system
+        call get_string(tree, "scene", "title", scene%title, error)
+        if (.not. allocated(error)) call read_formulas(tree, formulas, error)
+        if (allocated(error)) return
+        formulas%title = scene%title
+        call read_expressions(formulas, expressions, found)
+        if (.not. allocated(found)) then
+            call read_values(tree, formulas, error)
+            if (allocated(error)) return
+            allocate (written)
+            call new_written_system(formulas, expressions, written, found)
+        end if
+        if (.not. allocated(found)) call refuse_columns(written, found)
+        if (allocated(found)) then
+            call refuse_formula(tree, found, error)
+            return
+        end if
+        unused = unused_parameters(expressions, formulas)
+        if (unused /= "") scene%warning = "no formula contains "//unused
+        call formula_lines(tree, formulas, scene%formulas)
+        scene%parameters = written%p
+        call move_alloc(written, system)
+    end subroutine read_formula_system
+
+    pure function is_group_name(name) result(yes)
+        !! Can a namelist have a group of this name?
+        character(*), intent(in) :: name
+        logical :: yes
+        character(*), parameter :: letters = "abcdefghijklmnopqrstuvwxyz"
+
+        yes = verify(name, letters//"0123456789_") == 0 .and. scan(name//" ", letters) == 1
+    end function is_group_name
+
+    subroutine refuse_columns(system, error)
+        !! Refuse names that would make two columns, or two keys `expect_`, one.
+        type(written_system_t), intent(in) :: system
+        type(error_t), allocatable, intent(out) :: error
+        character(key_length), allocatable :: names(:)
+        character(:), allocatable :: key
+        integer :: i
+
+        allocate (names, source=expectation_keys(system))
+        do i = 1, size(names)
+            if (all(names(:i - 1) /= names(i))) cycle
+            associate (name => names(i)(len("expect_") + 1:))
+                key = "coordinates"
+                if (size(system%stated%points) > 0 .and. &
+                    any(["x_", "y_", "z_"] == name(:2))) key = "positions"
+                call fail(error, "two columns would be called "//quoted(trim(name))// &
+                          ", capital letters aside; take other names", key=key)
+            end associate
+            return
+        end do
+    end subroutine refuse_columns
 end module lagrangia_scene_reader

@@ -9,7 +9,7 @@ module lagrangia_shipped
     use lagrangia_text, only: quoted, short_source
     implicit none (type, external)
     private
-    public :: shipped_scenes, find_scene, scene_name
+    public :: shipped_scenes, find_scene, looks_like_path, scene_name
 
     character(*), parameter :: folder = "data/scenes/"
     character(*), parameter :: ending = ".nml"
@@ -88,7 +88,7 @@ contains
         integer :: i, status
 
         path = name
-        is_path = index(name, "/") > 0 .or. index(name, ending) > 0
+        is_path = looks_like_path(name)
         if (is_path) then
             facts = look_at(name)
             if (facts%found) return
@@ -120,6 +120,14 @@ contains
             call fail(error, "unknown scene "//quoted(name)//near, status)
         end if
     end subroutine find_scene
+
+    pure function looks_like_path(name) result(yes)
+        !! Is it a file's rather than a shipped scene's name?
+        character(*), intent(in) :: name  !! what was typed
+        logical :: yes
+
+        yes = index(name, "/") > 0 .or. index(name, ending) > 0
+    end function looks_like_path
 
     pure function remedy(name, names) result(text)
         !! What to type in the place of `name`, where there are the scenes `names`.

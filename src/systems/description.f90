@@ -89,6 +89,7 @@ module lagrangia_description
         character(line_length), allocatable :: constraint_equations(:)  !! with `=` or `>=`
         type(frequency_t), allocatable :: frequencies(:)
         character(formula_length), allocatable :: motion(:)  !! `x = x_0 + x_dot_0 t`, from t = 0
+        real(dp), allocatable :: equilibrium(:)          !! at or near one; absent: try zero
         character(line_length), allocatable :: notes(:)  !! slips corrected, limits, remarks
         character(line_length) :: source = ""            !! where in the lecture notes
     end type description_t

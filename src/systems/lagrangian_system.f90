@@ -24,11 +24,13 @@ module lagrangia_lagrangian_system
 
     type, abstract, extends(system_t) :: lagrangian_system_t
         real(dp), allocatable :: p(:)  !! the parameters, in the order of `describe`
+        logical, allocatable :: cyclic_coordinates(:)  !! all that are cyclic with them, (ndof)
     contains
         procedure(outline_i), deferred :: outline
         procedure :: value
         procedure :: describe
         procedure :: configure
+        procedure :: prepare => nothing_to_prepare
         procedure :: accelerations
         procedure :: energy
         procedure :: find_structure
@@ -95,12 +97,18 @@ contains
         self%p = values
         call self%describe(d)
         self%ndof = size(d%coordinates)
+        call self%prepare()
         call self%find_structure()
     end subroutine configure
 
+    pure subroutine nothing_to_prepare(self)
+        !! What else follows from the parameters, before `find_structure`: here nothing does.
+        class(lagrangian_system_t), intent(inout) :: self
+    end subroutine nothing_to_prepare
+
     pure subroutine find_structure(self)
         !! Whether accelerations depend on the velocities, whether L or a generalised force depends
-        !! on the time, whether there is such a force, and the first cyclic coordinate, from up to
+        !! on the time, whether there is such a force, and which coordinates are cyclic, from up to
         !! four states at which L is finite: of state \(k\), \(|q| \le 0.8^k\). Without any, L
         !! counts as dependent on everything.
         class(lagrangian_system_t), intent(inout) :: self
@@ -151,6 +159,7 @@ contains
             cyclic = .false.
         end if
         self%cyclic = findloc(cyclic, .true., 1)
+        self%cyclic_coordinates = cyclic
     end subroutine find_structure
 
     pure subroutine accelerations(self, t, q, v, a)

@@ -1,0 +1,333 @@
+module lagrangia_lagrangian_group
+    !! The group `&lagrangian` of a scene: a system in formulas, its parameters' values in the group
+    !! of its name.
+    use lagrangia_description, only: name_length, parameter_t, quantity_t, real_number
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_namelist, only: get_real, get_strings, has_key, namelist_t, refuse_unknown_keys, &
+                                  refuse_value
+    use lagrangia_scene, only: add_texts, scene_line_length
+    use lagrangia_text, only: lower, quoted, to_text
+    use lagrangia_written_formulas, only: longest_formula, written_formulas_t
+    implicit none (type, external)
+    private
+    public :: read_formulas, read_values, refuse_formula, formula_lines
+    public :: group
+
+    character(*), parameter :: group = "lagrangian"
+    integer, parameter :: most = 200   !! texts of one key
+    integer, parameter :: piece = 80   !! characters of a formula on one line of the echo, if it
+    integer, parameter :: longest_piece = 500  !! has blanks, and at most
+    character(name_length), parameter :: keys(*) = [character(name_length) :: "coordinates", "parameters", &
+                                           "t", "v", "l", "definitions", "positions", &
+                                           "equilibrium"]
+    character(*), parameter :: syntax = "a name, its unit and a few words are written "// &
+                                        "'r [m] length of the spring'"
+
+contains
+
+    subroutine read_formulas(tree, formulas, error)
+        !! What `&lagrangian` says.
+        type(namelist_t), intent(inout) :: tree              !! keys that are read are marked
+        type(written_formulas_t), intent(inout) :: formulas  !! has its name; gets the rest
+        type(error_t), allocatable, intent(out) :: error     !! a text that is missing or too long
+        type(quantity_t), allocatable :: items(:)
+        character(:), allocatable :: force
+        integer :: i
+
+        call read_names(tree, "coordinates", .true., formulas%coordinates, error)
+        if (allocated(error)) return
+        call read_names(tree, "parameters", .false., items, error)
+        if (allocated(error)) return
+        call read_formula("t", formulas%kinetic)
+        if (allocated(error)) return
+        call read_formula("v", formulas%potential)
+        if (allocated(error)) return
+        call read_formula("l", formulas%lagrangian)
+        if (allocated(error)) return
+        allocate (formulas%forces(size(formulas%coordinates)))
+        do i = 1, size(formulas%forces)
+            call read_formula(force_key(formulas%coordinates(i)), force)
+            if (allocated(error)) return
+            formulas%forces(i) = force
+        end do
+        call read_list("definitions", formulas%definitions)
+        if (allocated(error)) return
+        call read_list("positions", formulas%positions)
+        if (allocated(error)) return
+        call read_list("equilibrium", formulas%equilibrium)
+        if (allocated(error)) return
+        call refuse_unknown_keys(tree, group, [character(len(keys)) :: keys, &
+                                               (force_key(formulas%coordinates(i)), i=1, &
+                                                size(formulas%coordinates))], error)
+        if (allocated(error)) return
+        allocate (formulas%parameters(size(items)))
+        do i = 1, size(items)
+            formulas%parameters(i) = real_number(trim(items(i)%name), trim(items(i)%unit), &
+                                                 trim(items(i)%meaning), 0.0_dp)
+        end do
+    contains
+        subroutine read_formula(key, formula)
+            !! One formula, perhaps in several texts.
+            character(*), intent(in) :: key
+            character(:), allocatable, intent(out) :: formula
+            character(longest_formula), allocatable :: texts(:), pieces(:)
+
+            call read_list(key, texts)
+            if (.not. allocated(error)) call join_pieces(texts, formula)
+            if (allocated(error)) return
+            call split(formula, pieces)
+            if (len(formula) > longest_formula) then
+                call refuse_value(tree, group, key, "a formula has at most "// &
+                                  to_text(longest_formula)//" characters", error)
+            else if (formula == "" .and. has_key(tree, group, key)) then
+                call refuse_value(tree, group, key, "there is no formula in the quotes", error)
+            else if (any(len_trim(pieces) > longest_piece)) then
+                call refuse_value(tree, group, key, "more than "//to_text(longest_piece)// &
+                                  " characters without a blank; put some between factors", error)
+            end if
+        end subroutine read_formula
+
+        subroutine read_list(key, texts)
+            character(*), intent(in) :: key
+            character(longest_formula), allocatable, intent(out) :: texts(:)
+            integer :: i
+
+            allocate (texts(0))
+            call get_strings(tree, group, key, 1, most, texts, error)
+            if (allocated(error)) return
+            do i = 1, size(texts)
+                if (len_trim(texts(i)) <= longest_piece .or. is_formula(key)) cycle
+                call refuse_value(tree, group, key, "a text of at most "// &
+                                  to_text(longest_piece)//" characters is needed", error, i)
+                return
+            end do
+        end subroutine read_list
+    end subroutine read_formulas
+
+    subroutine read_values(tree, formulas, error)
+        !! The values of the parameters, from the group of the system's name.
+        type(namelist_t), intent(inout) :: tree              !! keys that are read are marked
+        type(written_formulas_t), intent(inout) :: formulas  !! has its names; gets the values
+        type(error_t), allocatable, intent(out) :: error     !! a value that is missing
+        character(name_length) :: names(size(formulas%parameters))
+        integer :: i
+
+        do i = 1, size(names)
+            names(i) = lower(formulas%parameters(i)%name)
+            if (all(names(:i - 1) /= names(i))) cycle
+            call refuse_value(tree, group, "parameters", "there is a parameter "// &
+                              quoted(trim(names(i)))//" already, and keys know no capital "// &
+                              "letters; take another name", error, i)
+            return
+        end do
+        do i = 1, size(names)
+            call get_real(tree, trim(formulas%name), trim(names(i)), &
+                          formulas%parameters(i)%value(1), error, required=.true.)
+            if (allocated(error)) return
+        end do
+        call refuse_unknown_keys(tree, trim(formulas%name), names, error)
+        if (allocated(error)) error%message = error%message//"; parameters are named in "// &
+                                              "&lagrangian: parameters"
+    end subroutine read_values
+
+    subroutine read_names(tree, key, required, items, error)
+        !! `'r [m] length of the spring'`, one text each.
+        type(namelist_t), intent(inout) :: tree
+        character(*), intent(in) :: key
+        logical, intent(in) :: required
+        type(quantity_t), allocatable, intent(out) :: items(:)
+        type(error_t), allocatable, intent(out) :: error
+        character(200), allocatable :: texts(:)
+        character(:), allocatable :: text
+        integer :: i, open, close
+
+        allocate (texts(0))
+        call get_strings(tree, group, key, 1, most, texts, error, required=required)
+        if (allocated(error)) return
+        allocate (items(size(texts)))
+        do i = 1, size(texts)
+            text = trim(adjustl(texts(i)))
+            open = scan(text//" ", " [")
+            if (open - 1 > name_length .or. open == 1) then
+                call refuse_value(tree, group, key, syntax, error, i)
+                return
+            end if
+            items(i)%name = text(:open - 1)
+            text = trim(adjustl(text(open:)))
+            if (index(text, "[") == 1) then
+                close = index(text, "]")
+                if (close < 3 .or. close > 2 + len(items%unit)) then
+                    call refuse_value(tree, group, key, "a unit of up to "// &
+                                      to_text(len(items%unit))//" characters stands between "// &
+                                      "brackets; "//syntax, error, i)
+                    return
+                end if
+                items(i)%unit = text(2:close - 1)
+                text = trim(adjustl(text(close + 1:)))
+            end if
+            if (len(text) > len(items%meaning)) then
+                call refuse_value(tree, group, key, "more than "//to_text(len(items%meaning))// &
+                                  " characters behind the name", error, i)
+                return
+            end if
+            items(i)%meaning = text
+        end do
+    end subroutine read_names
+
+    pure function force_key(coordinate) result(key)
+        !! Where the generalised force on a coordinate stands: `q_theta`.
+        type(quantity_t), intent(in) :: coordinate
+        character(:), allocatable :: key
+
+        key = "q_"//lower(trim(coordinate%name))
+    end function force_key
+
+    pure function is_formula(key) result(yes)
+        !! T, V, L or a force: one formula, perhaps in several texts.
+        character(*), intent(in) :: key
+        logical :: yes
+
+        yes = len(key) == 1 .or. index(key, "q_") == 1
+    end function is_formula
+
+    pure subroutine join_pieces(texts, formula)
+        !! A formula in several texts is one.
+        character(*), intent(in) :: texts(:)
+        character(:), allocatable, intent(out) :: formula
+        integer :: i
+
+        formula = ""
+        do i = 1, size(texts)
+            if (i > 1) formula = formula//repeat(" ", gap(texts(i - 1), texts(i)))
+            formula = formula//trim(texts(i))
+        end do
+    end subroutine join_pieces
+
+    pure function gap(left, right) result(blanks)
+        !! How many blanks are put between two texts of a formula: one, but none before a sign, so
+        !! that a formula that was broken there does not grow.
+        character(*), intent(in) :: left, right
+        integer :: blanks
+
+        blanks = 1
+        if (scan(right(:1), "+-*/") == 1 .and. index(trim(left)//"|", "*|") == 0) blanks = 0
+    end function gap
+
+    pure subroutine split(formula, pieces)
+        !! The formula in pieces of at most `piece` characters; where it has no place to break so
+        !! near, in longer ones.
+        character(*), intent(in) :: formula
+        character(longest_formula), allocatable, intent(out) :: pieces(:)
+        integer :: first, i, last, length
+
+        allocate (pieces(0))
+        length = len_trim(formula)
+        first = 1
+        do while (first <= length)
+            last = length
+            if (length - first >= piece) then
+                do i = first + 1, length - 1
+                    if (.not. may_break(formula, i)) cycle
+                    if (i - first >= piece .and. last < length) exit
+                    last = i
+                    if (i - first >= piece) exit
+                end do
+            end if
+            pieces = [character(longest_formula) :: pieces, formula(first:last)]
+            first = last + 1
+        end do
+    end subroutine split
+
+    pure function may_break(formula, i) result(yes)
+        !! Does a blank behind character `i` change nothing?
+        character(*), intent(in) :: formula
+        integer, intent(in) :: i
+        logical :: yes
+        character(1) :: here, next
+
+        here = formula(i:i)
+        next = formula(i + 1:i + 1)
+        yes = here == " " .or. next == " " .or. next == "/"
+        if (scan(next, "+-") == 1) yes = scan(here, "eE") == 0  ! 1e-3
+        if (next == "*") yes = here /= "*"
+    end function may_break
+
+    subroutine refuse_formula(tree, found, error)
+        !! Give an error in the formulas its place.
+        type(namelist_t), intent(inout) :: tree  !! keys that are read are marked as used
+        type(error_t), intent(in) :: found       !! with its key and element
+        type(error_t), allocatable, intent(out) :: error  !! with file, line, column
+        character(longest_formula), allocatable :: texts(:)
+        integer :: element, at, i
+
+        element = found%element
+        at = column_of(found%message)
+        if (is_formula(found%key)) then
+            allocate (texts(0))
+            call get_strings(tree, group, found%key, 1, most, texts, error)
+            do element = 1, size(texts) - 1
+                i = len_trim(texts(element)) + gap(texts(element), texts(element + 1))
+                if (at <= i) exit
+                at = at - i
+            end do
+        end if
+        call refuse_value(tree, group, found%key, found%message, error, element, at)
+        error%status = found%status
+    end subroutine refuse_formula
+
+    pure function column_of(message) result(column)
+        !! The number that `column 12: ` at the beginning of a message says; 0 where there is none.
+        character(*), intent(in) :: message
+        integer :: column
+        character(*), parameter :: head = "column ", digits = "0123456789"
+        integer :: i
+
+        column = 0
+        if (index(message, head) /= 1) return
+        do i = len(head) + 1, min(len(message), len(head) + 6)
+            if (index(digits, message(i:i)) == 0) exit
+            column = 10*column + index(digits, message(i:i)) - 1
+        end do
+    end function column_of
+
+    subroutine formula_lines(tree, formulas, lines)
+        !! The group as it was read, for the echo of the scene.
+        type(namelist_t), intent(inout) :: tree          !! keys that are read are marked as used
+        type(written_formulas_t), intent(in) :: formulas !! of this tree
+        character(scene_line_length), allocatable, intent(out) :: lines(:)  !! `&lagrangian` to `/`
+        integer :: i
+
+        lines = [character(scene_line_length) :: "&"//group]
+        call add_list("coordinates")
+        call add_list("parameters")
+        call add_list("definitions")
+        call add_formula("T", formulas%kinetic)
+        call add_formula("V", formulas%potential)
+        call add_formula("L", formulas%lagrangian)
+        do i = 1, size(formulas%forces)
+            call add_formula("Q_"//trim(formulas%coordinates(i)%name), trim(formulas%forces(i)))
+        end do
+        call add_list("positions")
+        call add_list("equilibrium")
+        lines = [character(scene_line_length) :: lines, "/"]
+    contains
+        subroutine add_list(key)
+            character(*), intent(in) :: key
+            character(longest_formula), allocatable :: texts(:)
+            type(error_t), allocatable :: error
+
+            allocate (texts(0))
+            call get_strings(tree, group, key, 1, most, texts, error)
+            call add_texts(lines, key, texts)
+        end subroutine add_list
+
+        subroutine add_formula(key, formula)
+            character(*), intent(in) :: key, formula
+            character(longest_formula), allocatable :: pieces(:)
+
+            call split(formula, pieces)
+            call add_texts(lines, key, pieces)
+        end subroutine add_formula
+    end subroutine formula_lines
+end module lagrangia_lagrangian_group

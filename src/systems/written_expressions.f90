@@ -1,0 +1,351 @@
+module lagrangia_written_expressions
+    !! From what a scene's group `&lagrangian` says to expressions: its names become symbols, its
+    !! formulas are parsed, and refused where they make no system.
+    use lagrangia_description, only: name_length
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_expression, only: expression_t, operator(-), whole
+    use lagrangia_formula_parser, only: parse_formula
+    use lagrangia_symbols, only: check_name, symbols_t
+    use lagrangia_text, only: lower, quoted, to_text
+    use lagrangia_written_formulas, only: written_formulas_t
+    implicit none (type, external)
+    private
+    public :: written_expressions_t, read_expressions, unused_parameters
+
+    type :: written_expressions_t
+        !! A system as expressions of the symbols: t, coordinates, velocities, parameters.
+        type(symbols_t) :: symbols                          !! and the definitions
+        type(expression_t) :: kinetic, potential            !! T and V; zero where L was given
+        type(expression_t) :: lagrangian                    !! L, J
+        type(expression_t), allocatable :: forces(:)        !! Q of each coordinate
+        type(expression_t), allocatable :: places(:)        !! x, y, z of each point, m
+        type(expression_t), allocatable :: masses(:)        !! of the points, kg
+        type(expression_t), allocatable :: equilibrium(:)   !! of each coordinate; or none
+        character(name_length), allocatable :: points(:)    !! their names
+        integer :: dimensions = 2                           !! of the points' space
+    end type written_expressions_t
+
+contains
+
+    subroutine read_expressions(formulas, expressions, error)
+        !! Parse all formulas.
+        type(written_formulas_t), intent(in) :: formulas        !! texts
+        type(written_expressions_t), intent(out) :: expressions !! of these symbols
+        type(error_t), allocatable, intent(out) :: error
+        !! status 2, `key` and `element` of `&lagrangian` to blame; `column N: ` before a message
+        !! about one place of a formula
+
+        call add_symbols(formulas, expressions%symbols, error)
+        if (.not. allocated(error)) call add_definitions(formulas, expressions%symbols, error)
+        if (.not. allocated(error)) call read_lagrangian(formulas, expressions, error)
+        if (.not. allocated(error)) call read_forces(formulas, expressions, error)
+        if (.not. allocated(error)) call read_points(formulas, expressions, error)
+        if (.not. allocated(error)) call read_equilibrium(formulas, expressions, error)
+    end subroutine read_expressions
+
+    function unused_parameters(expressions, formulas) result(text)
+        !! The parameters that are in no formula, `b, c`; nothing where there is none.
+        type(written_expressions_t), intent(in) :: expressions  !! of the formulas
+        type(written_formulas_t), intent(in) :: formulas        !! say which parameters there are
+        character(:), allocatable :: text
+        integer :: first, i
+
+        text = ""
+        first = 1 + 2*size(formulas%coordinates)
+        do i = 1, size(formulas%parameters)
+            if (expressions%lagrangian%depends_on(first + i)) cycle
+            if (any_depends_on(expressions%forces, first + i)) cycle
+            if (any_depends_on(expressions%places, first + i)) cycle
+            if (any_depends_on(expressions%masses, first + i)) cycle
+            if (any_depends_on(expressions%equilibrium, first + i)) cycle
+            if (text /= "") text = text//", "
+            text = text//trim(formulas%parameters(i)%name)
+        end do
+    end function unused_parameters
+
+    pure function any_depends_on(expressions, which) result(yes)
+        !! Does the symbol occur in one of them?
+        type(expression_t), intent(in) :: expressions(:)
+        integer, intent(in) :: which
+        logical :: yes
+        integer :: i
+
+        yes = .false.
+        do i = 1, size(expressions)
+            yes = yes .or. expressions(i)%depends_on(which)
+        end do
+    end function any_depends_on
+
+    subroutine add_symbols(formulas, symbols, error)
+        !! t, coordinates, velocities, parameters.
+        type(written_formulas_t), intent(in) :: formulas
+        type(symbols_t), intent(out) :: symbols
+        type(error_t), allocatable, intent(out) :: error
+        integer, parameter :: longest = name_length - len("p__drift")
+        character(:), allocatable :: name
+        integer :: i, k
+
+        call symbols%add("t")
+        do k = 1, 2
+            do i = 1, size(formulas%coordinates)
+                name = trim(formulas%coordinates(i)%name)
+                if (len(name) > longest) then
+                    call fail(error, "the name "//quoted(name)//" is longer than "// &
+                              to_text(longest)//" characters; shorten it")
+                else if (k == 1) then
+                    call refuse_ending(name, error)
+                    if (.not. allocated(error)) call symbols%add(name, error)
+                else
+                    call symbols%add(name//"_dot", error)
+                end if
+                if (allocated(error)) exit
+            end do
+            if (allocated(error)) exit
+        end do
+        if (allocated(error)) then
+            error%key = "coordinates"
+            error%element = i
+            return
+        end if
+        do i = 1, size(formulas%parameters)
+            name = trim(formulas%parameters(i)%name)
+            call refuse_ending(name, error)
+            if (.not. allocated(error)) call symbols%add(name, error)
+            if (.not. allocated(error)) cycle
+            error%key = "parameters"
+            error%element = i
+            return
+        end do
+    end subroutine add_symbols
+
+    pure subroutine refuse_ending(name, error)
+        !! `x_dot` is the velocity of `x`, and no name of its own.
+        character(*), intent(in) :: name
+        type(error_t), allocatable, intent(out) :: error
+        integer :: last
+
+        last = index(name, "_", back=.true.)
+        if (last == 0) return
+        if (name(last:) /= "_dot" .and. name(last:) /= "_ddot") return
+        call fail(error, quoted(name)//" is "//trim(merge("the velocity    ", &
+                  "the acceleration", name(last:) == "_dot"))//" of "//quoted(name(:last - 1))// &
+                  "; take a name that does not end in "//name(last:))
+    end subroutine refuse_ending
+
+    subroutine add_definitions(formulas, symbols, error)
+        !! `D = theta1 - theta2`, one after the other.
+        type(written_formulas_t), intent(in) :: formulas
+        type(symbols_t), intent(inout) :: symbols
+        type(error_t), allocatable, intent(out) :: error
+        type(expression_t) :: meaning
+        integer :: i, equals
+
+        do i = 1, size(formulas%definitions)
+            associate (text => formulas%definitions(i))
+                equals = index(text, "=")
+                if (equals == 0) then
+                    call fail(error, "a definition is written 'D = theta1 - theta2'")
+                else
+                    call refuse_ending(trim(adjustl(text(:equals - 1))), error)
+                    if (.not. allocated(error)) call parse_formula( &
+                        repeat(" ", equals)//trim(text(equals + 1:)), symbols, meaning, error)
+                    if (.not. allocated(error)) call symbols%define( &
+                        trim(adjustl(text(:equals - 1))), meaning, error)
+                end if
+            end associate
+            if (.not. allocated(error)) cycle
+            error%key = "definitions"
+            error%element = i
+            return
+        end do
+    end subroutine add_definitions
+
+    subroutine read_lagrangian(formulas, expressions, error)
+        !! L, or T and V.
+        type(written_formulas_t), intent(in) :: formulas
+        type(written_expressions_t), intent(inout) :: expressions
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: name
+        integer :: i
+
+        associate (t => formulas%kinetic, v => formulas%potential, l => formulas%lagrangian)
+            if (l /= "" .and. t//v /= "") then
+                call fail(error, "give either L, or T and V: L is T - V", key="l")
+            else if (l == "" .and. t == "") then
+                call fail(error, "is missing; write T = 'm/2 x_dot^2', or L, which is T - V", &
+                          key="t")
+            end if
+            if (allocated(error)) return
+            expressions%kinetic = whole(0)
+            expressions%potential = whole(0)
+            if (l /= "") then
+                call parse("l", l, expressions%lagrangian)
+            else
+                call parse("t", t, expressions%kinetic)
+                if (v /= "" .and. .not. allocated(error)) &
+                    call parse("v", v, expressions%potential)
+                if (.not. allocated(error)) expressions%lagrangian = expressions%kinetic &
+                                                                     - expressions%potential
+            end if
+            if (allocated(error)) return
+        end associate
+        do i = 1, size(formulas%coordinates)
+            if (expressions%lagrangian%depends_on(1 + size(formulas%coordinates) + i)) cycle
+            name = trim(formulas%coordinates(i)%name)
+            call fail(error, "L has no "//name//"_dot in it, so that the mass matrix is "// &
+                      "singular and nothing says how "//name//" moves; give T a term with "// &
+                      name//"_dot^2, or leave "//name//" out", key="coordinates", element=i)
+            return
+        end do
+    contains
+        subroutine parse(key, text, expression)
+            character(*), intent(in) :: key, text
+            type(expression_t), intent(inout) :: expression
+
+            call parse_formula(text, expressions%symbols, expression, error)
+            if (allocated(error)) error%key = key
+        end subroutine parse
+    end subroutine read_lagrangian
+
+    subroutine read_forces(formulas, expressions, error)
+        !! Generalised forces; 0 where none was given.
+        type(written_formulas_t), intent(in) :: formulas
+        type(written_expressions_t), intent(inout) :: expressions
+        type(error_t), allocatable, intent(out) :: error
+        integer :: i
+
+        allocate (expressions%forces(size(formulas%forces)))
+        do i = 1, size(formulas%forces)
+            expressions%forces(i) = whole(0)
+            if (formulas%forces(i) == "") cycle
+            call parse_formula(trim(formulas%forces(i)), expressions%symbols, &
+                               expressions%forces(i), error)
+            if (.not. allocated(error)) cycle
+            error%key = "q_"//lower(trim(formulas%coordinates(i)%name))
+            return
+        end do
+    end subroutine read_forces
+
+    subroutine read_points(formulas, expressions, error)
+        !! `bob, m: x, y` each.
+        type(written_formulas_t), intent(in) :: formulas
+        type(written_expressions_t), intent(inout) :: expressions
+        type(error_t), allocatable, intent(out) :: error
+        integer :: i, n
+
+        n = size(formulas%positions)
+        allocate (expressions%places(3*n), expressions%masses(n), expressions%points(n))
+        do i = 1, n
+            call read_point(trim(formulas%positions(i)), i, size(formulas%coordinates), &
+                            expressions, error)
+            if (.not. allocated(error)) cycle
+            error%key = "positions"
+            error%element = i
+            return
+        end do
+    end subroutine read_points
+
+    subroutine read_point(text, i, n, expressions, error)
+        !! `bob, m: x, y` or `bob, m: x, y, z`; without a mass it is a place only.
+        character(*), intent(in) :: text
+        integer, intent(in) :: i  !! which of the points
+        integer, intent(in) :: n  !! coordinates
+        type(written_expressions_t), intent(inout) :: expressions
+        type(error_t), allocatable, intent(out) :: error
+        character(*), parameter :: syntax = "a place is written 'bob: x, y' or 'bob: x, y, z', "// &
+                                            "with its mass 'bob, m: x, y'"
+        integer :: colon, comma, first, k, last
+
+        colon = index(text, ":")
+        comma = index(text(:max(colon, 1)), ",")
+        last = colon
+        if (comma > 0) last = comma
+        call read_name(text(:max(last, 1) - 1), expressions%points(i), error)
+        if (allocated(error) .or. colon == 0) call fail(error, syntax)
+        if (allocated(error)) return
+        expressions%masses(i) = whole(0)
+        if (comma > 0) call parse_without(repeat(" ", comma)//text(comma + 1:colon - 1), 1 + 2*n, &
+                                          "the mass depends on", expressions%symbols, &
+                                          expressions%masses(i), error)
+        first = colon + 1
+        do k = 1, 3
+            if (allocated(error)) return
+            last = first + index(text(first:)//",", ",") - 2
+            call parse_without(repeat(" ", first - 1)//text(first:last), -n, &
+                               "a place depends on", expressions%symbols, &
+                               expressions%places(3*i - 3 + k), error)
+            first = last + 2
+            if (first > len(text)) exit
+        end do
+        if (allocated(error)) return
+        if (first <= len(text) .or. k == 1) then
+            call fail(error, syntax)
+            return
+        end if
+        expressions%dimensions = max(expressions%dimensions, k)
+        if (k == 2) expressions%places(3*i) = whole(0)
+    end subroutine read_point
+
+    pure subroutine read_name(text, name, error)
+        !! The name of a point: one that columns can have.
+        character(*), intent(in) :: text
+        character(name_length), intent(out) :: name
+        type(error_t), allocatable, intent(out) :: error
+
+        name = ""
+        if (len_trim(adjustl(text)) > name_length - len("x_")) then
+            call fail(error, "too long")
+        else
+            name = adjustl(text)
+            call check_name("x_"//trim(name), error)
+            if (name == "") call fail(error, "there is none")
+        end if
+    end subroutine read_name
+
+    subroutine read_equilibrium(formulas, expressions, error)
+        !! One formula of the parameters for each coordinate, or none at all.
+        type(written_formulas_t), intent(in) :: formulas
+        type(written_expressions_t), intent(inout) :: expressions
+        type(error_t), allocatable, intent(out) :: error
+        integer :: i, n
+
+        n = size(formulas%coordinates)
+        allocate (expressions%equilibrium(size(formulas%equilibrium)))
+        if (all(size(formulas%equilibrium) /= [0, n])) then
+            call fail(error, "an equilibrium has one formula for each coordinate: "// &
+                      to_text(n)//", not "//to_text(size(formulas%equilibrium)), &
+                      key="equilibrium")
+            return
+        end if
+        do i = 1, size(formulas%equilibrium)
+            call parse_without(trim(formulas%equilibrium(i)), 1 + 2*n, "an equilibrium depends "// &
+                               "on", expressions%symbols, expressions%equilibrium(i), error)
+            if (.not. allocated(error)) cycle
+            error%key = "equilibrium"
+            error%element = i
+            return
+        end do
+    end subroutine read_equilibrium
+
+    subroutine parse_without(text, n, problem, symbols, expression, error)
+        !! A formula that contains none of the first `n` symbols; with `-n` coordinates, none of
+        !! their velocities.
+        character(*), intent(in) :: text
+        integer, intent(in) :: n
+        character(*), intent(in) :: problem  !! said before the symbol
+        type(symbols_t), intent(in) :: symbols
+        type(expression_t), intent(inout) :: expression
+        type(error_t), allocatable, intent(out) :: error
+        integer :: i
+
+        call parse_formula(text, symbols, expression, error)
+        if (allocated(error)) return
+        do i = merge(1, 2 - n, n > 0), merge(n, 1 - 2*n, n > 0)
+            if (.not. expression%depends_on(i)) cycle
+            call fail(error, problem//" "//trim(symbols%names(i))//", which is not allowed: "// &
+                      trim(merge("parameters and numbers only         ", &
+                                 "the time, coordinates and parameters", n > 0)))
+            return
+        end do
+    end subroutine parse_without
+end module lagrangia_written_expressions
