@@ -82,17 +82,17 @@ contains
         character(*), parameter :: t = names//"T = "
         character(*), parameter :: there = "; there are t, r, theta, r_dot, theta_dot, m, k, g, pi"
 
-        call blamed(t//"'m r_dot^2 + sin theta'", "theta'", "T: column 17: 'sin' needs "// &
-                    "brackets; write 'sin(theta)'")
+        call blamed(t//"'m r_dot^2 + sin m r'", "m r'", "T: column 17: 'sin' needs brackets; "// &
+                    "write 'sin(m)'")
         call blamed(t//"'m (r_dot^2 + 2theta_dot^2)'", "2theta", "T: column 14: a blank is "// &
                     "missing in '2theta_dot'; write '2 theta_dot'")
-        call blamed(t//"'m (r_dot^2' '+ thetadot^2)'", "thetadot", "T: column 14: unknown name "// &
+        call blamed(t//"'m (r_dot^2' '+ thetadot^2)'", "thetadot", "T: column 13: unknown name "// &
                     "'thetadot'; did you mean 'theta_dot'?")
-        call blamed(t//"'m (r_dot^2 +' 'thetadot^2)'", "thetadot", "T: column 15: unknown name "// &
+        call blamed(t//"'m (r_dot^2 +' 'thetadot^2)'", "thetadot", "T: column 14: unknown name "// &
                     "'thetadot'; did you mean 'theta_dot'?")
         call blamed(t//"'m r_dot^2 cos("//char(206)//char(184)//") + x'", "x'", "T: column 20: "// &
                     "unknown name 'x'"//there)
-        call blamed(t//"'m r''''^2 '", "'''^2", "T: column 4: ''' is no derivative; write "// &
+        call blamed(t//"'m r''''^2 '", "''''", "T: column 4: ''' is no derivative; write "// &
                     "x_dot, x_ddot")
         call blamed(t//"'m ''''^2 r''s '", "''''", "T: column 3: ''' is no derivative; write "// &
                     "x_dot, x_ddot")
@@ -187,12 +187,12 @@ contains
         call refused(group//"positions = 'bob: r, r_dot'", "a.nml:2:150: &lagrangian: "// &
                      "positions = 'bob: r, r_dot': a place depends on r_dot, which is not "// &
                      "allowed: the time, coordinates and parameters")
-        call refused(group//"positions = 'bob: r, y'", "a.nml:2:158: &lagrangian: positions: "// &
+        call refused(group//"positions = 'bob: r, y'", "a.nml:2:159: &lagrangian: positions: "// &
                      "column 9: unknown name 'y'; there are t, r, theta, r_dot, theta_dot, m, "// &
                      "k, g, pi")
         call refused(group//"positions = 'a: r, r', 'a: r, r'", "a.nml:2:150: &lagrangian: "// &
-                     "positions = 'a: r, r': two columns would be called 'x_a', capital letters "// &
-                     "aside; take other names")
+                     "positions = 'a: r, r': two columns would be called 'x_a', capital "// &
+                     "letters aside; take other names")
         call refused(group//"equilibrium = '0'", "a.nml:2:152: &lagrangian: equilibrium = '0': "// &
                      "an equilibrium has one formula for each coordinate: 2, not 1")
         call refused(group//"equilibrium = 'r', '0'", "a.nml:2:152: &lagrangian: equilibrium = "// &
@@ -232,11 +232,12 @@ contains
         if (anyExceptions()) return
         call assertEqual(scene%formulas, again%formulas)
         call refused(names//"T = 'm/2 (r_dot^2 + theta_dot^2)' V = 'r"//repeat(" + r", 2500)// &
-                     "'", "a.nml:2:105: &lagrangian: V = 'r + r + r + r + r + r + r + r + r + r "// &
-                     "+...: a text of at most 10000 characters is needed")
+                     "'", "a.nml:2:105: &lagrangian: V = 'r + r + r + r + r + r + r + r + r "// &
+                     "+ r +...: a text of at most 10000 characters is needed")
         call refused(names//"T = 'm/2 (r_dot^2 + theta_dot^2)' V = 'r"//repeat(" + r", 2000)// &
-                     "' 'r"//repeat(" + r", 1000)//"'", "a.nml:2:105: &lagrangian: V = 'r + r + "// &
-                     "r + r + r + r + r + r + r + r +...: a formula has at most 10000 characters")
+                     "' 'r"//repeat(" + r", 1000)//"'", "a.nml:2:105: &lagrangian: V = 'r + "// &
+                     "r + r + r + r + r + r + r + r + r +...: a formula has at most 10000 "// &
+                     "characters")
     end subroutine long_formulas
 
     subroutine unused_parameters_are_said()
@@ -244,9 +245,9 @@ contains
         type(scene_t) :: scene
         type(error_t), allocatable :: error
 
-        call read_own("coordinates = 'r' parameters = 'm', 'b', 'k', 'c' definitions = 'D = c r' "// &
-                      "T = 'm r_dot^2' Q_r = '-k'", scene, error, "m = 1 b = 2 k = 3 c = 4", &
-                      "q = 1")
+        call read_own("coordinates = 'r' parameters = 'm', 'b', 'k', 'c' definitions = "// &
+                      "'D = c r' T = 'm r_dot^2' Q_r = '-k'", scene, error, &
+                      "m = 1 b = 2 k = 3 c = 4", "q = 1")
         if (allocated(error)) call assertEqual("", error%message)
         if (anyExceptions()) return
         call assertEqual("no formula contains b, c", scene%warning)

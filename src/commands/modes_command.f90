@@ -1,6 +1,6 @@
 module lagrangia_modes_command
-    !! `lagrangia modes SYSTEM`: small oscillations, LAPACK's answer beside the page's. A scene's name
-    !! or path stands for its system.
+    !! `lagrangia modes SYSTEM`: small oscillations, LAPACK's answer beside the page's. A scene's
+    !! name or path stands for its system.
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: note, put, put_line
     use lagrangia_description, only: description_t

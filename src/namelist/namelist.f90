@@ -395,8 +395,8 @@ contains
     end subroutine refuse_value
 
     pure function byte_of(tree, value, column) result(at)
-        !! Where the tree's text has the character `column` of what `text_of` gives, several bytes of
-        !! UTF-8 being one; at most the end of the value.
+        !! Where the tree's text has the character `column` of what `text_of` gives, several bytes
+        !! of UTF-8 being one; at most the end of the value.
         type(namelist_t), intent(in) :: tree
         type(value_t), intent(in) :: value
         integer, intent(in) :: column

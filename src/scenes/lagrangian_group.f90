@@ -1,7 +1,7 @@
 module lagrangia_lagrangian_group
     !! The group `&lagrangian` of a scene: a system in formulas, its parameters' values in the group
     !! of its name.
-    use lagrangia_description, only: name_length, parameter_t, quantity_t, real_number
+    use lagrangia_description, only: name_length, quantity_t, real_number
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_namelist, only: get_real, get_strings, has_key, namelist_t, refuse_unknown_keys, &
@@ -16,11 +16,10 @@ module lagrangia_lagrangian_group
 
     character(*), parameter :: group = "lagrangian"
     integer, parameter :: most = 200   !! texts of one key
-    integer, parameter :: piece = 80   !! characters of a formula on one line of the echo, if it
-    integer, parameter :: longest_piece = 500  !! has blanks, and at most
-    character(name_length), parameter :: keys(*) = [character(name_length) :: "coordinates", "parameters", &
-                                           "t", "v", "l", "definitions", "positions", &
-                                           "equilibrium"]
+    integer, parameter :: piece = 80   !! characters of a formula on one line of the echo,
+    integer, parameter :: longest_piece = 500  !! if there is a place to break it; else at most
+    character(name_length), parameter :: keys(*) = [character(name_length) :: &
+        "coordinates", "parameters", "t", "v", "l", "definitions", "positions", "equilibrium"]
     character(*), parameter :: syntax = "a name, its unit and a few words are written "// &
                                         "'r [m] length of the spring'"
 
@@ -84,7 +83,8 @@ contains
                 call refuse_value(tree, group, key, "there is no formula in the quotes", error)
             else if (any(len_trim(pieces) > longest_piece)) then
                 call refuse_value(tree, group, key, "more than "//to_text(longest_piece)// &
-                                  " characters without a blank; put some between factors", error)
+                                  " characters without a sign or a blank; put blanks "// &
+                                  "between factors", error)
             end if
         end subroutine read_formula
 
@@ -140,7 +140,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
         character(200), allocatable :: texts(:)
         character(:), allocatable :: text
-        integer :: i, open, close
+        integer :: i, left, right
 
         allocate (texts(0))
         call get_strings(tree, group, key, 1, most, texts, error, required=required)
@@ -148,23 +148,23 @@ contains
         allocate (items(size(texts)))
         do i = 1, size(texts)
             text = trim(adjustl(texts(i)))
-            open = scan(text//" ", " [")
-            if (open - 1 > name_length .or. open == 1) then
+            left = scan(text//" ", " [")
+            if (left - 1 > name_length .or. left == 1) then
                 call refuse_value(tree, group, key, syntax, error, i)
                 return
             end if
-            items(i)%name = text(:open - 1)
-            text = trim(adjustl(text(open:)))
+            items(i)%name = text(:left - 1)
+            text = trim(adjustl(text(left:)))
             if (index(text, "[") == 1) then
-                close = index(text, "]")
-                if (close < 3 .or. close > 2 + len(items%unit)) then
+                right = index(text, "]")
+                if (right < 3 .or. right > 2 + len(items%unit)) then
                     call refuse_value(tree, group, key, "a unit of up to "// &
                                       to_text(len(items%unit))//" characters stands between "// &
                                       "brackets; "//syntax, error, i)
                     return
                 end if
-                items(i)%unit = text(2:close - 1)
-                text = trim(adjustl(text(close + 1:)))
+                items(i)%unit = text(2:right - 1)
+                text = trim(adjustl(text(right + 1:)))
             end if
             if (len(text) > len(items%meaning)) then
                 call refuse_value(tree, group, key, "more than "//to_text(len(items%meaning))// &

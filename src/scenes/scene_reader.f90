@@ -180,7 +180,11 @@ contains
         end if
         call new_system(trim(scene%system), system, found)
         if (allocated(found)) then
-            if (nearest_name(formula_group, tree%groups(:tree%group_count)%name) /= "") then
+            allocate (names(tree%group_count))
+            do i = 1, size(names)
+                names(i) = tree%groups(i)%name
+            end do
+            if (nearest_name(formula_group, names) /= "") then
                 call refuse_unknown_groups(tree, [formula_group], error)
             else
                 call refuse_value(tree, "scene", "system", found%message, error)

@@ -182,10 +182,10 @@ contains
                 call parse("l", l, expressions%lagrangian)
             else
                 call parse("t", t, expressions%kinetic)
-                if (v /= "" .and. .not. allocated(error)) &
-                    call parse("v", v, expressions%potential)
-                if (.not. allocated(error)) expressions%lagrangian = expressions%kinetic &
-                                                                     - expressions%potential
+                if (allocated(error)) return
+                if (v /= "") call parse("v", v, expressions%potential)
+                if (allocated(error)) return
+                expressions%lagrangian = expressions%kinetic - expressions%potential
             end if
             if (allocated(error)) return
         end associate
@@ -261,7 +261,7 @@ contains
         last = colon
         if (comma > 0) last = comma
         call read_name(text(:max(last, 1) - 1), expressions%points(i), error)
-        if (allocated(error) .or. colon == 0) call fail(error, syntax)
+        if (allocated(error) .or. colon == 0 .or. text(len(text):) == ",") call fail(error, syntax)
         if (allocated(error)) return
         expressions%masses(i) = whole(0)
         if (comma > 0) call parse_without(repeat(" ", comma)//text(comma + 1:colon - 1), 1 + 2*n, &
