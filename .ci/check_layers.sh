@@ -113,7 +113,7 @@ function examine(statement, head, word, used) {
 }
 
 BEGIN {
-    rooms = split("core posix namelist numerics formulas systems tables middle oscillations observers catalogue audit principles" \
+    rooms = split("core posix namelist numerics formulas systems tables middle oscillations observers catalogue audit grading principles" \
                   " scenes runs ensembles bench stress commands app", order, " ")
     for (i = 1; i <= rooms; i++) {
         level[order[i]] = i

@@ -208,6 +208,23 @@ check "bench energy: every method for one degree of freedom, and their energies"
 run bench precision --quick --json --problems P1 --methods rk4,gauss16,gsl_rk4 --output "$work/bench"
 check "bench precision: points and times of the methods asked for" json 'all({r["method"] for r in d if r["table"] == t} == {"rk4", "gauss16", "gsl_rk4"} for t in ("work_precision", "time_to_error"))'
 
+# A student's sheet
+run grade data/homework/right.txt
+check "grade: a right sheet" eval '[ $status -eq 0 ] && grep -q "^8 right$" "$work/out" && [ ! -s "$work/err" ]'
+run grade data/homework/wedge.txt data/homework/cart_pendulum.txt --json
+check "grade --json: two sheets, the terms named" json '[sheet["wrong"] for sheet in d] == [1, 1] and [[s["remark"] for s in sheet["statements"] if s["verdict"] == "wrong"] for sheet in d] == [["\u0027M\u0027 must be \u0027m\u0027 in \u0027M (q1_ddot + q2_ddot cos(alpha))\u0027"], ["the sign of \u0027m2 g l sin(theta)\u0027"]]'
+check "docs/grading.md: commands print what it says" python3 -c 'import re, subprocess, sys
+block = re.search(r"```console\n(.*?)```", open("docs/grading.md").read(), re.S).group(1)
+pairs = re.findall(r"^\$ lagrangia (.*)\n((?:(?!\$ ).*\n)*)", block, re.M)
+got = [subprocess.run([sys.argv[1]] + words.split(), text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE) for words, _ in pairs]
+sys.exit(len(pairs) != 3 or any(g.stdout + g.stderr != text for g, (_, text) in zip(got, pairs)))' "$program"
+printf 'system: pendulum\ntheta_ddot + 3\n' >"$work/sheet"
+refuses 2 "sheet:2: no '='; a statement is 'left = right', not 'theta_ddot + 3'" grade "$work/sheet"
+printf 'system: pendulun\ntheta_ddot = 3\n' >"$work/sheet"
+refuses 2 "sheet:1: unknown system 'pendulun'; did you mean 'pendulum'?" grade "$work/sheet"
+refuses 2 "grade what?" grade
+refuses 5 "no such file" grade "$work/none.txt"
+
 # status 1: a tolerance that does not hold
 run run pendulum --set scene%expect_error=1e-30 --output "$work/o"
 check "status 1: a tolerance is missed" eval '[ $status -eq 1 ] && one_line && grep -q "1 of 1 scenes did not hold" "$work/err" && grep -q "NOT error" "$work/out" && [ -s "$work/o/pendulum.dat" ]'

@@ -10,6 +10,7 @@ module lagrangia_program
     use lagrangia_describe, only: describe_command
     use lagrangia_errata_command, only: errata_command
     use lagrangia_errors, only: error_t, fail, status_ok
+    use lagrangia_grade, only: grade_command
     use lagrangia_interrupt, only: catch_interrupts, interrupt_status
     use lagrangia_kinds, only: dp
     use lagrangia_list, only: list_command
@@ -82,6 +83,7 @@ contains
             select case (commands(which)%name)
             case ("check"); call check_command(line, error)
             case ("errata"); call errata_command(line, error)
+            case ("grade"); call grade_command(line, error)
             case ("list"); call list_command(line, error)
             case ("describe"); call describe_command(line, error)
             case ("bench"); call bench_command(line, error)

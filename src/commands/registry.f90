@@ -57,6 +57,8 @@ module lagrangia_registry
                   "quick problems methods systems tolerances output plot json quiet"), &
         command_t("stress", "[ROW...]", "numerical stability: limits, long runs, hard numbers; "// &
                   "rows by name", -1, "long json quiet"), &
+        command_t("grade", "FILE...", "a student's equations: right, or which term is wrong", -1, &
+                  "json quiet"), &
         command_t("list", "[systems|methods|scenes]", "what there is, one a line", 1, ""), &
         command_t("describe", "SYSTEM|SCENE", "parameters, T, V, L, equations, invariants", 1, &
                   "set")]

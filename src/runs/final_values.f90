@@ -3,7 +3,7 @@ module lagrangia_final_values
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_concise, only: concise
     use lagrangia_description, only: name_length
-    use lagrangia_json, only: json_number, json_string
+    use lagrangia_json, only: json_item, json_object, json_pair, json_string
     use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
@@ -76,20 +76,17 @@ contains
         !! digit is left.
         type(final_value_t), intent(in) :: state(:)  !! in the order of the object
         character(:), allocatable :: json
+        character(:), allocatable :: members, text
         integer :: i
 
-        json = "{"
+        members = ""
         do i = 1, size(state)
-            if (i > 1) json = json//", "
-            json = json//json_string(trim(state(i)%name))//': {"value": '// &
-                   json_number(state(i)%value)//', "error": '//json_number(state(i)%error)// &
-                   ', "text": '
-            if (state(i)%resolved()) then
-                json = json//json_string(state(i)%text())//"}"
-            else
-                json = json//"null}"
-            end if
+            text = "null"
+            if (state(i)%resolved()) text = json_string(state(i)%text())
+            members = members//json_item(trim(state(i)%name), json_object( &
+                json_pair("value", state(i)%value)//json_pair("error", state(i)%error)// &
+                json_item("text", text)))
         end do
-        json = json//"}"
+        json = json_object(members)
     end function final_values_json
 end module lagrangia_final_values

@@ -1,0 +1,165 @@
+module lagrangia_grade
+    !! `lagrangia grade FILE...`: a student's statements, each right, or which term is wrong.
+    use lagrangia_command_line, only: command_line_t
+    use lagrangia_console, only: put, put_line
+    use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t, fail, status_not_held, status_usage
+    use lagrangia_grading, only: grade, grade_t
+    use lagrangia_homework, only: homework_t, read_homework
+    use lagrangia_json, only: json_item, json_object, json_pair, json_string
+    use lagrangia_judgement, only: is_definition, is_right, is_unreadable, is_wrong
+    use lagrangia_printed_table, only: left
+    use lagrangia_scene_reader, only: read_named_system
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: shortened, short_source, to_text
+    implicit none (type, external)
+    private
+    public :: grade_command
+
+    character(12), parameter :: verdicts(4) = [character(12) :: "right", "definition", "wrong", &
+                                               "unreadable"]
+
+contains
+
+    subroutine grade_command(line, error)
+        !! Grade each file; the status is 1 if a statement is wrong, 2 if one cannot be read.
+        type(command_line_t), intent(in) :: line          !! what was typed
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
+        class(system_t), allocatable :: system
+        type(homework_t) :: homework
+        type(grade_t) :: result
+        integer :: i, wrong, unreadable
+
+        if (size(line%arguments) == 0) then
+            call fail(error, "grade what? Give a file with a line 'system: NAME' and "// &
+                "statements, one a line")
+            return
+        end if
+        wrong = 0
+        unreadable = 0
+        if (line%has("json")) call put("[")
+        do i = 1, size(line%arguments)
+            call read_homework(line%arguments(i)%text, homework, error)
+            if (allocated(error)) return
+            call read_named_system(homework%system, homework%settings, system, error)
+            if (allocated(error)) then
+                call error%add_context(trim(short_source(homework%source))//":"// &
+                                       to_text(homework%system_line))
+                return
+            end if
+            call grade(homework, system, result, error)
+            if (allocated(error)) return
+            wrong = wrong + count(result%of%verdict == is_wrong)
+            unreadable = unreadable + count(result%of%verdict == is_unreadable)
+            if (line%has("json")) then
+                if (i > 1) call put(", ")
+                call put(sheet_json(homework, system, result))
+            else if (.not. line%has("quiet")) then
+                if (i > 1) call put_line("")
+                call print_sheet(homework, system, result)
+            end if
+        end do
+        if (line%has("json")) call put_line("]")
+        if (unreadable > 0) then
+            call fail(error, "not readable: "//number_of_statements(unreadable), &
+                      status_usage)
+        else if (wrong > 0) then
+            call fail(error, "wrong: "//number_of_statements(wrong), status_not_held)
+        end if
+    end subroutine grade_command
+
+    pure function number_of_statements(number) result(text)
+        !! `1 statement`, `2 statements`.
+        integer, intent(in) :: number
+        character(:), allocatable :: text
+
+        text = trim(to_text(number)//" statement"//merge("s", " ", number /= 1))
+    end function number_of_statements
+
+    subroutine print_sheet(homework, system, result)
+        !! For the eye.
+        type(homework_t), intent(in) :: homework
+        class(system_t), intent(in) :: system
+        type(grade_t), intent(in) :: result
+        integer :: i
+
+        call put_line(trim(short_source(homework%source))//": "// &
+                      number_of_statements(size(result%of))// &
+                      " about "//homework%system)
+        do i = 1, size(result%of)
+            associate (statement => homework%statements(i), judgement => result%of(i))
+                call put_line(left("line "//to_text(statement%line), 10)// &
+                              left(verdicts(judgement%verdict), 12)//shortened(statement%text, 120))
+                if (judgement%remark /= "") call put_line("          "//judgement%remark)
+                if (judgement%example /= "") call put_line("          "//judgement%example)
+            end associate
+        end do
+        call put_line(count_text(result))
+        if (result%kept /= "") call put_line("not named, and therefore: "//result%kept)
+        if (result%equations > 0) call put_line(determined_text(system, result))
+    end subroutine print_sheet
+
+    function count_text(result) result(text)
+        !! `3 right, 1 wrong`.
+        type(grade_t), intent(in) :: result
+        character(:), allocatable :: text
+        integer :: number, k
+
+        text = ""
+        do k = 1, size(verdicts)
+            number = count(result%of%verdict == k)
+            if (number == 0 .or. k == is_definition) cycle
+            if (text /= "") text = text//", "
+            text = text//to_text(number)//" "//trim(verdicts(k))
+        end do
+    end function count_text
+
+    function determined_text(system, result) result(text)
+        !! Which accelerations the right equations give.
+        class(system_t), intent(in) :: system
+        type(grade_t), intent(in) :: result
+        character(:), allocatable :: text
+        type(description_t) :: d
+        integer :: i
+
+        if (all(result%determined)) then
+            text = "the right equations determine the motion"
+            return
+        end if
+        call system%describe(d)
+        text = "the right equations do not determine"
+        do i = 1, size(result%determined)
+            if (.not. result%determined(i)) text = text//" "//trim(d%coordinates(i)%name)//"_ddot,"
+        end do
+        text = text(:len(text) - 1)
+    end function determined_text
+
+    function sheet_json(homework, system, result) result(json)
+        !! One object.
+        type(homework_t), intent(in) :: homework
+        class(system_t), intent(in) :: system
+        type(grade_t), intent(in) :: result
+        character(:), allocatable :: json
+        type(description_t) :: d
+        integer :: i
+
+        call system%describe(d)
+        json = "["
+        do i = 1, size(result%of)
+            associate (statement => homework%statements(i), judgement => result%of(i))
+                if (i > 1) json = json//", "
+                json = json//json_object(json_pair("line", statement%line)// &
+                    json_pair("statement", statement%text)// &
+                    json_pair("verdict", trim(verdicts(judgement%verdict)))// &
+                    json_pair("remark", judgement%remark)//json_pair("example", judgement%example))
+            end associate
+        end do
+        json = json_object(json_pair("file", homework%source)//json_pair("system", &
+            homework%system)// &
+            json_pair("right", count(result%of%verdict == is_right))// &
+            json_pair("wrong", count(result%of%verdict == is_wrong))// &
+            json_pair("unreadable", count(result%of%verdict == is_unreadable))// &
+            json_pair("equations", result%equations)// &
+            json_pair("determined", all(result%determined))//json_item("statements", json//"]"))
+    end function sheet_json
+end module lagrangia_grade

@@ -1,0 +1,162 @@
+module lagrangia_grading
+    !! A whole sheet: every statement judged, and whether the right ones determine the motion.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t
+    use lagrangia_expression, only: expression_t, kind_number
+    use lagrangia_formula_parser, only: parse_equation, parse_formula
+    use lagrangia_homework, only: homework_t
+    use lagrangia_judgement, only: is_right, judge, judgement_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_lapack, only: matrix_rank
+    use lagrangia_motion_samples, only: new_samples, samples_t
+    use lagrangia_sampled_formula, only: evaluate_nodes, summands
+    use lagrangia_system, only: system_t
+    use lagrangia_term_search, only: library_t
+    implicit none (type, external)
+    private
+    public :: grade_t
+    public :: grade
+
+    type :: grade_t
+        !! Of one sheet.
+        type(judgement_t), allocatable :: of(:)  !! its statements, in their order
+        character(:), allocatable :: kept        !! parameters that nobody named, and that are zero
+        integer :: equations = 0                 !! right ones that have accelerations in them
+        logical, allocatable :: determined(:)
+        !! the acceleration of this coordinate follows, (ndof)
+    end type grade_t
+
+contains
+
+    subroutine grade(homework, system, result, error)
+        !! Judge every statement of `homework` about `system`.
+        class(system_t), intent(in) :: system             !! configured
+        type(homework_t), intent(in) :: homework          !! as read
+        type(grade_t), intent(out) :: result              !! a judgement of each statement
+        type(error_t), allocatable, intent(out) :: error  !! the system has no states to try
+        type(samples_t) :: samples
+        type(library_t), allocatable :: library(:)
+        character(:), allocatable :: said
+        integer :: i
+
+        said = ""
+        do i = 1, size(homework%statements)
+            said = said//" "//homework%statements(i)%text
+        end do
+        call new_samples(system, said, samples, error)
+        if (allocated(error)) return
+        result%kept = samples%kept
+        call collect_terms(system, samples, library)
+        allocate (result%of(size(homework%statements)))
+        do i = 1, size(homework%statements)
+            call judge(homework%statements(i), samples, library, result%of(i))
+        end do
+        call find_determined(samples, result)
+    end subroutine grade
+
+    subroutine collect_terms(system, samples, library)
+        !! The terms of all formulas that the system prints, without signs.
+        class(system_t), intent(in) :: system
+        type(samples_t), intent(in) :: samples
+        type(library_t), allocatable, intent(out) :: library(:)
+        type(description_t) :: d
+        type(expression_t) :: left, right
+        type(error_t), allocatable :: error
+        integer :: i
+
+        allocate (library(0))
+        call system%describe(d)
+        if (allocated(d%equations)) then
+            do i = 1, size(d%equations)
+                call parse_equation(trim(d%equations(i)), samples%symbols, left, right, error)
+                if (allocated(error)) cycle
+                call add_terms(left, library)
+                call add_terms(right, library)
+            end do
+        end if
+        if (allocated(d%lagrangian)) call add_formula(d%lagrangian)
+        if (allocated(d%kinetic_energy)) call add_formula(d%kinetic_energy)
+        if (allocated(d%potential_energy)) call add_formula(d%potential_energy)
+        if (allocated(d%energy)) call add_formula(d%energy)
+        do i = 1, size(d%quantities)
+            call add_formula(trim(d%quantities(i)%formula))
+        end do
+    contains
+        subroutine add_formula(text)
+            character(*), intent(in) :: text
+
+            if (text == "") return
+            call parse_formula(text, samples%symbols, left, error)
+            if (.not. allocated(error)) call add_terms(left, library)
+        end subroutine add_formula
+    end subroutine collect_terms
+
+    subroutine add_terms(expression, library)
+        !! Its summands, without their signs.
+        type(expression_t), intent(in) :: expression
+        type(library_t), allocatable, intent(inout) :: library(:)
+        type(library_t), allocatable :: longer(:)
+        integer, allocatable :: nodes(:)
+        real(dp), allocatable :: signs(:)
+        integer :: i, k, n
+
+        call summands(expression, nodes, signs)
+        do k = 1, size(nodes)
+            if (expression%nodes(nodes(k))%kind == kind_number) cycle
+            n = size(library)
+            allocate (longer(n + 1))
+            do i = 1, n
+                call move_alloc(library(i)%term%nodes, longer(i)%term%nodes)
+                longer(i)%term%count = library(i)%term%count
+            end do
+            longer(n + 1)%term = expression%pruned(nodes(k))
+            call move_alloc(longer, library)
+        end do
+    end subroutine add_terms
+
+    subroutine find_determined(samples, result)
+        !! The accelerations that follow from the right statements: \(\partial R/\partial\ddot q\)
+        !! of
+        !! their residuals has a unit vector among its combinations of rows.
+        type(samples_t), intent(in) :: samples
+        type(grade_t), intent(inout) :: result
+        real(dp), allocatable :: rows(:, :), values(:, :), before(:, :), after(:, :)
+        type(error_t), allocatable :: error
+        integer :: i, j, rank, with_unit
+
+        allocate (result%determined(samples%ndof), source=.false.)
+        allocate (rows(size(result%of) + 1, samples%ndof), source=0.0_dp)
+        do i = 1, size(result%of)
+            if (result%of(i)%verdict /= is_right .or. .not. result%of(i)%of_motion) cycle
+            associate (residual => result%of(i)%residual)
+                allocate (before(1, residual%count), after(1, residual%count))
+                values = samples%values(1:1, :)
+                call evaluate_nodes(residual, values, before)
+                do j = 1, samples%ndof
+                    values = samples%values(1:1, :)
+                    values(1, samples%first_acceleration + j - 1) = &
+                        values(1, samples%first_acceleration + j - 1) + 1.0_dp
+                    call evaluate_nodes(residual, values, after)
+                    rows(i, j) = after(1, residual%count) - before(1, residual%count)
+                end do
+                if (.not. all(ieee_is_finite(rows(i, :)))) rows(i, :) = 0.0_dp
+                if (any(abs(rows(i, :)) > 0.0_dp)) then
+                    rows(i, :) = rows(i, :)/maxval(abs(rows(i, :)))
+                    result%equations = result%equations + 1
+                end if
+                deallocate (before, after)
+            end associate
+        end do
+        if (result%equations == 0) return
+        call matrix_rank(rows, rank, error)
+        if (allocated(error)) return
+        do j = 1, samples%ndof
+            rows(size(rows, 1), :) = 0.0_dp
+            rows(size(rows, 1), j) = 1.0_dp
+            call matrix_rank(rows, with_unit, error)
+            if (allocated(error)) return
+            result%determined(j) = with_unit == rank
+        end do
+    end subroutine find_determined
+end module lagrangia_grading

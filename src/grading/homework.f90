@@ -1,0 +1,205 @@
+module lagrangia_homework
+    !! A student's lines as text: which system they are about, and one statement a line.
+    !!
+    !! ```
+    !! # group 7, sheet 3
+    !! system: double_pendulum
+    !! D = theta1 - theta2
+    !! L_z = p_theta1 + p_theta2
+    !! l1 theta1_ddot + ... = 0
+    !! ```
+    !! `#` begins a comment. `system:` names a system of the catalogue or a scene file, `set:` fixes
+    !! a parameter (`set: g = 0`). A line that ends in `\` goes on in the next one.
+    use lagrangia_characters, only: printable
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_files, only: read_whole_file
+    use lagrangia_text, only: quoted, short_source, to_text, word_t
+    implicit none (type, external)
+    private
+    public :: homework_t, statement_t
+    public :: parse_homework, read_homework
+    public :: statement_length
+
+    integer, parameter :: statement_length = 10000  !! bytes of one statement at most
+    integer, parameter :: most_statements = 1000    !! of one file
+
+    type :: statement_t
+        !! One line of the file, as it was typed.
+        character(:), allocatable :: text  !! without comment, continued lines joined
+        integer :: line = 0                !! number in the file, from 1
+    end type statement_t
+
+    type :: homework_t
+        !! What a file says.
+        character(:), allocatable :: source              !! the file's name, for messages
+        character(:), allocatable :: system              !! a name, or the path of a scene
+        integer :: system_line = 0                       !! where that stands
+        type(word_t), allocatable :: settings(:)         !! `name=value`, behind `set:`
+        type(statement_t), allocatable :: statements(:)  !! in the order of the file
+    end type homework_t
+
+contains
+
+    subroutine read_homework(path, homework, error)
+        !! The file at `path`.
+        character(*), intent(in) :: path                  !! of a readable file
+        type(homework_t), intent(out) :: homework         !! its statements
+        type(error_t), allocatable, intent(out) :: error  !! names file and line
+        character(:), allocatable :: text
+
+        call read_whole_file(path, text, error)
+        if (.not. allocated(error)) call parse_homework(text, path, homework, error)
+    end subroutine read_homework
+
+    subroutine parse_homework(text, source, homework, error)
+        !! The lines of `text`.
+        character(*), intent(in) :: text                  !! lines between line feeds
+        character(*), intent(in) :: source                !! its name, for messages
+        type(homework_t), intent(out) :: homework         !! its statements
+        type(error_t), allocatable, intent(out) :: error  !! names `source` and the line
+        character(:), allocatable :: line, whole
+        integer :: first, number, begun
+
+        homework%source = source
+        homework%system = ""
+        allocate (homework%settings(0), homework%statements(0))
+        whole = ""
+        begun = 0
+        number = 0
+        first = 1
+        do while (first <= len(text))
+            number = number + 1
+            call next_line(text, first, line)
+            if (line == "" .and. whole == "") cycle
+            if (whole == "") begun = number
+            if (len(line) > 0) then
+                if (line(len(line):) == "\") then
+                    whole = whole//line(:len(line) - 1)//" "
+                    cycle
+                end if
+            end if
+            call take(homework, trim(adjustl(whole//line)), begun, error)
+            if (allocated(error)) return
+            whole = ""
+        end do
+        if (whole /= "") call take(homework, trim(adjustl(whole)), begun, error)
+        if (allocated(error)) return
+        if (homework%system == "") then
+            call fail(error, trim(short_source(source))// &
+                      ": no line 'system: NAME' says which system this is "// &
+                      "about; 'lagrangia list systems' shows the names")
+        else if (size(homework%statements) == 0) then
+            call fail(error, trim(short_source(source))// &
+                      ": nothing to grade; write a line 'left = right', say "// &
+                      "an equation of motion")
+        end if
+    end subroutine parse_homework
+
+    pure subroutine next_line(text, first, line)
+        !! The line that begins at `first`, without its comment and outer blanks; `first` moves on.
+        character(*), intent(in) :: text
+        integer, intent(inout) :: first
+        character(:), allocatable, intent(out) :: line
+        integer :: last, i
+
+        last = index(text(first:), new_line("a"))
+        last = merge(len(text) + 1, first + last - 1, last == 0)
+        line = text(first:last - 1)
+        first = last + 1
+        i = index(line, "#")
+        if (i > 0) line = line(:i - 1)
+        do i = 1, len(line)
+            if (line(i:i) == char(9) .or. line(i:i) == char(13)) line(i:i) = " "
+        end do
+        line = trim(line)
+    end subroutine next_line
+
+    subroutine take(homework, text, number, error)
+        !! Whatever the line says.
+        type(homework_t), intent(inout) :: homework
+        character(*), intent(in) :: text
+        integer, intent(in) :: number
+        type(error_t), allocatable, intent(out) :: error
+        integer :: colon
+
+        colon = index(text, ":")
+        if (len(text) > statement_length) then
+            call refuse("longer than "//to_text(statement_length)//" bytes")
+        else if (colon > 0) then
+            select case (trim(text(:colon - 1)))
+            case ("system")
+                if (homework%system /= "") then
+                    call refuse("'system:' a second time; one file is about one system")
+                    return
+                end if
+                homework%system = trim(adjustl(text(colon + 1:)))
+                homework%system_line = number
+                if (homework%system == "") call refuse("'system:' needs a name; "// &
+                    "'lagrangia list systems' shows them")
+            case ("set")
+                if (index(text, "=") == 0) then
+                    call refuse("'set:' needs a parameter and its value, say 'set: g = 9.81'")
+                else
+                    call add_setting(without_blanks(text(colon + 1:)))
+                end if
+            case default
+                call refuse("what is "//quoted(trim(text(:colon - 1)))// &
+                            ":? Before a colon stands "// &
+                            "'system' or 'set'")
+            end select
+        else if (index(text, "=") == 0) then
+            call refuse("no '='; a statement is 'left = right', not "//quoted(printable(text), 40))
+        else if (size(homework%statements) == most_statements) then
+            call refuse("more than "//to_text(most_statements)//" statements")
+        else
+            call add_statement()
+        end if
+    contains
+        subroutine add_setting(setting)
+            character(*), intent(in) :: setting
+            type(word_t), allocatable :: longer(:)
+            integer :: i, n
+
+            n = size(homework%settings)
+            allocate (longer(n + 1))
+            do i = 1, n
+                call move_alloc(homework%settings(i)%text, longer(i)%text)
+            end do
+            longer(n + 1)%text = setting
+            call move_alloc(longer, homework%settings)
+        end subroutine add_setting
+
+        subroutine add_statement()
+            type(statement_t), allocatable :: longer(:)
+            integer :: i, n
+
+            n = size(homework%statements)
+            allocate (longer(n + 1))
+            do i = 1, n
+                call move_alloc(homework%statements(i)%text, longer(i)%text)
+                longer(i)%line = homework%statements(i)%line
+            end do
+            longer(n + 1)%text = text
+            longer(n + 1)%line = number
+            call move_alloc(longer, homework%statements)
+        end subroutine add_statement
+
+        subroutine refuse(what)
+            character(*), intent(in) :: what
+
+            call fail(error, trim(short_source(homework%source))//":"//to_text(number)//": "//what)
+        end subroutine refuse
+    end subroutine take
+
+    pure function without_blanks(text) result(dense)
+        !! `g = 0` as `g=0`.
+        character(*), intent(in) :: text
+        character(:), allocatable :: dense
+        integer :: i
+
+        dense = ""
+        do i = 1, len(text)
+            if (text(i:i) /= " ") dense = dense//text(i:i)
+        end do
+    end function without_blanks
+end module lagrangia_homework

@@ -1,0 +1,322 @@
+module lagrangia_judgement
+    !! Is this statement right? Both sides are evaluated on the motion, at states and with
+    !! parameters
+    !! at random: any equivalent form is right, whatever it was multiplied by or mixed with.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+    use lagrangia_errors, only: error_t
+    use lagrangia_expression, only: expression_t, kind_symbol, operator(-)
+    use lagrangia_formula_parser, only: parse_formula
+    use lagrangia_homework, only: statement_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_motion_samples, only: draws, samples_t, states
+    use lagrangia_number_text, only: scientific
+    use lagrangia_same_motion, only: same_equations
+    use lagrangia_sampled_formula, only: evaluate_nodes
+    use lagrangia_slip_search, only: explain_slip, holds, is_trivial
+    use lagrangia_symbols, only: check_name
+    use lagrangia_term_search, only: library_t
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: judgement_t
+    public :: judge
+    public :: is_right, is_definition, is_wrong, is_unreadable
+
+    integer, parameter :: is_right = 1, is_definition = 2, is_wrong = 3, is_unreadable = 4
+
+    type :: judgement_t
+        !! Of one statement.
+        integer :: verdict = is_right
+        character(:), allocatable :: remark
+        !! which change makes it right, or what else is to be said
+        character(:), allocatable :: example  !! of a wrong one: a state with both sides as numbers
+        type(expression_t) :: residual
+        !! left less right of the first pair, or of the wrong one
+        logical :: of_motion = .false.        !! it holds on the motion only
+    end type judgement_t
+
+contains
+
+    subroutine judge(statement, samples, library, judgement)
+        !! One line, `a = b` or `a = b = c`; a new name on the left is defined by it.
+        type(statement_t), intent(in) :: statement      !! as typed
+        type(samples_t), intent(inout) :: samples       !! gets the names that it defines
+        type(library_t), intent(in) :: library(:)       !! right terms, for what is missing
+        type(judgement_t), intent(out) :: judgement     !! of it
+        type(error_t), allocatable :: error
+        type(expression_t) :: left, right
+        character(:), allocatable :: text
+        integer :: first, next, last
+
+        judgement%remark = ""
+        judgement%example = ""
+        call write_derivatives(statement%text, text)
+        next = index(text, "=")
+        if (is_new_name(text(:next - 1), samples)) then
+            if (index(text(next + 1:), "=") == 0) then
+                call define(text, next, samples, judgement)
+                return
+            end if
+        end if
+        call parse_formula(text(:next - 1), samples%symbols, left, error)
+        if (allocated(error)) then
+            call put_unreadable(error, judgement)
+            return
+        end if
+        do
+            first = next + 1
+            last = index(text(first:), "=")
+            next = merge(len(text) + 1, first + last - 1, last == 0)
+            ! blanks in front keep the columns of what went before
+            call parse_formula(repeat(" ", first - 1)//text(first:next - 1), samples%symbols, &
+                               right, error)
+            if (allocated(error)) then
+                call put_unreadable(error, judgement)
+                return
+            end if
+            call judge_pair(left, right, samples, library, judgement)
+            if (judgement%verdict /= is_right .or. next > len(text)) return
+            left = right
+        end do
+    end subroutine judge
+
+    pure subroutine write_derivatives(typed, text)
+        !! `dL/dx_dot` becomes the name `dL_dx_dot`, `d/dt dL/dx_dot` the name `d_dt_dL_dx_dot`, as
+        !! long as they were.
+        character(*), intent(in) :: typed
+        character(:), allocatable, intent(out) :: text
+        integer :: i
+
+        text = typed
+        do i = 1, len(text) - 4
+            if (text(i:i + 3) == "dL/d") text(i + 2:i + 2) = "_"
+            if (i + 8 > len(text)) cycle
+            if (text(i:i + 7) == "d/dt dL_" .or. &
+                text(i:i + 7) == "d/dt dL/") text(i:i + 4) = "d_dt_"
+            if (text(i:i + 4) == "d_dt_" .and. text(i + 7:i + 7) == "/") text(i + 7:i + 7) = "_"
+        end do
+    end subroutine write_derivatives
+
+    pure function is_new_name(text, samples) result(yes)
+        !! Is it a name alone, which nobody has given yet? What looks like a velocity or a momentum
+        !! of
+        !! an unknown coordinate is a mistake.
+        character(*), intent(in) :: text
+        type(samples_t), intent(in) :: samples
+        logical :: yes
+        type(error_t), allocatable :: error
+        character(len(text)) :: name
+
+        name = adjustl(text)
+        call check_name(trim(name), error)
+        yes = .not. allocated(error)
+        if (.not. yes) return
+        yes = samples%symbols%find(trim(name)) == 0 .and. &
+              samples%symbols%find_definition(trim(name)) == 0 .and. index(name, "_d") == 0 .and. &
+              index(name, "p_") /= 1 .and. index(name, "dL") /= 1
+    end function is_new_name
+
+    subroutine define(text, equals, samples, judgement)
+        !! A name of the student's own.
+        character(*), intent(in) :: text
+        integer, intent(in) :: equals  !! place of '='
+        type(samples_t), intent(inout) :: samples
+        type(judgement_t), intent(inout) :: judgement
+        type(expression_t) :: meaning
+        type(error_t), allocatable :: error
+
+        judgement%verdict = is_definition
+        call parse_formula(repeat(" ", equals)//text(equals + 1:), samples%symbols, meaning, error)
+        if (.not. allocated(error)) call samples%symbols%define(trim(adjustl(text(:equals - 1))), &
+                                                                meaning, error)
+        if (allocated(error)) call put_unreadable(error, judgement)
+    end subroutine define
+
+    pure subroutine put_unreadable(error, judgement)
+        !! What the reader says.
+        type(error_t), intent(in) :: error
+        type(judgement_t), intent(inout) :: judgement
+
+        judgement%verdict = is_unreadable
+        judgement%remark = error%message
+    end subroutine put_unreadable
+
+    subroutine judge_pair(left, right, samples, library, judgement)
+        !! One equality.
+        type(expression_t), intent(in) :: left, right
+        type(samples_t), intent(in) :: samples
+        type(library_t), intent(in) :: library(:)
+        type(judgement_t), intent(inout) :: judgement
+        real(dp), allocatable :: values(:, :)
+        logical :: judged, right_one, found
+
+        judgement%residual = left - right
+        values = samples%values
+        if (judgement%residual%depends_on(samples%frequency)) then
+            call choose_modes(judgement%residual, samples, values, right_one, found)
+            if (.not. found) then
+                judgement%verdict = is_unreadable
+                judgement%remark = "no small oscillation about the equilibrium at or near "// &
+                    "zero to compare with"
+                return
+            end if
+            judged = .true.
+        else
+            call holds(judgement%residual, values, right_one, judged)
+        end if
+        if (.not. judged) then
+            judgement%verdict = is_unreadable
+            judgement%remark = "no number at the states that were tried: a root, a logarithm "// &
+                "or a "// &
+                               "division fails"
+        else if (right_one) then
+            judgement%of_motion = .not. is_trivial(judgement%residual, samples)
+            if (.not. judgement%of_motion) judgement%remark = "true of any motion"
+        else if (is_up_to_constant(left, judgement%residual, samples)) then
+            judgement%remark = "but for a constant"
+        else if (is_other_lagrangian(left, right, samples)) then
+            judgement%remark = "another L of the same motion"
+        else
+            judgement%verdict = is_wrong
+            call explain_slip(judgement%residual, samples, values, library, judgement%remark)
+            call put_example(left, right, samples, values, judgement%example)
+        end if
+    end subroutine judge_pair
+
+    subroutine choose_modes(residual, samples, values, right_one, found)
+        !! Give omega its values: of that equilibrium, and for each draw of parameters that mode,
+        !! for
+        !! which the statement holds; the first ones where it holds for none.
+        type(expression_t), intent(in) :: residual
+        type(samples_t), intent(in) :: samples
+        real(dp), intent(inout) :: values(:, :)
+        logical, intent(out) :: right_one, found
+        real(dp), allocatable :: first_choice(:, :)
+        logical :: found_one
+        integer :: n
+
+        n = size(samples%omega2, 2)/2
+        call choose_about(samples%omega2(:, :n), residual, samples, values, right_one, found)
+        if (right_one) return
+        first_choice = values
+        call choose_about(samples%omega2(:, n + 1:), residual, samples, values, right_one, &
+                          found_one)
+        if (found .and. .not. right_one) values = first_choice
+        found = found .or. found_one
+    end subroutine choose_modes
+
+    subroutine choose_about(omega2, residual, samples, values, right_one, found)
+        !! About one equilibrium; no number for draws without an oscillation.
+        real(dp), intent(in) :: omega2(:, :)  !! (draws, modes)
+        type(expression_t), intent(in) :: residual
+        type(samples_t), intent(in) :: samples
+        real(dp), intent(inout) :: values(:, :)
+        logical, intent(out) :: right_one, found
+        integer :: draw, first, k, mode
+        logical :: yes, judged
+
+        found = .false.
+        right_one = .true.
+        do draw = 1, draws
+            first = (draw - 1)*states
+            associate (rows => values(first + 1:first + states, :))
+                rows(:, samples%frequency) = ieee_value(1.0_dp, ieee_quiet_nan)
+                mode = findloc(omega2(draw, :) > 0.0_dp, .true., 1)
+                if (mode == 0) cycle
+                found = .true.
+                do k = size(omega2, 2), mode, -1
+                    if (omega2(draw, k) <= 0.0_dp) cycle
+                    rows(:, samples%frequency) = sqrt(omega2(draw, k))
+                    call holds(residual, rows, yes, judged)
+                    if (yes) exit
+                end do
+                right_one = right_one .and. yes
+            end associate
+        end do
+        right_one = right_one .and. found
+    end subroutine choose_about
+
+    function is_up_to_constant(left, residual, samples) result(yes)
+        !! A potential or an energy alone on the left side, which differs by the same number at all
+        !! states with the same parameters.
+        type(expression_t), intent(in) :: left, residual
+        type(samples_t), intent(in) :: samples
+        logical :: yes
+        real(dp), allocatable :: results(:, :)
+        integer :: draw, first, n
+
+        yes = .false.
+        n = residual%count
+        if (left%count /= 1 .or. left%nodes(1)%kind /= kind_symbol) return
+        select case (samples%symbols%names(left%nodes(1)%which))
+        case ("E", "L", "V")
+            allocate (results(size(samples%values, 1), n))
+            call evaluate_nodes(residual, samples%values, results)
+            do draw = 1, draws
+                first = (draw - 1)*states
+                associate (r => results(first + 1:first + states, n))
+                    if (.not. all(ieee_is_finite(r))) return
+                    if (maxval(r) - minval(r) > 1e-8_dp*(1.0_dp + maxval(abs(r)))) return
+                end associate
+            end do
+            yes = .true.
+        case default
+            return
+        end select
+    end function is_up_to_constant
+
+    function is_other_lagrangian(left, right, samples) result(yes)
+        !! L alone on the left side, and on the right one with the same equations of motion.
+        type(expression_t), intent(in) :: left, right
+        type(samples_t), intent(in) :: samples
+        logical :: yes
+
+        yes = left%count == 1 .and. left%nodes(1)%kind == kind_symbol
+        if (yes) yes = samples%symbols%names(left%nodes(1)%which) == "L"
+        if (yes) yes = same_equations(samples, right)
+    end function is_other_lagrangian
+
+    subroutine put_example(left, right, samples, values, text)
+        !! `at theta = 0.123, g = 2.4: left 1.23, right 4.56`, where they differ most.
+        type(expression_t), intent(in) :: left, right
+        type(samples_t), intent(in) :: samples
+        real(dp), intent(in) :: values(:, :)
+        character(:), allocatable, intent(out) :: text
+        real(dp), allocatable :: of_left(:, :), of_right(:, :), difference(:)
+        integer :: i, worst
+
+        allocate (of_left(size(values, 1), left%count), of_right(size(values, 1), right%count))
+        call evaluate_nodes(left, values, of_left)
+        call evaluate_nodes(right, values, of_right)
+        associate (a => of_left(:, left%count), b => of_right(:, right%count))
+            allocate (difference(size(a)))
+            difference = abs(a - b)/(abs(a) + abs(b))
+            worst = maxloc(difference, 1, ieee_is_finite(difference))
+            if (worst == 0) worst = 1
+            text = "left "//brief(a(worst))//", right "//brief(b(worst))//" at"
+        end associate
+        do i = 1, size(samples%role)
+            if (.not. (left%depends_on(i) .or. right%depends_on(i))) cycle
+            text = text//" "//trim(samples%symbols%names(i))//" = "//brief(values(worst, i))//","
+        end do
+        text = text(:len(text) - 1)
+    end subroutine put_example
+
+    pure function brief(value) result(text)
+        !! Four significant digits.
+        real(dp), intent(in) :: value
+        character(:), allocatable :: text
+        integer :: digits
+
+        text = "0"
+        if (abs(value) <= 0.0_dp) return
+        text = scientific(value, 4)
+        if (.not. (abs(value) > 1e-4_dp .and. abs(value) < 1e6_dp)) return
+        digits = 3 - floor(log10(abs(value)))
+        if (digits >= 0) then
+            text = to_text(anint(value*10.0_dp**digits)/10.0_dp**digits)
+        else
+            text = to_text(anint(value))
+        end if
+    end function brief
+end module lagrangia_judgement

@@ -1,0 +1,192 @@
+module lagrangia_sampled_formula
+    !! A formula's value at many samples at once, and what it would be with one node changed.
+    use lagrangia_expression, only: expression_t, f_abs, f_atan, f_cos, f_cosh, f_exp, f_log, &
+                                    f_sin, &
+                                    f_sinh, f_sqrt, f_tan, f_tanh, kind_difference, kind_function, &
+                                    kind_negation, kind_number, kind_power, kind_product, &
+                                    kind_quotient, kind_sum, kind_symbol
+    use lagrangia_kinds, only: dp
+    implicit none (type, external)
+    private
+    public :: change_t
+    public :: change_none, change_sign, change_factor, change_symbol, change_function, &
+              change_exponent, change_divided, change_multiplied, change_number
+    public :: evaluate_nodes, summands
+
+    integer, parameter :: change_none = 0
+    integer, parameter :: change_sign = 1        !! the node with the other sign
+    integer, parameter :: change_factor = 2      !! the node, `factor` times
+    integer, parameter :: change_symbol = 3      !! another symbol, `which`, in its place
+    integer, parameter :: change_function = 4    !! another function, `which`, of its operand
+    integer, parameter :: change_exponent = 5    !! the node to the power of `factor`
+    integer, parameter :: change_divided = 6     !! the node without a factor, the symbol `which`
+    integer, parameter :: change_multiplied = 7  !! with that factor
+    integer, parameter :: change_number = 8      !! the number plus `factor`
+
+    type :: change_t
+        !! Of one node.
+        integer :: kind = change_none
+        integer :: node = 0               !! its place
+        integer :: which = 0              !! the symbol or the function
+        real(dp) :: factor = 1.0_dp       !! the factor or the exponent
+    end type change_t
+
+contains
+
+    subroutine evaluate_nodes(expression, values, results, change, sizes)
+        !! The values of all nodes; that of the whole formula is the last. Their `sizes` say how
+        !! large
+        !! the rounding errors may be, in units of the relative error of one operation.
+        type(expression_t), intent(in) :: expression      !! not empty
+        real(dp), intent(in) :: values(:, :)              !! of the symbols, (samples, symbols)
+        real(dp), intent(out) :: results(:, :)
+        !! (samples, nodes); NaN where there is none
+        type(change_t), intent(in), optional :: change    !! of one node
+        real(dp), intent(out), optional :: sizes(:, :)    !! as many
+        integer :: i
+
+        do i = 1, expression%count
+            associate (node => expression%nodes(i))
+                select case (node%kind)
+                case (kind_number)
+                    results(:, i) = node%number%value
+                case (kind_symbol)
+                    results(:, i) = values(:, node%which)
+                case (kind_sum)
+                    results(:, i) = results(:, node%left) + results(:, node%right)
+                case (kind_difference)
+                    results(:, i) = results(:, node%left) - results(:, node%right)
+                case (kind_product)
+                    results(:, i) = results(:, node%left)*results(:, node%right)
+                case (kind_quotient)
+                    results(:, i) = results(:, node%left)/results(:, node%right)
+                case (kind_power)
+                    results(:, i) = power(results(:, node%left), results(:, node%right))
+                case (kind_negation)
+                    results(:, i) = -results(:, node%left)
+                case default
+                    results(:, i) = value_of(node%which, results(:, node%left))
+                end select
+                if (present(change)) then
+                    if (change%node == i) call apply_change()
+                end if
+                if (present(sizes)) call measure()
+            end associate
+        end do
+    contains
+        subroutine apply_change()
+            associate (node => expression%nodes(i))
+                select case (change%kind)
+                case (change_sign)
+                    results(:, i) = -results(:, i)
+                case (change_factor)
+                    results(:, i) = change%factor*results(:, i)
+                case (change_symbol)
+                    results(:, i) = values(:, change%which)
+                case (change_function)
+                    results(:, i) = value_of(change%which, results(:, node%left))
+                case (change_exponent)
+                    results(:, i) = power(results(:, i), change%factor)
+                case (change_divided)
+                    results(:, i) = results(:, i)/values(:, change%which)
+                case (change_multiplied)
+                    results(:, i) = results(:, i)*values(:, change%which)
+                case (change_number)
+                    results(:, i) = results(:, i) + change%factor
+                case default
+                    return
+                end select
+            end associate
+        end subroutine apply_change
+
+        subroutine measure()
+            associate (node => expression%nodes(i), x => abs(results(:, i)))
+                select case (node%kind)
+                case (kind_number, kind_symbol)
+                    sizes(:, i) = x
+                case (kind_sum, kind_difference)
+                    sizes(:, i) = sizes(:, node%left) + sizes(:, node%right)
+                case (kind_product)
+                    sizes(:, i) = sizes(:, node%left)*sizes(:, node%right)
+                case (kind_quotient)
+                    sizes(:, i) = sizes(:, node%left)*sizes(:, node%right)/results(:, node%right)**2
+                case (kind_negation)
+                    sizes(:, i) = sizes(:, node%left)
+                case (kind_power)
+                    sizes(:, i) = x*(sizes(:, node%left)/abs(results(:, node%left)))** &
+                                  max(1.0_dp, abs(results(:, node%right)))
+                case default
+                    sizes(:, i) = (1.0_dp + x)*(1.0_dp + sizes(:, node%left))
+                end select
+                sizes(:, i) = max(sizes(:, i), x)
+            end associate
+        end subroutine measure
+    end subroutine evaluate_nodes
+
+    elemental function power(x, y) result(value)
+        !! \(x^y\), with an integer exponent where it is one.
+        real(dp), intent(in) :: x, y
+        real(dp) :: value
+
+        if (abs(y) < 1000.0_dp .and. abs(y - anint(y)) <= 0.0_dp) then
+            value = x**nint(y)
+        else
+            value = x**y
+        end if
+    end function power
+
+    elemental function value_of(which, x) result(value)
+        !! One of the functions.
+        integer, intent(in) :: which
+        real(dp), intent(in) :: x
+        real(dp) :: value
+
+        select case (which)
+        case (f_abs); value = abs(x)
+        case (f_atan); value = atan(x)
+        case (f_cos); value = cos(x)
+        case (f_cosh); value = cosh(x)
+        case (f_exp); value = exp(x)
+        case (f_log); value = log(x)
+        case (f_sin); value = sin(x)
+        case (f_sinh); value = sinh(x)
+        case (f_sqrt); value = sqrt(x)
+        case (f_tan); value = tan(x)
+        case default; value = tanh(x)
+        end select
+    end function value_of
+
+    pure subroutine summands(expression, nodes, signs)
+        !! What is added up in a formula, through brackets of sums and signs.
+        type(expression_t), intent(in) :: expression      !! not empty
+        integer, allocatable, intent(out) :: nodes(:)     !! their places, in their order
+        real(dp), allocatable, intent(out) :: signs(:)    !! 1 or -1: the formula is their sum
+        real(dp) :: sign_of(expression%count)
+        integer :: i
+
+        sign_of = 0.0_dp
+        sign_of(expression%count) = 1.0_dp
+        do i = expression%count, 1, -1
+            if (abs(sign_of(i)) <= 0.0_dp) cycle
+            associate (node => expression%nodes(i))
+                select case (node%kind)
+                case (kind_sum)
+                    sign_of(node%left) = sign_of(i)
+                    sign_of(node%right) = sign_of(i)
+                    sign_of(i) = 0.0_dp
+                case (kind_difference)
+                    sign_of(node%left) = sign_of(i)
+                    sign_of(node%right) = -sign_of(i)
+                    sign_of(i) = 0.0_dp
+                case (kind_negation)
+                    sign_of(node%left) = -sign_of(i)
+                    sign_of(i) = 0.0_dp
+                case default
+                    cycle
+                end select
+            end associate
+        end do
+        nodes = pack([(i, i=1, expression%count)], abs(sign_of) > 0.0_dp)
+        signs = sign_of(nodes)
+    end subroutine summands
+end module lagrangia_sampled_formula

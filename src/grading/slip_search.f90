@@ -1,0 +1,284 @@
+module lagrangia_slip_search
+    !! The one change of a wrong statement that makes it right: a sign, a factor, a letter, a dot, a
+    !! function, an exponent, a term too many or one that is missing.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_expression, only: apply, expression_t, f_cos, f_cosh, f_sin, f_sinh, &
+                                    function_names, kind_function, kind_number, &
+                                    kind_power, kind_symbol
+    use lagrangia_formula_text, only: formula_text
+    use lagrangia_kinds, only: dp
+    use lagrangia_motion_samples, only: role_acceleration, role_coordinate, role_parameter, &
+                                        role_time, role_velocity, samples_t
+    use lagrangia_sampled_formula, only: change_divided, change_exponent, change_factor, &
+                                         change_function, change_multiplied, change_number, &
+                                             change_sign, change_symbol, change_t, &
+                                         evaluate_nodes, summands
+    use lagrangia_term_search, only: library_t, number_text, part_text, try_factors, &
+                                     try_missing_terms
+    implicit none (type, external)
+    private
+    public :: explain_slip
+    public :: holds, is_trivial
+
+    real(dp), parameter :: zero = 1e-9_dp   !! of the sizes of what is added up
+    integer, parameter :: enough = 4        !! samples at which all is finite
+
+contains
+
+    subroutine holds(expression, values, yes, judged, change)
+        !! Does the formula vanish at every sample? `judged` if it has a value at enough of them.
+        type(expression_t), intent(in) :: expression    !! left side less right side
+        real(dp), intent(in) :: values(:, :)            !! of the symbols, (samples, symbols)
+        logical, intent(out) :: yes                     !! it does
+        logical, intent(out) :: judged                  !! it is known
+        type(change_t), intent(in), optional :: change  !! of one node
+        real(dp), dimension(size(values, 1), expression%count) :: results, sizes
+        logical :: finite(size(values, 1))
+        integer :: n
+
+        call evaluate_nodes(expression, values, results, change, sizes)
+        n = expression%count
+        finite = ieee_is_finite(results(:, n)) .and. ieee_is_finite(sizes(:, n))
+        judged = count(finite) >= min(enough, size(values, 1))
+        yes = judged .and. all(abs(results(:, n)) <= zero*sizes(:, n) .or. .not. finite)
+    end subroutine holds
+
+    function is_trivial(expression, samples, change) result(yes)
+        !! Whether it vanishes away from the motion as well, and so says nothing about it.
+        type(expression_t), intent(in) :: expression    !! left side less right side
+        type(samples_t), intent(in) :: samples          !! on the motion and elsewhere
+        type(change_t), intent(in), optional :: change  !! of one node
+        logical :: yes, judged
+
+        call holds(expression, samples%elsewhere, yes, judged, change)
+    end function is_trivial
+
+    subroutine explain_slip(expression, samples, values, library, remark)
+        !! Say which change makes it right, or that no single one does.
+        type(expression_t), intent(in) :: expression        !! left side less right side, wrong
+        type(samples_t), intent(in) :: samples              !! on the motion and elsewhere
+        real(dp), intent(in) :: values(:, :)                !! on the motion, omega in its place
+        type(library_t), intent(in) :: library(:)           !! right terms
+        character(:), allocatable, intent(out) :: remark    !! for the student
+        logical :: could_be_trivial
+
+        could_be_trivial = is_trivial(expression, samples)
+        call try_signs(remark)
+        if (remark == "") call try_functions(remark)
+        if (remark == "") call try_symbols(remark)
+        if (remark == "") call try_exponents(remark)
+        if (remark == "") call try_factors(expression, samples, values, library, remark)
+        if (remark == "") call try_numbers(remark)
+        if (remark == "") call try_missing_terms(expression, samples, values, library, remark)
+        if (remark == "") call try_inner_factors(remark)
+        if (remark == "") remark = "no single change of a sign, letter, dot, factor, function, "// &
+                                   "exponent or term makes it right"
+    contains
+        logical function mends(change)
+            type(change_t), intent(in) :: change
+            logical :: judged
+
+            call holds(expression, values(:1, :), mends, judged, change)
+            if (.not. mends .and. judged) return
+            call holds(expression, values, mends, judged, change)
+            if (.not. mends .or. could_be_trivial) return
+            mends = .not. is_trivial(expression, samples, change)
+        end function mends
+
+        subroutine try_signs(text)
+            character(:), allocatable, intent(out) :: text
+            integer :: i
+
+            text = ""
+            do i = expression%count - 1, 1, -1
+                if (expression%nodes(i)%kind == kind_number) cycle
+                if (.not. mends(change_t(change_sign, i))) cycle
+                text = "the sign of "//node_text(i)//context(expression, samples, i)
+                return
+            end do
+        end subroutine try_signs
+
+        subroutine try_functions(text)
+            character(:), allocatable, intent(out) :: text
+            integer, parameter :: swaps(2, 4) = reshape([f_sin, f_cos, f_cos, f_sin, f_sinh, &
+                                                         f_cosh, f_cosh, f_sinh], [2, 4])
+            type(expression_t) :: other
+            integer :: i, k
+
+            text = ""
+            do i = 1, expression%count
+                if (expression%nodes(i)%kind /= kind_function) cycle
+                do k = 1, size(swaps, 2)
+                    if (expression%nodes(i)%which /= swaps(1, k)) cycle
+                    if (.not. mends(change_t(change_function, i, swaps(2, k)))) cycle
+                    other = expression%pruned(expression%nodes(i)%left)
+                    other = apply(swaps(2, k), other)
+                    text = node_text(i)//" must be '"//formula_text(other, samples%symbols)//"'"// &
+                           context(expression, samples, i)
+                    return
+                end do
+            end do
+        end subroutine try_functions
+
+        subroutine try_symbols(text)
+            character(:), allocatable, intent(out) :: text
+            integer :: i, k, pass
+
+            text = ""
+            do pass = 1, 2  ! the statement's own letters first
+                do i = 1, expression%count
+                    associate (node => expression%nodes(i))
+                        if (node%kind /= kind_symbol) cycle
+                        do k = 1, size(samples%role)
+                            if (k == node%which .or. &
+                                expression%depends_on(k) .neqv. pass == 1) cycle
+                            if (.not. exchangeable(samples%role(node%which), samples%role(k))) cycle
+                            if (.not. mends(change_t(change_symbol, i, k))) cycle
+                            text = node_text(i)//" must be '"//trim(samples%symbols%names(k))// &
+                                   "'"//context(expression, samples, i)
+                            return
+                        end do
+                    end associate
+                end do
+            end do
+        end subroutine try_symbols
+
+        subroutine try_exponents(text)
+            !! A power that is another, a square that is none, or a missing square.
+            character(:), allocatable, intent(out) :: text
+            integer :: i, k, n
+            real(dp) :: exponent
+            real(dp), parameter :: others(4) = [2.0_dp, 3.0_dp, 0.5_dp, -1.0_dp]
+            real(dp), parameter :: steps(4) = [-1.0_dp, 1.0_dp, -2.0_dp, 2.0_dp]
+
+            text = ""
+            do i = 1, expression%count
+                if (expression%nodes(i)%kind /= kind_power) cycle
+                k = expression%nodes(i)%right
+                if (expression%nodes(k)%kind /= kind_number) cycle
+                exponent = expression%nodes(k)%number%value
+                do n = 1, size(steps)
+                    if (.not. mends(change_t(change_number, k, 0, steps(n)))) cycle
+                    text = "the exponent of "//node_text(i)//" must be "// &
+                           number_text(exponent + steps(n))//context(expression, samples, i)
+                    return
+                end do
+            end do
+            do i = 1, expression%count
+                k = expression%nodes(i)%kind
+                if (k /= kind_symbol .and. k /= kind_function) cycle
+                do n = 1, size(others)
+                    if (.not. mends(change_t(change_exponent, i, 0, others(n)))) cycle
+                    text = node_text(i)//" must have the exponent "//number_text(others(n))// &
+                           context(expression, samples, i)
+                    return
+                end do
+            end do
+        end subroutine try_exponents
+
+        subroutine try_numbers(text)
+            character(:), allocatable, intent(out) :: text
+            real(dp), parameter :: factors(9) = [2.0_dp, 0.5_dp, 3.0_dp, 1.0_dp/3.0_dp, 4.0_dp, &
+                                                 0.25_dp, -1.0_dp, -2.0_dp, -0.5_dp]
+            real(dp) :: number
+            integer :: i, k
+
+            text = ""
+            do i = 1, expression%count
+                do k = 1, size(factors)
+                    if (.not. mends(change_t(change_factor, i, 0, factors(k)))) cycle
+                    text = node_text(i)//" must be counted "//number_text(factors(k))//" times"// &
+                           context(expression, samples, i)
+                    if (expression%nodes(i)%kind == kind_number) then
+                        number = expression%nodes(i)%number%value
+                        text = "the number "//node_text(i)//" must be "// &
+                               number_text(number*factors(k))//context(expression, samples, i)
+                    end if
+                    return
+                end do
+            end do
+        end subroutine try_numbers
+
+        subroutine try_inner_factors(text)
+            !! A letter too few or too many, within brackets.
+            character(:), allocatable, intent(out) :: text
+            integer :: i, k
+
+            text = ""
+            do i = 1, expression%count
+                do k = 1, size(samples%role)
+                    if (samples%role(k) > role_parameter) cycle
+                    if (mends(change_t(change_multiplied, i, k))) then
+                        text = node_text(i)//" lacks the factor '"// &
+                            trim(samples%symbols%names(k))//"'"
+                    else if (mends(change_t(change_divided, i, k))) then
+                        text = node_text(i)//" has the factor '"//trim(samples%symbols%names(k))// &
+                               "' too many"
+                    else
+                        cycle
+                    end if
+                    text = text//context(expression, samples, i)
+                    return
+                end do
+            end do
+        end subroutine try_inner_factors
+
+        function node_text(i) result(text)
+            integer, intent(in) :: i
+            character(:), allocatable :: text
+
+            text = part_text(expression, i, samples)
+        end function node_text
+    end subroutine explain_slip
+
+    pure function exchangeable(a, b) result(yes)
+        !! May a student have written the one for the other? Letters for letters, a coordinate for
+        !! another, or with a dot too many or too few.
+        integer, intent(in) :: a, b
+        logical :: yes
+        integer, parameter :: moving(*) = [role_time, role_coordinate, role_velocity, &
+                                           role_acceleration]
+
+        yes = (a == role_parameter .and. b == role_parameter) .or. (any(moving == a) .and. &
+            any(moving == b))
+    end function exchangeable
+
+    function context(expression, samples, i) result(text)
+        !! ` in 'the summand'`, where node `i` is only a part of one.
+        type(expression_t), intent(in) :: expression
+        type(samples_t), intent(in) :: samples
+        integer, intent(in) :: i
+        character(:), allocatable :: text
+        integer, allocatable :: nodes(:)
+        real(dp), allocatable :: signs(:)
+        integer :: k, n
+
+        text = ""
+        call summands(expression, nodes, signs)
+        do k = 1, size(nodes)
+            if (nodes(k) <= i) cycle
+            n = nodes(k)
+            if (.not. contains_node(expression, n, i)) cycle
+            text = " in "//part_text(expression, n, samples)
+            return
+        end do
+    end function context
+
+    pure function contains_node(expression, root, i) result(yes)
+        !! Is node `i` a part of what is at `root`?
+        type(expression_t), intent(in) :: expression
+        integer, intent(in) :: root, i
+        logical :: yes
+        logical :: needed(0:expression%count)
+        integer :: k
+
+        needed = .false.
+        needed(root) = .true.
+        do k = root, i + 1, -1
+            if (.not. needed(k)) cycle
+            needed(expression%nodes(k)%left) = .true.
+            needed(expression%nodes(k)%right) = .true.
+        end do
+        yes = needed(i)
+    end function contains_node
+end module lagrangia_slip_search

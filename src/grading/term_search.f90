@@ -1,0 +1,198 @@
+module lagrangia_term_search
+    !! Which term of a wrong statement must be counted otherwise, or has a letter, a dot or a
+    !! function
+    !! too many or too few; which one is missing.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_expression, only: expression_t, kind_function, kind_symbol
+    use lagrangia_formula_text, only: formula_text
+    use lagrangia_kinds, only: dp
+    use lagrangia_motion_samples, only: draws, role_known, role_parameter, samples_t, states
+    use lagrangia_sampled_formula, only: evaluate_nodes, summands
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: library_t
+    public :: number_text, part_text, try_factors, try_missing_terms
+
+    real(dp), parameter :: equal = 1e-7_dp  !! relative difference of factors that are one
+    integer, parameter :: enough = 4        !! samples at which all is finite
+
+    type :: library_t
+        !! A right term, of an equation that the page has.
+        type(expression_t) :: term
+    end type library_t
+
+contains
+
+    function part_text(expression, i, samples) result(text)
+        !! `'m2 g l sin(theta)'`: what node `i` stands for.
+        type(expression_t), intent(in) :: expression  !! of the samples' symbols
+        integer, intent(in) :: i                      !! place of the node
+        type(samples_t), intent(in) :: samples        !! know the names
+        character(:), allocatable :: text
+        type(expression_t) :: part
+
+        part = expression%pruned(i)
+        text = "'"//formula_text(part, samples%symbols)//"'"
+    end function part_text
+
+    subroutine try_factors(expression, samples, values, library, remark)
+        !! A summand that must be counted another number of times, or has a letter, a dot or a
+        !! function too few or too many, or does not belong there.
+        type(expression_t), intent(in) :: expression      !! left side less right side, wrong
+        type(samples_t), intent(in) :: samples            !! know the names
+        real(dp), intent(in) :: values(:, :)              !! on the motion, (samples, symbols)
+        type(library_t), intent(in) :: library(:)         !! right terms
+        character(:), allocatable, intent(out) :: remark  !! "" if it is not that
+        real(dp), allocatable :: results(:, :), signs(:), needed(:), term(:, :)
+        integer, allocatable :: nodes(:)
+        character(:), allocatable :: text
+        integer :: i, k, m
+
+        remark = ""
+        allocate (results(size(values, 1), expression%count), needed(size(values, 1)))
+        call evaluate_nodes(expression, values, results)
+        call summands(expression, nodes, signs)
+        if (size(nodes) < 2) return
+        do k = 1, size(nodes)
+            associate (node => expression%nodes(nodes(k)))
+                if (node%kind == kind_symbol) then
+                    if (samples%role(node%which) >= role_known) cycle  ! what the statement is about
+                end if
+            end associate
+            associate (s => signs(k)*results(:, nodes(k)), r => results(:, expression%count))
+                needed = 1.0_dp - r/s  ! so many times makes the sum zero
+            end associate
+            text = part_text(expression, nodes(k), samples)
+            if (count(ieee_is_finite(needed)) < enough) cycle
+            if (is_constant(needed)) then
+                if (abs(needed(1)) < equal) then
+                    remark = text//" does not belong there"
+                else
+                    remark = text//" must be counted "//number_text(needed(1))//" times"
+                end if
+                return
+            end if
+            do i = 1, size(samples%role)
+                if (samples%role(i) > role_parameter) cycle
+                call try_letter(values(:, i), "'"//trim(samples%symbols%names(i))//"'")
+                if (remark /= "") return
+            end do
+            do i = 1, size(library)
+                do m = 1, library(i)%term%count
+                    if (library(i)%term%nodes(m)%kind /= kind_function) cycle
+                    if (allocated(term)) deallocate (term)
+                    allocate (term(size(values, 1), library(i)%term%count))
+                    call evaluate_nodes(library(i)%term, values, term)
+                    call try_letter(term(:, m), part_text(library(i)%term, m, samples))
+                    if (remark /= "") return
+                end do
+            end do
+        end do
+    contains
+        subroutine try_letter(letter, name)
+            real(dp), intent(in) :: letter(:)
+            character(*), intent(in) :: name
+            real(dp) :: one(size(letter))
+
+            one = needed/letter
+            if (is_constant(one) .and. abs(one(1)) > equal) then
+                remark = text//" lacks the factor "//times(one(1))//name
+                return
+            end if
+            one = needed*letter
+            if (is_constant(one) .and. abs(one(1)) > equal) then
+                remark = text//" has the factor "//name//" too many"
+                if (abs(one(1) - 1.0_dp) > equal) remark = text//" must be divided by "// &
+                                                           times(1.0_dp/one(1))//name
+            end if
+        end subroutine try_letter
+    end subroutine try_factors
+
+    subroutine try_missing_terms(expression, samples, values, library, remark)
+        !! A right term which, some times, perhaps with letters, makes the sum zero.
+        type(expression_t), intent(in) :: expression      !! left side less right side, wrong
+        type(samples_t), intent(in) :: samples            !! know the names
+        real(dp), intent(in) :: values(:, :)              !! on the motion, (samples, symbols)
+        type(library_t), intent(in) :: library(:)         !! right terms
+        character(:), allocatable, intent(out) :: remark  !! "" if it is not that
+        real(dp), allocatable :: results(:, :), term(:, :), needed(:), one(:), letter(:)
+        character(:), allocatable :: text
+        integer :: draw, first, i, k
+        logical :: steady
+
+        remark = ""
+        allocate (results(size(values, 1), expression%count))
+        call evaluate_nodes(expression, values, results)
+        do k = 1, size(library)
+            if (allocated(term)) deallocate (term)
+            allocate (term(size(values, 1), library(k)%term%count))
+            call evaluate_nodes(library(k)%term, values, term)
+            needed = -results(:, expression%count)/term(:, library(k)%term%count)
+            if (.not. all(ieee_is_finite(needed))) cycle
+            steady = .true.
+            do draw = 1, draws
+                first = (draw - 1)*states
+                steady = steady .and. is_constant(needed(first + 1:first + states))
+            end do
+            if (.not. steady .or. abs(needed(1)) < equal) cycle
+            text = formula_text(library(k)%term, samples%symbols)
+            if (is_constant(needed)) then
+                remark = "on the left is missing "//times(needed(1))//text
+                return
+            end if
+            do i = 1, size(samples%role)
+                if (samples%role(i) /= role_parameter) cycle
+                letter = values(:, i)
+                one = needed*letter
+                if (is_constant(one)) then
+                    remark = "on the left is missing "//times(one(1))//text//"/"// &
+                             trim(samples%symbols%names(i))
+                    return
+                end if
+                one = needed/letter
+                if (is_constant(one)) then
+                    remark = "on the left is missing "//times(one(1))// &
+                             trim(samples%symbols%names(i))//" "//text
+                    return
+                end if
+            end do
+            if (remark == "") remark = "a term with "//text//" is missing"
+        end do
+    end subroutine try_missing_terms
+
+    pure function is_constant(x) result(yes)
+        !! The same finite number, but for rounding, at all samples that count.
+        real(dp), intent(in) :: x(:)
+        logical :: yes
+
+        yes = .false.
+        if (.not. all(ieee_is_finite(x))) return
+        yes = maxval(x) - minval(x) <= equal*max(maxval(abs(x)), 1e-3_dp)
+    end function is_constant
+
+    pure function times(factor) result(text)
+        !! `2 `, `- `, or nothing for 1.
+        real(dp), intent(in) :: factor
+        character(:), allocatable :: text
+
+        text = number_text(factor)//" "
+        if (abs(factor - 1.0_dp) < equal) text = ""
+        if (abs(factor + 1.0_dp) < equal) text = "-"
+    end function times
+
+    pure function number_text(value) result(text)
+        !! A fraction of small numbers, or three decimals.
+        real(dp), intent(in) :: value  !! finite
+        character(:), allocatable :: text
+        integer :: denominator
+
+        do denominator = 1, 12
+            if (abs(value*denominator - anint(value*denominator)) > equal*denominator) cycle
+            text = to_text(nint(value*denominator))
+            if (denominator > 1) text = text//"/"//to_text(denominator)
+            return
+        end do
+        text = to_text(anint(1000.0_dp*value)/1000.0_dp)
+    end function number_text
+end module lagrangia_term_search
