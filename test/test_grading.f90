@@ -15,7 +15,7 @@ module test_grading
     use lagrangia_random_draws, only: random_t
     use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: to_text
+    use lagrangia_text, only: to_text, word_t
     use rewritings, only: draw_rewriting, draw_slip
     implicit none (type, external)
     private
@@ -80,6 +80,11 @@ contains
                    "'M' must be 'm' in ")
         call named("atwood", "tension2 = m2 (g + x_ddot)/2", &
                    "'m2 (g + x_ddot)/2' must be counted 2 times")
+        call named("pendulum", "l theta_ddot + g theta = 0", &
+                   "'theta' must be 'sin(theta)' in 'g theta'")
+        call named("oscillator", "m x_ddot + k sin(x) = 0", "'sin(x)' must be 'x' in 'k sin(x)'")
+        call named("pendulum", "p_theta = m l^2 theta_dot = m l^2 theta", &
+                   "'theta' must be 'theta_dot' in ")
         call named("oscillator", "m x_dot + k x = 0", "'x_dot' must be 'x_ddot' in 'm x_dot'")
         call named("oscillator", "m x_ddot + k x + m x = 0", "'m x' does not belong there")
         call named("oscillator", "E = m/2 x_dot^2", "on the left is missing ")
@@ -121,6 +126,9 @@ contains
         call right("atwood", "(m1 + m2) x_ddot = (m1 - m2) g")
         call right("rotating_hoop", "Omega^2 = g/r - omega^2")
         call right("rotating_hoop", "Omega^2 = omega^2 - g^2/(omega r)^2")
+        call right("double_pendulum", "m1 l1 l2 omega^4 - (m1 + m2) (l1 + l2) g omega^2 + "// &
+            "(m1 + m2) g^2 = 0")
+        call right("pendulum", "set: g = 9.81"//line_feed//"l theta_ddot + 9.81 sin(theta) = 0")
         call right("wedge", "q1_ddot = g sin(alpha)/(1 - m_block cos(alpha)^2/(m_wedge + m_block))")
     contains
         subroutine right(system, statement)
@@ -216,6 +224,7 @@ contains
         type(error_t), allocatable :: error
         type(description_t) :: d
         character(:), allocatable :: statements, remark, statement
+        type(word_t) :: none(0)
         integer :: i, done, verdict
 
         misjudged = ""
@@ -228,11 +237,11 @@ contains
                 call system%describe(d)
                 call printed_statements(system, statements)
                 if (statements == "") cycle
-                call new_samples(system, statements, samples, error)
+                call new_samples(system, statements, none, samples, error)
                 call change_one(statements, samples, random, with_slip, statement)
                 if (statement == "") cycle
                 if (with_slip) then
-                    call new_samples(system, statement, samples, error)
+                    call new_samples(system, statement, none, samples, error)
                     if (.not. is_false(statement, samples)) cycle  ! with what it does not name zero
                 end if
                 call graded(trim(d%name), statement, verdict, remark)
@@ -338,6 +347,10 @@ contains
         call refused("system: pendulum"//line_feed//"gravity: 3", "sheet:2: what is 'gravity':")
         call refused("system: pendulum"//line_feed//"set: g", "sheet:2: 'set:' needs a parameter")
         call unreadable("sin theta = 1", "write 'sin(theta)'")
+        call unreadable("theta_ddot == 3", "column 13: one side of '=' is empty")
+        call unreadable("= 3", "column 1: one side of '=' is empty")
+        call unreadable("theta_ddot =", "column 13: one side of '=' is empty")
+        call unreadable("g = 9.81", "a line 'set: g = ...' fixes one")
         call unreadable("theta_dt = 1", "unknown name 'theta_dt'")
         call unreadable("p_x = 1", "unknown name 'p_x'")
         call unreadable("theta_ddot = log(-1)", "no number")

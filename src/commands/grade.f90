@@ -11,7 +11,7 @@ module lagrangia_grade
     use lagrangia_printed_table, only: left
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: shortened, short_source, to_text
+    use lagrangia_text, only: short_source, shortened, to_text, word_t
     implicit none (type, external)
     private
     public :: grade_command
@@ -41,12 +41,8 @@ contains
         do i = 1, size(line%arguments)
             call read_homework(line%arguments(i)%text, homework, error)
             if (allocated(error)) return
-            call read_named_system(homework%system, homework%settings, system, error)
-            if (allocated(error)) then
-                call error%add_context(trim(short_source(homework%source))//":"// &
-                                       to_text(homework%system_line))
-                return
-            end if
+            call find_system(homework, system, error)
+            if (allocated(error)) return
             call grade(homework, system, result, error)
             if (allocated(error)) return
             wrong = wrong + count(result%of%verdict == is_wrong)
@@ -67,6 +63,30 @@ contains
             call fail(error, "wrong: "//number_of_statements(wrong), status_not_held)
         end if
     end subroutine grade_command
+
+    subroutine find_system(homework, system, error)
+        !! The system of a sheet, with what its lines `set:` fix.
+        type(homework_t), intent(in) :: homework
+        class(system_t), allocatable, intent(out) :: system
+        type(error_t), allocatable, intent(out) :: error
+        type(word_t), allocatable :: settings(:)
+        type(description_t) :: d
+        integer :: i
+
+        allocate (settings(0))
+        call read_named_system(homework%system, settings, system, error)
+        if (.not. allocated(error) .and. size(homework%settings) > 0) then
+            call system%describe(d)
+            deallocate (settings)
+            allocate (settings(size(homework%settings)))
+            do i = 1, size(settings)
+                settings(i)%text = trim(d%name)//"%"//homework%settings(i)%text
+            end do
+            call read_named_system(homework%system, settings, system, error)
+        end if
+        if (allocated(error)) call error%add_context(trim(short_source(homework%source))//":"// &
+                                                     to_text(homework%system_line))
+    end subroutine find_system
 
     pure function number_of_statements(number) result(text)
         !! `1 statement`, `2 statements`.

@@ -44,7 +44,7 @@ contains
         do i = 1, size(homework%statements)
             said = said//" "//homework%statements(i)%text
         end do
-        call new_samples(system, said, samples, error)
+        call new_samples(system, said, homework%settings, samples, error)
         if (allocated(error)) return
         result%kept = samples%kept
         call collect_terms(system, samples, library)

@@ -8,7 +8,7 @@ module lagrangia_judgement
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_homework, only: statement_t
     use lagrangia_kinds, only: dp
-    use lagrangia_motion_samples, only: draws, samples_t, states
+    use lagrangia_motion_samples, only: draws, role_parameter, samples_t, states
     use lagrangia_number_text, only: scientific
     use lagrangia_same_motion, only: same_equations
     use lagrangia_sampled_formula, only: evaluate_nodes
@@ -51,7 +51,10 @@ contains
         judgement%remark = ""
         judgement%example = ""
         call write_derivatives(statement%text, text)
+        call exchange(text, trim(samples%symbols%names(samples%frequency)), "^2", "_2")
         next = index(text, "=")
+        call find_empty_side(text, judgement)
+        if (judgement%verdict == is_unreadable) return
         if (is_new_name(text(:next - 1), samples)) then
             if (index(text(next + 1:), "=") == 0) then
                 call define(text, next, samples, judgement)
@@ -80,6 +83,25 @@ contains
         end do
     end subroutine judge
 
+    pure subroutine find_empty_side(text, judgement)
+        !! `a =`, `= b`, `a == b`.
+        character(*), intent(in) :: text
+        type(judgement_t), intent(inout) :: judgement
+        integer :: first, last
+
+        first = 1
+        do
+            last = index(text(first:), "=")
+            last = merge(len(text) + 1, first + last - 1, last == 0)
+            if (text(first:last - 1) == "") exit
+            if (last > len(text)) return
+            first = last + 1
+        end do
+        judgement%verdict = is_unreadable
+        judgement%remark = "column "//to_text(first)// &
+            ": one side of '=' is empty; write 'left = right'"
+    end subroutine find_empty_side
+
     pure subroutine write_derivatives(typed, text)
         !! `dL/dx_dot` becomes the name `dL_dx_dot`, `d/dt dL/dx_dot` the name `d_dt_dL_dx_dot`, as
         !! long as they were.
@@ -96,6 +118,18 @@ contains
             if (text(i:i + 4) == "d_dt_" .and. text(i + 7:i + 7) == "/") text(i + 7:i + 7) = "_"
         end do
     end subroutine write_derivatives
+
+    pure subroutine exchange(text, name, before, after)
+        !! `omega^2` becomes `omega_2`, or the other way, as long as it was.
+        character(*), intent(in) :: name, before, after
+        character(:), allocatable, intent(inout) :: text
+        integer :: i, n
+
+        n = len(name)
+        do i = 1, len(text) - n - 1
+            if (text(i:i + n + 1) == name//before) text(i + n:i + n + 1) = after
+        end do
+    end subroutine exchange
 
     pure function is_new_name(text, samples) result(yes)
         !! Is it a name alone, which nobody has given yet? What looks like a velocity or a momentum
@@ -152,7 +186,8 @@ contains
 
         judgement%residual = left - right
         values = samples%values
-        if (judgement%residual%depends_on(samples%frequency)) then
+        if (judgement%residual%depends_on(samples%frequency) .or. &
+            judgement%residual%depends_on(samples%frequency + 1)) then
             call choose_modes(judgement%residual, samples, values, right_one, found)
             if (.not. found) then
                 judgement%verdict = is_unreadable
@@ -164,7 +199,11 @@ contains
         else
             call holds(judgement%residual, values, right_one, judged)
         end if
-        if (.not. judged) then
+        if (is_value(left, right, samples)) then
+            judgement%verdict = is_unreadable
+            judgement%remark = "graded for any value; a line 'set: "// &
+                trim(samples%symbols%names(left%nodes(1)%which))//" = ...' fixes one"
+        else if (.not. judged) then
             judgement%verdict = is_unreadable
             judgement%remark = "no number at the states that were tried: a root, a logarithm "// &
                 "or a "// &
@@ -180,8 +219,23 @@ contains
             judgement%verdict = is_wrong
             call explain_slip(judgement%residual, samples, values, library, judgement%remark)
             call put_example(left, right, samples, values, judgement%example)
+            associate (name => samples%symbols%names(samples%frequency))
+                call exchange(judgement%remark, trim(name), "_2", "^2")
+                call exchange(judgement%example, trim(name), "_2", "^2")
+            end associate
         end if
     end subroutine judge_pair
+
+    pure function is_value(left, right, samples) result(yes)
+        !! A parameter alone on the left, and a number on the right side.
+        type(expression_t), intent(in) :: left, right
+        type(samples_t), intent(in) :: samples
+        logical :: yes
+
+        yes = left%count == 1 .and. left%nodes(1)%kind == kind_symbol
+        if (yes) yes = samples%role(left%nodes(1)%which) == role_parameter .and. &
+                       .not. any(right%nodes(:right%count)%kind == kind_symbol)
+    end function is_value
 
     subroutine choose_modes(residual, samples, values, right_one, found)
         !! Give omega its values: of that equilibrium, and for each draw of parameters that mode,
@@ -206,34 +260,46 @@ contains
     end subroutine choose_modes
 
     subroutine choose_about(omega2, residual, samples, values, right_one, found)
-        !! About one equilibrium; no number for draws without an oscillation.
+        !! About one equilibrium; no number for draws without an oscillation. Two draws must match.
         real(dp), intent(in) :: omega2(:, :)  !! (draws, modes)
         type(expression_t), intent(in) :: residual
         type(samples_t), intent(in) :: samples
         real(dp), intent(inout) :: values(:, :)
         logical, intent(out) :: right_one, found
-        integer :: draw, first, k, mode
-        logical :: yes, judged
+        integer :: draw, first, k, matches
+        logical :: yes, judged, needs_root
 
+        needs_root = residual%depends_on(samples%frequency)
         found = .false.
         right_one = .true.
+        matches = 0
         do draw = 1, draws
             first = (draw - 1)*states
             associate (rows => values(first + 1:first + states, :))
-                rows(:, samples%frequency) = ieee_value(1.0_dp, ieee_quiet_nan)
-                mode = findloc(omega2(draw, :) > 0.0_dp, .true., 1)
-                if (mode == 0) cycle
-                found = .true.
-                do k = size(omega2, 2), mode, -1
-                    if (omega2(draw, k) <= 0.0_dp) cycle
-                    rows(:, samples%frequency) = sqrt(omega2(draw, k))
+                rows(:, samples%frequency:samples%frequency + 1) = ieee_value(1.0_dp, &
+                                                                              ieee_quiet_nan)
+                yes = .false.
+                do k = size(omega2, 2), 1, -1
+                    if (omega2(draw, k) <= 0.0_dp .and. needs_root) cycle
+                    if (abs(omega2(draw, k)) <= 0.0_dp) cycle
+                    found = .true.
+                    rows(:, samples%frequency) = sqrt(abs(omega2(draw, k)))
+                    rows(:, samples%frequency + 1) = omega2(draw, k)
                     call holds(residual, rows, yes, judged)
                     if (yes) exit
                 end do
-                right_one = right_one .and. yes
+                if (yes) then
+                    matches = matches + 1
+                else if (needs_root .and. any(omega2(draw, :) < 0.0_dp)) then
+                    rows(:, samples%frequency) = ieee_value(1.0_dp, ieee_quiet_nan)
+                    ! that mode, perhaps
+                else
+                    right_one = right_one .and. all(abs(omega2(draw, :)) <= 0.0_dp)
+                end if
             end associate
         end do
-        right_one = right_one .and. found
+        right_one = right_one .and. matches >= 2
+        found = found .and. any(values(:, samples%frequency) > 0.0_dp)  ! no NaN everywhere
     end subroutine choose_about
 
     function is_up_to_constant(left, residual, samples) result(yes)
@@ -283,6 +349,7 @@ contains
         real(dp), intent(in) :: values(:, :)
         character(:), allocatable, intent(out) :: text
         real(dp), allocatable :: of_left(:, :), of_right(:, :), difference(:)
+        character(:), allocatable :: before
         integer :: i, worst
 
         allocate (of_left(size(values, 1), left%count), of_right(size(values, 1), right%count))
@@ -293,13 +360,14 @@ contains
             difference = abs(a - b)/(abs(a) + abs(b))
             worst = maxloc(difference, 1, ieee_is_finite(difference))
             if (worst == 0) worst = 1
-            text = "left "//brief(a(worst))//", right "//brief(b(worst))//" at"
+            text = "left "//brief(a(worst))//", right "//brief(b(worst))
         end associate
+        before = " at "
         do i = 1, size(samples%role)
             if (.not. (left%depends_on(i) .or. right%depends_on(i))) cycle
-            text = text//" "//trim(samples%symbols%names(i))//" = "//brief(values(worst, i))//","
+            text = text//before//trim(samples%symbols%names(i))//" = "//brief(values(worst, i))
+            before = ", "
         end do
-        text = text(:len(text) - 1)
     end subroutine put_example
 
     pure function brief(value) result(text)

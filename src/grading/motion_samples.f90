@@ -1,7 +1,7 @@
 module lagrangia_motion_samples
     !! What a statement about a system may name, and the values of all these names on its motion: at
     !! states at random, with parameters at random, as the equations of motion have it.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_description, only: description_t, default_values, name_length, value_names
     use lagrangia_errors, only: error_t, fail
     use lagrangia_expression, only: expression_t
@@ -9,10 +9,12 @@ module lagrangia_motion_samples
     use lagrangia_formula_program, only: formula_program_t, new_formula_program
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
+    use lagrangia_parameter_choice, only: keep, spread_values
     use lagrangia_random_draws, only: random_t
     use lagrangia_small_oscillations, only: find_modes, modes_t
     use lagrangia_symbols, only: symbols_t
     use lagrangia_system, only: system_t
+    use lagrangia_text, only: word_t
     implicit none (type, external)
     private
     public :: samples_t
@@ -45,7 +47,8 @@ module lagrangia_motion_samples
         real(dp), allocatable :: omega2(:, :)      !! of small oscillations, (draws, modes); 0: none
         integer :: ndof = 0                        !! coordinates
         integer :: first_acceleration = 0          !! place of the first one
-        integer :: frequency = 0                   !! place of omega, or of Omega if omega is taken
+        integer :: frequency = 0                   !! place of omega, or of Omega if omega is taken;
+        !! behind it that of its square, `omega_2`, which is negative where it is unstable
         character(:), allocatable :: kept          !! parameters that are zero: `a_s = 0`
         integer, allocatable :: rate(:)
         !! place of the symbol's time derivative, or 0
@@ -55,28 +58,31 @@ module lagrangia_motion_samples
 
 contains
 
-    subroutine new_samples(system, said, samples, error)
+    subroutine new_samples(system, said, settings, samples, error)
         !! Of `system`, about which `said` speaks: a parameter that it does not name and whose
         !! default is zero or a formula keeps that.
         class(system_t), intent(in) :: system             !! configured
         character(*), intent(in) :: said                  !! all statements
+        type(word_t), intent(in) :: settings(:)           !! `name=value`: these keep their values
         type(samples_t), intent(out) :: samples           !! names and values
         type(error_t), allocatable, intent(out) :: error  !! no states at which L is a number
         class(system_t), allocatable :: drawn
         type(description_t) :: d
         type(error_t), allocatable :: refusal
         real(dp), allocatable :: values(:), given(:)
-        logical, allocatable :: fixed(:)
+        logical, allocatable :: drawn_value(:), fixed(:)
         integer :: draw, k
 
         call system%describe(d)
         call name_symbols(system, d, samples)
         allocate (samples%values(draws*states, size(samples%symbols%names)))
-        call keep(d, said, fixed, given, samples%kept)
+        call keep(d, said, settings, fixed, given, samples%kept)
         allocate (drawn, source=system)
         draw = 0
         do k = 1, 20*draws
-            call samples%random%parameters(drawn, .false., values, refusal, fixed, given)
+            call spread_values(d, drawn_value, fixed, given, samples%random)
+            call samples%random%parameters(drawn, .false., values, refusal, &
+                                           fixed .or. drawn_value, given)
             if (.not. allocated(refusal)) call add_states(samples, drawn, d, draw, refusal)
             if (allocated(refusal)) cycle
             draw = draw + 1
@@ -93,80 +99,6 @@ contains
             call move_away(samples, k)
         end do
     end subroutine new_samples
-
-    subroutine keep(d, said, fixed, given, kept)
-        !! The parameters that keep their values, and these; NaN: the system's formula. In words
-        !! those
-        !! that are zero.
-        type(description_t), intent(in) :: d
-        character(*), intent(in) :: said
-        logical, allocatable, intent(out) :: fixed(:)
-        real(dp), allocatable, intent(out) :: given(:)
-        character(:), allocatable, intent(out) :: kept
-        character(:), allocatable :: whole
-        integer :: first, i, k
-        logical :: named
-
-        whole = said
-        if (allocated(d%letters)) then
-            do i = size(d%letters), 1, -1  ! each uses only those before it
-                if (.not. occurs(whole, trim(d%letters(i)%name))) cycle
-                whole = whole//" "//trim(d%letters(i)%formula)
-            end do
-        end if
-        kept = ""
-        given = default_values(d)
-        allocate (fixed(size(given)), source=.false.)
-        first = 0
-        do i = 1, size(d%parameters)
-            associate (p => d%parameters(i))
-                named = is_named(p%name)
-                if (p%count > 1) named = any([(is_named(trim(p%name)//"_"//"xyz"(k:k)), k=1, 3)])
-                do k = 1, p%count
-                    if (named) cycle
-                    fixed(first + k) = abs(p%value(k)) <= 0.0_dp .or. p%computed /= "" .or. p%whole
-                    if (p%computed /= "") given(first + k) = ieee_value(given(1), ieee_quiet_nan)
-                end do
-                if (p%whole) fixed(first + 1) = .true.
-                if (.not. named .and. p%computed == "" .and. p%count == 1 .and. &
-                    abs(p%value(1)) <= 0.0_dp) then
-                    if (kept /= "") kept = kept//", "
-                    kept = kept//trim(p%name)//" = 0"
-                end if
-                first = first + p%count
-            end associate
-        end do
-    contains
-        logical function is_named(name)
-            character(*), intent(in) :: name
-
-            is_named = occurs(whole, trim(name))
-        end function is_named
-    end subroutine keep
-
-    pure function occurs(text, name) result(yes)
-        !! `name` as a word of its own.
-        character(*), intent(in) :: text, name
-        character(*), &
-            parameter :: inside = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"// &
-                                            "_0123456789"
-        logical :: yes
-        character(len(text) + 2) :: framed
-        integer :: at, i
-
-        framed = " "//text
-        i = 1
-        yes = .false.
-        do
-            at = index(framed(i:), name)
-            if (at == 0) return
-            at = at + i - 1
-            yes = scan(framed(at - 1:at - 1), inside) == 0 .and. &
-                  scan(framed(at + len(name):at + len(name)), inside) == 0
-            if (yes) return
-            i = at + 1
-        end do
-    end function occurs
 
     subroutine name_symbols(system, d, samples)
         !! All names, in the order of `add_states`.
@@ -206,10 +138,12 @@ contains
         if (allocated(d%potential_energy)) call add("V", role_known)
         if (samples%symbols%find("omega") == 0) then
             call add("omega", role_frequency)
+            call add("omega_2", role_frequency)
         else
             call add("Omega", role_frequency)
+            call add("Omega_2", role_frequency)
         end if
-        samples%frequency = size(samples%role)
+        samples%frequency = size(samples%role) - 1  ! its square behind it
         allocate (samples%rate(size(samples%role)))
         do i = 1, size(samples%rate)
             name = samples%symbols%names(i)

@@ -9,7 +9,8 @@ module lagrangia_sampled_formula
     implicit none (type, external)
     private
     public :: change_t
-    public :: change_none, change_sign, change_factor, change_symbol, change_function, &
+    public :: change_applied, change_argument, change_none, change_sign, change_factor, &
+        change_symbol, change_function, &
               change_exponent, change_divided, change_multiplied, change_number
     public :: evaluate_nodes, summands
 
@@ -22,6 +23,8 @@ module lagrangia_sampled_formula
     integer, parameter :: change_divided = 6     !! the node without a factor, the symbol `which`
     integer, parameter :: change_multiplied = 7  !! with that factor
     integer, parameter :: change_number = 8      !! the number plus `factor`
+    integer, parameter :: change_applied = 9     !! the function `which` of the node
+    integer, parameter :: change_argument = 10   !! the operand of a function in its place
 
     type :: change_t
         !! Of one node.
@@ -93,6 +96,10 @@ contains
                     results(:, i) = results(:, i)*values(:, change%which)
                 case (change_number)
                     results(:, i) = results(:, i) + change%factor
+                case (change_applied)
+                    results(:, i) = value_of(change%which, results(:, i))
+                case (change_argument)
+                    results(:, i) = results(:, node%left)
                 case default
                     return
                 end select

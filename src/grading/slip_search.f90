@@ -2,14 +2,17 @@ module lagrangia_slip_search
     !! The one change of a wrong statement that makes it right: a sign, a factor, a letter, a dot, a
     !! function, an exponent, a term too many or one that is missing.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use lagrangia_expression, only: apply, expression_t, f_cos, f_cosh, f_sin, f_sinh, &
+    use lagrangia_expression, only: apply, expression_t, f_abs, f_cos, f_cosh, f_sin, f_sinh, &
+                                    f_sqrt, &
                                     function_names, kind_function, kind_number, &
                                     kind_power, kind_symbol
     use lagrangia_formula_text, only: formula_text
     use lagrangia_kinds, only: dp
-    use lagrangia_motion_samples, only: role_acceleration, role_coordinate, role_parameter, &
+    use lagrangia_motion_samples, only: role_acceleration, role_coordinate, role_known, &
+                                        role_parameter, &
                                         role_time, role_velocity, samples_t
-    use lagrangia_sampled_formula, only: change_divided, change_exponent, change_factor, &
+    use lagrangia_sampled_formula, only: change_applied, change_argument, change_divided, &
+                                         change_exponent, change_factor, &
                                          change_function, change_multiplied, change_number, &
                                              change_sign, change_symbol, change_t, &
                                          evaluate_nodes, summands
@@ -61,8 +64,13 @@ contains
         type(library_t), intent(in) :: library(:)           !! right terms
         character(:), allocatable, intent(out) :: remark    !! for the student
         logical :: could_be_trivial
+        integer :: i
 
-        could_be_trivial = is_trivial(expression, samples)
+        could_be_trivial = .true.  ! sides that need no motion to be compared
+        do i = 1, size(samples%role)
+            if (samples%role(i) /= role_acceleration .and. samples%role(i) < role_known) cycle
+            if (expression%depends_on(i)) could_be_trivial = .false.
+        end do
         call try_signs(remark)
         if (remark == "") call try_functions(remark)
         if (remark == "") call try_symbols(remark)
@@ -102,19 +110,30 @@ contains
             character(:), allocatable, intent(out) :: text
             integer, parameter :: swaps(2, 4) = reshape([f_sin, f_cos, f_cos, f_sin, f_sinh, &
                                                          f_cosh, f_cosh, f_sinh], [2, 4])
+            integer, parameter :: applied(*) = [f_sin, f_cos]
             type(expression_t) :: other
             integer :: i, k
 
             text = ""
             do i = 1, expression%count
                 if (expression%nodes(i)%kind /= kind_function) cycle
+                other = expression%pruned(expression%nodes(i)%left)
+                if (mends(change_t(change_argument, i))) text = must_be(i, other)
+                if (text /= "") return
                 do k = 1, size(swaps, 2)
                     if (expression%nodes(i)%which /= swaps(1, k)) cycle
                     if (.not. mends(change_t(change_function, i, swaps(2, k)))) cycle
-                    other = expression%pruned(expression%nodes(i)%left)
-                    other = apply(swaps(2, k), other)
-                    text = node_text(i)//" must be '"//formula_text(other, samples%symbols)//"'"// &
-                           context(expression, samples, i)
+                    text = must_be(i, apply(swaps(2, k), other))
+                    return
+                end do
+            end do
+            do i = 1, expression%count
+                if (expression%nodes(i)%kind /= kind_symbol) cycle
+                if (samples%role(expression%nodes(i)%which) > role_parameter) cycle
+                other = expression%pruned(i)
+                do k = 1, size(applied)
+                    if (.not. mends(change_t(change_applied, i, applied(k)))) cycle
+                    text = must_be(i, apply(applied(k), other))
                     return
                 end do
             end do
@@ -222,6 +241,15 @@ contains
                 end do
             end do
         end subroutine try_inner_factors
+
+        function must_be(i, other) result(text)
+            integer, intent(in) :: i
+            type(expression_t), intent(in) :: other
+            character(:), allocatable :: text
+
+            text = node_text(i)//" must be '"//formula_text(other, samples%symbols)//"'"// &
+                   context(expression, samples, i)
+        end function must_be
 
         function node_text(i) result(text)
             integer, intent(in) :: i

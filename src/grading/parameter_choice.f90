@@ -1,0 +1,119 @@
+module lagrangia_parameter_choice
+    !! With which parameters a sheet is graded.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use lagrangia_description, only: default_values, description_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_random_draws, only: random_t
+    use lagrangia_text, only: word_t
+    implicit none (type, external)
+    private
+    public :: keep, spread_values
+
+contains
+
+    subroutine keep(d, said, settings, fixed, given, kept)
+        !! The parameters that keep their values, and these; NaN: the system's formula. In words
+        !! those
+        !! that are zero.
+        type(description_t), intent(in) :: d              !! of the system
+        character(*), intent(in) :: said                  !! all statements
+        type(word_t), intent(in) :: settings(:)           !! `name=value`: these keep their values
+        logical, allocatable, intent(out) :: fixed(:)     !! of each value: it is kept
+        real(dp), allocatable, intent(out) :: given(:)    !! the values; NaN: the system's formula
+        character(:), allocatable, intent(out) :: kept    !! `a_s = 0, ...`
+        character(:), allocatable :: whole
+        integer :: first, i, k
+        logical :: named
+
+        whole = said
+        if (allocated(d%letters)) then
+            do i = size(d%letters), 1, -1  ! each uses only those before it
+                if (.not. occurs(whole, trim(d%letters(i)%name))) cycle
+                whole = whole//" "//trim(d%letters(i)%formula)
+            end do
+        end if
+        kept = ""
+        given = default_values(d)
+        allocate (fixed(size(given)), source=.false.)
+        first = 0
+        do i = 1, size(d%parameters)
+            associate (p => d%parameters(i))
+                named = is_named(p%name)
+                if (p%count > 1) named = any([(is_named(trim(p%name)//"_"//"xyz"(k:k)), k=1, 3)])
+                do k = 1, p%count
+                    if (named) cycle
+                    fixed(first + k) = abs(p%value(k)) <= 0.0_dp .or. p%computed /= "" .or. p%whole
+                    if (p%computed /= "") given(first + k) = ieee_value(given(1), ieee_quiet_nan)
+                end do
+                if (p%whole) fixed(first + 1) = .true.
+                do k = 1, size(settings)
+                    if (settings(k)%text(:index(settings(k)%text, "=") - 1) /= p%name) cycle
+                    fixed(first + 1:first + p%count) = .true.
+                    given(first + 1:first + p%count) = p%value(:p%count)
+                end do
+                if (.not. named .and. p%computed == "" .and. p%count == 1 .and. &
+                    abs(p%value(1)) <= 0.0_dp) then
+                    if (kept /= "") kept = kept//", "
+                    kept = kept//trim(p%name)//" = 0"
+                end if
+                first = first + p%count
+            end associate
+        end do
+    contains
+        logical function is_named(name)
+            character(*), intent(in) :: name
+
+            is_named = occurs(whole, trim(name))
+        end function is_named
+    end subroutine keep
+
+    subroutine spread_values(d, drawn_value, fixed, given, random)
+        !! A parameter without bounds that is not zero keeps its sign: from a half to twice its
+        !! value.
+        type(description_t), intent(in) :: d                 !! of the system
+        logical, allocatable, intent(out) :: drawn_value(:)  !! it is drawn here
+        logical, intent(in) :: fixed(:)                      !! it keeps its value
+        real(dp), intent(inout) :: given(:)                  !! gets what is drawn
+        type(random_t), intent(inout) :: random              !! moves on
+        real(dp) :: factor
+        integer :: first, i, k
+
+        allocate (drawn_value(size(given)), source=.false.)
+        first = 0
+        do i = 1, size(d%parameters)
+            associate (p => d%parameters(i))
+                do k = first + 1, first + p%count
+                    if (fixed(k) .or. p%lower > -huge(p%lower)) cycle
+                    drawn_value(k) = abs(p%value(k - first)) > 0.0_dp
+                    call random%uniform(0.5_dp, 2.0_dp, factor)
+                    if (drawn_value(k)) given(k) = factor*p%value(k - first)
+                end do
+                first = first + p%count
+            end associate
+        end do
+    end subroutine spread_values
+
+    pure function occurs(text, name) result(yes)
+        !! `name` as a word of its own.
+        character(*), intent(in) :: text, name
+        character(*), &
+            parameter :: inside = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"// &
+                                            "_0123456789"
+        logical :: yes
+        character(len(text) + 2) :: framed
+        integer :: at, i
+
+        framed = " "//text
+        i = 1
+        yes = .false.
+        do
+            at = index(framed(i:), name)
+            if (at == 0) return
+            at = at + i - 1
+            yes = scan(framed(at - 1:at - 1), inside) == 0 .and. &
+                  scan(framed(at + len(name):at + len(name)), inside) == 0
+            if (yes) return
+            i = at + 1
+        end do
+    end function occurs
+end module lagrangia_parameter_choice
