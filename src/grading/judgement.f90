@@ -47,7 +47,9 @@ contains
         type(expression_t) :: left, right
         character(:), allocatable :: text
         integer :: first, next, last
+        logical :: chained
 
+        chained = .false.
         judgement%remark = ""
         judgement%example = ""
         call write_derivatives(statement%text, text)
@@ -77,9 +79,10 @@ contains
                 call put_unreadable(error, judgement)
                 return
             end if
-            call judge_pair(left, right, samples, library, judgement)
+            call judge_pair(left, right, chained, samples, library, judgement)
             if (judgement%verdict /= is_right .or. next > len(text)) return
             left = right
+            chained = .true.
         end do
     end subroutine judge
 
@@ -175,9 +178,10 @@ contains
         judgement%remark = error%message
     end subroutine put_unreadable
 
-    subroutine judge_pair(left, right, samples, library, judgement)
+    subroutine judge_pair(left, right, chained, samples, library, judgement)
         !! One equality.
         type(expression_t), intent(in) :: left, right
+        logical, intent(in) :: chained  !! the left side is known to be right
         type(samples_t), intent(in) :: samples
         type(library_t), intent(in) :: library(:)
         type(judgement_t), intent(inout) :: judgement
@@ -217,7 +221,8 @@ contains
             judgement%remark = "another L of the same motion"
         else
             judgement%verdict = is_wrong
-            call explain_slip(judgement%residual, samples, values, library, judgement%remark)
+            call explain_slip(judgement%residual, merge(left%count + 1, 1, chained), samples, &
+                              values, library, judgement%remark)
             call put_example(left, right, samples, values, judgement%example)
             associate (name => samples%symbols%names(samples%frequency))
                 call exchange(judgement%remark, trim(name), "_2", "^2")

@@ -56,9 +56,10 @@ contains
         call holds(expression, samples%elsewhere, yes, judged, change)
     end function is_trivial
 
-    subroutine explain_slip(expression, samples, values, library, remark)
+    subroutine explain_slip(expression, first, samples, values, library, remark)
         !! Say which change makes it right, or that no single one does.
         type(expression_t), intent(in) :: expression        !! left side less right side, wrong
+        integer, intent(in) :: first                        !! nodes before it are right
         type(samples_t), intent(in) :: samples              !! on the motion and elsewhere
         real(dp), intent(in) :: values(:, :)                !! on the motion, omega in its place
         type(library_t), intent(in) :: library(:)           !! right terms
@@ -86,6 +87,8 @@ contains
             type(change_t), intent(in) :: change
             logical :: judged
 
+            mends = .false.
+            if (change%node < first) return
             call holds(expression, values(:1, :), mends, judged, change)
             if (.not. mends .and. judged) return
             call holds(expression, values, mends, judged, change)
