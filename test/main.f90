@@ -11,6 +11,7 @@ module suites
     use test_blas_threads, only: blas_threads_suite
     use test_bouncing_ball, only: bouncing_ball_suite
     use test_canonical, only: canonical_suite
+    use test_canonical_form, only: canonical_form_suite
     use test_canonical_maps, only: canonical_maps_suite
     use test_cart_pendulum, only: cart_pendulum_suite
     use test_catalogue, only: catalogue_suite
@@ -31,6 +32,7 @@ module suites
     use test_dense_orders, only: dense_orders_suite
     use test_dense_powers, only: dense_powers_suite
     use test_dense_run, only: dense_run_suite
+    use test_derivative, only: derivative_suite
     use test_dop853, only: dop853_suite
     use test_dop853_coefficients, only: dop853_coefficients_suite
     use test_dop853_steps, only: dop853_steps_suite
@@ -44,6 +46,7 @@ module suites
     use test_events, only: events_suite
     use test_exact_maps, only: exact_maps_suite
     use test_failure_contract, only: failure_contract_suite
+    use test_formula_latex, only: formula_latex_suite
     use test_formula_parser, only: formula_parser_suite
     use test_formula_program, only: formula_program_suite
     use test_gauge, only: gauge_suite
@@ -160,6 +163,7 @@ contains
         call suite%addTest(blas_threads_suite())
         call suite%addTest(bouncing_ball_suite())
         call suite%addTest(canonical_suite())
+        call suite%addTest(canonical_form_suite())
         call suite%addTest(canonical_maps_suite())
         call suite%addTest(cart_pendulum_suite())
         call suite%addTest(catalogue_suite())
@@ -182,6 +186,7 @@ contains
         call suite%addTest(dop853_suite())
         call suite%addTest(dop853_coefficients_suite())
         call suite%addTest(dop853_steps_suite())
+        call suite%addTest(derivative_suite())
         call suite%addTest(double_pendulum_suite())
         call suite%addTest(driven_pendulum_suite())
         call suite%addTest(echo_suite())
@@ -192,6 +197,7 @@ contains
         call suite%addTest(events_suite())
         call suite%addTest(exact_maps_suite())
         call suite%addTest(failure_contract_suite())
+        call suite%addTest(formula_latex_suite())
         call suite%addTest(formula_parser_suite())
         call suite%addTest(formula_program_suite())
         call suite%addTest(gauge_suite())

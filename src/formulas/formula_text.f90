@@ -129,8 +129,8 @@ contains
         if (number%is_whole()) then
             text = to_text(number%numerator)
         else if (number%is_exact()) then
-            if (number%denominator > familiar .and. abs(number%value) < 1e5_dp .and. &
-                mod(10_i8**9, number%denominator) == 0_i8) return
+            if ((number%denominator > familiar .or. mod(number%denominator, 5_i8) == 0_i8) .and. &
+                abs(number%value) < 1e5_dp .and. mod(10_i8**9, number%denominator) == 0_i8) return
             text = to_text(number%numerator)//"/"//to_text(number%denominator)
         else if (abs(abs(number%value) - pi) <= 0.0_dp) then
             text = "pi"
