@@ -174,7 +174,7 @@ contains
         type(sum_t), intent(in) :: base, exponent
         type(sum_t), intent(out) :: power
         logical, intent(inout) :: fits
-        type(sum_t) :: none, root
+        type(sum_t) :: root
         type(number_t) :: n
         integer :: atom
 
