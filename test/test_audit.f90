@@ -169,6 +169,8 @@ contains
         do row = 1, size(audit%rows)
             associate (asked => audit%rows(row)%name)
                 covered = index(asked, "says what is true") > 0  ! flags_are_judged_both_ways
+                covered = covered .or. index(asked, " as printed") > 0 .or. &
+                          asked == "equations hold for no other motion"  ! audit_formulas
                 do k = 1, biased_claims
                     call new_biased_liar(k, 1, system, claim)
                     covered = covered .or. asked == claim .or. &

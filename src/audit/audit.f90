@@ -5,9 +5,11 @@ module lagrangia_audit
     !! the edge of their domain (no gravity, no spring), where further quantities are conserved.
     !! Velocities of a non-holonomic system are completed from the free ones.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+    use lagrangia_audit_closed_forms, only: audit_closed_forms
     use lagrangia_audit_equations, only: audit_accelerations, audit_constraints, audit_energy, &
                                          audit_lanes, audit_momenta, audit_rates, &
                                          claim_accelerations
+    use lagrangia_audit_formulas, only: audit_formulas
     use lagrangia_audit_newton, only: audit_gauss, audit_inertia, say_reactions
     use lagrangia_audit_structure, only: audit_cyclic, audit_flags, audit_mass
     use lagrangia_description, only: description_t
@@ -147,6 +149,8 @@ contains
         if (inside) call audit_mass(audit, system, t, q, v)
         call audit_cyclic(audit, system, t, q, v)
         call audit_flags(audit, system, t, q, v, other_t, other_v, inside .and. all_free)
+        if (.not. allocated(unsolved)) call audit_formulas(audit, nearby, motion, inside)
+        call audit_closed_forms(audit, nearby)
     end subroutine audit_state
 
     pure subroutine say_why(terms, t, q, v, error)
