@@ -208,6 +208,11 @@ check "bench energy: every method for one degree of freedom, and their energies"
 run bench precision --quick --json --problems P1 --methods rk4,gauss16,gsl_rk4 --output "$work/bench"
 check "bench precision: points and times of the methods asked for" json 'all({r["method"] for r in d if r["table"] == t} == {"rk4", "gauss16", "gsl_rk4"} for t in ("work_precision", "time_to_error"))'
 
+# Every key of a scene
+run describe scene
+check "docs/scenes.md: what 'describe scene' prints" python3 -c 'import re, sys
+sys.exit(re.search(r"```\n(.*?)```", open("docs/scenes.md").read(), re.S).group(1) != open(sys.argv[1]).read())' "$work/out"
+
 # A student's sheet
 run grade data/homework/right.txt
 check "grade: a right sheet" eval '[ $status -eq 0 ] && grep -q "^8 right$" "$work/out" && [ ! -s "$work/err" ]'

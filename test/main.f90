@@ -118,6 +118,7 @@ module suites
     use test_run_disks, only: run_disks_suite
     use test_run_plan, only: run_plan_suite
     use test_scene_files, only: scene_files_suite
+    use test_scene_reference, only: scene_reference_suite
     use test_scene_steps, only: scene_steps_suite
     use test_scenes, only: scenes_suite
     use test_second_run, only: second_run_suite
@@ -267,6 +268,7 @@ contains
         call suite%addTest(run_plan_suite())
         call suite%addTest(scene_files_suite())
         call suite%addTest(scene_steps_suite())
+        call suite%addTest(scene_reference_suite())
         call suite%addTest(scenes_suite())
         call suite%addTest(cross_check_suite())
         call suite%addTest(second_run_suite())

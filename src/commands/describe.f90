@@ -12,8 +12,9 @@ module lagrangia_describe
     use lagrangia_random_draws, only: random_t
     use lagrangia_reference, only: reference_t
     use lagrangia_scene_reader, only: read_named_system
+    use lagrangia_scene_reference, only: reference_lines
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: to_text
+    use lagrangia_text, only: to_text, word_t
     implicit none (type, external)
     private
     public :: describe_command, has_closed_form
@@ -30,6 +31,10 @@ contains
 
         if (size(line%arguments) == 0) then
             call fail(error, "describe what? 'lagrangia list systems' shows the names")
+            return
+        end if
+        if (line%arguments(1)%text == "scene") then
+            call put_scene_reference()
             return
         end if
         call read_named_system(line%arguments(1)%text, line%values_of("set"), system, error)
@@ -238,6 +243,17 @@ contains
             best = at
         end do
     end function best_break
+
+    subroutine put_scene_reference()
+        !! Every key of a scene file.
+        type(word_t), allocatable :: lines(:)
+        integer :: i
+
+        call reference_lines(lines)
+        do i = 1, size(lines)
+            call put_line(lines(i)%text)
+        end do
+    end subroutine put_scene_reference
 
     function has_closed_form(system) result(yes)
         !! One is known of the motion from some state, with some parameters: from one of 40 drawn,

@@ -112,6 +112,8 @@ contains
         end do
         up = ""
         across = ""
+        x = ""
+        y = ""
         do i = self%n, 1, -1
             k = to_text(i)
             across = " + x"//k//"_ddot"//across

@@ -1,0 +1,168 @@
+module lagrangia_scene_reference
+    !! Every key of a scene file: what it means, what it takes, its default, an example.
+    use lagrangia_description, only: name_length
+    use lagrangia_text, only: word_t
+    implicit none (type, external)
+    private
+    public :: entry_t, entries, reference_lines
+
+    type :: entry_t
+        !! One key. Texts are as people read them; the example is read back by a test.
+        character(12) :: group = ""
+        !! `scene`, `lagrangian`, or `NAME`, that of the system
+        character(name_length) :: key = ""
+        character(8) :: unit = ""
+        character(110) :: default = ""         !! "": the key must be there
+        character(240) :: meaning = ""         !! and what is allowed
+        character(110) :: example = ""         !! `key = value`
+    end type entry_t
+
+    character(*), parameter :: absent = "none"
+
+    type(entry_t), parameter :: entries(*) = [ &
+        entry_t("scene", "title", "", "empty", "a line for the head of the picture and of the "// &
+                "scorecard", "title = 'A pendulum let go at 60 degrees'"), &
+        entry_t("scene", "system", "", "", &
+                "a name that 'lagrangia list systems' shows, or a name "// &
+                "of your own if the file has a group &lagrangian", "system = 'pendulum'"), &
+        entry_t("scene", "method", "", "'rk4'", "a name that 'lagrangia list methods' shows; "// &
+                "'auto': the closed form where there is one, otherwise what suits", &
+                "method = 'auto'"), &
+        entry_t("scene", "t0", "s", "0.0", "time at the start", "t0 = -1.0"), &
+        entry_t("scene", "duration", "s", "", "from the start to the end, greater than 0", &
+                "duration = 10.0"), &
+        entry_t("scene", "dt", "s", "", &
+                "length of a step, greater than 0; a method that keeps a "// &
+                "tolerance needs none", "dt = 0.01"), &
+        entry_t("scene", "every", "", "so that there are about 1000 rows", "steps of dt from "// &
+                "one row to the next, a whole number", "every = 10"), &
+        entry_t("scene", "tolerance", "", "1e-10", &
+                "of gauss16, dop853 and auto in place of dt: "// &
+                "error of a step, relative for what is larger than 1; at most 0.1", &
+                "tolerance = 1e-9"), &
+        entry_t("scene", "samples", "", "1000 with a tolerance", &
+                "rows at equal times behind the "// &
+                "first one, a whole number; with dt it must divide the steps", "samples = 500"), &
+        entry_t("scene", "compensated", "", ".false.", &
+                "sums that keep what rounding drops, with "// &
+                "steps of dt", "compensated = .true."), &
+        entry_t("scene", "q", "as is", "", "coordinates at the start, in the order of "// &
+                "'lagrangia describe SYSTEM'; angles in rad", "q = 1.0471975511965976"), &
+        entry_t("scene", "v", "per s", "zeros", "velocities at the start, in the same order", &
+                "v = 0.5"), &
+        entry_t("scene", "columns", "", "t, the coordinates, energy_drift if there is one", &
+                "of the data file: t, each coordinate q with q_dot and q_ddot, energy, "// &
+                "quantities, places x_bob, momenta; with _drift what is conserved; error", &
+                "columns = 't', 'theta', 'theta_dot', 'energy_drift'"), &
+        entry_t("scene", "plot", "", "one panel for all columns", &
+                "panels of the picture, up to "// &
+                "8: 'y' or 'y1+y2' against the time, 'x:y' one column against another", &
+                "plot = 'theta', 'theta:theta_dot'"), &
+        entry_t("scene", "event", "", absent, "up to 8: 'COLUMN = LEVEL', with 'rising', "// &
+                "'falling' or 'stop' behind it", &
+                "event = 'theta = 0 rising'"), &
+        entry_t("scene", "event_columns", "", "columns, without errors and drifts", &
+                "of the file "// &
+                "of events", "event_columns = 't', 'theta_dot'"), &
+        entry_t("scene", "event_plot", "", absent, "as plot, of the events", &
+                "event_plot = 't:theta_dot'"), &
+        entry_t("scene", "period_of", "", absent, "a coordinate whose period is measured", &
+                "period_of = 'theta'"), &
+        entry_t("scene", "modes", "", ".false.", "omega of the small oscillations beside its "// &
+                "closed form in the scorecard", "modes = .true."), &
+        entry_t("scene", "error_estimate", "", ".false.", "state the final state to the digits "// &
+                "that hold", "error_estimate = .true."), &
+        entry_t("scene", "output", "", "the file's name", "of the data files, below the output "// &
+                "folder; letters, digits, . _ - / and blanks", "output = 'first/try'"), &
+        entry_t("scene", "expect_NAME", "", absent, "a bound that is judged: of error, of "// &
+                "NAME_drift for what is conserved, of period (relative), small_period", &
+                "expect_energy_drift = 1e-6"), &
+        entry_t("lagrangian", "coordinates", "", "", &
+                "of a system in formulas: names, each with "// &
+                "a unit and a few words if you like", &
+                "coordinates = 'r [m] length of the spring', 'theta [rad] its angle'"), &
+        entry_t("lagrangian", "parameters", "", absent, "names, as coordinates; their values "// &
+                "stand in the group that has the system's name", &
+                "parameters = 'm [kg] mass', 'k [N/m]', 'l0 [m]', 'g [m/s^2]'"), &
+        entry_t("lagrangian", "T", "", "", "kinetic energy, a formula of t, coordinates q, "// &
+                "velocities q_dot, parameters and definitions; or L", &
+                "T = 'm/2 (r_dot^2 + r^2 theta_dot^2)'"), &
+        entry_t("lagrangian", "V", "", "0", "potential energy, which may depend on velocities", &
+                "V = 'k/2 (r - l0)^2 - m g r cos(theta)'"), &
+        entry_t("lagrangian", "L", "", "T - V", "the Lagrangian, in place of T and V", &
+                "L = 'm/2 (r_dot^2 + r^2 theta_dot^2) - k/2 (r - l0)^2 + m g r cos(theta)'"), &
+        entry_t("lagrangian", "Q_NAME", "", "0", "generalised force on a coordinate beside L", &
+                "Q_theta = '-theta_dot'"), &
+        entry_t("lagrangian", "definitions", "", absent, &
+                "letters that stand for a formula, each "// &
+                "of those before it", "definitions = 's = r - l0'"), &
+        entry_t("lagrangian", "positions", "", absent, "places of points: name, mass: x, y and "// &
+                "perhaps z; they become columns x_bob, y_bob", &
+                "positions = 'bob, m: r sin(theta), -r cos(theta)'"), &
+        entry_t("lagrangian", "equilibrium", "", "near zeros", "where small oscillations are "// &
+                "looked at, a formula for each coordinate", "equilibrium = 'l0 + m g/k', '0'"), &
+        entry_t("NAME", "PARAMETER", "as is", "as 'lagrangia describe SYSTEM' says", &
+                "the group of "// &
+                "the system's name has its parameters", "l = 2.0")]
+
+contains
+
+    subroutine reference_lines(lines)
+        !! All of it as text, a few lines a key.
+        type(word_t), allocatable, intent(out) :: lines(:)  !! without line feeds
+        type(entry_t) :: item
+        character(:), allocatable :: head
+        character(12) :: before
+        integer :: i, n
+
+        allocate (lines(5*size(entries) + 10))
+        n = 0
+        before = ""
+        call add("A scene is a text of groups '&group key = value, ... /'. Texts stand between "// &
+                 "apostrophes, numbers have a")
+        call add("point, ! begins a comment; case does not matter. '--set GROUP%KEY=VALUE' "// &
+            "goes "// &
+                 "before what the file says.")
+        do i = 1, size(entries)
+            item = entries(i)
+            if (i == 1) then
+                call add("")
+                call add("&scene: what to run")
+            else if (item%group /= before) then
+                call add("")
+                if (item%group == "lagrangian") call add("&lagrangian: a system in formulas")
+                if (item%group == "NAME") call add("&NAME: the parameters of the system NAME")
+            end if
+            head = "  "//trim(item%key)
+            if (item%unit /= "") head = head//" ["//trim(item%unit)//"]"
+            if (item%default == "") head = head//", needed"
+            if (item%default /= "") head = head//", default: "//trim(item%default)
+            call add(head)
+            call add_wrapped(trim(item%meaning))
+            call add("      "//trim(item%example))
+            before = item%group
+        end do
+        lines = lines(:n)
+    contains
+        subroutine add_wrapped(text)
+            !! At most 100 columns.
+            character(*), intent(in) :: text
+            integer :: last
+
+            if (len(text) <= 96) then
+                call add("    "//text)
+                return
+            end if
+            last = index(text(:96), " ", back=.true.)
+            call add("    "//text(:last - 1))
+            call add("    "//text(last + 1:))
+        end subroutine add_wrapped
+
+        subroutine add(text)
+            character(*), intent(in) :: text
+
+            n = n + 1
+            lines(n)%text = text
+        end subroutine add
+    end subroutine reference_lines
+end module lagrangia_scene_reference
