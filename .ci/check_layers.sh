@@ -6,6 +6,8 @@
 #   < commands < app. src/lagrangia.f90 uses what it likes; nobody uses it.
 # - integrators and observers name no concrete system, observers no concrete integrator.
 # - only app/ and src/commands/ print or stop; lagrangia_console, which knows how, is theirs.
+# - fpm.toml has the preprocessor read all sources: no line ends in a backslash, none has a slash and an
+#   asterisk in a row. It would join lines, or take what follows for a comment.
 # - src/ROOM/NAME.f90 holds one module, lagrangia_NAME, in at most 450 lines; app/main.f90 in 100.
 #
 #   check_layers.sh [DIRECTORY]        the project, by default the one this script lies in
@@ -142,7 +144,11 @@ FNR == 1 {
 
 {
     row = FNR
-    if (pass == 1) lines[name] = FNR
+    if (pass == 1) {
+        lines[name] = FNR
+        if ($0 ~ /\\$/) complain("the preprocessor joins a line that ends in a backslash")
+        if (index($0, "/" "*")) complain("the preprocessor takes this for a comment: /" "*")
+    }
     line = code($0)
     if (line ~ /^ *$/) next
     sub(/ +$/, "", line)

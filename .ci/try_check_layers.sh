@@ -103,6 +103,8 @@ module cellar kinds "integer :: i";                                 refuses "no 
 mv "$house/src/core/kinds.f90" "$house/src/core/kind.f90";          refuses "should be called lagrangia_kind"
 module core kinds "end module lagrangia_kinds" "module lagrangia_more"
 refuses "a second module"
+module core kinds '!! \(a\' 'real :: x';                             refuses "ends in a backslash"
+module core kinds '!! data/*.nml';                                  refuses "takes this for a comment"
 : >"$house/src/core/empty.f90";                                     refuses "no module here"
 yes "! long" | head -n 451 >>"$house/src/core/kinds.f90";           refuses "more than 450 lines"
 yes "! long" | head -n 100 >>"$house/app/main.f90";                 refuses "more than 100 lines"

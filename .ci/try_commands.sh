@@ -108,6 +108,12 @@ run run --help
 check "run --help" eval '[ $status -eq 0 ] && grep -q "^usage: lagrangia run SCENE" "$work/out"'
 run --version
 check "--version: version, compiler, build" eval '[ $status -eq 0 ] && grep -qE "^lagrangia [0-9.]+$" "$work/out" && grep -qE "GCC version .*optimised$" "$work/out"'
+if [ "$(uname -m)" = x86_64 ]; then # FMA4 was in AMD's processors of 2011 to 2015 only
+    echo 'int main(void) { return 0; }' >"$work/main.c"
+    gcc -mfma4 src/core/processor.c "$work/main.c" -o "$work/foreign" && "$work/foreign" 2>"$work/err" >"$work/out"
+    status=$?
+    check "a build for another processor says so" eval '[ $status -eq 4 ] && one_line && grep -q "needs a processor with FMA4; build it again on this one: rm -rf build; fpm run" "$work/err"'
+fi
 run list
 check "list" eval '[ $status -eq 0 ] && grep -q "^systems$" "$work/out" && grep -q "^methods$" "$work/out" && grep -q "^scenes$" "$work/out"'
 run list scenes

@@ -112,9 +112,10 @@ contains
         character(*), parameter :: texts(*) = [character(64) :: &
             "plain MARK", "it's MARK", "' ; MARK ; '", "'Small' MARK", "''MARK", "MARK'", &
             """MARK"" \MARK\", """; MARK ; """, "`MARK`", "$(MARK) @MARK # MARK", "\'MARK", &
-            "\""; MARK #", "{/*9 MARK}_^ &~%", "MARK\", "<MARK", "|MARK", "-MARK", "50 %s MARK", &
-            "\140MARK\140", "MA"//char(195)//char(164)//"MARK", "a"//char(9)//"MARK", &
-            "a"//char(10)//"MARK", "a"//char(13)//"MARK"//char(27)//"[31m", char(255)//"MARK"]
+            "\""; MARK #", "{/"//"*9 MARK}_^ &~%", "MARK\", "<MARK", "|MARK", "-MARK", &
+            "50 %s MARK", "\140MARK\140", "MA"//char(195)//char(164)//"MARK", &
+            "a"//char(9)//"MARK", "a"//char(10)//"MARK", &
+            "a"//char(13)//"MARK"//char(27)//"[31m", char(255)//"MARK"]
         character(:), allocatable :: text, shown
         type(panel_t), allocatable :: panels(:)
         type(error_t), allocatable :: error

@@ -92,7 +92,7 @@ contains
         integer :: i, n
 
         lines(1) = "lagrangia "//version//": run time against error at the end"
-        lines(2) = "build: "//build_text(brief=.true.)
+        lines(2) = "build: "//build_text()
         lines(3) = "processor: "//processor()
         n = 3
         do i = 1, size(problems)

@@ -54,7 +54,7 @@ contains
         output%json = line%has("json")
         output%quiet = line%has("quiet")
         if (output%json) call put_line("[")
-        call output%say("build: "//build_text(brief=.true.))
+        call output%say("build: "//build_text())
         call output%say("processor: "//processor())
         do i = 1, size(parts)
             if (.not. any(options%parts == parts(i))) cycle

@@ -35,7 +35,7 @@ contains
         if (json) then
             call put_line("[")
         else if (.not. quiet) then
-            call put_line("build: "//build_text(brief=.true.))
+            call put_line("build: "//build_text())
         end if
         last = 0
         do i = 1, size(rows)

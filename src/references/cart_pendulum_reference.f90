@@ -6,8 +6,8 @@ submodule (lagrangia_cart_pendulum) lagrangia_cart_pendulum_reference
     !! \(N^2 = (m_1 + m_2\sin^2\theta)/(m_1 + m_2)\) and \(\omega^2 = g/\ell\). Libration,
     !! \(\sin\tfrac\theta2 = k\sin\varphi\), and rotation, \(\theta = 2\varphi\), both become
     !! $$ \frac{dt}{d\varphi} = \frac{N}{\sqrt D},\quad
-    !!    D = \omega^2(\cos^2\varphi + k'^2\sin^2\varphi)\ \text{or}\
-    !!    \omega^2\cos^2\varphi + \mathrm{const}, $$
+    !!    D = \omega^2(\cos^2\varphi + k'^2\sin^2\varphi)\ \text{or}
+    !!    \ \omega^2\cos^2\varphi + \mathrm{const}, $$
     !! smooth, even and of period \(\pi\): its Fourier series, by the trapezoid rule, converges
     !! geometrically. Integrated term by term it is the time \(t(\varphi)\), which grows with
     !! \(\varphi\) and is inverted by Newton's method inside a bracket.

@@ -1,5 +1,5 @@
 module lagrangia_shipped
-    !! The scenes that come with the toolkit: the files `data/scenes/*.nml`.
+    !! The scenes that come with the toolkit: the files of `data/scenes`.
     use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_funptr, c_int, &
                                            c_null_char, c_null_funptr, c_ptr, c_size_t
     use lagrangia_command_line, only: has_outer_blanks, is_same, word_t
