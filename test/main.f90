@@ -123,6 +123,7 @@ module suites
     use test_scenes, only: scenes_suite
     use test_second_run, only: second_run_suite
     use test_sinc, only: sinc_suite
+    use test_sine_cosine, only: sine_cosine_suite
     use test_small_oscillations, only: small_oscillations_suite
     use test_solve, only: solve_suite
     use test_statement, only: statement_suite
@@ -273,6 +274,7 @@ contains
         call suite%addTest(cross_check_suite())
         call suite%addTest(second_run_suite())
         call suite%addTest(sinc_suite())
+        call suite%addTest(sine_cosine_suite())
         call suite%addTest(small_oscillations_suite())
         call suite%addTest(step_warning_suite())
         call suite%addTest(stress_suite())

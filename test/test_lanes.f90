@@ -24,9 +24,9 @@ contains
     end function lanes_suite
 
     subroutine lanes_are_single_states()
-        !! For every system, at random parameters and states. The vector sin and cos of glibc are
-        !! good to 4 ulp; behind them stand some ten operations and a difference of terms that
-        !! are larger than the result: up to 100 epsilon of the largest acceleration.
+        !! For every system, at random parameters and states. Sine and cosine of lanes are good to
+        !! 1 ulp, those of libm to half of one; behind them stand some ten operations and a
+        !! difference of larger terms: up to 100 epsilon of the largest acceleration.
         real(dp), parameter :: rounding = 100.0_dp*epsilon(1.0_dp)
         class(system_t), allocatable :: system
         type(description_t) :: d

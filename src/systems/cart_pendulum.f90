@@ -13,6 +13,7 @@ module lagrangia_cart_pendulum
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
     use lagrangia_reference, only: reference_t
+    use lagrangia_sine_cosine, only: sine_cosine
     use lagrangia_system, only: check_parameters, lanes, reduced_t, system_t
     implicit none (type, external)
     private
@@ -246,8 +247,7 @@ contains
 
         associate (m1 => self%m1, m2 => self%m2, l => self%l, g => self%g, &
                    theta_dot => v(:, 2))
-            s = sin(q(:, 2))
-            c = cos(q(:, 2))
+            call sine_cosine(q(:, 2), s, c)
             d = s/(m1 + m2*s**2)
             a(:, 1) = m2*d*(l*theta_dot**2 + g*c)
             a(:, 2) = -d*((m1 + m2)/l*g + m2*theta_dot**2*c)

@@ -11,6 +11,7 @@ module lagrangia_cart_swing
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-)
     use lagrangia_kinds, only: dp
+    use lagrangia_sine_cosine, only: sine_cosine
     use lagrangia_system, only: check_parameters, lanes, reduced_t
     implicit none (type, external)
     private
@@ -89,11 +90,11 @@ contains
         class(cart_swing_t), intent(in) :: self
         real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
         real(dp), intent(out) :: a(lanes, self%ndof)
-        real(dp) :: s(lanes)
+        real(dp) :: s(lanes), c(lanes)
 
         associate (m1 => self%m1, m2 => self%m2, l => self%l, g => self%g)
-            s = sin(q(:, 1))
-            a(:, 1) = -s*((m1 + m2)/l*g + m2*v(:, 1)**2*cos(q(:, 1)))/(m1 + m2*s**2)
+            call sine_cosine(q(:, 1), s, c)
+            a(:, 1) = -s*((m1 + m2)/l*g + m2*v(:, 1)**2*c)/(m1 + m2*s**2)
         end associate
     end subroutine accelerations_lanes
 

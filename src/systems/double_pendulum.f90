@@ -11,6 +11,7 @@ module lagrangia_double_pendulum
                                    operator(+), operator(-), sin
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
+    use lagrangia_sine_cosine, only: sine_cosine
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
@@ -265,11 +266,8 @@ contains
 
         associate (m1 => self%m1, m2 => self%m2, m => self%m1 + self%m2, &
                    l1 => self%l1, l2 => self%l2, g => self%g)
-            s = q(:, 1) - q(:, 2)
-            c = cos(s)
-            s = sin(s)
-            s1 = sin(q(:, 1))
-            c1 = cos(q(:, 1))
+            call sine_cosine(q(:, 1) - q(:, 2), s, c)
+            call sine_cosine(q(:, 1), s1, c1)
             d = 1.0_dp/(m1 + m2*s**2)
             a(:, 1) = (-m1*g*s1 - m2*s*(l1*v(:, 1)**2*c + l2*v(:, 2)**2 + g*(c1*c + s1*s))) &
                       *((1.0_dp/l1)*d)

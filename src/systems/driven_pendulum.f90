@@ -17,6 +17,7 @@ module lagrangia_driven_pendulum
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
     use lagrangia_reference, only: reference_t
+    use lagrangia_sine_cosine, only: sine_cosine
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
@@ -229,11 +230,11 @@ contains
         class(driven_pendulum_t), intent(in) :: self
         real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
         real(dp), intent(out) :: a(lanes, self%ndof)
-        real(dp) :: s(lanes), c(lanes)
+        real(dp) :: s(lanes), c(lanes), other(lanes)
 
         associate (w => self%drive_frequency)
-            s = sin(q(:, 1))
-            c = cos(w*t)
+            call sine_cosine(q(:, 1), s, other)
+            call sine_cosine(w*t, other, c)
             a(:, 1) = -(self%g - self%amplitude*w**2*c)/self%l*s
         end associate
     end subroutine accelerations_lanes

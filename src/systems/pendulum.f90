@@ -11,6 +11,7 @@ module lagrangia_pendulum
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
     use lagrangia_reference, only: reference_t
+    use lagrangia_sine_cosine, only: sine_cosine
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
@@ -188,8 +189,10 @@ contains
         class(pendulum_t), intent(in) :: self
         real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
         real(dp), intent(out) :: a(lanes, self%ndof)
+        real(dp) :: s(lanes), c(lanes)
 
-        a(:, 1) = -self%g/self%l*sin(q(:, 1))
+        call sine_cosine(q(:, 1), s, c)
+        a(:, 1) = -self%g/self%l*s
     end subroutine accelerations_lanes
 
     pure subroutine linearise(self, q, analytic)

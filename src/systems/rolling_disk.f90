@@ -16,6 +16,7 @@ module lagrangia_rolling_disk
                                    operator(+), operator(-), sin
     use lagrangia_kinds, only: dp
     use lagrangia_reference, only: reference_t
+    use lagrangia_sine_cosine, only: sine_cosine
     use lagrangia_system, only: check_parameters, lanes, system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -345,8 +346,7 @@ contains
         real(dp) :: s(lanes), c(lanes)
 
         associate (r => self%r, phi_dot => v(:, 3), theta_dot => v(:, 4))
-            s = sin(q(:, 4))
-            c = cos(q(:, 4))
+            call sine_cosine(q(:, 4), s, c)
             a(:, 3) = self%roll_acceleration()*s
             a(:, 4) = 0.0_dp
             a(:, 1) = r*(a(:, 3)*s + phi_dot*theta_dot*c)

@@ -12,6 +12,7 @@ module lagrangia_rotating_hoop
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
     use lagrangia_reference, only: reference_t
+    use lagrangia_sine_cosine, only: sine_cosine
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
@@ -196,8 +197,7 @@ contains
         real(dp), intent(out) :: a(lanes, self%ndof)
         real(dp) :: s(lanes), c(lanes)
 
-        s = sin(q(:, 1))
-        c = cos(q(:, 1))
+        call sine_cosine(q(:, 1), s, c)
         a(:, 1) = s*(self%omega**2*c - self%g/self%r)
     end subroutine accelerations_lanes
 

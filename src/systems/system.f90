@@ -225,8 +225,8 @@ contains
 
     pure subroutine each_lane(self, t, q, v, a)
         !! `accelerations` of several states, lane by lane. A system may do better: the same
-        !! equations as whole-array statements, with sin and cos each in its own, so that the
-        !! compiler calls the vector ones. Those are good to 4 ulp, so the last digits differ.
+        !! equations as whole-array statements, with `sine_cosine` of all lanes at once. That is
+        !! good to a unit in the last place and libm to half of one, so the last digits differ.
         class(system_t), intent(in) :: self
         real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
         !! times, s; states
