@@ -10,7 +10,7 @@ cd "$(dirname "$0")/../.."
 link_modules() { # link_modules FILE...: what these files use, and what that uses
     local module file
     for module in $(sed -n 's/^ *use lagrangia_\([a-z0-9_]*\).*/\1/p' "$@" | sort -u); do
-        for file in src/*/"$module".[fF]90 src/systems/"${module}_description.f90"; do
+        for file in src/*/"$module".[fF]90 src/systems/"${module}_description.f90" src/systems/"${module}_momenta.f90"; do
             [ -e "$file" ] && [ ! -e ".ci/quad/src/${file##*/}" ] || continue
             ln -s "../../../$file" .ci/quad/src
             link_modules "$file"

@@ -73,6 +73,9 @@ module lagrangia_gauged_system
         real(dp) :: factor = 1.0_dp
     contains
         procedure :: lagrangian => landau_lagrangian
+        procedure :: momenta => landau_momenta
+        procedure :: velocities => landau_velocities
+        procedure :: forces => landau_forces
     end type landau_charge_t
 
     type, extends(gauge_t) :: chi_t
@@ -232,6 +235,37 @@ contains
             + self%charge*self%factor*self%magnetic(3)*q(1)*v(2) &
             - 0.5_dp*self%trap*dot_product(q, q)
     end function landau_lagrangian
+
+    pure subroutine landau_momenta(self, t, q, v, p)
+        !! \(mv + eA\).
+        class(landau_charge_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: p(self%ndof)
+
+        p = self%m*v
+        p(2) = p(2) + self%charge*self%factor*self%magnetic(3)*q(1)
+    end subroutine landau_momenta
+
+    pure subroutine landau_velocities(self, t, q, p, v)
+        !! \((p - eA)/m\).
+        class(landau_charge_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), p(self%ndof)
+        real(dp), intent(out) :: v(self%ndof)
+
+        v = p
+        v(2) = v(2) - self%charge*self%factor*self%magnetic(3)*q(1)
+        v = v/self%m
+    end subroutine landau_velocities
+
+    pure subroutine landau_forces(self, t, q, v, f)
+        !! \(e\,(E + fB_z\dot y\,\hat x) - kr\).
+        class(landau_charge_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: f(self%ndof)
+
+        f = self%charge*self%electric - self%trap*q
+        f(1) = f(1) + self%charge*self%factor*self%magnetic(3)*v(2)
+    end subroutine landau_forces
 
     pure function chi_value(self, t, q) result(f)
         !! See `gauge_t`.

@@ -35,6 +35,9 @@ module lagrangia_charged_particle
         procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
+        procedure :: momenta
+        procedure :: velocities
+        procedure :: forces
         procedure :: linearise
         procedure :: quantity => momentum_or_speed
         procedure :: positions
@@ -285,6 +288,33 @@ contains
             + 0.5_dp*self%charge*dot_product(cross(self%magnetic, q), v) &
             - 0.5_dp*self%trap*dot_product(q, q)
     end function lagrangian
+
+    pure subroutine momenta(self, t, q, v, p)
+        !! $$ p = mv + eA,\qquad A = \tfrac12 B\times r $$
+        class(charged_particle_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: p(self%ndof)
+
+        p = self%m*v + 0.5_dp*self%charge*cross(self%magnetic, q)
+    end subroutine momenta
+
+    pure subroutine velocities(self, t, q, p, v)
+        !! $$ v = (p - eA)/m $$
+        class(charged_particle_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), p(self%ndof)
+        real(dp), intent(out) :: v(self%ndof)
+
+        v = (p - 0.5_dp*self%charge*cross(self%magnetic, q))/self%m
+    end subroutine velocities
+
+    pure subroutine forces(self, t, q, v, f)
+        !! $$ \frac{\partial L}{\partial r} = e\,(E + \tfrac12 v\times B) - kr $$
+        class(charged_particle_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: f(self%ndof)
+
+        f = self%charge*(self%electric + 0.5_dp*cross(v, self%magnetic)) - self%trap*q
+    end subroutine forces
 
     pure function energy(self, t, q, v) result(e)
         !! $$ E = \tfrac12 mv^2 - e\,E\cdot r + \tfrac12 kr^2 $$ The magnetic field does no work.

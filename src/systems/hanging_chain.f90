@@ -12,6 +12,7 @@ module lagrangia_hanging_chain
     use lagrangia_kinds, only: dp
     use lagrangia_laguerre, only: laguerre_zeros
     use lagrangia_linearised, only: linearised_t
+    use lagrangia_sine_cosine, only: sine_cosine
     use lagrangia_system, only: check_parameters, lanes, system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -34,11 +35,49 @@ module lagrangia_hanging_chain
         procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
+        procedure :: momenta
+        procedure :: velocities
+        procedure :: forces
         procedure :: linearise
         procedure :: quantity => momentum_or_tension
         procedure :: positions
         procedure :: newton
     end type hanging_chain_t
+
+    interface
+        pure module subroutine momenta(self, t, q, v, p)
+            !! See `system_t`; this and all below in `hanging_chain_momenta`.
+            implicit none (type, external)
+            class(hanging_chain_t), intent(in) :: self
+            real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+            real(dp), intent(out) :: p(self%ndof)
+        end subroutine momenta
+
+        pure module subroutine velocities(self, t, q, p, v)
+            !! See `system_t`.
+            implicit none (type, external)
+            class(hanging_chain_t), intent(in) :: self
+            real(dp), intent(in) :: t, q(self%ndof), p(self%ndof)
+            real(dp), intent(out) :: v(self%ndof)
+        end subroutine velocities
+
+        pure module subroutine forces(self, t, q, v, f)
+            !! See `system_t`.
+            implicit none (type, external)
+            class(hanging_chain_t), intent(in) :: self
+            real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+            real(dp), intent(out) :: f(self%ndof)
+        end subroutine forces
+
+        pure module subroutine eliminate(n, c, x)
+            !! Solve \(2x_k - c_kx_{k+1} - c_{k-1}x_{k-1} = b_k\), where for \(k = 1\) one
+            !! \(x_1\) and \(x_0\) are missing.
+            implicit none (type, external)
+            integer, intent(in) :: n             !! unknowns
+            real(dp), intent(in) :: c(most)      !! \(\cos(\theta_{k+1} - \theta_k)\)
+            real(dp), intent(inout) :: x(n)      !! \(b\); becomes \(x\)
+        end subroutine eliminate
+    end interface
 
 contains
 
@@ -175,27 +214,20 @@ contains
     end subroutine accelerations
 
     pure subroutine tensions(self, q, v, tau)
-        !! The tensions over m, by elimination from the pivot down: with \(c = \cos(\theta_{k+1} -
-        !! \theta_k)\) the pivots are 1, then \(2 - c^2/\) the one before, so never below 1.
+        !! The tensions over m.
         class(hanging_chain_t), intent(in) :: self
         real(dp), intent(in) :: q(self%ndof), v(self%ndof)
         real(dp), intent(out) :: tau(self%ndof)
-        real(dp) :: c(most), pivot(most)
+        real(dp) :: c(most)
         integer :: k
 
         associate (n => self%n)
             tau = self%l/n*v**2
             tau(1) = tau(1) + self%g*cos(q(1))
-            pivot(1) = 1.0_dp
             do k = 1, n - 1
                 c(k) = cos(q(k + 1) - q(k))
-                pivot(k + 1) = 2.0_dp - c(k)**2/pivot(k)
-                tau(k + 1) = tau(k + 1) + c(k)/pivot(k)*tau(k)
             end do
-            tau(n) = tau(n)/pivot(n)
-            do k = n - 1, 1, -1
-                tau(k) = (tau(k) + c(k)*tau(k + 1))/pivot(k)
-            end do
+            call eliminate(n, c, tau)
         end associate
     end subroutine tensions
 
@@ -224,15 +256,15 @@ contains
         real(dp), intent(in) :: q(lanes, self%ndof), v(lanes, self%ndof)
         real(dp), intent(out) :: a(lanes, self%ndof)
         real(dp), dimension(lanes, self%n), intent(out) :: tau, s, c, pivot
+        real(dp) :: s1(lanes), c1(lanes)
         integer :: k
 
         associate (n => self%n, g => self%g, l => self%l/self%n)
-            tau(:, 1) = l*v(:, 1)**2 + g*cos(q(:, 1))
+            call sine_cosine(q(:, 1), s1, c1)
+            tau(:, 1) = l*v(:, 1)**2 + g*c1
             pivot(:, 1) = 1.0_dp
             do k = 1, n - 1
-                s(:, k) = q(:, k + 1) - q(:, k)
-                c(:, k) = cos(s(:, k))
-                s(:, k) = sin(s(:, k))
+                call sine_cosine(q(:, k + 1) - q(:, k), s(:, k), c(:, k))
                 pivot(:, k + 1) = 2.0_dp - c(:, k)**2/pivot(:, k)
                 tau(:, k + 1) = l*v(:, k + 1)**2 + c(:, k)/pivot(:, k)*tau(:, k)
             end do
@@ -240,7 +272,7 @@ contains
             do k = n - 1, 1, -1
                 tau(:, k) = (tau(:, k) + c(:, k)*tau(:, k + 1))/pivot(:, k)
             end do
-            a(:, 1) = -g*sin(q(:, 1))
+            a(:, 1) = -g*s1
             do k = 1, n - 1
                 a(:, k) = (a(:, k) + tau(:, k + 1)*s(:, k))/l
                 a(:, k + 1) = -tau(:, k)*s(:, k)
