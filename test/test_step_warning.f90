@@ -19,6 +19,7 @@ contains
 
         suite = TestSuite("step_warning")
         call suite%addTest(TestMethod("long_steps_are_warned_of", long_steps_are_warned_of))
+        call suite%addTest(TestMethod("a_long_chain_needs_no_modes", a_long_chain_needs_no_modes))
         call suite%addTest(TestMethod("nothing_is_said_without_a_limit", &
                                       nothing_is_said_without_a_limit))
     end function step_warning_suite
@@ -71,6 +72,22 @@ contains
                          warning_of("pendulum", "method = 'verlet', dt = 2.23, q = 1.0", &
                                     "l = 2.0, g = 1.62"))
     end subroutine long_steps_are_warned_of
+
+    subroutine a_long_chain_needs_no_modes()
+        !! The same warnings where a bound is looked at first. With n bobs on l = n the largest
+        !! omega is that of g/l times the largest zero of Laguerre's polynomial: sqrt(9.81 142.28)
+        !! = 37.36 for n = 40, and the bound is 39.5. Between them only the modes tell.
+        character(*), parameter :: chain = "n = 40, l = 40.0", &
+            start = "q = "//repeat("0.1, ", 39)//"0.1"
+
+        call assertEqual("", warning_of("hanging_chain", "method = 'rk4', dt = 0.06, "//start, &
+                                        chain))
+        call assertEqual("", warning_of("hanging_chain", "method = 'rk4', dt = 0.0756, "//start, &
+                                        chain))
+        call assertEqual("dt = 0.0758 s", first_words( &
+                         warning_of("hanging_chain", "method = 'rk4', dt = 0.0758, "//start, &
+                                    chain)))
+    end subroutine a_long_chain_needs_no_modes
 
     pure function first_words(text) result(words)
         !! Up to the unit.

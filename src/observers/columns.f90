@@ -96,34 +96,39 @@ contains
         type(column_t), allocatable, intent(out) :: all(:)
         character(1), parameter :: axes(3) = ["x", "y", "z"]
         type(column_t) :: c
-        integer :: i, k
+        integer :: i, k, count
 
-        allocate (all(0))
-        call append(all, column_t(name="t", unit="s", kind=is_time))
+        allocate (all(4 + 3*size(d%coordinates) + 2*size(d%quantities) &
+                      + d%dimensions*size(d%points)))
+        count = 0
+        call append(all, count, column_t(name="t", unit="s", kind=is_time))
         do i = 1, size(d%coordinates)
             associate (q => d%coordinates(i))
-                call append(all, column_t(q%name, q%unit, is_coordinate, i))
-                call append(all, column_t(trim(q%name)//"_dot", trim(q%unit)//"/s", is_velocity, i))
-                call append(all, column_t(trim(q%name)//"_ddot", trim(q%unit)//"/s^2", &
-                                          is_acceleration, i))
+                call append(all, count, column_t(q%name, q%unit, is_coordinate, i))
+                call append(all, count, column_t(trim(q%name)//"_dot", trim(q%unit)//"/s", &
+                                                 is_velocity, i))
+                call append(all, count, column_t(trim(q%name)//"_ddot", trim(q%unit)//"/s^2", &
+                                                 is_acceleration, i))
             end associate
         end do
         c = column_t("energy", "J", is_energy, scale=d%energy_scale)
-        call append(all, c)
-        if (conserves_energy) call append(all, drift_of(c))
+        call append(all, count, c)
+        if (conserves_energy) call append(all, count, drift_of(c))
         do i = 1, size(d%quantities)
             associate (f => d%quantities(i))
                 c = column_t(f%name, f%unit, is_quantity, i, scale=f%scale)
-                call append(all, c)
-                if (f%conserved) call append(all, drift_of(c))
+                call append(all, count, c)
+                if (f%conserved) call append(all, count, drift_of(c))
             end associate
         end do
         do i = 1, size(d%points)
             do k = 1, d%dimensions
-                call append(all, column_t(axes(k)//"_"//d%points(i)%name, "m", is_position, i, k))
+                call append(all, count, column_t(axes(k)//"_"//d%points(i)%name, "m", &
+                                                 is_position, i, k))
             end do
         end do
-        if (has_error) call append(all, column_t("error", "1", is_error))
+        if (has_error) call append(all, count, column_t("error", "1", is_error))
+        all = all(:count)
     end subroutine every_column
 
     pure function drift_of(column) result(drift)
@@ -137,12 +142,14 @@ contains
         drift%drift = .true.
     end function drift_of
 
-    pure subroutine append(list, item)
-        !! Add `item` at the end.
-        type(column_t), allocatable, intent(inout) :: list(:)
+    pure subroutine append(list, count, item)
+        !! `item` behind the first `count`; there is room.
+        type(column_t), intent(inout) :: list(:)
+        integer, intent(inout) :: count
         type(column_t), intent(in) :: item
 
-        list = [list, item]
+        count = count + 1
+        list(count) = item
     end subroutine append
 
     pure function why_energy_changes(system) result(text)

@@ -12,6 +12,8 @@ module lagrangia_step_warning
     private
     public :: step_warning
 
+    integer, parameter :: many = 32  !! coordinates, whose modes take longer than many a run
+
 contains
 
     function step_warning(scene, system) result(text)
@@ -32,6 +34,9 @@ contains
         call new_integrator(trim(scene%method), method, error)
         if (allocated(error)) return
         if (method%step_limit <= 0.0_dp) return
+        if (system%ndof > many) then
+            if (all_slower(system, method%step_limit/scene%dt)) return
+        end if
         call find_modes(system, likely_equilibrium(system), .false., modes, error)
         if (allocated(error)) return
         if (method%reversible .and. any(abs(modes%gyroscopic) > 0.0_dp)) return
@@ -42,6 +47,42 @@ contains
                rounded(method%step_limit)//"/omega_max, omega_max = "//rounded(omega)// &
                " rad/s): small oscillations would grow at every step"
     end function step_warning
+
+    function all_slower(system, fastest) result(yes)
+        !! Whether all oscillations are slower than `fastest`, rad/s, by a bound that needs no
+        !! modes: where the likely equilibrium is one and no force there depends on velocities, the
+        !! \(-\omega^2\) are eigenvalues of \(\partial a/\partial q\), none of which is larger than
+        !! the largest sum of absolute values in a row. Central differences give that to 1e-9, if
+        !! the accelerations are smooth within `width`; 1 % is taken for it.
+        class(system_t), intent(in) :: system  !! with the scene's parameters
+        real(dp), intent(in) :: fastest
+        logical :: yes
+        real(dp), parameter :: width = 1e-5_dp, margin = 1.01_dp
+        real(dp), dimension(system%ndof) :: q, v, above, below, at_rest, row
+        real(dp) :: here
+        integer :: k
+
+        yes = .false.
+        q = likely_equilibrium(system)
+        v = 0.0_dp
+        row = 0.0_dp
+        call system%accelerations(0.0_dp, q, v, at_rest)
+        if (system%time_dependent .or. any(abs(at_rest) > 0.0_dp)) return
+        do k = 1, system%ndof
+            here = q(k)
+            q(k) = here + width
+            call system%accelerations(0.0_dp, q, v, above)
+            q(k) = here - width
+            call system%accelerations(0.0_dp, q, v, below)
+            q(k) = here
+            row = row + abs(above - below)/(2.0_dp*width)
+            v(k) = width
+            call system%accelerations(0.0_dp, q, v, above)
+            v(k) = 0.0_dp
+            if (any(abs(above) > 0.0_dp)) return
+        end do
+        yes = margin*sqrt(maxval(row)) < fastest
+    end function all_slower
 
     pure function rounded(number) result(text)
         !! With four digits.
