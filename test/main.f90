@@ -104,6 +104,7 @@ module suites
     use test_precision_curve, only: precision_curve_suite
     use test_principles, only: principles_suite
     use test_printed_formulae, only: printed_formulae_suite
+    use test_printed_notes, only: printed_notes_suite
     use test_processes, only: processes_suite
     use test_progress, only: progress_suite
     use test_reduced_motion, only: reduced_motion_suite
@@ -255,6 +256,7 @@ contains
         call suite%addTest(precision_curve_suite())
         call suite%addTest(principles_suite())
         call suite%addTest(printed_formulae_suite())
+        call suite%addTest(printed_notes_suite())
         call suite%addTest(processes_suite())
         call suite%addTest(progress_suite())
         call suite%addTest(reduced_motion_suite())

@@ -3,6 +3,7 @@ module lagrangia_errata_command
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_errata, only: slip_numbers
+    use lagrangia_errata_formulas, only: add_both_sides
     use lagrangia_errata_ledger, only: kind_lecture, kind_none, kind_scan, kind_terminology, &
                                        quote_t, slip_t, slips_of_the_notes
     use lagrangia_errors, only: error_t, fail, status_not_held
@@ -73,11 +74,13 @@ contains
         call report%begin("")
         if (slip%principle == "") then
             call slip_numbers(slip%id, report, error)
-            return
+        else
+            call principle_report(trim(slip%principle), whole, error)
+            if (.not. allocated(error)) then
+                report%rows = pack(whole%rows, whole%rows%slip == slip%id)
+            end if
         end if
-        call principle_report(trim(slip%principle), whole, error)
-        if (allocated(error)) return
-        report%rows = pack(whole%rows, whole%rows%slip == slip%id)
+        if (.not. allocated(error)) call add_both_sides(slip, report, error)
     end subroutine slip_report
 
     subroutine put_slip(slip, report)

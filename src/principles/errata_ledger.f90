@@ -39,6 +39,10 @@ module lagrangia_errata_ledger
         character(line_length) :: derived = ""
         character(line_length) :: effect = ""       !! what it would do; "" if nothing
         character(16) :: principle = ""             !! whose report has the numbers; "" if none
+        character(16) :: system = ""                !! in whose letters the formulas are
+        character(line_length) :: wrong = ""        !! `reads` as an equation in these letters
+        character(line_length) :: right = ""        !! `derived` as one
+        character(line_length) :: without = ""      !! parameters that the notes do not have: zero
     contains
         procedure :: place
     end type slip_t
@@ -58,21 +62,28 @@ contains
                   quote_t("I", 150, "m_2 l^2 \ddot{0} + m_2 l \ddot{x} - m_2 g l 0 = 0")], &
                  "l theta_ddot + x_ddot cos(theta) - g sin(theta) = 0", &
                  "l theta_ddot + x_ddot cos(theta) + g sin(theta) = 0", &
-                 "omega^2 = -(m1 + m2) g/(m1 l) < 0: a hanging pendulum that falls up")
+                 "omega^2 = -(m1 + m2) g/(m1 l) < 0: a hanging pendulum that falls up", &
+                 system="cart_pendulum")
         call add("E2", kind_lecture, "cart-pendulum, L, first line", &
                  [quote_t("I", 134, "\left(\dot{x}^2 + l^2 \dot{\theta}^2 \cos^2 \theta + l^2 "// &
                                     "\dot{\theta}^2 \sin^2 \theta \right)")], &
                  "m2/2 (x_dot^2 + l^2 theta_dot^2 cos^2(theta) + l^2 theta_dot^2 sin^2(theta))", &
                  "m2/2 (... + 2 l x_dot theta_dot cos(theta)), as the second line has it", &
                  "cart and bob are not coupled: omega^2 = g/l, whatever the masses", &
-                 elsewhere=quote_t("I", 136, "m_2 l \dot{x} \dot{\theta} \cos \theta"))
+                 elsewhere=quote_t("I", 136, "m_2 l \dot{x} \dot{\theta} \cos \theta"), &
+                 system="cart_pendulum", &
+                 wrong="m2/2 (x_bob_dot^2 + y_bob_dot^2) = m2/2 (x_dot^2 "// &
+                       "+ l^2 theta_dot^2 cos^2(theta) + l^2 theta_dot^2 sin^2(theta))", &
+                 right="m2/2 (x_bob_dot^2 + y_bob_dot^2) = m2/2 (x_dot^2 "// &
+                       "+ l^2 theta_dot^2 + 2 l x_dot theta_dot cos(theta))")
         call add("E3", kind_scan, "cart-pendulum, the set of equations", &
                  [quote_t("I", 142, "m_2 l \ddot{0} + m_2 l \ddot{x} \cos 0 - m_2 g l \sin 0 "// &
                                     "= 0")], &
                  "m2 l theta_ddot + m2 l x_ddot cos(theta) - m2 g l sin(theta) = 0", &
                  "m2 l^2 theta_ddot + m2 l x_ddot cos(theta) + m2 g l sin(theta) = 0", &
                  "wrong as soon as l is not 1 m; the sign is E1's", &
-                 elsewhere=quote_t("I", 150, "m_2 l^2 \ddot{0} + m_2 l \ddot{x}"))
+                 elsewhere=quote_t("I", 150, "m_2 l^2 \ddot{0} + m_2 l \ddot{x}"), &
+                 system="cart_pendulum")
         call add("E4", kind_scan, "cart-pendulum, small theta, x", &
                  [quote_t("I", 152, "(m_1 + m_2) \ddot{x} + l \ddot{0} - l \ddot{0}^2 0 = 0"), &
                   quote_t("I", 154, "(m_1 + m_2) \ddot{x} + l \ddot{0} - l \ddot{0}^2 0 = 0")], &
@@ -106,7 +117,9 @@ contains
                  "x_i^2 + y_i^2 = l_i^2 = c_i", &
                  "so for i = 1; f_2 = (x2 - x1)^2 + (y2 - y1)^2 = l2^2", &
                  "both bobs would hang from the pivot", &
-                 principle="constraints")
+                 principle="constraints", system="double_pendulum", &
+                 wrong="x_bob2^2 + y_bob2^2 = l2^2", &
+                 right="(x_bob2 - x_bob1)^2 + (y_bob2 - y_bob1)^2 = l2^2")
         call add("E8", kind_scan, "double pendulum, mixed partials", &
                  [quote_t("I", 113, "A_{x_1} = \frac{\partial f}{\partial x_1} = 2x"), &
                   quote_t("I", 115, "\frac{\partial A_{y_{1}}}{\partial z_{1}}")], &
@@ -127,7 +140,9 @@ contains
                  "if B = 0 then F = -grad(phi)", &
                  "F = -e grad(phi); where B = 0, A is a gradient, and dA/dt gauge: it joins phi", &
                  "every charge would be 1 C", &
-                 principle="virtual-work")
+                 principle="virtual-work", system="charged_particle", &
+                 wrong="m x_ddot = E_x", right="m x_ddot = e E_x", &
+                 without="magnetic_x magnetic_y magnetic_z trap")
         call add("E11", kind_none, "conservative forces", &
                  [quote_t("I", 62, "in cartesian coordinates: V does not depend on time"), &
                   quote_t("I", 62, "but $q_j(\{x_i\}, t)$ introduces time-dependence")], &
@@ -187,6 +202,7 @@ contains
                  "dL/dx_dot = m d(x_dot)/dt", &
                  "dL/dx_dot = m x_dot", &
                  "one derivative too many: the equation of motion would be of third order", &
+                 system="oscillator", wrong="p_x = m x_ddot", right="p_x = m x_dot", &
                  elsewhere=quote_t("II", 32, "\frac{d}{dt} \frac{\partial L}{\partial "// &
                                              "\dot{x}} = m \frac{d^2x}{dt^2}"))
         call add("E19", kind_scan, "Atwood's machine", &
@@ -200,6 +216,8 @@ contains
                  "T_M = M/2 d(q2_dot)/dt", &
                  "T_M = M/2 (dq2/dt)^2; all through this page d(q_dot)/dt is dq/dt", &
                  "not an energy: the wedge would have no inertia of its own", &
+                 system="wedge", wrong="M/2 x_wedge_dot^2 = M/2 q2_ddot", &
+                 right="M/2 x_wedge_dot^2 = M/2 q2_dot^2", &
                  elsewhere=quote_t("II", 97, "\frac{1}{2} (M+m) \left(\frac{d\dot{q}_2}{dt} "// &
                                              "\right)^2"))
         call add("E21", kind_lecture, "wedge, equation of q1", &
@@ -209,7 +227,7 @@ contains
                                      "\left(\frac{d\dot{q}_1}{dt} + \frac{d\dot{q}_2}{dt}")], &
                  "m g sin(alpha) = M (q1_ddot + q2_ddot cos(alpha))", &
                  "m g sin(alpha) = m (q1_ddot + q2_ddot cos(alpha))", &
-                 "off by m/M, against the notes' own q1_ddot")
+                 "off by m/M, against the notes' own q1_ddot", system="wedge")
         call add("E22", kind_scan, "L in generalized coordinates", &
                  [quote_t("II", 54, "= U(q_j, \dot{q}_j, t)"), &
                   quote_t("II", 52, "T(x'_{ai})"), &
@@ -241,6 +259,11 @@ contains
                  "m2 l theta_ddot^2 sin(theta)", &
                  "m2 l theta_dot^2 sin(theta)", &
                  "not a force: its dimension is that of a force over a time squared", &
+                 system="cart_pendulum", &
+                 wrong="(m1 + m2) x_ddot + m2 l theta_ddot cos(theta) "// &
+                       "= m2 l theta_ddot^2 sin(theta)", &
+                 right="(m1 + m2) x_ddot + m2 l theta_ddot cos(theta) "// &
+                       "= m2 l theta_dot^2 sin(theta)", &
                  elsewhere=quote_t("I", 138, "m_2 l \dot{\theta}^2 \sin \theta"))
         call add("E26", kind_scan, "cart-pendulum, sin 0 = 0", &
                  [quote_t("I", 148, "Small \ 0 : \cos 0 = 1 , \sin 0 = 0")], &
@@ -274,12 +297,12 @@ contains
                  "")
     contains
         pure subroutine add(id, kind, subject, quotes, reads, derived, effect, elsewhere, &
-                            principle)
+                            principle, system, wrong, right, without)
             character(*), intent(in) :: id, kind, subject
             type(quote_t), intent(in) :: quotes(:)
             character(*), intent(in) :: reads, derived, effect
             type(quote_t), intent(in), optional :: elsewhere
-            character(*), intent(in), optional :: principle
+            character(*), intent(in), optional :: principle, system, wrong, right, without
             type(slip_t) :: slip
 
             slip%id = id
@@ -291,6 +314,14 @@ contains
             slip%effect = effect
             if (present(elsewhere)) slip%elsewhere = elsewhere
             if (present(principle)) slip%principle = principle
+            if (present(system)) then
+                slip%system = system
+                slip%wrong = reads
+                slip%right = derived
+            end if
+            if (present(wrong)) slip%wrong = wrong
+            if (present(right)) slip%right = right
+            if (present(without)) slip%without = without
             slips = [slips, slip]
         end subroutine add
     end function slips_of_the_notes
