@@ -47,6 +47,7 @@ module suites
     use test_events, only: events_suite
     use test_exact_maps, only: exact_maps_suite
     use test_failure_contract, only: failure_contract_suite
+    use test_formula_fuzz, only: formula_fuzz_suite
     use test_formula_latex, only: formula_latex_suite
     use test_formula_parser, only: formula_parser_suite
     use test_formula_program, only: formula_program_suite
@@ -202,6 +203,7 @@ contains
         call suite%addTest(events_suite())
         call suite%addTest(exact_maps_suite())
         call suite%addTest(failure_contract_suite())
+        call suite%addTest(formula_fuzz_suite())
         call suite%addTest(formula_latex_suite())
         call suite%addTest(formula_parser_suite())
         call suite%addTest(formula_program_suite())
