@@ -118,6 +118,15 @@ contains
         call becomes("m g (x + r)/(m + m1) - m g x/(m + m1)", "m g/(m + m1) r")
         call becomes("9.81 m x - 0.1 x + 1e-3 x", "(9.81 m - 0.099) x")
         call becomes("1/3 x + 1/6 x", "1/2 x")
+        call becomes("2^0.5 x + (k/m)^(1/2) t", "sqrt(k/m) t + sqrt(2) x")
+        call becomes("(m1 + m2) g/(m1 l)", "(m1 + m2) g/(m1 l)")
+        call becomes("(g/l + k/m) theta", "(g/l + k/m) theta")
+        call becomes("-(m1 - m2) g/(m1 + m2 + m/l^2)", &
+                     "-(m1 - m2) g l^2/(m + m1 l^2 + m2 l^2)")
+        call becomes("((m1 + m2) (-m2 g l sin(theta)) - m2 l cos(theta) m2 l theta_dot^2 "// &
+                     "sin(theta))/((m1 + m2) m2 l^2 - (m2 l cos(theta))^2)", &
+                     "-(m2 l theta_dot^2 sin(theta) cos(theta) + (m1 + m2) g sin(theta))/"// &
+                     "(l (m1 + m2 sin(theta)^2))")
         call becomes("2^x + x^a x^a + x^(1/2)", "2^x + sqrt(x) + (x^a)^2")
     end subroutine formulas_read_as_on_the_page
 
@@ -185,7 +194,7 @@ contains
         call becomes("2/(2 a + 2 b)", "1/(a + b)")
         call becomes("1/(1/(a + b) + 1/a)", "(a + b) a/(2 a + b)")
         call becomes("sqrt(k/m)^2 x + |x|^2 + sqrt(x)^3/x", "x^2 + k/m x + sqrt(x)")
-        call becomes("sqrt(9/4) + sqrt(2) + cos(0) + exp(0) + sin(0) + |-3|", "13/2 + sqrt(2)")
+        call becomes("sqrt(9/4) + sqrt(2) + cos(0) + exp(0) + sin(0) + |-3|", "sqrt(2) + 13/2")
         call becomes("x - x", "0")
         call becomes("0 x/r", "0")
         call becomes("x/x", "1")

@@ -136,6 +136,7 @@ contains
         call is("|x_dot|", -x_dot)
         call is("|x_dot| |x - 2| m", -x_dot*(2.0_dp - x)*m)
         call is("||x_dot| - 2|", 2.0_dp + x_dot)
+        call is("|(x_dot) m| (|x_dot|)", x_dot**2*m)
         call is("abs(x_dot) + atan(x) + cos(x) + cosh(x)", -x_dot + atan(x) + cos(x) + cosh(x))
         call is("exp(x) + log(x) + sin(x) + sinh(x)", exp(x) + log(x) + sin(x) + sinh(x))
         call is("sqrt(x) + tan(x) + tanh(x)", sqrt(x) + tan(x) + tanh(x))

@@ -151,7 +151,10 @@ contains
         case (atom_symbol)
             atom%class = table%class(atom%which)
         case (atom_function)
-            atom%class = class_function
+            atom%class = class_function  ! m g x sin(alpha), but sqrt(2) x
+            if (atom%which == f_sqrt .and. of_parameters(table, atom%argument)) then
+                atom%class = class_parameter
+            end if
         case default
             atom%class = class_parameter
             if (.not. of_parameters(table, atom%argument)) atom%class = class_function

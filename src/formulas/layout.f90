@@ -49,18 +49,24 @@ contains
         integer, intent(out) :: root
         type(sum_t) :: above
         type(term_t) :: denominator
-        integer :: bottom, top
-        logical :: fits
+        integer :: bottom, quotient, top
+        logical :: fits, negative
 
         if (s%count > 1) then
             call shared_denominator(table, s, denominator)
+            negative = all(s%terms(:s%count)%coefficient%value < 0.0_dp)
+            if (negative) denominator%coefficient = -denominator%coefficient
             if (denominator%count > 0) then
                 call multiplied(table, s, denominator, above, fits)
                 if (fits) then
                     call put_groups(table, above, page, top)
+                    negative = negative .neqv. page%e%nodes(top)%kind == kind_negation
+                    if (page%e%nodes(top)%kind == kind_negation) top = page%e%nodes(top)%left
                     bottom = 0
                     call put_factors(table, denominator, page, bottom)
                     call page%e%add_operation(kind_quotient, top, bottom, root)
+                    quotient = root
+                    if (negative) call page%e%add_operation(kind_negation, quotient, 0, root)
                     return
                 end if
             end if
@@ -174,18 +180,18 @@ contains
         type(page_t), intent(inout) :: page
         integer, intent(inout) :: root
         type(sum_t) :: group, rest
-        type(term_t) :: factor, opposite
+        type(term_t) :: factor
         integer :: bracket, i
         logical :: fits
 
         call part(table, s, first, last, group)
-        factor = common_factor(table%order, group, .false.)
-        if (.not. is_plain(factor%coefficient)) then
-            factor%coefficient = number_of(sign(1.0_dp, factor%coefficient%value))
+        factor = common_factor(table%order, group, .true.)
+        call over(table, group, factor, rest, fits)
+        if (fits) fits = all(rest%terms(:rest%count)%count <= 1)
+        if (.not. fits) then  ! (g/l + k/m) theta, but (m1 + m2) g/(m1 l)
+            factor = common_factor(table%order, group, .false.)
+            call over(table, group, factor, rest, fits)
         end if
-        opposite = inverse(factor)
-        opposite%coefficient = number_of(1.0_dp)/factor%coefficient
-        call multiplied(table, group, opposite, rest, fits)
         if (fits) then
             call put_sum(table, rest, page, bracket)
             call put_term(table, factor, bracket, page, root)
@@ -195,6 +201,23 @@ contains
             end do
         end if
     end subroutine put_bracket
+
+    pure subroutine over(table, group, factor, rest, fits)
+        !! Terms over a factor of all of them, of which decimals are no part.
+        type(table_t), intent(in) :: table
+        type(sum_t), intent(in) :: group
+        type(term_t), intent(inout) :: factor
+        type(sum_t), intent(out) :: rest
+        logical, intent(out) :: fits
+        type(term_t) :: opposite
+
+        if (.not. is_plain(factor%coefficient)) then
+            factor%coefficient = number_of(sign(1.0_dp, factor%coefficient%value))
+        end if
+        opposite = inverse(factor)
+        opposite%coefficient = number_of(1.0_dp)/factor%coefficient
+        call multiplied(table, group, opposite, rest, fits)
+    end subroutine over
 
     pure function is_plain(number) result(yes)
         !! A whole number or a fraction, but no decimal?
