@@ -61,6 +61,7 @@ mkdir "$work/bin"
 for name in spherical slip; do
     ln -s "$(realpath "$(ls -t build/gfortran_*/app/$name | head -n 1)")" "$work/bin/$name"
 done
+ln -s spherical "$work/bin/lagrangia" # it is lagrangia, with systems more
 export PATH="$work/bin:$PATH"
 run spherical list systems
 check "list: the lectures' systems, then ours" eval '[ $status -eq 0 ] && [ "$(cut -d" " -f1 "$work/out" | sed -n "1p;14,\$p" | tr "\n" " ")" = "oscillator spherical_pendulum spherical_by_hand spherical_xy " ]'
@@ -126,17 +127,21 @@ for block in re.findall(r"```console\n(.*?)```", text, re.S):
         if plain(got) != plain(expected):
             bad += 1
             print(f"$ {command}\n--- documented\n{expected}--- printed\n{got}")
+scenes = re.findall(r"```namelist\n(.*?)```", text, re.S)
+if scenes != [open("spring_pendulum.nml").read()]:
+    bad += 1
+    print("the scene is not data/scenes/spring_pendulum.nml")
 blocks = re.findall(r"```fortran\n(.*?)```", text, re.S)
 for block in blocks:
     if not any(stripped(block) in source for source in sources):
         bad += 1
         print(f"in no source:\n{block}")
 print(f"{commands} commands, {len(blocks)} pieces of code, {bad} differ")
-sys.exit(bad > 0 or commands != 10 or len(blocks) != 4)
+sys.exit(bad > 0 or commands != 15 or len(blocks) != 4)
 END
 }
 root=$(realpath ../../..)
-mkdir "$work/walk" && cp -r data "$work/walk" && cd "$work/walk" || exit 2
+mkdir "$work/walk" && cp -r data "$root/data/scenes/spring_pendulum.nml" "$work/walk" && cd "$work/walk" || exit 2
 check "docs/your_own_system.md: commands print what it says" walk "$root"
 
 echo "$count claims, $failures failed"

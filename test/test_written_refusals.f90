@@ -86,7 +86,7 @@ contains
                     "write 'sin(m)'")
         call blamed(t//"'m (r_dot^2 + 2theta_dot^2)'", "2theta", "T: column 14: a blank is "// &
                     "missing in '2theta_dot'; write '2 theta_dot'")
-        call blamed(t//"'m (r_dot^2' '+ thetadot^2)'", "thetadot", "T: column 13: unknown name "// &
+        call blamed(t//"'m (r_dot^2' '+ thetadot^2)'", "thetadot", "T: column 14: unknown name "// &
                     "'thetadot'; did you mean 'theta_dot'?")
         call blamed(t//"'m (r_dot^2 +' 'thetadot^2)'", "thetadot", "T: column 14: unknown name "// &
                     "'thetadot'; did you mean 'theta_dot'?")

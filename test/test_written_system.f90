@@ -51,6 +51,9 @@ contains
         call suite%addTest(TestMethod("modes_about_the_equilibrium", modes_about_the_equilibrium))
         call suite%addTest(TestMethod("forces_beside_l", forces_beside_l))
         call suite%addTest(TestMethod("audits_hold", audits_hold))
+        call suite%addTest(TestMethod("any_degree_in_velocities", any_degree_in_velocities))
+        call suite%addTest(TestMethod("what_cancels_is_not_there", what_cancels_is_not_there))
+        call suite%addTest(TestMethod("equations_are_written", equations_are_written))
         call suite%addTest(TestMethod("overrides_reach_formulas", overrides_reach_formulas))
     end function written_system_suite
 
@@ -106,7 +109,7 @@ contains
                 if (anyExceptions()) return
                 call own%configure(values, error)
                 call assertFalse(allocated(error), "parameters")
-                call assertTrue(own%velocity_forces .or. .not. hand%velocity_forces, &
+                call assertTrue(own%velocity_forces .eqv. hand%velocity_forces, &
                                 trim(typed(k)%name)//": velocity_forces")
                 call assertTrue(hand%time_dependent .eqv. own%time_dependent, &
                                 trim(typed(k)%name)//": time_dependent")
@@ -302,6 +305,71 @@ contains
         call assertTrue(size(ledger%rows) > 8, "claims")
         call assertEqual(0, ledger%broken())
     end subroutine audits_hold
+
+    subroutine any_degree_in_velocities()
+        !! Relativistic: \(p = mv/\sqrt{1 - v^2/c^2}\) is inverted, also close to c, where Newton's
+        !! first step from rest leads beyond it.
+        character(*), parameter :: lines = "coordinates = 'x' parameters = 'm', 'c', 'k' "// &
+            "L = '-m c^2 sqrt(1 - x_dot^2/c^2) - k/2 x^2'"
+        real(dp), parameter :: speeds(4) = [0.0_dp, 0.1_dp, -1.9_dp, 1.999_dp]
+        class(system_t), allocatable :: system
+        real(dp) :: a(1), p(1), v(1), gamma
+        integer :: i
+
+        call read_typed("own", lines, 1, [3.0_dp, 2.0_dp, 5.0_dp], system)
+        if (anyExceptions()) return
+        do i = 1, size(speeds)
+            gamma = 1.0_dp/sqrt(1.0_dp - speeds(i)**2/4.0_dp)
+            call system%momenta(0.0_dp, [0.3_dp], speeds(i:i), p)
+            call assertEqual(3.0_dp*gamma*speeds(i), p(1), 16*epsilon(p)*gamma**3)
+            call system%velocities(0.0_dp, [0.3_dp], p, v)
+            call assertEqual(speeds(i), v(1), 16*epsilon(v))
+            call system%accelerations(0.0_dp, [0.3_dp], speeds(i:i), a)
+            call assertEqual(-0.5_dp/gamma**3, a(1), 64*epsilon(a))
+        end do
+    end subroutine any_degree_in_velocities
+
+    subroutine what_cancels_is_not_there()
+        !! Cartesian velocities of a central force and of a bead on a turning wire, as definitions:
+        !! the angle and the time cancel in \(\sin^2 + \cos^2\), and rounding does not bring them
+        !! back.
+        class(system_t), allocatable :: system
+
+        call read_typed("own", "coordinates = 'r', 'theta' parameters = 'm', 'k' definitions = "// &
+                        "'vx = r_dot cos(theta) - r theta_dot sin(theta)', "// &
+                        "'vy = r_dot sin(theta) + r theta_dot cos(theta)' "// &
+                        "T = 'm/2 (vx^2 + vy^2)' V = '-k/r'", 2, [1.3_dp, 2.0_dp], system)
+        if (anyExceptions()) return
+        call assertEqual(2, system%cyclic)
+        call read_typed("own", "coordinates = 'r' parameters = 'm', 'w' definitions = "// &
+                        "'vx = r_dot cos(w t) - r w sin(w t)', "// &
+                        "'vy = r_dot sin(w t) + r w cos(w t)' T = 'm/2 (vx^2 + vy^2)'", 1, &
+                        [1.3_dp, 2.0_dp], system)
+        if (anyExceptions()) return
+        call assertFalse(system%time_dependent, "no time")
+        call assertFalse(system%velocity_forces, "no velocities")
+    end subroutine what_cancels_is_not_there
+
+    subroutine equations_are_written()
+        !! As on paper; a force beside L stands on the right.
+        class(system_t), allocatable :: system
+        type(scene_t) :: scene
+        type(description_t) :: d
+
+        call read_spring(spring, scene, system)
+        if (anyExceptions()) return
+        call system%describe(d)
+        call assertEqual("m r_ddot - m r theta_dot^2 + k r - k l0 - m g cos(theta) = 0", &
+                         trim(d%equations(1)))
+        call assertEqual("m r^2 theta_ddot + 2 m r r_dot theta_dot + m g r sin(theta) = 0", &
+                         trim(d%equations(2)))
+        call read_typed("own", "coordinates = 'x' parameters = 'm', 'b' T = 'm/2 x_dot^2' "// &
+                        "Q_x = '-b x_dot'", 1, [1.0_dp, 2.0_dp], system)
+        if (anyExceptions()) return
+        call system%describe(d)
+        call assertEqual("m x_ddot = -b x_dot", trim(d%equations(1)))
+        call assertEqual("m/2 x_dot^2", d%energy)
+    end subroutine equations_are_written
 
     subroutine overrides_reach_formulas()
         !! `--set` changes a formula, a parameter, and adds a force.

@@ -1,7 +1,7 @@
 module lagrangia_step_cost
     !! What one step costs, of every method on every system.
     use lagrangia_bench_problems, only: bench_problem_t
-    use lagrangia_catalogue, only: new_system
+    use lagrangia_command_line, only: word_t
     use lagrangia_contestant, only: contestant_box_t, contestant_t, set_by_step
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
@@ -9,6 +9,7 @@ module lagrangia_step_cost
     use lagrangia_observer, only: observer_t
     use lagrangia_precision_curve, only: median, not_known
     use lagrangia_printed_table, only: cell_t, number_cell, printed_table_t, word_cell
+    use lagrangia_scene_reader, only: read_named_system
     use lagrangia_stopwatch, only: effort_t, repetitions, seconds_since, ticks_now
     use lagrangia_work_precision, only: look_around
     implicit none (type, external)
@@ -92,14 +93,15 @@ contains
     end subroutine time_steps
 
     subroutine pose(name, problem, error)
-        !! A motion of the system called `name`, with its default parameters, from some state.
+        !! A motion of the system called `name`, with its default parameters, or of that of a scene,
+        !! from some state.
         character(*), intent(in) :: name
         type(bench_problem_t), intent(out) :: problem
         type(error_t), allocatable, intent(out) :: error
         real(dp), allocatable :: given(:)
         integer :: i, n
 
-        call new_system(name, problem%system, error)
+        call read_named_system(name, [word_t ::], problem%system, error)
         if (allocated(error)) return
         problem%name = name
         problem%duration = duration

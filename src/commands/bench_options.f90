@@ -9,6 +9,7 @@ module lagrangia_bench_options
     use lagrangia_kinds, only: dp
     use lagrangia_names, only: refuse_name
     use lagrangia_number_list, only: read_numbers
+    use lagrangia_scene_reader, only: names_scene
     use lagrangia_stopwatch, only: effort, effort_t
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
@@ -60,8 +61,7 @@ contains
         call choose("problem", split(line, "problems"), problem_names, &
                     options%problems, error)
         if (allocated(error)) return
-        call choose("system", split(line, "systems"), system_names(), &
-                    options%systems, error)
+        call choose_systems(split(line, "systems"), options%systems, error)
         if (allocated(error)) return
         call choose("method", split(line, "methods"), contestant_names(), &
                     options%methods, error)
@@ -70,6 +70,25 @@ contains
         if (line%has("tolerances")) call read_tolerances(line%value_of("tolerances", ""), &
                                                          options%tolerances, error)
     end subroutine read_options
+
+    subroutine choose_systems(words, chosen, error)
+        !! Systems by their names, or those of scenes.
+        character(*), intent(in) :: words(:)
+        character(name_length), allocatable, intent(out) :: chosen(:)
+        type(error_t), allocatable, intent(out) :: error
+        logical :: is_scene(size(words))
+        integer :: i
+
+        do i = 1, size(words)
+            is_scene(i) = names_scene(trim(words(i)))
+        end do
+        if (any(is_scene)) then
+            call choose("system", words, [character(name_length) :: system_names(), &
+                                          pack(words, is_scene)], chosen, error)
+        else
+            call choose("system", words, system_names(), chosen, error)
+        end if
+    end subroutine choose_systems
 
     pure subroutine choose(kind, words, names, chosen, error)
         !! The words, each of which must be one of `names`; all names where there are no words.

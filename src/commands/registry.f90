@@ -32,7 +32,7 @@ module lagrangia_registry
         option_t("long", no_value, "", "up to 10^8 steps of every method"), &
         option_t("problems", needs_value, "P1,P3,...", "of the benchmark's work-precision part"), &
         option_t("methods", needs_value, "rk4,gsl_rk8pd,...", "that are measured"), &
-        option_t("systems", needs_value, "pendulum,...", "whose steps are measured"), &
+        option_t("systems", needs_value, "pendulum,...", "or scenes, whose steps are measured"), &
         option_t("tolerances", needs_value, "1e-6,1e-9,...", "of the methods that take one"), &
         option_t("json", no_value, "", "print the results as JSON"), &
         option_t("quiet", no_value, "", "print nothing but errors"), &
@@ -44,7 +44,7 @@ module lagrangia_registry
                   "set output format plot error-estimate json quiet"), &
         command_t("run", "SCENE...", "the same for .nml files, or shipped scenes by name", -1, &
                   "set output format plot error-estimate json quiet"), &
-        command_t("modes", "SYSTEM", "small oscillations: M, K, frequencies, shapes", 1, &
+        command_t("modes", "SYSTEM", "or a scene's: small oscillations, frequencies, shapes", 1, &
                   "set at output json quiet"), &
         command_t("check", "[SYSTEM...]", "the audit: equations, invariants, structure, Gauss, "// &
                   "orders", -1, "set json"), &

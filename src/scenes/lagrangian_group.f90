@@ -205,13 +205,14 @@ contains
     end subroutine join_pieces
 
     pure function gap(left, right) result(blanks)
-        !! How many blanks are put between two texts of a formula: one, but none before a sign, so
-        !! that a formula that was broken there does not grow.
+        !! How many blanks are put between two texts of a formula: one, but none before a sign that
+        !! no blank follows, so that a formula that was broken there does not grow.
         character(*), intent(in) :: left, right
         integer :: blanks
 
         blanks = 1
-        if (scan(right(:1), "+-*/") == 1 .and. index(trim(left)//"|", "*|") == 0) blanks = 0
+        if (scan(right(:1), "+-*/") == 1 .and. right(2:min(2, len(right))) /= " " .and. &
+            index(trim(left)//"|", "*|") == 0) blanks = 0
     end function gap
 
     pure subroutine split(formula, pieces)

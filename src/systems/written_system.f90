@@ -3,16 +3,21 @@ module lagrangia_written_system
     !!
     !! The formulas are read once; where the parameters are set, they are compiled with these
     !! numbers in them, to programs of t, the coordinates and the velocities, in this order.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_description, only: description_t, formula_length, quantity
+    use lagrangia_elimination, only: solve_positive
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t
     use lagrangia_formula_program, only: formula_program_t, new_formula_program
     use lagrangia_formula_text, only: formula_text
     use lagrangia_hyperdual, only: hyperdual_t
-    use lagrangia_kinds, only: dp
+    use lagrangia_kinds, only: dp, lanes
     use lagrangia_lagrangian_system, only: lagrangian_system_t
+    use lagrangia_written_equations, only: write_equations
     use lagrangia_written_expressions, only: written_expressions_t
     use lagrangia_written_formulas, only: written_formulas_t
+    use lagrangia_written_motion, only: derive_motion, invert_momenta, leave_out_what_cancels, &
+                                        solve_motion, written_motion_t
     implicit none (type, external)
     private
     public :: written_system_t, new_written_system
@@ -22,6 +27,15 @@ module lagrangia_written_system
         type(description_t) :: stated                !! all but what follows from the parameters
         type(written_expressions_t) :: expressions
         type(formula_program_t) :: l_program         !! L
+        type(written_motion_t) :: motion             !! what follows from L and Q
+        type(expression_t), allocatable :: solved(:) !! accelerations, pivots, diagonal of M
+        type(expression_t), allocatable :: inverse(:)  !! velocities, pivots, diagonal of M
+        logical :: is_quadratic = .false.            !! `inverse` holds
+        type(formula_program_t) :: motion_program    !! of `solved`
+        type(formula_program_t) :: inverse_program   !! of `inverse`, of t, q, p
+        type(formula_program_t) :: momentum_program  !! p, then M column by column
+        type(formula_program_t) :: slope_program     !! dL/dq
+        type(formula_program_t) :: energy_program    !! v p - L
         type(formula_program_t) :: force_program     !! Q of each coordinate
         type(formula_program_t) :: place_program     !! x, y, z of each point, m
         type(formula_program_t) :: constant_program  !! masses of the points, then the equilibrium
@@ -30,6 +44,12 @@ module lagrangia_written_system
         procedure :: prepare
         procedure :: lagrangian
         procedure :: generalised_forces
+        procedure :: accelerations
+        procedure :: accelerations_lanes
+        procedure :: momenta
+        procedure :: velocities
+        procedure :: forces => slopes
+        procedure :: energy
         procedure :: quantity => momentum
         procedure :: positions
     end type written_system_t
@@ -63,6 +83,11 @@ contains
                 constants(size(e%masses) + i) = e%equilibrium(i)
             end do
             call new_formula_program(system%constant_program, constants, size(e%symbols%names))
+            call leave_out_what_cancels(e%lagrangian, 1 + 2*size(d%coordinates), e%symbols)
+            call derive_motion(e%lagrangian, e%forces, e%symbols, system%motion)
+            call write_equations(system%motion, e%forces, e%symbols, d)
+            call solve_motion(system%motion, system%solved)
+            call invert_momenta(system%motion, e%symbols, system%inverse, system%is_quadratic)
         end associate
         call system%configure([(formulas%parameters(i)%value(1), i=1, &
                                 size(formulas%parameters))], error)
@@ -143,22 +168,38 @@ contains
     end subroutine outline
 
     pure subroutine prepare(self)
-        !! Compile L, the forces beside it and the places, with numbers for the parameters.
+        !! Compile all formulas of the state, with numbers for the parameters.
         class(written_system_t), intent(inout) :: self
-        type(expression_t) :: lagrangian(1)
+        type(expression_t) :: one(1), all(self%ndof + self%ndof**2)
         logical :: fixed(size(self%expressions%symbols%names))
         real(dp) :: values(size(fixed))
-        integer :: n
+        integer :: i, j, k, n
 
-        n = 1 + 2*self%ndof
+        k = 1 + 2*self%ndof
+        n = self%ndof
         fixed = .true.
-        fixed(:n) = .false.
-        values(:n) = 0.0_dp
-        values(n + 1:) = self%p
-        lagrangian(1) = self%expressions%lagrangian
-        call new_formula_program(self%l_program, lagrangian, n, fixed, values)
-        call new_formula_program(self%force_program, self%expressions%forces, n, fixed, values)
-        call new_formula_program(self%place_program, self%expressions%places, n, fixed, values)
+        fixed(:k) = .false.
+        values(:k) = 0.0_dp
+        values(k + 1:) = self%p
+        associate (e => self%expressions, motion => self%motion)
+            one(1) = e%lagrangian
+            call new_formula_program(self%l_program, one, k, fixed, values)
+            one(1) = motion%energy
+            call new_formula_program(self%energy_program, one, k, fixed, values)
+            call new_formula_program(self%motion_program, self%solved, k, fixed, values)
+            if (self%is_quadratic) call new_formula_program(self%inverse_program, self%inverse, k, &
+                                                            fixed, values)
+            call new_formula_program(self%slope_program, motion%slopes, k, fixed, values)
+            call new_formula_program(self%force_program, e%forces, k, fixed, values)
+            call new_formula_program(self%place_program, e%places, k, fixed, values)
+            do j = 1, n
+                all(j) = motion%momenta(j)
+                do i = 1, n
+                    all(n*j + i) = motion%mass(i, j)
+                end do
+            end do
+            call new_formula_program(self%momentum_program, all, k, fixed, values)
+        end associate
     end subroutine prepare
 
     pure function momentum_unit(unit) result(text)
@@ -204,6 +245,145 @@ contains
         values(2 + self%ndof:) = v
         call self%force_program%evaluate(values, f)
     end subroutine generalised_forces
+
+    pure subroutine accelerations(self, t, q, v, a)
+        !! See `system_t`; NaN where a pivot is not positive.
+        class(written_system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: a(self%ndof)
+        real(dp) :: values(1 + 2*self%ndof), results(3*self%ndof)
+        integer :: n
+
+        n = self%ndof
+        values(1) = t
+        values(2:1 + n) = q
+        values(2 + n:) = v
+        call self%motion_program%evaluate(values, results)
+        a = results(:n)
+        if (are_positive(results(n + 1:2*n), results(2*n + 1:))) return
+        call set_to_nan(a)
+    end subroutine accelerations
+
+    pure function are_positive(pivots, diagonal) result(yes)
+        !! None of the pivots is only rounding beside the mass matrix's diagonal.
+        real(dp), intent(in) :: pivots(:), diagonal(:)
+        logical :: yes
+        integer :: i
+
+        yes = .false.
+        do i = 1, size(pivots)
+            if (.not. pivots(i) > max(0.0_dp, 2*size(pivots)*epsilon(pivots)*diagonal(i))) return
+        end do
+        yes = .true.
+    end function are_positive
+
+    pure subroutine set_to_nan(a)
+        !! Apart from what is called often: gfortran saves and restores the processor's flags around
+        !! a procedure that uses IEEE modules, which takes longer than the equations of motion.
+        real(dp), intent(out) :: a(:)
+
+        a = ieee_value(a, ieee_quiet_nan)
+    end subroutine set_to_nan
+
+    pure subroutine accelerations_lanes(self, t, q, v, a)
+        !! `accelerations`, in all lanes at once.
+        class(written_system_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+        real(dp) :: values(lanes, 1 + 2*self%ndof), results(lanes, 3*self%ndof)
+        integer :: i, n
+
+        n = self%ndof
+        values(:, 1) = t
+        values(:, 2:1 + n) = q
+        values(:, 2 + n:) = v
+        call self%motion_program%evaluate(values, results)
+        a = results(:, :n)
+        do i = 1, lanes
+            if (are_positive(results(i, n + 1:2*n), results(i, 2*n + 1:))) cycle
+            call set_to_nan(a(i, :))
+        end do
+    end subroutine accelerations_lanes
+
+    pure subroutine momenta(self, t, q, v, p)
+        !! See `system_t`.
+        class(written_system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: p(self%ndof)
+        real(dp) :: results(self%ndof + self%ndof**2)
+
+        call self%momentum_program%evaluate([t, q, v], results)
+        p = results(:self%ndof)
+    end subroutine momenta
+
+    pure subroutine velocities(self, t, q, p, v)
+        !! See `system_t`; NaN where a pivot is not positive.
+        class(written_system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), p(self%ndof)
+        real(dp), intent(out) :: v(self%ndof)
+        real(dp) :: results(3*self%ndof)
+        integer :: n
+
+        n = self%ndof
+        if (.not. self%is_quadratic) then
+            call invert_by_newton(self, t, q, p, v)
+            return
+        end if
+        call self%inverse_program%evaluate([t, q, p], results)
+        v = results(:n)
+        if (.not. are_positive(results(n + 1:2*n), results(2*n + 1:))) call set_to_nan(v)
+    end subroutine velocities
+
+    pure subroutine invert_by_newton(self, t, q, p, v)
+        !! Newton's method for \(p(\dot q) = p\), at rest first, each step halved until the rest is
+        !! smaller; NaN where M is not positive definite on the way.
+        type(written_system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(:), p(:)
+        real(dp), intent(out) :: v(:)
+        integer, parameter :: most = 100
+        real(dp) :: results(size(p) + size(p)**2), mass(size(p), size(p)), step(size(p))
+        real(dp) :: left(size(p)), size_left
+        integer :: halvings, i, n
+
+        n = size(p)
+        v = 0.0_dp
+        call self%momentum_program%evaluate([t, q, v], results)
+        do i = 1, most
+            left = p - results(:n)
+            size_left = maxval(abs(left))
+            step = left
+            mass = reshape(results(n + 1:), [n, n])
+            call solve_positive(mass, 0.0_dp*p, step)
+            do halvings = 1, most
+                call self%momentum_program%evaluate([t, q, v + step], results)
+                if (maxval(abs(p - results(:n))) < size_left) exit
+                if (.not. maxval(abs(step)) > epsilon(v)*maxval(abs(v))) return
+                step = 0.5_dp*step
+            end do
+            v = v + step
+        end do
+        call set_to_nan(v)
+    end subroutine invert_by_newton
+
+    pure subroutine slopes(self, t, q, v, f)
+        !! See `forces` of `system_t`.
+        class(written_system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: f(self%ndof)
+
+        call self%slope_program%evaluate([t, q, v], f)
+    end subroutine slopes
+
+    pure function energy(self, t, q, v) result(e)
+        !! See `system_t`.
+        class(written_system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: e
+        real(dp) :: results(1)
+
+        call self%energy_program%evaluate([t, q, v], results)
+        e = results(1)
+    end function energy
 
     pure function momentum(self, i, t, q, v) result(value)
         !! \(p_i = \partial L/\partial\dot q_i\).

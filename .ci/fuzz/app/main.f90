@@ -76,14 +76,19 @@ contains
     end subroutine read_corpus
 
     subroutine try_scene()
-        !! One mutated scene, half of them with a mutated override.
-        character(*), parameter :: sets(*) = [character(24) :: "scene%dt=1e-3", "scene%q=0,1", &
-            "scene%columns=t,energy", "wedge%alpha=0.5", "scene%method=rk4", "scene%q(2)=1"]
+        !! One mutated scene, every fourth with formulas, half of them with a mutated override.
+        character(*), parameter :: sets(*) = [character(36) :: "scene%dt=1e-3", "scene%q=0,1", &
+            "scene%columns=t,energy", "wedge%alpha=0.5", "scene%method=rk4", "scene%q(2)=1", &
+            "lagrangian%V=k/2 (r - l0)^2", "lagrangian%Q_r=-r_dot", &
+            "lagrangian%T=(r_dot^2 + theta_dot^2)", "two_rods%m1=3"]
         character(:), allocatable :: text, set
         integer :: number
         type(word_t), allocatable :: overrides(:)
 
         number = pick(size(corpus))
+        do while (mod(i, 4) == 0 .and. index(corpus(number)%text, "&lagrangian") == 0)
+            number = pick(size(corpus))
+        end do
         text = corpus(number)%text
         number = pick(size(corpus))
         call mutate(text, pick(4) - 1, corpus(number)%text)
