@@ -5,13 +5,14 @@ module biased_liars
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(+), operator(-)
     use lagrangia_kinds, only: dp
+    use lagrangia_oscillator, only: oscillator_t
     use lagrangia_rolling_disk, only: rolling_disk_t
     use lagrangia_system, only: lanes, system_t
     implicit none (type, external)
     private
     public :: new_biased_liar, biased_claims
 
-    integer, parameter :: biased_claims = 18
+    integer, parameter :: biased_claims = 19
     real(dp), parameter :: amount = 1e-3_dp
 
     type, extends(cart_pendulum_t) :: biased_cart_t
@@ -32,6 +33,13 @@ module biased_liars
         procedure :: velocities => velocities_biased
     end type biased_cart_t
 
+    type, extends(oscillator_t) :: biased_oscillator_t
+        !! With friction or a drive its energy changes otherwise.
+        real(dp) :: bias = 0.0_dp
+    contains
+        procedure :: energy => energy_drifts
+    end type biased_oscillator_t
+
     type, extends(rolling_disk_t) :: biased_disk_t
         !! Its constraint, or the rate of it, is not zero.
         real(dp) :: value = 0.0_dp, rate = 0.0_dp
@@ -47,7 +55,7 @@ contains
         class(system_t), allocatable, intent(out) :: system
         character(:), allocatable, intent(out) :: claim
 
-        if (k < biased_claims - 1) allocate (system, source=biased_cart_t(lie=k, bias=way*amount))
+        if (k < 17) allocate (system, source=biased_cart_t(lie=k, bias=way*amount))
         select case (k)
         case (1); claim = "accelerations as from L"
         case (2); claim = "accelerations in lanes"
@@ -69,9 +77,12 @@ contains
         case (17)
             allocate (system, source=biased_disk_t(value=way*amount))
             claim = "velocities keep the constraints"
-        case default
+        case (18)
             allocate (system, source=biased_disk_t(rate=way*amount))
             claim = "accelerations keep the constraints"
+        case default
+            allocate (system, source=biased_oscillator_t(bias=way*amount))
+            claim = "energy changes by Q v - dL/dt"
         end select
     end subroutine new_biased_liar
 
@@ -128,6 +139,14 @@ contains
         if (self%lie == 3) e = e + self%bias
         if (self%lie == 4) e = e + self%bias*t
     end function energy_biased
+
+    pure function energy_drifts(self, t, q, v) result(e)
+        class(biased_oscillator_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: e
+
+        e = self%oscillator_t%energy(t, q, v) + self%bias*t
+    end function energy_drifts
 
     pure function quantity_biased(self, i, t, q, v) result(value)
         class(biased_cart_t), intent(in) :: self

@@ -48,6 +48,7 @@ module suites
     use test_exact_maps, only: exact_maps_suite
     use test_failure_contract, only: failure_contract_suite
     use test_formula_fuzz, only: formula_fuzz_suite
+    use test_forced_oscillation, only: forced_oscillation_suite
     use test_formula_latex, only: formula_latex_suite
     use test_formula_parser, only: formula_parser_suite
     use test_formula_program, only: formula_program_suite
@@ -204,6 +205,7 @@ contains
         call suite%addTest(exact_maps_suite())
         call suite%addTest(failure_contract_suite())
         call suite%addTest(formula_fuzz_suite())
+        call suite%addTest(forced_oscillation_suite())
         call suite%addTest(formula_latex_suite())
         call suite%addTest(formula_parser_suite())
         call suite%addTest(formula_program_suite())

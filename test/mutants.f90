@@ -15,9 +15,10 @@ module mutants
     private
     public :: new_mutant, mutants_known
 
-    integer, parameter :: mutants_known = 15
+    integer, parameter :: mutants_known = 16
 
     type, extends(pendulum_t) :: pendulum_mutant_t
+        integer :: slip = 1
     contains
         procedure :: accelerations => pendulum_slip
     end type pendulum_mutant_t
@@ -124,19 +125,23 @@ contains
         case (14)
             allocate (hoop_mutant_t :: system)
             expected = "theta_ddot is not that of L"
-        case default
+        case (15)
             allocate (driven_mutant_t :: system)
             expected = "theta_ddot is not that of L"
+        case default
+            allocate (system, source=pendulum_mutant_t(slip=2))
+            expected = "theta_ddot is not that of L: its generalised force counts l times in it"
         end select
     end subroutine new_mutant
 
     pure subroutine pendulum_slip(self, t, q, v, a)
-        !! \(g\ell\) for \(g/\ell\).
+        !! \(g\ell\) for \(g/\ell\). 2: a lost \(\ell\) of the friction.
         class(pendulum_mutant_t), intent(in) :: self
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
         real(dp), intent(out) :: a(self%ndof)
 
-        a(1) = -self%g*self%l*sin(q(1))
+        a(1) = -self%g*self%l*sin(q(1)) - self%b/(self%m*self%l**2)*v(1)
+        if (self%slip == 2) a(1) = -self%g/self%l*sin(q(1)) - self%b/(self%m*self%l)*v(1)
     end subroutine pendulum_slip
 
     pure subroutine cart_slip(self, t, q, v, a)
@@ -261,7 +266,8 @@ contains
         real(dp), intent(out) :: a(self%ndof)
 
         associate (w => self%drive_frequency)
-            a(1) = -(self%g + self%amplitude*w**2*cos(w*t))/self%l*sin(q(1))
+            a(1) = -(self%g + self%amplitude*w**2*cos(w*t))/self%l*sin(q(1)) &
+                   - self%b/(self%m*self%l**2)*v(1)
         end associate
     end subroutine driven_slip
 end module mutants

@@ -269,14 +269,15 @@ contains
     end subroutine slips_are_named_over_twelve_decades
 
     subroutine given_parameters_stay()
-        !! With g = 0 in all draws the pendulum's angular momentum is conserved in all of them.
+        !! Without g and b in all draws the pendulum's angular momentum is conserved in all of them.
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
         type(ledger_t) :: audit
         integer :: row
 
         call new_system("pendulum", system, error)
-        call audit_system(system, audit, [.false., .false., .true.], [1.0_dp, 1.0_dp, 0.0_dp])
+        call audit_system(system, audit, [.false., .false., .true., .true.], &
+                          [1.0_dp, 1.0_dp, 0.0_dp, 0.0_dp])
         call assertEqual(0, audit%broken())
         row = audit%row_of("L_z is conserved")
         call assertTrue(row > 0, "row > 0")

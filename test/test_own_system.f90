@@ -60,17 +60,20 @@ contains
         !! condition up to some hundred.
         class(system_t), intent(inout) :: own, hand
         type(error_t), allocatable :: error
-        real(dp), allocatable :: q(:), v(:), a(:), b(:)
+        real(dp), allocatable :: q(:), v(:), a(:), b(:), values(:)
         real(dp) :: t, scale
         integer :: i
 
         call restart_random()
         do i = 1, 40
             call draw_parameters(hand, edges=mod(i, 4) == 0)
-            call own%configure(parameters_of(hand), error)
+            values = parameters_of(hand)
+            values = values(:size(parameters_of(own)))  ! without the damping that `own` lacks
+            call hand%configure(values, error)
+            call own%configure(values, error)
             call assertFalse(allocated(error), "parameters")
             if (anyExceptions()) return
-            call assertEqual(parameters_of(hand), parameters_of(own))
+            call assertEqual(values, parameters_of(own))
             call assertEqual(hand%ndof, own%ndof)
             call assertTrue(hand%velocity_forces .eqv. own%velocity_forces, "velocity_forces")
             call assertTrue(hand%time_dependent .eqv. own%time_dependent, "time_dependent")

@@ -55,6 +55,7 @@ contains
     subroutine lagrangian_and_tension_of_a_bob()
         !! L is T - V, and weight and tension move the bob.
         type(pendulum_t) :: system
+        type(error_t), allocatable :: error
         type(hyperdual_t) :: l
         real(dp), allocatable :: q(:), v(:), r(:, :), a(:, :)
         real(dp) :: t, pull(3)
@@ -62,6 +63,7 @@ contains
 
         do i = 1, 20
             call draw_parameters(system, edges=.false.)
+            call system%configure([system%m, system%l, system%g], error)  ! without friction
             call draw_state(system, t, q, v)
             l = system%lagrangian(hyperdual(t), hyperdual(q), hyperdual(v))
             call assertEqual(newton_lagrangian(system, t, q, v, system%g), l%re, 1e-12_dp*20.0_dp)
@@ -206,12 +208,14 @@ contains
         !! From random states.
         type(pendulum_t) :: system
         class(reference_t), allocatable :: reference
+        type(error_t), allocatable :: error
         real(dp), allocatable :: q(:), v(:)
         real(dp) :: t
         integer :: i
 
         do i = 1, 20
             call draw_parameters(system, edges=.false.)
+            call system%configure([system%m, system%l, system%g], error)
             call draw_state(system, t, q, v)
             call system%closed_form(t, q, v, reference)
             call check_reference(reference, system, t, q, v, "pendulum")

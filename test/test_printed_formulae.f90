@@ -156,15 +156,16 @@ contains
 
         do i = 1, size(names)
             do k = 1, draws
-                call try_closed_form(trim(names(i)))
+                call try_closed_form(trim(names(i)), k)
             end do
         end do
     end subroutine closed_forms_are_what_they_say
 
-    subroutine try_closed_form(name)
+    subroutine try_closed_form(name, k)
         !! One draw of parameters, a state and a later time. Each coordinate has a few dozen
         !! operations; angles and exponents of some ten multiply their rounding.
         character(*), intent(in) :: name
+        integer, intent(in) :: k
         real(dp), parameter :: rounding = 1e-11_dp
         class(system_t), allocatable :: system
         class(reference_t), allocatable :: reference
@@ -179,6 +180,7 @@ contains
         call assertTrue(.not. allocated(error), name)
         if (allocated(error)) return
         call draw_parameters(system, .false.)
+        if (name == "oscillator") call draw_damping(system, k)
         call draw_state(system, t, q, v)
         call system%closed_form(0.0_dp, q, v, reference)
         call assertTrue(allocated(reference), name//": a closed form")
@@ -199,6 +201,20 @@ contains
             call assertEqual(later(i), value, rounding*size_of, name//": "//trim(reference%title))
         end do
     end subroutine try_closed_form
+
+    subroutine draw_damping(system, k)
+        !! In turn without damping, below the critical one, above, and equal to it.
+        class(system_t), intent(inout) :: system
+        integer, intent(in) :: k
+        real(dp), parameter :: share(0:3) = [0.0_dp, 0.6_dp, 1.7_dp, 1.0_dp]
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+        real(dp) :: critical
+
+        call system%describe(d)
+        critical = 0.25_dp*anint(1.0_dp + 8.0_dp*d%parameters(1)%value(1))
+        call system%configure([critical, critical, 2.0_dp*share(mod(k, 4))*critical], error)
+    end subroutine draw_damping
 
     recursive subroutine define(text, letters)
         !! `..., letter = formula, omega^2 = formula`, and what a formula calls by a whole name.

@@ -122,6 +122,8 @@ contains
 
         do i = 1, 20
             call draw_parameters(pendulum, edges=.false.)
+            call set(pendulum, [pendulum%m, pendulum%l, pendulum%g, pendulum%amplitude, &
+                                pendulum%drive_frequency])  ! without friction
             call draw_state(pendulum, t, q, v)
             call point_accelerations(pendulum, t, q, v, r, a)
             associate (m => pendulum%m, l => pendulum%l, w => pendulum%drive_frequency)
@@ -163,6 +165,8 @@ contains
         call assertEqual(hoop%omega*turn, rate, differencing*scale, "hoop")
         call assertGreaterThan(abs(rate), 1e-3_dp*scale, message="hoop: T + V changes")
         call draw_parameters(pendulum, edges=.false.)
+        call set(pendulum, [pendulum%m, pendulum%l, pendulum%g, pendulum%amplitude, &
+                            pendulum%drive_frequency])
         call draw_state(pendulum, t, q, v)
         call flow_derivative(pendulum, 1, t, q, v, rate, scale)
         lift = pendulum%quantity(4, t, q, v)*cos(q(1))

@@ -245,7 +245,7 @@ contains
         words(5)%text = "scene%columns='t','theta_dot'"
         words(6)%text = "SCENE%V = -0.25"
         call read(head//"columns='t' / &pendulum l=7 m=3 /", words, scene)
-        call assertEqual([3.0_dp, 2.5_dp, 9.81_dp], scene%parameters)
+        call assertEqual([3.0_dp, 2.5_dp, 9.81_dp, 0.0_dp], scene%parameters)
         call assertEqual(0.02_dp, scene%dt)
         call assertEqual("verlet", scene%method)
         call assertEqual(["t        ", "theta_dot"], scene%columns)

@@ -97,6 +97,6 @@ contains
             end do
             if (anyExceptions()) return
         end do
-        call assertEqual(44, found, "closed forms checked")
+        call assertEqual(38, found, "closed forms checked")
     end subroutine every_closed_form_solves_its_equations
 end module test_systems

@@ -48,7 +48,7 @@ contains
         real(dp), intent(in) :: values(:)
         type(error_t), allocatable, intent(out) :: error
 
-        call self%pendulum_t%configure(values, error)
+        call self%pendulum_t%configure(values(:3), error)  ! without friction
         select case (self%flag)
         case ("velocity_forces"); self%velocity_forces = .true.
         case ("time_dependent"); self%time_dependent = .true.

@@ -11,10 +11,10 @@ module typed_systems
     end type typed_t
 
     type(typed_t), parameter :: typed(*) = [ &
-        typed_t("oscillator", "coordinates = 'x' parameters = 'm', 'k' "// &
-                "T = 'm/2 x_dot^2' V = '1/2 k x^2'"), &
-        typed_t("pendulum", "coordinates = 'theta' parameters = 'm', 'l', 'g' "// &
-                "L = 'm/2 l^2 theta_dot^2 + m g l cos(theta)'"), &
+        typed_t("oscillator", "coordinates = 'x' parameters = 'm', 'k', 'b', 'F0', 'W' "// &
+                "T = 'm/2 x_dot^2' V = '1/2 k x^2' Q_x = 'F0 cos(W t) - b x_dot'"), &
+        typed_t("pendulum", "coordinates = 'theta' parameters = 'm', 'l', 'g', 'b' "// &
+                "L = 'm/2 l^2 theta_dot^2 + m g l cos(theta)' Q_theta = '-b theta_dot'"), &
         typed_t("double_pendulum", "coordinates = 'theta1', 'theta2' "// &
                 "parameters = 'm1', 'm2', 'l1', 'l2', 'g' definitions = 'D = theta1 - theta2' "// &
                 "T = '(m1 + m2)/2 l1^2 theta1_dot^2 + m2/2 l2^2 theta2_dot^2' "// &
@@ -33,7 +33,8 @@ module typed_systems
                 "T = 'm/2 r^2 (theta_dot^2 + omega^2 sin^2(theta))' V = '-m g r cos(theta)'"), &
         typed_t("rotating_wire", "coordinates = 'r' parameters = 'm', 'omega' "// &
                 "T = 'm/2 (r_dot^2 + omega^2 r^2)'"), &
-        typed_t("driven_pendulum", "coordinates = 'theta' parameters = 'm', 'l', 'g', 'a', 'W' "// &
+        typed_t("driven_pendulum", "coordinates = 'theta' parameters = 'm', 'l', 'g', 'a', "// &
+                "'W', 'b' Q_theta = '-b theta_dot' "// &
                 "definitions = 'y = a cos(W t) - l cos(theta)', "// &
                 "'w_y = -a W sin(W t) + l theta_dot sin(theta)' "// &
                 "T = 'm/2 ((l theta_dot cos(theta))^2 + w_y^2)' V = 'm g y'"), &

@@ -56,7 +56,7 @@ contains
                 call put_given(d%parameters(i))
             end if
         end do
-        call put_formulas(d, system%time_dependent)
+        call put_formulas(d, system%conserves_energy())
         if (any(d%quantities%conserved)) call put_line("conserved besides")
         do i = 1, size(d%quantities)
             if (d%quantities(i)%conserved) call put_quantity(d%quantities(i))
@@ -137,10 +137,10 @@ contains
         end do
     end function value_text
 
-    subroutine put_formulas(d, time_dependent)
+    subroutine put_formulas(d, conserves_energy)
         !! From T and V to the frequencies, as far as the system says them.
         type(description_t), intent(in) :: d
-        logical, intent(in) :: time_dependent
+        logical, intent(in) :: conserves_energy
         character(:), allocatable :: letters
         integer :: i
 
@@ -160,6 +160,13 @@ contains
         else
             call put_formula("L =", "as the program has it")
         end if
+        if (allocated(d%generalised_forces)) then
+            call put_line("generalised forces beside L")
+            do i = 1, size(d%generalised_forces)
+                call put_wrapped(trim(d%generalised_forces(i)))
+            end do
+        end if
+        if (allocated(d%dissipation)) call put_formula("drag: Q = - dR/dq_dot, R =", d%dissipation)
         call put_line("equations of motion")
         do i = 1, size(d%equations)
             call put_wrapped(trim(d%equations(i)))
@@ -186,8 +193,8 @@ contains
                                  trim(d%frequencies(i)%equilibrium))
             end do
         end if
-        call put_line("energy (v dL/dv - L)"//trim(merge(", not conserved", "               ", &
-                                                         time_dependent)))
+        call put_line("energy (v dL/dv - L)"//trim(merge("               ", ", not conserved", &
+                                                         conserves_energy)))
         if (allocated(d%energy)) then
             call put_wrapped(d%energy)
         else

@@ -155,6 +155,7 @@ contains
                             if (k == node%which .or. &
                                 expression%depends_on(k) .neqv. pass == 1) cycle
                             if (.not. exchangeable(samples%role(node%which), samples%role(k))) cycle
+                            if (is_zero(k)) cycle
                             if (.not. mends(change_t(change_symbol, i, k))) cycle
                             text = node_text(i)//" must be '"//trim(samples%symbols%names(k))// &
                                    "'"//context(expression, samples, i)
@@ -229,7 +230,7 @@ contains
             text = ""
             do i = 1, expression%count
                 do k = 1, size(samples%role)
-                    if (samples%role(k) > role_parameter) cycle
+                    if (samples%role(k) > role_parameter .or. is_zero(k)) cycle
                     if (mends(change_t(change_multiplied, i, k))) then
                         text = node_text(i)//" lacks the factor '"// &
                             trim(samples%symbols%names(k))//"'"
@@ -244,6 +245,14 @@ contains
                 end do
             end do
         end subroutine try_inner_factors
+
+        function is_zero(k) result(yes)
+            !! A parameter that nobody named and that is zero: with it any term goes away.
+            integer, intent(in) :: k
+            logical :: yes
+
+            yes = all(abs(samples%values(:, k)) <= 0.0_dp)
+        end function is_zero
 
         function must_be(i, other) result(text)
             integer, intent(in) :: i

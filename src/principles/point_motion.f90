@@ -108,7 +108,8 @@ contains
     end function dalembert
 
     pure function conservative_forces(system, t, q, v) result(worst)
-        !! \(Q_j - \partial(L - T)/\partial q_j\), relative to the largest term;
+        !! \(\sum F\,\partial x/\partial q_j - \partial(L - T)/\partial q_j - Q_j\), relative to the
+        !! largest term, with the generalised forces beside L;
         !! \(\partial T/\partial q_j = \sum m\dot x\,\partial\dot x/\partial q_j\).
         class(system_t), intent(in) :: system  !! with its parameters
         real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)  !! s; coordinates and velocities
@@ -122,9 +123,9 @@ contains
         worst = 0.0_dp
         do j = 1, system%ndof
             right = sum(motion%mass*motion%velocity*motion%slope(:, j))
-            size_of = abs(right) + abs(terms%dl_dq(j)) &
+            size_of = abs(right) + abs(terms%dl_dq(j)) + abs(terms%beside(j)) &
                       + sum(abs(motion%force*motion%jacobian(:, j)))
-            right = terms%dl_dq(j) - right
+            right = terms%dl_dq(j) + terms%beside(j) - right
             worst = max(worst, abs(sum(motion%force*motion%jacobian(:, j)) - right) &
                         /max(size_of, tiny(size_of)))
         end do

@@ -14,7 +14,7 @@ contains
         type(standing_t) :: motion
         logical :: found
 
-        found = self%cyclic == 1 .or. near(q0(1), half_turns(q0(1)))
+        found = .not. (self%driven() .or. self%g > 0.0_dp) .or. near(q0(1), half_turns(q0(1)))
         found = found .and. abs(v0(1)) <= 0.0_dp
         call start_standing(motion, "at rest at the bottom or at the top", q0)
         if (found) allocate (reference, source=motion)

@@ -1,5 +1,6 @@
 submodule (lagrangia_oscillator) lagrangia_oscillator_reference
     !! The oscillator's motion in closed form.
+    use lagrangia_forced_oscillation, only: forced_oscillation_t, start_forced
     use lagrangia_kinds, only: dp
     use lagrangia_reference, only: reference_t
     implicit none (type, external)
@@ -21,7 +22,14 @@ contains
         real(dp), intent(in) :: t0, q0(:), v0(:)
         class(reference_t), allocatable, intent(out) :: reference
         type(oscillator_reference_t) :: motion
+        type(forced_oscillation_t) :: forced
 
+        if (self%nonconservative) then
+            call start_forced(forced, self%m, self%k, self%b, self%drive_force, &
+                              self%drive_frequency, t0, q0(1), v0(1))
+            allocate (reference, source=forced)
+            return
+        end if
         motion%title = "x0 cos(omega t) + v0/omega sin(omega t), omega^2 = k/m"
         motion%ndof = 1
         motion%omega = sqrt(self%k/self%m)

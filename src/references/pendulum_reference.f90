@@ -16,6 +16,7 @@ submodule (lagrangia_pendulum) lagrangia_pendulum_reference
     use lagrangia_elliptic, only: elliptic_k, jacobi
     use lagrangia_kinds, only: dp
     use lagrangia_reference, only: reference_t
+    use lagrangia_standing, only: half_turns, near, standing_t, start_standing
     implicit none (type, external)
 
     real(dp), parameter :: pi = acos(-1.0_dp)
@@ -33,13 +34,20 @@ submodule (lagrangia_pendulum) lagrangia_pendulum_reference
 contains
 
     module subroutine closed_form(self, t0, q0, v0, reference)
-        !! See `system_t` and `set_motion`.
+        !! See `system_t` and `set_motion`. With friction only of rest at the bottom or at the top.
         class(pendulum_t), intent(in) :: self
         real(dp), intent(in) :: t0, q0(:), v0(:)
         class(reference_t), allocatable, intent(out) :: reference
         type(pendulum_reference_t) :: motion
+        type(standing_t) :: rest
         logical :: found
 
+        if (self%nonconservative) then
+            found = self%g <= 0.0_dp .or. near(q0(1), half_turns(q0(1)))
+            call start_standing(rest, "at rest", q0)
+            if (found .and. abs(v0(1)) <= 0.0_dp) allocate (reference, source=rest)
+            return
+        end if
         call set_motion(motion, self, t0, q0, v0, found)
         if (found) allocate (reference, source=motion)
     end subroutine closed_form

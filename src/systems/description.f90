@@ -83,6 +83,8 @@ module lagrangia_description
         character(:), allocatable :: potential_energy      !! V, perhaps with velocities: L = T - V
         character(:), allocatable :: lagrangian            !! L
         character(:), allocatable :: energy  !! \(\dot q\,\partial L/\partial\dot q - L\)
+        character(formula_length), allocatable :: generalised_forces(:)  !! `Q_x = ...`, beside L
+        character(:), allocatable :: dissipation  !! Rayleigh's R of the drag in them, if it has one
         character(formula_length), allocatable :: equations(:)      !! of motion, `left = right`
         character(formula_length), allocatable :: accelerations(:)  !! solved: `x_ddot = ...`
         character(line_length) :: constraint = ""        !! class of its constraints, in words

@@ -18,7 +18,7 @@ module lagrangia_driven_pendulum
     use lagrangia_linearised, only: linearised_t
     use lagrangia_reference, only: reference_t
     use lagrangia_sine_cosine, only: sine_cosine
-    use lagrangia_system, only: check_parameters, lanes, system_t
+    use lagrangia_system, only: check_parameters, lanes, system_t, with_zeros
     implicit none (type, external)
     private
     public :: driven_pendulum_t
@@ -30,12 +30,14 @@ module lagrangia_driven_pendulum
         real(dp) :: g = 9.81_dp                !! m s^-2
         real(dp) :: amplitude = 0.1_dp         !! a of the pivot, m
         real(dp) :: drive_frequency = 50.0_dp  !! \(\Omega\), rad s^-1
+        real(dp) :: b = 0.0_dp                 !! kg m^2/s
     contains
         procedure :: describe
         procedure :: configure
         procedure :: accelerations
         procedure :: accelerations_lanes
         procedure :: lagrangian
+        procedure :: generalised_forces
         procedure :: energy
         procedure :: linearise
         procedure :: quantity => energy_or_force
@@ -72,7 +74,8 @@ contains
             real_number("amplitude", "m", "a: the pivot is at y_p = a cos(W t), upwards", &
                    self%amplitude), &
             nonnegative("drive_frequency", "rad/s", "W, angular frequency of the pivot", &
-                        self%drive_frequency)]
+                        self%drive_frequency), &
+            nonnegative("b", "kg m^2/s", "damping, in the pivot", self%b)]
         d%energy_scale = self%m*(self%g*self%l + (self%amplitude*self%drive_frequency)**2)
         d%letters = [letter_t("a", "amplitude"), letter_t("W", "drive_frequency"), &
                          letter_t("y_p", "a cos(W t)")]
@@ -85,7 +88,7 @@ contains
             quantity("tension", "N", "force along the rod", &
                      "m (l theta_dot^2 + (g + y_p_ddot) cos(theta))"), &
             quantity("pivot", "m", "height of the pivot", "y_p")]
-        if (.not. self%driven()) then
+        if (self%conserves_energy()) then
             d%quantities(1)%conserved = .true.
             d%quantities(3)%conserved = .true.
             d%quantities(2)%conserved = self%g <= 0.0_dp
@@ -100,10 +103,16 @@ contains
         d%energy = "m/2 (l^2 theta_dot^2 - y_p_dot^2) + m g (y_p - l cos(theta))"
         d%equations = [character(formula_length) :: &
             "l theta_ddot + (g + y_p_ddot) sin(theta) = 0"]
+        if (self%nonconservative) then
+            d%generalised_forces = [character(formula_length) :: "Q_theta = - b theta_dot"]
+            d%dissipation = "b/2 theta_dot^2"
+            d%equations(1) = "l theta_ddot + b/(m l) theta_dot + (g + y_p_ddot) sin(theta) = 0"
+        end if
         d%constraint = "holonomic, rheonomic"
         d%constraint_equations = [character(len(d%title)) :: "x_bob^2 + (y_bob - y_p)^2 = l^2"]
         if (.not. self%driven()) then
             d%frequencies = [frequency_t("omega^2 = g/l", "theta = 0")]
+            if (self%nonconservative) deallocate (d%frequencies)
             d%constraint = "holonomic, scleronomic"
             d%constraint_equations = [character(len(d%title)) :: "x_bob^2 + (y_bob - a)^2 = l^2"]
         end if
@@ -117,22 +126,26 @@ contains
     end subroutine describe
 
     pure subroutine configure(self, values, error)
-        !! In this order: m, l, g, amplitude, drive_frequency.
+        !! In this order: m, l, g, amplitude, drive_frequency, b; the last may be left out.
         class(driven_pendulum_t), intent(inout) :: self
         real(dp), intent(in) :: values(:)
         type(error_t), allocatable, intent(out) :: error
+        real(dp), allocatable :: p(:)
 
-        call check_parameters(self, values, error)
+        p = with_zeros(values, 6, 5)
+        call check_parameters(self, p, error)
         if (allocated(error)) return
         self%ndof = 1
-        self%velocity_forces = .false.
-        self%m = values(1)
-        self%l = values(2)
-        self%g = values(3)
-        self%amplitude = values(4)
-        self%drive_frequency = values(5)
+        self%m = p(1)
+        self%l = p(2)
+        self%g = p(3)
+        self%amplitude = p(4)
+        self%drive_frequency = p(5)
+        self%b = p(6)
+        self%velocity_forces = self%b > 0.0_dp
+        self%nonconservative = self%velocity_forces
         self%time_dependent = self%driven()
-        self%cyclic = merge(0, 1, self%driven() .or. self%g > 0.0_dp)
+        self%cyclic = merge(0, 1, self%driven() .or. max(self%g, self%b) > 0.0_dp)
     end subroutine configure
 
     pure function driven(self)
@@ -144,8 +157,8 @@ contains
     end function driven
 
     pure subroutine accelerations(self, t, q, v, a)
-        !! $$ \ddot\theta = -\frac{g + \ddot y_p}{\ell}\sin\theta,\qquad
-        !!    \ddot y_p = -a\,\Omega^2\cos\Omega t $$
+        !! $$ \ddot\theta = -\frac{g + \ddot y_p}{\ell}\sin\theta
+        !!    - \frac b{m\ell^2}\dot\theta,\qquad \ddot y_p = -a\,\Omega^2\cos\Omega t $$
         class(driven_pendulum_t), intent(in) :: self
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
         real(dp), intent(out) :: a(self%ndof)
@@ -153,6 +166,7 @@ contains
         associate (w => self%drive_frequency)
             a(1) = -(self%g - self%amplitude*w**2*cos(w*t))/self%l*sin(q(1))
         end associate
+        if (self%nonconservative) a(1) = a(1) - self%b/(self%m*self%l**2)*v(1)
     end subroutine accelerations
 
     pure function lagrangian(self, t, q, v) result(l)
@@ -169,6 +183,15 @@ contains
                 - m*self%g*(y - r*cos(q(1)))
         end associate
     end function lagrangian
+
+    pure subroutine generalised_forces(self, t, q, v, f)
+        !! \(Q = -b\dot\theta\): friction in the pivot, \(R = \tfrac b2\dot\theta^2\).
+        class(driven_pendulum_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t), intent(out) :: f(self%ndof)
+
+        f(1) = -self%b*v(1)
+    end subroutine generalised_forces
 
     pure function energy(self, t, q, v) result(e)
         !! $$ h = \tfrac12 m(\ell^2\dot\theta^2 - \dot y_p^2) + mg(y_p - \ell\cos\theta) $$
@@ -237,19 +260,29 @@ contains
             call sine_cosine(w*t, other, c)
             a(:, 1) = -(self%g - self%amplitude*w**2*c)/self%l*s
         end associate
+        if (self%nonconservative) a(:, 1) = a(:, 1) - self%b/(self%m*self%l**2)*v(:, 1)
     end subroutine accelerations_lanes
 
     pure subroutine newton(self, t, x, u, force, constraint_residual)
-        !! Gravity; the rod from the moving pivot, \((\ell^2 - x^2 - (y - y_p)^2)/2\ell = 0\).
+        !! Gravity; friction, a force \(-b\dot\theta/\ell\) across the rod; the rod from the moving
+        !! pivot, \((\ell^2 - x^2 - (y - y_p)^2)/2\ell = 0\).
         class(driven_pendulum_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, x(:), u(:)
         real(dp), intent(out) :: force(:)
         type(hyperdual_t), intent(out) :: constraint_residual(:)
         type(hyperdual_t) :: y
+        real(dp) :: y_dot
 
         force = 0.0_dp
         force(2) = -self%m*self%g
         y = x(2) - self%amplitude*cos(self%drive_frequency*t)
+        if (self%nonconservative) then
+            associate (a => self%amplitude, w => self%drive_frequency)
+                y_dot = u(2)%re + a*w*sin(w*t%re)
+            end associate
+            force(:2) = force(:2) - self%b/self%l**4*(x(1)%re*y_dot - y%re*u(1)%re) &
+                        *[-y%re, x(1)%re]
+        end if
         constraint_residual(1) = 0.5_dp/self%l*(self%l**2 - x(1)**2 - y**2)
     end subroutine newton
 

@@ -3,15 +3,19 @@ module lagrangia_oscillator
     !!
     !! The notes write \(\partial L/\partial\dot x = m\,d\dot x/dt\), one derivative too many:
     !! the momentum is \(m\dot x\), and only its time derivative is \(m\ddot x\).
+    !!
+    !! Damping and a drive are generalised forces beside L: \(Q = -b\dot x + F_0\cos Wt\), the
+    !! first from Rayleigh's function \(R = \tfrac b2\dot x^2\), \(Q = -\partial R/\partial\dot x\).
     use lagrangia_description, only: conserved, coordinate, description_t, formula_length, &
                                      frequency_t, letter_t, mass_point, nonnegative, positive, &
-                                     quantity, quantity_t
+                                     quantity, quantity_t, real_number
     use lagrangia_errors, only: error_t
-    use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(-)
+    use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(-)
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
     use lagrangia_reference, only: reference_t
-    use lagrangia_system, only: check_parameters, lanes, system_t
+    use lagrangia_sine_cosine, only: sine_cosine
+    use lagrangia_system, only: check_parameters, lanes, system_t, with_zeros
     implicit none (type, external)
     private
     public :: oscillator_t
@@ -20,12 +24,16 @@ module lagrangia_oscillator
         !! The coordinate is \(x\), m, from where the spring is relaxed.
         real(dp) :: m = 1.0_dp  !! kg
         real(dp) :: k = 1.0_dp  !! N/m
+        real(dp) :: b = 0.0_dp  !! N s/m
+        real(dp) :: drive_force = 0.0_dp  !! \(F_0\), N
+        real(dp) :: drive_frequency = 0.0_dp  !! \(W\), rad/s
     contains
         procedure :: describe
         procedure :: configure
         procedure :: accelerations
         procedure :: accelerations_lanes
         procedure :: lagrangian
+        procedure :: generalised_forces
         procedure :: energy
         procedure :: linearise
         procedure :: quantity => force_or_momentum
@@ -56,11 +64,16 @@ contains
         d%dimensions = 1
         d%coordinates = [coordinate("x", "m", "displacement from where the spring is relaxed")]
         d%parameters = [positive("m", "kg", "mass", self%m), &
-                        nonnegative("k", "N/m", "stiffness of the spring", self%k)]
+                        nonnegative("k", "N/m", "stiffness of the spring", self%k), &
+                        nonnegative("b", "N s/m", "damping", self%b), &
+                        real_number("drive_force", "N", "F0: a force F0 cos(W t) drives it", &
+                                    self%drive_force), &
+                        nonnegative("drive_frequency", "rad/s", "W, angular frequency of the "// &
+                                    "drive", self%drive_frequency)]
         d%quantities = [ &
             quantity("force", "N", "force of the spring", "- k x"), &
             quantity("p_x", "kg m/s", "momentum", "m x_dot")]
-        if (self%k <= 0.0_dp) d%quantities(2) = &
+        if (self%cyclic == 1) d%quantities(2) = &
             conserved("p_x", "kg m/s", "momentum, x is cyclic without a spring", 0.0_dp, "m x_dot")
         d%points = [mass_point("mass", self%m)]
         d%reactions = [quantity_t ::]
@@ -71,42 +84,81 @@ contains
         d%equations = [character(formula_length) :: "m x_ddot + k x = 0"]
         d%constraint = "none"
         d%letters = [letter_t("omega", "sqrt(k/m)")]
-        d%frequencies = [frequency_t("omega^2 = k/m", "x = 0")]
-        if (self%k > 0.0_dp) then
-            d%motion = [character(formula_length) :: &
-                "x = x_0 cos(omega t) + x_dot_0/omega sin(omega t)"]
+        if (self%nonconservative) then
+            call describe_forces(self, d)
         else
+            d%frequencies = [frequency_t("omega^2 = k/m", "x = 0")]
             d%motion = [character(formula_length) :: "x = x_0 + x_dot_0 t"]
+            if (self%k > 0.0_dp) d%motion(1) = "x = x_0 cos(omega t) + x_dot_0/omega sin(omega t)"
         end if
         d%notes = [character(len(d%title)) :: &
             "The scan has dL/dx_dot = m d(x_dot)/dt: read dL/dx_dot = m x_dot, the momentum.", &
             "The frequency is the same at any amplitude.", &
+            "Damping b and a drive are forces beside L: see describe oscillator --set b=0.1.", &
             "The actual path makes the action stationary; it is a minimum only for t < pi/omega."]
         d%source = "Hamilton's Principle: example HSM"
     end subroutine describe
 
+    pure subroutine describe_forces(self, d)
+        !! What is otherwise with damping or a drive: Q, the equation, the motion without a drive.
+        class(oscillator_t), intent(in) :: self
+        type(description_t), intent(inout) :: d
+
+        if (self%b > 0.0_dp) d%dissipation = "b/2 x_dot^2"
+        if (abs(self%drive_force) > 0.0_dp) then
+            d%generalised_forces = [character(formula_length) :: "Q_x = F0 cos(W t) - b x_dot"]
+            d%equations(1) = "m x_ddot + b x_dot + k x = F0 cos(W t)"
+            d%letters = [d%letters, letter_t("F0", "drive_force"), letter_t("W", "drive_frequency")]
+            return
+        end if
+        d%generalised_forces = [character(formula_length) :: "Q_x = - b x_dot"]
+        d%equations(1) = "m x_ddot + b x_dot + k x = 0"
+        d%letters = [letter_t("gamma", "b/(2 m)"), letter_t("omega", "sqrt(k/m - gamma^2)")]
+        if (self%b**2 < 4.0_dp*self%m*self%k) then
+            d%motion = [character(formula_length) :: "x = exp(-gamma t) (x_0 cos(omega t) + "// &
+                        "(x_dot_0 + gamma x_0)/omega sin(omega t))"]
+        else if (self%b**2 > 4.0_dp*self%m*self%k) then
+            d%letters(2)%formula = "sqrt(gamma^2 - k/m)"
+            d%motion = [character(formula_length) :: "x = exp(-gamma t) (x_0 cosh(omega t) + "// &
+                        "(x_dot_0 + gamma x_0)/omega sinh(omega t))"]
+        else
+            d%letters = d%letters(:1)
+            d%motion = [character(formula_length) :: &
+                        "x = exp(-gamma t) (x_0 + (x_dot_0 + gamma x_0) t)"]
+        end if
+    end subroutine describe_forces
+
     pure subroutine configure(self, values, error)
-        !! In this order: m, k.
+        !! In this order: m, k, b, drive_force, drive_frequency; the last three may be left out.
         class(oscillator_t), intent(inout) :: self
         real(dp), intent(in) :: values(:)
         type(error_t), allocatable, intent(out) :: error
+        real(dp), allocatable :: p(:)
 
-        call check_parameters(self, values, error)
+        p = with_zeros(values, 5, 2)
+        call check_parameters(self, p, error)
         if (allocated(error)) return
         self%ndof = 1
-        self%velocity_forces = .false.
-        self%m = values(1)
-        self%k = values(2)
-        self%cyclic = merge(0, 1, self%k > 0.0_dp)
+        self%m = p(1)
+        self%k = p(2)
+        self%b = p(3)
+        self%drive_force = p(4)
+        self%drive_frequency = p(5)
+        self%velocity_forces = self%b > 0.0_dp
+        self%nonconservative = max(self%b, abs(self%drive_force)) > 0.0_dp
+        self%time_dependent = abs(self%drive_force)*self%drive_frequency > 0.0_dp
+        self%cyclic = merge(0, 1, self%k > 0.0_dp .or. self%nonconservative)
     end subroutine configure
 
     pure subroutine accelerations(self, t, q, v, a)
-        !! $$ \ddot x = -\frac km x $$
+        !! $$ \ddot x = -\frac km x + \frac{F_0\cos Wt - b\dot x}m $$
         class(oscillator_t), intent(in) :: self
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
         real(dp), intent(out) :: a(self%ndof)
 
         a(1) = -self%k/self%m*q(1)
+        if (.not. self%nonconservative) return
+        a(1) = a(1) + (self%drive_force*cos(self%drive_frequency*t) - self%b*v(1))/self%m
     end subroutine accelerations
 
     pure function lagrangian(self, t, q, v) result(l)
@@ -117,6 +169,15 @@ contains
 
         l = 0.5_dp*self%m*v(1)**2 - 0.5_dp*self%k*q(1)**2
     end function lagrangian
+
+    pure subroutine generalised_forces(self, t, q, v, f)
+        !! $$ Q = -b\dot x + F_0\cos Wt $$
+        class(oscillator_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t), intent(out) :: f(self%ndof)
+
+        f(1) = self%drive_force*cos(self%drive_frequency*t) - self%b*v(1)
+    end subroutine generalised_forces
 
     pure function energy(self, t, q, v) result(e)
         !! $$ E = \tfrac12 m\dot x^2 + \tfrac12 k x^2 $$
@@ -157,8 +218,12 @@ contains
         class(oscillator_t), intent(in) :: self
         real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
         real(dp), intent(out) :: a(lanes, self%ndof)
+        real(dp) :: s(lanes), c(lanes)
 
         a(:, 1) = -self%k/self%m*q(:, 1)
+        if (.not. self%nonconservative) return
+        call sine_cosine(self%drive_frequency*t, s, c)
+        a(:, 1) = a(:, 1) + (self%drive_force*c - self%b*v(:, 1))/self%m
     end subroutine accelerations_lanes
 
     pure subroutine linearise(self, q, analytic)
@@ -175,7 +240,7 @@ contains
     end subroutine linearise
 
     pure subroutine newton(self, t, x, u, force, constraint_residual)
-        !! The spring along x; nothing holds the mass.
+        !! The spring, the drag and the drive along x; nothing holds the mass.
         class(oscillator_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, x(:), u(:)
         real(dp), intent(out) :: force(:)
@@ -183,6 +248,7 @@ contains
 
         constraint_residual = hyperdual_t()
         force = 0.0_dp
-        force(1) = -self%k*x(1)%re
+        force(1) = -self%k*x(1)%re - self%b*u(1)%re &
+                   + self%drive_force*cos(self%drive_frequency*t%re)
     end subroutine newton
 end module lagrangia_oscillator

@@ -3,6 +3,9 @@ module lagrangia_pendulum
     !!
     !! The notes give \(L = \tfrac12 m\ell^2\dot\theta^2 + mg\ell\cos\theta - \mathrm{const}\),
     !! where the constant is free; here it is zero, so \(E = -mg\ell\) at rest at the bottom.
+    !!
+    !! Friction in the pivot is a generalised force beside L: \(Q = -b\dot\theta\), from
+    !! Rayleigh's function \(R = \tfrac b2\dot\theta^2\).
     use lagrangia_description, only: conserved, coordinate, description_t, formula_length, &
                                      frequency_t, mass_point, nonnegative, positive, quantity
     use lagrangia_errors, only: error_t
@@ -12,7 +15,7 @@ module lagrangia_pendulum
     use lagrangia_linearised, only: linearised_t
     use lagrangia_reference, only: reference_t
     use lagrangia_sine_cosine, only: sine_cosine
-    use lagrangia_system, only: check_parameters, lanes, system_t
+    use lagrangia_system, only: check_parameters, lanes, system_t, with_zeros
     implicit none (type, external)
     private
     public :: pendulum_t
@@ -22,12 +25,14 @@ module lagrangia_pendulum
         real(dp) :: m = 1.0_dp   !! bob, kg
         real(dp) :: l = 1.0_dp   !! rod, m
         real(dp) :: g = 9.81_dp  !! m s^-2
+        real(dp) :: b = 0.0_dp   !! kg m^2/s
     contains
         procedure :: describe
         procedure :: configure
         procedure :: accelerations
         procedure :: accelerations_lanes
         procedure :: lagrangian
+        procedure :: generalised_forces
         procedure :: energy
         procedure :: linearise
         procedure :: momenta
@@ -61,12 +66,13 @@ contains
         d%coordinates = [coordinate("theta", "rad", "angle of the rod from the downward vertical")]
         d%parameters = [positive("m", "kg", "mass of the bob", self%m), &
                         positive("l", "m", "length of the rod", self%l), &
-                        nonnegative("g", "m/s^2", "gravity", self%g)]
+                        nonnegative("g", "m/s^2", "gravity", self%g), &
+                        nonnegative("b", "kg m^2/s", "damping, in the pivot", self%b)]
         d%energy_scale = self%m*self%g*self%l
         d%quantities = [ &
             quantity("L_z", "kg m^2/s", "angular momentum about the pivot", "m l^2 theta_dot"), &
             quantity("tension", "N", "force along the rod", "m (l theta_dot^2 + g cos(theta))")]
-        if (self%g <= 0.0_dp) d%quantities(1) = &
+        if (self%cyclic == 1) d%quantities(1) = &
             conserved("L_z", "kg m^2/s", "angular momentum, theta is cyclic without gravity", &
                       0.0_dp, "m l^2 theta_dot")
         d%points = [mass_point("bob", self%m)]
@@ -79,6 +85,12 @@ contains
         d%equations = [character(formula_length) :: "l theta_ddot + g sin(theta) = 0"]
         d%frequencies = [frequency_t("omega^2 = g/l", "theta = 0"), &
                          frequency_t("omega^2 = - g/l", "theta = pi")]
+        if (self%nonconservative) then
+            d%generalised_forces = [character(formula_length) :: "Q_theta = - b theta_dot"]
+            d%dissipation = "b/2 theta_dot^2"
+            d%equations(1) = "l theta_ddot + b/(m l) theta_dot + g sin(theta) = 0"
+            deallocate (d%frequencies)
+        end if
         d%constraint = "holonomic, scleronomic"
         d%constraint_equations = [character(len(d%title)) :: "x_bob^2 + y_bob^2 = l^2"]
         d%notes = [character(len(d%title)) :: &
@@ -89,28 +101,33 @@ contains
     end subroutine describe
 
     pure subroutine configure(self, values, error)
-        !! In this order: m, l, g.
+        !! In this order: m, l, g, b; the last may be left out.
         class(pendulum_t), intent(inout) :: self
         real(dp), intent(in) :: values(:)
         type(error_t), allocatable, intent(out) :: error
+        real(dp), allocatable :: p(:)
 
-        call check_parameters(self, values, error)
+        p = with_zeros(values, 4, 3)
+        call check_parameters(self, p, error)
         if (allocated(error)) return
         self%ndof = 1
-        self%velocity_forces = .false.
-        self%m = values(1)
-        self%l = values(2)
-        self%g = values(3)
-        self%cyclic = merge(0, 1, self%g > 0.0_dp)
+        self%m = p(1)
+        self%l = p(2)
+        self%g = p(3)
+        self%b = p(4)
+        self%velocity_forces = self%b > 0.0_dp
+        self%nonconservative = self%velocity_forces
+        self%cyclic = merge(0, 1, max(self%g, self%b) > 0.0_dp)
     end subroutine configure
 
     pure subroutine accelerations(self, t, q, v, a)
-        !! $$ \ddot\theta = -\frac g\ell\sin\theta $$
+        !! $$ \ddot\theta = -\frac g\ell\sin\theta - \frac b{m\ell^2}\dot\theta $$
         class(pendulum_t), intent(in) :: self
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
         real(dp), intent(out) :: a(self%ndof)
 
         a(1) = -self%g/self%l*sin(q(1))
+        if (self%nonconservative) a(1) = a(1) - self%b/(self%m*self%l**2)*v(1)
     end subroutine accelerations
 
     pure function lagrangian(self, t, q, v) result(l)
@@ -121,6 +138,15 @@ contains
 
         l = 0.5_dp*self%m*self%l**2*v(1)**2 + self%m*self%g*self%l*cos(q(1))
     end function lagrangian
+
+    pure subroutine generalised_forces(self, t, q, v, f)
+        !! \(Q = -b\dot\theta\).
+        class(pendulum_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t), intent(out) :: f(self%ndof)
+
+        f(1) = -self%b*v(1)
+    end subroutine generalised_forces
 
     pure subroutine momenta(self, t, q, v, p)
         !! \(p = m\ell^2\dot\theta\).
@@ -193,6 +219,7 @@ contains
 
         call sine_cosine(q(:, 1), s, c)
         a(:, 1) = -self%g/self%l*s
+        if (self%nonconservative) a(:, 1) = a(:, 1) - self%b/(self%m*self%l**2)*v(:, 1)
     end subroutine accelerations_lanes
 
     pure subroutine linearise(self, q, analytic)
@@ -214,7 +241,8 @@ contains
     end subroutine linearise
 
     pure subroutine newton(self, t, x, u, force, constraint_residual)
-        !! Gravity; the rod, \((\ell^2 - x^2 - y^2)/2\ell = 0\).
+        !! Gravity; friction, whose torque \(-b\dot\theta\) is a force \(-b\dot\theta/\ell\)
+        !! across the rod; the rod, \((\ell^2 - x^2 - y^2)/2\ell = 0\).
         class(pendulum_t), intent(in) :: self
         type(hyperdual_t), intent(in) :: t, x(:), u(:)
         real(dp), intent(out) :: force(:)
@@ -222,6 +250,8 @@ contains
 
         force = 0.0_dp
         force(2) = -self%m*self%g
+        if (self%nonconservative) force(:2) = force(:2) - self%b/self%l**4 &
+            *(x(1)%re*u(2)%re - x(2)%re*u(1)%re)*[-x(2)%re, x(1)%re]
         constraint_residual(1) = 0.5_dp/self%l*(self%l**2 - dot_product(x, x))
     end subroutine newton
 end module lagrangia_pendulum

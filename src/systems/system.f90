@@ -16,7 +16,7 @@ module lagrangia_system
     implicit none (type, external)
     private
     public :: system_t, system_box_t, reduced_t
-    public :: lanes, check_parameter, check_parameters, check_state, default_values
+    public :: lanes, check_parameter, check_parameters, check_state, default_values, with_zeros
 
     type, abstract :: system_t
         integer :: ndof = 0                  !! number of coordinates
@@ -379,6 +379,19 @@ contains
                       to_text(self%ndof)//" velocities", key="v")
         end if
     end subroutine check_state
+
+    pure function with_zeros(values, n, needed) result(all)
+        !! `values`, with zeros for the last of `n` parameters where no more than the first
+        !! `needed` must be given; as they are where there are too few or too many.
+        real(dp), intent(in) :: values(:)    !! in the order of `describe`
+        integer, intent(in) :: n, needed     !! all parameter values; those without a default of 0
+        real(dp), allocatable :: all(:)      !! (n)
+
+        all = values
+        if (size(values) >= needed .and. size(values) < n) then
+            all = [values, spread(0.0_dp, 1, n - size(values))]
+        end if
+    end function with_zeros
 
     pure subroutine check_parameters(self, values, error)
         !! Refuse `values` that are too many, too few or outside their domains.
