@@ -25,6 +25,7 @@ module misprints
         procedure :: configure
         procedure :: accelerations
         procedure :: lagrangian
+        procedure :: generalised_forces
         procedure :: energy
         procedure :: quantity
         procedure :: positions
@@ -59,11 +60,12 @@ contains
         self%cyclic = self%item%cyclic
         self%velocity_forces = self%item%velocity_forces
         self%time_dependent = self%item%time_dependent
+        self%nonconservative = self%item%nonconservative
     end subroutine adopt
 
     pure integer function last_place()
         !! The number of places where a formula may stand.
-        last_place = 4 + 8*most
+        last_place = 4 + 9*most + 1
     end function last_place
 
     pure function formula_at(d, place) result(text)
@@ -135,6 +137,14 @@ contains
             if (i > size(d%frequencies)) return
             before = trim(d%frequencies(i)%equation)
             if (after /= "") d%frequencies(i)%equation = after
+        case (5 + 8*most:4 + 9*most)
+            if (.not. allocated(d%generalised_forces)) return
+            if (i > size(d%generalised_forces)) return
+            before = trim(d%generalised_forces(i))
+            if (after /= "") d%generalised_forces(i) = after
+        case (5 + 9*most)
+            if (allocated(d%dissipation)) before = d%dissipation
+            if (after /= "") d%dissipation = after
         case default
             if (.not. allocated(d%motion)) return
             if (i > size(d%motion)) return
@@ -252,6 +262,15 @@ contains
 
         l = self%item%lagrangian(t, q, v)
     end function lagrangian
+
+    pure subroutine generalised_forces(self, t, q, v, f)
+        !! Of the system inside.
+        class(misprint_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t), intent(out) :: f(self%ndof)
+
+        call self%item%generalised_forces(t, q, v, f)
+    end subroutine generalised_forces
 
     pure function energy(self, t, q, v) result(e)
         !! Of the system inside.

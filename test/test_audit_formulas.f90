@@ -4,7 +4,7 @@ module test_audit_formulas
     use lagrangia_audit_closed_forms, only: audit_closed_forms
     use lagrangia_audit_formulas, only: audit_formulas
     use lagrangia_catalogue, only: new_system, system_names
-    use lagrangia_description, only: description_t
+    use lagrangia_description, only: default_values, description_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: ledger_t
@@ -48,39 +48,49 @@ contains
         character(:), allocatable :: text, changed, unseen
         character, parameter :: next = new_line("a")
         character(*), parameter :: harmless = &
+            next//"oscillator: drive_frequency | - drive_frequency"// &
             next//"oscillator: sqrt(k/m) | - sqrt(k/m)"// &
             next//"cart_pendulum: y_cart = 0 |  2 y_cart = 0"// &
             next//"wedge: y_wedge = 0 |  2 y_wedge = 0"// &
             next//"rolling_disk: i_yaw theta_ddot = 0 |  2 i_yaw theta_ddot = 0"// &
             next//"rolling_disk: i_yaw theta_ddot = 0 | g theta_ddot = 0"// &
             next//"driven_pendulum: drive_frequency | - drive_frequency"// &
+            next//"driven_pendulum: drive_frequency | - drive_frequency"// &
             next//"bouncing_ball: y >= 0 | m >= 0"// &
             next//"bouncing_ball: lambda y = 0 |  2 lambda y = 0"
-        integer :: i, place, slip, planted
+        integer :: i, place, slip, planted, way
 
         unseen = ""
         planted = 0
         allocate (names, source=system_names())
         do i = 1, size(names)
             call new_system(trim(names(i)), system, error)
-            call draw(system, drawn)
-            call assertFalse(sees(system, drawn, 1, 0), trim(names(i))//" as it is")
-            do place = 1, last_place()
-                text = text_at(place)
-                if (text == "") cycle
-                do slip = 1, kinds_of_slips
-                    changed = changed_at(text, slip)
-                    if (changed == text) cycle
-                    planted = planted + 1
-                    if (.not. sees(system, drawn, place, slip)) then
-                        unseen = unseen//new_line("a")//trim(names(i))//": "//text//" | "//changed
-                    end if
+            do way = 1, merge(2, 1, has_damping())
+                call draw(system, drawn, undamped=way == 2)
+                call assertFalse(sees(system, drawn, 1, 0), trim(names(i))//" as it is")
+                do place = 1, last_place()
+                    text = text_at(place)
+                    if (text == "") cycle
+                    do slip = 1, kinds_of_slips
+                        changed = changed_at(text, slip)
+                        if (changed == text) cycle
+                        planted = planted + 1
+                        if (.not. sees(system, drawn, place, slip)) unseen = unseen// &
+                            new_line("a")//trim(names(i))//": "//text//" | "//changed
+                    end do
                 end do
             end do
         end do
         call assertGreaterThan(planted, 700)
         call assertEqual(harmless, unseen)
     contains
+        logical function has_damping()
+            type(description_t) :: d
+
+            call system%describe(d)
+            has_damping = any(d%parameters%name == "b")
+        end function has_damping
+
         function text_at(which) result(formula)
             integer, intent(in) :: which
             character(:), allocatable :: formula
@@ -101,14 +111,16 @@ contains
         end function changed_at
     end subroutine a_slip_in_any_formula_is_seen
 
-    subroutine draw(system, drawn)
-        !! Off the edges of all domains, three bobs in a chain.
+    subroutine draw(system, drawn, undamped)
+        !! Off the edges of all domains, three bobs in a chain; or without forces beside L.
         class(system_t), intent(inout) :: system
         type(draw_t), intent(out) :: drawn(:)
+        logical, intent(in), optional :: undamped
+        logical, allocatable :: zero(:)
         type(description_t) :: d
         type(error_t), allocatable :: error
         type(random_t) :: random
-        integer :: k
+        integer :: i, k
 
         call system%describe(d)
         do k = 1, size(drawn)
@@ -117,7 +129,13 @@ contains
                                        [.true., .false., .false., .false.], &
                                        [3.0_dp, 1.0_dp, 1.0_dp, 1.0_dp])
             else
-                call random%parameters(system, .false., drawn(k)%values, error)
+                zero = [(.false., i=1, size(default_values(d)))]
+                if (present(undamped)) then
+                    if (undamped) zero = d%parameters%name == "b" .or. &
+                                         d%parameters%name == "drive_force"
+                end if
+                call random%parameters(system, .false., drawn(k)%values, error, zero, &
+                                       [(0.0_dp, i=1, size(zero))])
             end if
             call random%state(system, drawn(k)%t, drawn(k)%q, drawn(k)%v, error)
             if (d%name == "bouncing_ball") drawn(k)%q = abs(drawn(k)%q)
@@ -185,7 +203,7 @@ contains
             integer :: row
 
             call new_system(name, system, error)
-            call draw(system, drawn)
+            call draw(system, drawn, undamped=.true.)
             call new_misprint(system, place, 0, misprint)
             misprint%instead = text
             call audit%section("misprint")
@@ -204,7 +222,8 @@ contains
 
     subroutine every_formula_is_tried()
         !! The rows of each system's audit that say what is printed, and no others.
-        call rows("oscillator", "T V L energy equations force p_x closed_form frequencies")
+        call rows("oscillator", "T V L energy equations force p_x closed_form frequencies", .true.)
+        call rows("oscillator", "T V L energy generalised forces R equations force p_x")
         call rows("cart_pendulum", "T V L energy equations accelerations constraints p_x x_com "// &
                   "tension track_force, tension, frequencies")
         call rows("rolling_disk", "T V L energy equations accelerations constraints p_theta "// &
@@ -212,8 +231,9 @@ contains
                   "plane_force, friction_x, friction_y,")
         call rows("bouncing_ball", "T V L energy equations constraints contact_force")
     contains
-        subroutine rows(name, expected)
+        subroutine rows(name, expected, undamped)
             character(*), intent(in) :: name, expected
+            logical, intent(in), optional :: undamped
             class(system_t), allocatable :: system
             type(error_t), allocatable :: error
             type(draw_t) :: drawn(1)
@@ -222,7 +242,7 @@ contains
             integer :: i
 
             call new_system(name, system, error)
-            call draw(system, drawn)
+            call draw(system, drawn, undamped)
             call audit%section(name)
             call audit_draw(system, drawn(1), audit)
             found = ""

@@ -1,6 +1,7 @@
 module lagrangia_audit_formulas
     !! What a description prints against what the code computes, at one state: T, V, L, the energy,
-    !! equations of motion, accelerations, quantities, constraints and what reactions hold.
+    !! generalised forces beside L and Rayleigh's R of their drag, equations of motion,
+    !! accelerations, quantities, constraints and what reactions hold.
     !!
     !! Formulas are read as a student reads them. An equation holds for the accelerations of the
     !! code, and for no others.
@@ -8,6 +9,7 @@ module lagrangia_audit_formulas
     use lagrangia_description, only: default_values, description_t, formula_length
     use lagrangia_errors, only: error_t
     use lagrangia_gauss_principle, only: masses_of, place_points
+    use lagrangia_generalised_forces, only: add_generalised_forces
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: claim_length, ledger_t
@@ -24,6 +26,7 @@ module lagrangia_audit_formulas
     integer, parameter :: is_kinetic = 1, is_potential = 2, is_lagrangian = 3, is_energy = 4
     integer, parameter :: is_quantity = 5, is_equation = 6, is_acceleration = 7
     integer, parameter :: is_constraint = 8, is_inequality = 9, is_reaction = 10
+    integer, parameter :: is_force = 11, is_dissipation = 12
 
     real(dp), parameter :: much = 1e12_dp  !! m/s^2 or rad/s^2, beside which other terms are small
 
@@ -161,6 +164,12 @@ contains
         end if
         if (allocated(d%lagrangian)) call add("L as printed", d%lagrangian, is_lagrangian, 0)
         if (allocated(d%energy)) call add("energy as printed", d%energy, is_energy, 0)
+        if (allocated(d%generalised_forces)) then
+            do i = 1, size(d%generalised_forces)
+                call add("generalised forces as printed", d%generalised_forces(i), is_force, i)
+            end do
+        end if
+        if (allocated(d%dissipation)) call add("R as printed", d%dissipation, is_dissipation, 0)
         if (allocated(d%equations)) then
             do i = 1, size(d%equations)
                 call add("equations as printed", d%equations(i), is_equation, i)
@@ -198,7 +207,7 @@ contains
             type(error_t), allocatable :: error
 
             select case (kind)
-            case (is_equation, is_acceleration, is_constraint, is_inequality)
+            case (is_equation, is_acceleration, is_constraint, is_inequality, is_force)
                 call statements%add_equation(trim(text), error)
             case default
                 call statements%add_formula(trim(text), error)
@@ -235,6 +244,7 @@ contains
                 case (is_potential, is_lagrangian); right(i) = l%re
                 case (is_energy); right(i) = system%energy(t, q, v)
                 case (is_quantity); right(i) = system%quantity(entries(i)%which, t, q, v)
+                case (is_dissipation); right(i) = dissipation(system, t, q, v)
                 case default; continue
                 end select
             end do
@@ -250,6 +260,21 @@ contains
             right(i) = other_right(entries(i)%which)
         end do
     end subroutine both_sides
+
+    pure function dissipation(system, t, q, v) result(r)
+        !! Of drag that is linear in the velocities \(R = -\tfrac12\sum_jQ_j\dot q_j\), without
+        !! the forces that act at rest too.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(:), v(:)
+        real(dp) :: r
+        real(dp), dimension(size(q)) :: acting, at_rest
+
+        acting = 0.0_dp
+        at_rest = 0.0_dp
+        call add_generalised_forces(system, t, q, v, acting)
+        call add_generalised_forces(system, t, q, 0.0_dp*v, at_rest)
+        r = -0.5_dp*dot_product(acting - at_rest, v)
+    end function dissipation
 
     pure function kinetic_energy(system, d, state) result(energy)
         !! \(\sum m\dot x^2/2\) of the points and rotors.
@@ -349,7 +374,8 @@ contains
         type(entry_t), intent(in) :: entry
         logical :: yes
 
-        yes = any(entry%kind == [is_equation, is_acceleration, is_constraint, is_inequality])
+        yes = any(entry%kind == [is_equation, is_acceleration, is_constraint, is_inequality, &
+                                 is_force])
     end function is_two_sided
 
     subroutine audit_choice(audit, entries, change, sizes)

@@ -1,13 +1,14 @@
 module lagrangia_named_values
     !! What the names in a system's formulas stand for at a state, before its own letters: the
-    !! time, coordinates, velocities and accelerations, parameters, momenta, quantities, and where
-    !! the points are.
+    !! time, coordinates, velocities and accelerations, parameters, momenta, generalised forces
+    !! beside L, quantities, and where the points are.
     !!
     !! Each value is a hyper-dual number along the motion: `d1` is its rate, `d12` the rate of that,
     !! so that formulas of these get their rates too. A rate that is not known is NaN.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_description, only: default_values, description_t, name_length, value_names
     use lagrangia_gauss_principle, only: masses_of, place_points
+    use lagrangia_generalised_forces, only: add_generalised_forces
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_system, only: system_t
@@ -87,6 +88,13 @@ contains
             do i = 1, size(q)
                 call table%put("p_"//trim(d%coordinates(i)%name), not_followed(p(i)))
             end do
+            if (system%nonconservative) then
+                p = 0.0_dp
+                call add_generalised_forces(system, state%t, q, v, p)
+                do i = 1, size(q)
+                    call table%put("Q_"//trim(d%coordinates(i)%name), not_followed(p(i)))
+                end do
+            end if
             if (allocated(d%quantities)) then
                 do i = 1, size(d%quantities)
                     call table%put(trim(d%quantities(i)%name), &

@@ -108,7 +108,7 @@ contains
         if (abs(self%drive_force) > 0.0_dp) then
             d%generalised_forces = [character(formula_length) :: "Q_x = F0 cos(W t) - b x_dot"]
             d%equations(1) = "m x_ddot + b x_dot + k x = F0 cos(W t)"
-            d%letters = [d%letters, letter_t("F0", "drive_force"), letter_t("W", "drive_frequency")]
+            d%letters = [letter_t("F0", "drive_force"), letter_t("W", "drive_frequency")]
             return
         end if
         d%generalised_forces = [character(formula_length) :: "Q_x = - b x_dot"]
