@@ -9,7 +9,6 @@ module lagrangia_audit_formulas
     use lagrangia_description, only: default_values, description_t, formula_length
     use lagrangia_errors, only: error_t
     use lagrangia_gauss_principle, only: masses_of, place_points
-    use lagrangia_generalised_forces, only: add_generalised_forces
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: claim_length, ledger_t
@@ -262,18 +261,17 @@ contains
     end subroutine both_sides
 
     pure function dissipation(system, t, q, v) result(r)
-        !! Of drag that is linear in the velocities \(R = -\tfrac12\sum_jQ_j\dot q_j\), without
-        !! the forces that act at rest too.
+        !! Of drag that is linear in the velocities
+        !! \(R = -\tfrac12\sum_{jk}\dot q_j\dot q_k\,\partial Q_j/\partial\dot q_k\).
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t, q(:), v(:)
         real(dp) :: r
-        real(dp), dimension(size(q)) :: acting, at_rest
+        type(hyperdual_t), dimension(size(q)) :: along, acting
 
-        acting = 0.0_dp
-        at_rest = 0.0_dp
-        call add_generalised_forces(system, t, q, v, acting)
-        call add_generalised_forces(system, t, q, 0.0_dp*v, at_rest)
-        r = -0.5_dp*dot_product(acting - at_rest, v)
+        along%re = v
+        along%d1 = v
+        call system%generalised_forces(hyperdual(t), hyperdual(q), along, acting)
+        r = -0.5_dp*dot_product(acting%d1, v)
     end function dissipation
 
     pure function kinetic_energy(system, d, state) result(energy)
@@ -357,6 +355,7 @@ contains
         real(dp), intent(in) :: left, right, size_of
         integer :: row
 
+        if (min(abs(left), abs(right)) > huge(left)) return  ! of infinity nothing can be said
         call compare(audit, trim(entry%claim), [left], [right], [size_of])
         row = audit%row_of(trim(entry%claim))
         if (audit%rows(row)%holds) return
