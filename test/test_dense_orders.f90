@@ -130,7 +130,7 @@ contains
         integer :: i, k
         logical :: good
 
-        p = legendre(nodes)
+        call legendre(nodes, p)
         modes = 0.0_dp
         do i = 1, stages
             q = q0

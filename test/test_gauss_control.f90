@@ -130,7 +130,7 @@ contains
         real(dp) :: p(stages, stages), modes(stages, 2), weight(2), a(2), now(4), end(4)
         integer :: i, j
 
-        p = legendre(nodes)
+        call legendre(nodes, p)
         modes = 0.0_dp
         do i = 1, stages
             call go(system, y, nodes(i)*h, 10, now)

@@ -203,6 +203,7 @@ contains
             self%evaluations = self%evaluations + stages*min(sweeps, most_sweeps)
             if (good) then
                 call self%s%expand()
+                call self%s%reach()
                 call self%s%look_ahead(system)
                 self%evaluations = self%evaluations + 1
                 good = seen_whole(self%s%n, self%s%modes, self%weight, self%s%start, self%s%end)

@@ -4,14 +4,13 @@ module lagrangia_gauss_kernels
     !!
     !! Here a loop over the lanes says what an array statement would say better: the directive
     !! keeps gfortran 12 from unrolling it before it vectorises, which costs a factor of 3.
-    use lagrangia_gauss_tables, only: butcher, mu, nodes, nystrom, stages
+    use lagrangia_gauss_tables, only: butcher, mu, nodes, nystrom, stages, weights
     use lagrangia_kinds, only: dp
-    use lagrangia_summation, only: add
     use lagrangia_system, only: lanes
     implicit none (type, external)
     private
-    public :: apply, distance, end_state, exact_states, free_states, magnitude, &
-              quick_states
+    public :: apply, apply_both, distance, end_state, exact_states, free_states, integrals, &
+              magnitude, place, quick_states
 
 contains
 
@@ -119,8 +118,11 @@ contains
         real(dp) :: change, x(lanes)
         integer :: d, i
 
-        x = 0.0_dp
-        do d = 1, n
+        !GCC$ vector
+        do i = 1, lanes
+            x(i) = weight(1)*(f(i, 1) - f_old(i, 1))**2
+        end do
+        do d = 2, n
             !GCC$ vector
             do i = 1, lanes
                 x(i) = x(i) + weight(d)*(f(i, d) - f_old(i, d))**2
@@ -137,8 +139,11 @@ contains
         real(dp) :: all, x(lanes)
         integer :: d, i
 
-        x = 0.0_dp
-        do d = 1, n
+        !GCC$ vector
+        do i = 1, lanes
+            x(i) = weight(1)*f(i, 1)**2
+        end do
+        do d = 2, n
             !GCC$ vector
             do i = 1, lanes
                 x(i) = x(i) + weight(d)*f(i, d)**2
@@ -152,17 +157,30 @@ contains
         integer, intent(in) :: n                   !! degrees of freedom
         real(dp), intent(in) :: hb(lanes)          !! weights times step, s
         real(dp), intent(in) :: f(lanes, n)        !! accelerations of the stages
-        real(dp), intent(inout) :: q(n), q_low(n)  !! coordinates: their sum
+        real(dp), intent(inout) :: q(n), q_low(n)  !! coordinates: their sum; first at the start
         real(dp), intent(inout) :: v(n), v_low(n)  !! velocities: their sum
         real(dp) :: v_stage(lanes)
         integer :: d
 
         do d = 1, n
             call integrate(v(d), v_low(d), hb, f(:, d), v_stage)
-            call add(v(d), v_low(d), total(hb*f(:, d)))
-            call add(q(d), q_low(d), total(hb*v_stage))
+            call increase(v(d), v_low(d), total(hb*f(:, d)))
+            call increase(q(d), q_low(d), total(hb*v_stage))
         end do
     end subroutine end_state
+
+    pure subroutine increase(x, low, term)
+        !! `add` of `lagrangia_summation`, where the compiler sees it: a call costs more.
+        real(dp), intent(inout) :: x, low
+        real(dp), intent(in) :: term
+        real(dp) :: increment, total, taken
+
+        increment = low + term
+        total = x + increment
+        taken = total - x
+        low = (x - (total - taken)) + (increment - taken)
+        x = total
+    end subroutine increase
 
     pure subroutine apply(n, m, x, y)
         !! Multiply the matrix `m` by every column of `x`.
@@ -182,6 +200,78 @@ contains
             end do
         end do
     end subroutine apply
+
+    pure subroutine apply_both(n, m, x1, x2, y)
+        !! Multiply the matrix `m` by every column of `x1` and `x2`, one above the other.
+        integer, intent(in) :: n                     !! degrees of freedom
+        real(dp), intent(in) :: m(lanes, 2*lanes)    !! a table
+        real(dp), intent(in) :: x1(lanes, n), x2(lanes, n)  !! of the points
+        real(dp), intent(out) :: y(lanes, n)         !! `matmul(m, [x1, x2])`
+        integer :: d, i
+
+        do d = 1, n
+            !GCC$ vector
+            do i = 1, lanes
+                y(i, d) = (((m(i, 1)*x1(1, d) + m(i, 2)*x1(2, d)) &
+                            + (m(i, 3)*x1(3, d) + m(i, 4)*x1(4, d))) &
+                           + ((m(i, 5)*x1(5, d) + m(i, 6)*x1(6, d)) &
+                              + (m(i, 7)*x1(7, d) + m(i, 8)*x1(8, d)))) &
+                          + (((m(i, 9)*x2(1, d) + m(i, 10)*x2(2, d)) &
+                              + (m(i, 11)*x2(3, d) + m(i, 12)*x2(4, d))) &
+                             + ((m(i, 13)*x2(5, d) + m(i, 14)*x2(6, d)) &
+                                + (m(i, 15)*x2(7, d) + m(i, 16)*x2(8, d))))
+            end do
+        end do
+    end subroutine apply_both
+
+    pure subroutine place(n, h, x, q, v, q_lane, v_lane)
+        !! States in a step from integrals of the accelerations over its parts.
+        integer, intent(in) :: n                   !! degrees of freedom
+        real(dp), intent(in) :: h                  !! step, s
+        real(dp), intent(in) :: x(lanes)           !! parts of it
+        real(dp), intent(in) :: q(n), v(n)         !! state at its start
+        real(dp), intent(inout) :: q_lane(lanes, n), v_lane(lanes, n)
+        !! integrated twice and once, for a step of 1; then coordinates and velocities
+        integer :: d, i
+
+        do d = 1, n
+            !GCC$ vector
+            do i = 1, lanes
+                q_lane(i, d) = q(d) + h*(x(i)*v(d) + h*q_lane(i, d))
+                v_lane(i, d) = v(d) + h*v_lane(i, d)
+            end do
+        end do
+    end subroutine place
+
+    pure subroutine integrals(c, x, once, twice)
+        !! \(\sum_j b_j a_j\) and \(\sum_j b_j(1-c_j)a_j\) of a Chebyshev series
+        !! \(a_j = \sum_k c_k T_k(x_j)\), summed by Clenshaw in all lanes.
+        real(dp), intent(in) :: c(0:2*lanes - 1)   !! coefficients
+        real(dp), intent(in) :: x(lanes)           !! places, -1 to 1
+        real(dp), intent(out) :: once, twice       !! integrals over the part that the places span
+        real(dp), parameter :: inner(lanes) = weights*(1.0_dp - nodes)
+        real(dp) :: b1(lanes), b2(lanes), b(lanes)
+        integer :: i, k
+
+        b1 = c(2*lanes - 1)
+        b2 = 0.0_dp
+        do k = 2*lanes - 2, 1, -1
+            !GCC$ vector
+            do i = 1, lanes
+                b(i) = 2.0_dp*x(i)*b1(i) + (c(k) - b2(i))
+                b2(i) = b1(i)
+                b1(i) = b(i)
+            end do
+        end do
+        !GCC$ vector
+        do i = 1, lanes
+            b(i) = x(i)*b1(i) + (c(0) - b2(i))
+            b1(i) = weights(i)*b(i)
+            b2(i) = inner(i)*b(i)
+        end do
+        once = total(b1)
+        twice = total(b2)
+    end subroutine integrals
 
     pure function total(x) result(s)
         !! Sum over the lanes.

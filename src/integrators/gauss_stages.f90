@@ -33,7 +33,8 @@ module lagrangia_gauss_stages
         real(dp), allocatable :: q_stage(:, :), v_stage(:, :)
         real(dp) :: to_modes(stages, stages) = 0.0_dp
         real(dp), allocatable :: start(:), end(:)      !! accelerations at the ends of the step
-        real(dp), allocatable :: q_end(:), v_end(:)    !! its end, but for rounding
+        real(dp), allocatable :: q_end(:), q_end_low(:)  !! the state there, like `q` and `q_low`
+        real(dp), allocatable :: v_end(:), v_end_low(:)
         real(dp), allocatable :: modes(:, :)           !! Legendre coefficients 0 to 7 of `f`
         real(dp), allocatable :: known(:, :)           !! those of a step known from before:
         real(dp) :: h_known = 1.0_dp                   !! its length, s
@@ -51,6 +52,7 @@ module lagrangia_gauss_stages
         procedure :: all_of
         procedure :: expand
         procedure :: shorten
+        procedure :: reach
         procedure :: look_ahead
         procedure :: finish
     end type gauss_stages_t
@@ -74,14 +76,16 @@ contains
         self%start = state
         self%end = state
         self%q_end = state
+        self%q_end_low = state
         self%v_end = state
+        self%v_end_low = state
         self%f = block
         self%f_old = block
         self%q_stage = block
         self%v_stage = block
         self%modes = block
         self%known = block
-        p = legendre(nodes)
+        call legendre(nodes, p)
         do k = 1, stages
             self%to_modes(k, :) = (2*k - 1)*weights*p(:, k)
         end do
@@ -130,7 +134,7 @@ contains
         ahead = self%from + h/self%h_known*nodes
         if (any(abs(ahead - self%ahead) > 0.0_dp)) then
             self%ahead = ahead
-            self%carry = legendre(ahead)
+            call legendre(ahead, self%carry)
         end if
         call apply(self%n, self%carry, self%known, self%f)
     end subroutine guess
@@ -192,25 +196,40 @@ contains
         self%from = 0.0_dp
     end subroutine shorten
 
-    pure subroutine look_ahead(self, system)
-        !! The accelerations at the end of the step.
+    pure subroutine reach(self)
+        !! The state at the end of the step.
         class(gauss_stages_t), intent(inout) :: self
-        class(system_t), intent(in) :: system  !! gives them
         integer :: d
 
         do d = 1, self%n
-            self%v_end(d) = self%v(d) + sum(self%hb*self%f(:, d))
-            self%q_end(d) = self%q(d) + self%h*(self%v(d) &
-                                                + sum(self%hb*(1.0_dp - nodes)*self%f(:, d)))
+            self%q_end(d) = self%q(d)
+            self%q_end_low(d) = self%q_low(d)
+            self%v_end(d) = self%v(d)
+            self%v_end_low(d) = self%v_low(d)
         end do
+        call end_state(self%n, self%hb, self%f, self%q_end, self%q_end_low, self%v_end, &
+                       self%v_end_low)
+    end subroutine reach
+
+    pure subroutine look_ahead(self, system)
+        !! The accelerations at the end of the step; `reach` came before.
+        class(gauss_stages_t), intent(inout) :: self
+        class(system_t), intent(in) :: system  !! gives them
+
         call system%accelerations(self%t + self%h, self%q_end, self%v_end, self%end)
     end subroutine look_ahead
 
     pure subroutine finish(self)
-        !! Go to the end of the step; `expand` came before.
+        !! Go to the end of the step; `expand` and `reach` came before.
         class(gauss_stages_t), intent(inout) :: self
+        integer :: d
 
-        call end_state(self%n, self%hb, self%f, self%q, self%q_low, self%v, self%v_low)
+        do d = 1, self%n
+            self%q(d) = self%q_end(d)
+            self%q_low(d) = self%q_end_low(d)
+            self%v(d) = self%v_end(d)
+            self%v_low(d) = self%v_end_low(d)
+        end do
         self%known(:, :) = self%modes
         self%h_known = self%h
         self%from = 1.0_dp

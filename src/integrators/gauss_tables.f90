@@ -64,23 +64,30 @@ module lagrangia_gauss_tables
 
 contains
 
-    pure function legendre(x) result(p)
+    pure subroutine legendre(x, p)
         !! \(P_0, \dots, P_7\), normalised to \(P_k(1) = 1\), at `x` in \([0, 1]\) and beyond:
         !! \((k+1)P_{k+1} = (2k+1)(2x-1)P_k - kP_{k-1}\).
-        real(dp), intent(in) :: x(stages)  !! 0 to 1 in the step
-        real(dp) :: p(stages, 0:stages - 1)
+        real(dp), intent(in) :: x(stages)                    !! 0 to 1 in the step
+        real(dp), intent(out) :: p(stages, 0:stages - 1)  !! \(P_k\) at `x(i)` in `p(i, k)`
+        real(dp) :: y, p2, p3, p4, p5, p6
         integer :: i
 
         !GCC$ vector
         do i = 1, stages
+            y = 2.0_dp*x(i) - 1.0_dp
+            p2 = up(1)*y*y - down(1)
+            p3 = up(2)*y*p2 - down(2)*y
+            p4 = up(3)*y*p3 - down(3)*p2
+            p5 = up(4)*y*p4 - down(4)*p3
+            p6 = up(5)*y*p5 - down(5)*p4
             p(i, 0) = 1.0_dp
-            p(i, 1) = 2.0_dp*x(i) - 1.0_dp
-            p(i, 2) = up(1)*p(i, 1)*p(i, 1) - down(1)*p(i, 0)
-            p(i, 3) = up(2)*p(i, 1)*p(i, 2) - down(2)*p(i, 1)
-            p(i, 4) = up(3)*p(i, 1)*p(i, 3) - down(3)*p(i, 2)
-            p(i, 5) = up(4)*p(i, 1)*p(i, 4) - down(4)*p(i, 3)
-            p(i, 6) = up(5)*p(i, 1)*p(i, 5) - down(5)*p(i, 4)
-            p(i, 7) = up(6)*p(i, 1)*p(i, 6) - down(6)*p(i, 5)
+            p(i, 1) = y
+            p(i, 2) = p2
+            p(i, 3) = p3
+            p(i, 4) = p4
+            p(i, 5) = p5
+            p(i, 6) = p6
+            p(i, 7) = up(6)*y*p6 - down(6)*p5
         end do
-    end function legendre
+    end subroutine legendre
 end module lagrangia_gauss_tables
