@@ -7,7 +7,8 @@ module lagrangia_gauss_dense
     !! that is repeated until it changes less than the tolerance, two or three times. The sixteen
     !! accelerations that are left then give the state anywhere, without evaluations.
     use lagrangia_chebyshev_tables, only: chebyshev_tables_t, points
-    use lagrangia_gauss_kernels, only: apply, apply_both, distance, integrals, place
+    use lagrangia_gauss_kernels, only: apply, apply_both, distance, fly, fly_by_modes, &
+                                       integrals
     use lagrangia_gauss_tables, only: nodes
     use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: lanes, system_t
@@ -113,9 +114,13 @@ contains
             change = 0.0_dp
             do group = 1, 2
                 if (sweep == 1) then
-                    call from_modes(self, system%ndof, modes, group)
+                    call apply(system%ndof, self%table%legendre_f(:, :, group), modes, &
+                               self%f_old(:, :, group))
+                    call fly_by_modes(system%ndof, self%h, self%table%x(:, group), self%q_old, &
+                                      self%v_old, self%table%legendre_q(:, :, group), &
+                                      self%table%legendre_v(:, :, group), modes, self%q, self%v)
                 else
-                    call from_points(self, system%ndof, self%f_old, group)
+                    call fly_by_points(self, system%ndof, self%f_old, group)
                 end if
                 call system%accelerations_lanes(self%t + self%h*self%table%x(:, group), self%q, &
                                                 self%v, self%f(:, :, group))
@@ -135,28 +140,15 @@ contains
         self%fitted = .true.
     end subroutine fit
 
-    pure subroutine from_modes(self, n, modes, group)
-        !! The collocation polynomial at eight of the points, and its accelerations, in `f_old`.
-        type(gauss_dense_t), intent(inout) :: self
-        integer, intent(in) :: n, group
-        real(dp), intent(in) :: modes(lanes, n)
-
-        call apply(n, self%table%legendre_f(:, :, group), modes, self%f_old(:, :, group))
-        call apply(n, self%table%legendre_v(:, :, group), modes, self%v)
-        call apply(n, self%table%legendre_q(:, :, group), modes, self%q)
-        call place(n, self%h, self%table%x(:, group), self%q_old, self%v_old, self%q, self%v)
-    end subroutine from_modes
-
-    pure subroutine from_points(self, n, f, group)
+    pure subroutine fly_by_points(self, n, f, group)
         !! Where the motion with the accelerations `f` is at eight of the points.
         type(gauss_dense_t), intent(inout) :: self
         integer, intent(in) :: n, group
         real(dp), intent(in) :: f(lanes, n, 2)
 
-        call apply_both(n, self%table%v(:, :, group), f(:, :, 1), f(:, :, 2), self%v)
-        call apply_both(n, self%table%q(:, :, group), f(:, :, 1), f(:, :, 2), self%q)
-        call place(n, self%h, self%table%x(:, group), self%q_old, self%v_old, self%q, self%v)
-    end subroutine from_points
+        call fly(n, self%h, self%table%x(:, group), self%q_old, self%v_old, &
+                 self%table%q(:, :, group), self%table%v(:, :, group), f, self%q, self%v)
+    end subroutine fly_by_points
 
     pure subroutine expand(self, n)
         !! The series of the accelerations, with a straight line added so that it leads to the end
@@ -241,7 +233,7 @@ contains
 
         self%noise(:) = 0.0_dp
         do group = 1, 2
-            call from_points(self, system%ndof, self%f, group)
+            call fly_by_points(self, system%ndof, self%f, group)
             times = self%t + self%h*self%table%x(:, group)
             call system%accelerations_lanes(times, self%q, self%v, self%f_old(:, :, 1))
             do d = 1, system%ndof

@@ -9,8 +9,8 @@ module lagrangia_gauss_kernels
     use lagrangia_system, only: lanes
     implicit none (type, external)
     private
-    public :: apply, apply_both, distance, end_state, exact_states, free_states, integrals, &
-              magnitude, place, quick_states
+    public :: apply, apply_both, distance, end_state, exact_states, fly, fly_by_modes, &
+              free_states, integrals, magnitude, quick_states
 
 contains
 
@@ -201,6 +201,79 @@ contains
         end do
     end subroutine apply
 
+    pure subroutine fly(n, h, x, q, v, m_q, m_v, f, q_lane, v_lane)
+        !! States in a step by its accelerations, of which the matrices make \(v\) and \(q\) for a
+        !! step of 1 that begins at rest.
+        integer, intent(in) :: n                   !! degrees of freedom
+        real(dp), intent(in) :: h                  !! step, s
+        real(dp), intent(in) :: x(lanes)           !! where in it
+        real(dp), intent(in) :: q(n), v(n)         !! state at its start
+        real(dp), intent(in) :: m_q(lanes, 2*lanes), m_v(lanes, 2*lanes)  !! tables
+        real(dp), intent(in) :: f(lanes, n, 2)     !! accelerations at the points
+        real(dp), intent(out) :: q_lane(lanes, n), v_lane(lanes, n)  !! coordinates, velocities
+        real(dp) :: change
+        integer :: d, i
+
+        do d = 1, n
+            !GCC$ vector
+            do i = 1, lanes
+                change = (((m_v(i, 1)*f(1, d, 1) + m_v(i, 2)*f(2, d, 1)) &
+                           + (m_v(i, 3)*f(3, d, 1) + m_v(i, 4)*f(4, d, 1))) &
+                          + ((m_v(i, 5)*f(5, d, 1) + m_v(i, 6)*f(6, d, 1)) &
+                             + (m_v(i, 7)*f(7, d, 1) + m_v(i, 8)*f(8, d, 1)))) &
+                         + (((m_v(i, 9)*f(1, d, 2) + m_v(i, 10)*f(2, d, 2)) &
+                             + (m_v(i, 11)*f(3, d, 2) + m_v(i, 12)*f(4, d, 2))) &
+                            + ((m_v(i, 13)*f(5, d, 2) + m_v(i, 14)*f(6, d, 2)) &
+                               + (m_v(i, 15)*f(7, d, 2) + m_v(i, 16)*f(8, d, 2))))
+                v_lane(i, d) = v(d) + h*change
+            end do
+            !GCC$ vector
+            do i = 1, lanes
+                change = (((m_q(i, 1)*f(1, d, 1) + m_q(i, 2)*f(2, d, 1)) &
+                           + (m_q(i, 3)*f(3, d, 1) + m_q(i, 4)*f(4, d, 1))) &
+                          + ((m_q(i, 5)*f(5, d, 1) + m_q(i, 6)*f(6, d, 1)) &
+                             + (m_q(i, 7)*f(7, d, 1) + m_q(i, 8)*f(8, d, 1)))) &
+                         + (((m_q(i, 9)*f(1, d, 2) + m_q(i, 10)*f(2, d, 2)) &
+                             + (m_q(i, 11)*f(3, d, 2) + m_q(i, 12)*f(4, d, 2))) &
+                            + ((m_q(i, 13)*f(5, d, 2) + m_q(i, 14)*f(6, d, 2)) &
+                               + (m_q(i, 15)*f(7, d, 2) + m_q(i, 16)*f(8, d, 2))))
+                q_lane(i, d) = q(d) + h*(x(i)*v(d) + h*change)
+            end do
+        end do
+    end subroutine fly
+
+    pure subroutine fly_by_modes(n, h, x, q, v, m_q, m_v, modes, q_lane, v_lane)
+        !! The same by the Legendre coefficients of the accelerations, degrees 0 to 7.
+        integer, intent(in) :: n                   !! degrees of freedom
+        real(dp), intent(in) :: h                  !! step, s
+        real(dp), intent(in) :: x(lanes)           !! where in it
+        real(dp), intent(in) :: q(n), v(n)         !! state at its start
+        real(dp), intent(in) :: m_q(lanes, lanes), m_v(lanes, lanes)  !! tables
+        real(dp), intent(in) :: modes(lanes, n)    !! coefficients
+        real(dp), intent(out) :: q_lane(lanes, n), v_lane(lanes, n)  !! coordinates, velocities
+        real(dp) :: change
+        integer :: d, i
+
+        do d = 1, n
+            !GCC$ vector
+            do i = 1, lanes
+                change = ((m_v(i, 1)*modes(1, d) + m_v(i, 2)*modes(2, d)) &
+                          + (m_v(i, 3)*modes(3, d) + m_v(i, 4)*modes(4, d))) &
+                         + ((m_v(i, 5)*modes(5, d) + m_v(i, 6)*modes(6, d)) &
+                            + (m_v(i, 7)*modes(7, d) + m_v(i, 8)*modes(8, d)))
+                v_lane(i, d) = v(d) + h*change
+            end do
+            !GCC$ vector
+            do i = 1, lanes
+                change = ((m_q(i, 1)*modes(1, d) + m_q(i, 2)*modes(2, d)) &
+                          + (m_q(i, 3)*modes(3, d) + m_q(i, 4)*modes(4, d))) &
+                         + ((m_q(i, 5)*modes(5, d) + m_q(i, 6)*modes(6, d)) &
+                            + (m_q(i, 7)*modes(7, d) + m_q(i, 8)*modes(8, d)))
+                q_lane(i, d) = q(d) + h*(x(i)*v(d) + h*change)
+            end do
+        end do
+    end subroutine fly_by_modes
+
     pure subroutine apply_both(n, m, x1, x2, y)
         !! Multiply the matrix `m` by every column of `x1` and `x2`, one above the other.
         integer, intent(in) :: n                     !! degrees of freedom
@@ -224,53 +297,39 @@ contains
         end do
     end subroutine apply_both
 
-    pure subroutine place(n, h, x, q, v, q_lane, v_lane)
-        !! States in a step from integrals of the accelerations over its parts.
-        integer, intent(in) :: n                   !! degrees of freedom
-        real(dp), intent(in) :: h                  !! step, s
-        real(dp), intent(in) :: x(lanes)           !! parts of it
-        real(dp), intent(in) :: q(n), v(n)         !! state at its start
-        real(dp), intent(inout) :: q_lane(lanes, n), v_lane(lanes, n)
-        !! integrated twice and once, for a step of 1; then coordinates and velocities
-        integer :: d, i
-
-        do d = 1, n
-            !GCC$ vector
-            do i = 1, lanes
-                q_lane(i, d) = q(d) + h*(x(i)*v(d) + h*q_lane(i, d))
-                v_lane(i, d) = v(d) + h*v_lane(i, d)
-            end do
-        end do
-    end subroutine place
-
     pure subroutine integrals(c, x, once, twice)
         !! \(\sum_j b_j a_j\) and \(\sum_j b_j(1-c_j)a_j\) of a Chebyshev series
-        !! \(a_j = \sum_k c_k T_k(x_j)\), summed by Clenshaw in all lanes.
+        !! \(a_j = \sum_k c_k T_k(x_j)\), summed by Clenshaw in all lanes: even and odd terms
+        !! beside each other, as \(T_{2k}(x) = T_k(y)\) with \(y = 2x^2 - 1\), and
+        !! \(T_{2k+1}(x)/x\) has the same recurrence in \(y\).
         real(dp), intent(in) :: c(0:2*lanes - 1)   !! coefficients
         real(dp), intent(in) :: x(lanes)           !! places, -1 to 1
         real(dp), intent(out) :: once, twice       !! integrals over the part that the places span
         real(dp), parameter :: inner(lanes) = weights*(1.0_dp - nodes)
-        real(dp) :: b1(lanes), b2(lanes), b(lanes)
+        real(dp) :: y, even, even_1, even_2, odd, odd_1, odd_2, a, first(lanes), second(lanes)
         integer :: i, k
 
-        b1 = c(2*lanes - 1)
-        b2 = 0.0_dp
-        do k = 2*lanes - 2, 1, -1
-            !GCC$ vector
-            do i = 1, lanes
-                b(i) = 2.0_dp*x(i)*b1(i) + (c(k) - b2(i))
-                b2(i) = b1(i)
-                b1(i) = b(i)
-            end do
-        end do
         !GCC$ vector
         do i = 1, lanes
-            b(i) = x(i)*b1(i) + (c(0) - b2(i))
-            b1(i) = weights(i)*b(i)
-            b2(i) = inner(i)*b(i)
+            y = 2.0_dp*x(i)*x(i) - 1.0_dp
+            even_1 = c(14)
+            even_2 = 0.0_dp
+            odd_1 = c(15)
+            odd_2 = 0.0_dp
+            do k = 12, 2, -2
+                even = 2.0_dp*y*even_1 + (c(k) - even_2)
+                even_2 = even_1
+                even_1 = even
+                odd = 2.0_dp*y*odd_1 + (c(k + 1) - odd_2)
+                odd_2 = odd_1
+                odd_1 = odd
+            end do
+            a = (y*even_1 + (c(0) - even_2)) + x(i)*((2.0_dp*y - 1.0_dp)*odd_1 + (c(1) - odd_2))
+            first(i) = weights(i)*a
+            second(i) = inner(i)*a
         end do
-        once = total(b1)
-        twice = total(b2)
+        once = total(first)
+        twice = total(second)
     end subroutine integrals
 
     pure function total(x) result(s)
