@@ -6,7 +6,7 @@ module lagrangia_gauss
     !! *Geometric Numerical Integration*, 2nd ed., secs. II.1.3, VIII.5 and VIII.6.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t
-    use lagrangia_gauss_stages, only: gauss_stages_t
+    use lagrangia_gauss_stages, only: f, f_old, gauss_stages_t
     use lagrangia_gauss_tables, only: stages
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
@@ -96,7 +96,7 @@ contains
             call solve(self%s, system, self%unmeasured, self%weight, sweeps, good)
             self%evaluations = self%evaluations + stages*min(sweeps, most_sweeps)
             self%unmeasured = max(0, min(sweeps - 5, sweeps/2))
-            if (.not. good) self%s%f = ieee_value(1.0_dp, ieee_quiet_nan)
+            if (.not. good) self%s%room(:, f) = ieee_value(1.0_dp, ieee_quiet_nan)
             call self%s%expand()
             call self%s%reach()
             call self%s%finish()
@@ -130,7 +130,7 @@ contains
             call s%sweep(system, exact=.false.)
         end do
         call s%sweep(system, exact=.true.)
-        call weigh(s%n, s%h, s%v, s%f, weight)
+        call weigh(s%n, s%h, s%v, s%room(s%first, f), weight)
         all = s%all_of(weight)
         change = s%change(weight)
         least = change
@@ -189,12 +189,13 @@ contains
         logical :: settled
         real(dp), parameter :: small = 2.0_dp**16*epsilon(1.0_dp)
         real(dp) :: change, all
-        integer :: d
+        integer :: d, i
 
         settled = .true.
         do d = 1, s%n
-            change = s%h**2*sum((s%f(:, d) - s%f_old(:, d))**2)
-            all = s%h**2*sum(s%f(:, d)**2)
+            i = s%first + (d - 1)*stages
+            change = s%h**2*sum((s%room(i:i + stages - 1, f) - s%room(i:i + stages - 1, f_old))**2)
+            all = s%h**2*sum(s%room(i:i + stages - 1, f)**2)
             settled = settled .and. (change <= small**2*max(s%v(d)**2, all) &
                                      .or. s%h**2*change <= small**2*s%q(d)**2)
         end do

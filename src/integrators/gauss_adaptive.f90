@@ -11,7 +11,7 @@ module lagrangia_gauss_adaptive
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_gauss_control, only: longer, seen_whole, weigh
     use lagrangia_gauss_dense, only: gauss_dense_t
-    use lagrangia_gauss_stages, only: gauss_stages_t
+    use lagrangia_gauss_stages, only: gauss_stages_t, known, modes
     use lagrangia_gauss_tables, only: stages
     use lagrangia_integrator, only: dense_integrator_t, not_started
     use lagrangia_kinds, only: dp, i8
@@ -126,7 +126,7 @@ contains
         call self%stand(t0, t_end)
         self%rate = best_rate
         speed = maxval(abs(v)/max(1.0_dp, abs(q))) &
-                + maxval(abs(self%s%known(1, :))/max(1.0_dp, abs(v)))
+                + maxval(abs(self%s%start)/max(1.0_dp, abs(v)))
         ahead = min(self%t_end - t0, sqrt(huge(t0)))  ! its product with a speed is a number
         self%h = ahead/max(1.0_dp, 3.0_dp*speed*ahead)
     end subroutine start
@@ -159,8 +159,8 @@ contains
             if (.not. good) return
             if (.not. self%dense) call self%inside%keep(self%t_new, self%s%q, self%s%v)
             if (.not. self%dense) return
-            call self%inside%fit(system, self%t_new, self%s%q, self%s%v, self%s%known, &
-                                 self%weight, good)
+            call self%inside%fit(system, self%t_new, self%s%q, self%s%v, &
+                                 self%s%room(self%s%first, known), self%weight, good)
             self%evaluations = self%evaluations + 2*stages*self%inside%sweeps
             if (good) call self%inside%check_smooth(system, self%tolerance, self%first, &
                                                     self%s%start, self%evaluations, good)
@@ -206,7 +206,8 @@ contains
                 call self%s%reach()
                 call self%s%look_ahead(system)
                 self%evaluations = self%evaluations + 1
-                good = seen_whole(self%s%n, self%s%modes, self%weight, self%s%start, self%s%end)
+                good = seen_whole(self%s%n, self%s%room(self%s%first, modes), self%weight, &
+                                  self%s%start, self%s%end)
                 if (good) exit
                 ratio = 0.5_dp
             end if
@@ -259,12 +260,12 @@ contains
         real(dp), intent(out) :: ratio  !! by which the step could be longer; 1 if not known
         logical, intent(out) :: good
         real(dp) :: change, all, first, last
-        logical :: known
+        logical :: told
 
         call weigh(self%s%n, self%s%h, self%tolerance, self%s%q, self%s%v, self%weight)
         self%rate = min(0.25_dp, max(least_rate, self%rate*(self%s%h/self%s%h_known)**4))
         ratio = 1.0_dp
-        known = .false.
+        told = .false.
         all = 0.0_dp
         first = 1.0_dp
         last = 1.0_dp
@@ -281,10 +282,10 @@ contains
             end if
             last = max(change, tiny(1.0_dp))
             good = change*self%rate <= (share*(1.0_dp - self%rate))**2 .or. change <= noise*all
-            if (.not. known .and. (good .or. (change**5 < all**3 .and. self%rate < 1.0_dp))) then
-                known = .true.
+            if (.not. told .and. (good .or. (change**5 < all**3 .and. self%rate < 1.0_dp))) then
+                told = .true.
                 call self%s%expand()
-                ratio = longer(self%s%n, self%s%modes, self%weight)
+                ratio = longer(self%s%n, self%s%room(self%s%first, modes), self%weight)
             end if
             good = good .and. ratio >= 1.0_dp
             if (ratio < 1.0_dp) exit

@@ -11,6 +11,7 @@ module lagrangia_gauss_stages
     !! velocities are left out where no force depends on them. What the method preserves needs
     !! the last sweep of a step to be exact, and one before, when little is left to change: else
     !! the rounding of these matrices makes the energy drift.
+    use, intrinsic :: iso_c_binding, only: c_intptr_t, c_loc
     use lagrangia_gauss_kernels, only: apply, distance, end_state, exact_states, free_states, &
                                        magnitude, quick_states
     use lagrangia_gauss_tables, only: legendre, nodes, stages, weights
@@ -19,6 +20,13 @@ module lagrangia_gauss_stages
     implicit none (type, external)
     private
     public :: gauss_stages_t
+    public :: f, f_old, known, modes  ! columns of the stages' room
+
+    integer, parameter :: f = 1        !! accelerations of the stages
+    integer, parameter :: f_old = 2    !! those before the last sweep
+    integer, parameter :: q_stage = 3, v_stage = 4
+    integer, parameter :: modes = 5    !! Legendre coefficients 0 to 7 of `f`
+    integer, parameter :: known = 6    !! those of a step known from before
 
     type :: gauss_stages_t
         integer :: n = 0                               !! degrees of freedom
@@ -28,16 +36,15 @@ module lagrangia_gauss_stages
         real(dp) :: h = 0.0_dp                         !! its length, s
         real(dp) :: times(stages) = 0.0_dp             !! its nodes, s
         real(dp) :: hb(stages) = 0.0_dp                !! its weights, s
-        real(dp), allocatable :: f(:, :)               !! accelerations of the stages
-        real(dp), allocatable :: f_old(:, :)           !! those before the last sweep
-        real(dp), allocatable :: q_stage(:, :), v_stage(:, :)
+        real(dp), allocatable :: room(:, :)            !! of the stages: one column for each of
+        !! the numbers below, `(lanes, n)` from its element `first` on
+        integer :: first = 1                           !! where 64 bytes begin that are one line
+        !! of the processor's memory: lanes across two are passed on late
         real(dp) :: to_modes(stages, stages) = 0.0_dp
         real(dp), allocatable :: start(:), end(:)      !! accelerations at the ends of the step
         real(dp), allocatable :: q_end(:), q_end_low(:)  !! the state there, like `q` and `q_low`
         real(dp), allocatable :: v_end(:), v_end_low(:)
-        real(dp), allocatable :: modes(:, :)           !! Legendre coefficients 0 to 7 of `f`
-        real(dp), allocatable :: known(:, :)           !! those of a step known from before:
-        real(dp) :: h_known = 1.0_dp                   !! its length, s
+        real(dp) :: h_known = 1.0_dp                   !! length of the step known from before, s
         real(dp) :: from = 1.0_dp                      !! where in it the step at hand begins
         real(dp) :: ahead(stages) = -1.0_dp            !! where in it the nodes are
         real(dp) :: carry(stages, stages) = 0.0_dp     !! Legendre polynomials there
@@ -63,11 +70,10 @@ contains
         !! Allocate.
         class(gauss_stages_t), intent(inout) :: self
         integer, intent(in) :: n  !! degrees of freedom
-        real(dp) :: state(n), block(lanes, n), p(stages, stages)
+        real(dp) :: state(n), p(stages, stages)
         integer :: k
 
         state = 0.0_dp
-        block = 0.0_dp
         self%n = n
         self%q = state
         self%q_low = state
@@ -79,17 +85,22 @@ contains
         self%q_end_low = state
         self%v_end = state
         self%v_end_low = state
-        self%f = block
-        self%f_old = block
-        self%q_stage = block
-        self%v_stage = block
-        self%modes = block
-        self%known = block
+        if (allocated(self%room)) deallocate (self%room)
+        allocate (self%room(lanes*(n + 1), known), source=0.0_dp)
+        self%first = line_start(self%room(:, 1))
         call legendre(nodes, p)
         do k = 1, stages
             self%to_modes(k, :) = (2*k - 1)*weights*p(:, k)
         end do
     end subroutine prepare
+
+    pure function line_start(x) result(first)
+        !! The first element whose address 64 divides.
+        real(dp), intent(in), target :: x(:)
+        integer :: first
+
+        first = 1 + int(modulo(-transfer(c_loc(x), 0_c_intptr_t), 64_c_intptr_t)/8)
+    end function line_start
 
     pure subroutine place(self, system, t, q, v)
         !! Stand at `(q, v)`, with nothing known of the accelerations but the one there.
@@ -112,8 +123,8 @@ contains
         real(dp), intent(in) :: t              !! s
 
         call system%accelerations(t, self%q, self%v, self%start)
-        self%known(:, :) = 0.0_dp
-        self%known(1, :) = self%start
+        self%room(:, known) = 0.0_dp
+        self%room(self%first:self%first + lanes*(self%n - 1):lanes, known) = self%start
         self%h_known = 1.0_dp
         self%from = 1.0_dp
     end subroutine forget
@@ -136,14 +147,15 @@ contains
             self%ahead = ahead
             call legendre(ahead, self%carry)
         end if
-        call apply(self%n, self%carry, self%known, self%f)
+        call apply(self%n, self%carry, self%room(self%first, known), self%room(self%first, f))
     end subroutine guess
 
     pure subroutine fly_free(self)
         !! Stages without accelerations: what inexact sweeps may begin with.
         class(gauss_stages_t), intent(inout) :: self
 
-        call free_states(self%n, self%h, self%q, self%v, self%f_old, self%q_stage, self%v_stage)
+        call free_states(self%n, self%h, self%q, self%v, self%room(self%first, f_old), &
+                         self%room(self%first, q_stage), self%room(self%first, v_stage))
     end subroutine fly_free
 
     pure subroutine sweep(self, system, exact)
@@ -153,13 +165,16 @@ contains
         logical, intent(in) :: exact           !! to the last bit
 
         if (exact) then
-            call exact_states(self%n, self%hb, self%q, self%q_low, self%v, self%v_low, self%f, &
-                              self%f_old, self%q_stage, self%v_stage)
+            call exact_states(self%n, self%hb, self%q, self%q_low, self%v, self%v_low, &
+                              self%room(self%first, f), self%room(self%first, f_old), &
+                              self%room(self%first, q_stage), self%room(self%first, v_stage))
         else
-            call quick_states(self%n, self%h, system%velocity_forces, self%f, self%f_old, &
-                              self%q_stage, self%v_stage)
+            call quick_states(self%n, self%h, system%velocity_forces, self%room(self%first, f), &
+                              self%room(self%first, f_old), self%room(self%first, q_stage), &
+                              self%room(self%first, v_stage))
         end if
-        call system%accelerations_lanes(self%times, self%q_stage, self%v_stage, self%f)
+        call system%accelerations_lanes(self%times, self%room(self%first, q_stage), &
+                                        self%room(self%first, v_stage), self%room(self%first, f))
     end subroutine sweep
 
     pure function change(self, weight)
@@ -168,7 +183,7 @@ contains
         real(dp), intent(in) :: weight(self%n)  !! of the squares
         real(dp) :: change
 
-        change = distance(self%n, weight, self%f, self%f_old)
+        change = distance(self%n, weight, self%room(self%first, f), self%room(self%first, f_old))
     end function change
 
     pure function all_of(self, weight)
@@ -177,21 +192,21 @@ contains
         real(dp), intent(in) :: weight(self%n)  !! of the squares
         real(dp) :: all_of
 
-        all_of = magnitude(self%n, weight, self%f)
+        all_of = magnitude(self%n, weight, self%room(self%first, f))
     end function all_of
 
     pure subroutine expand(self)
         !! The Legendre coefficients of the accelerations.
         class(gauss_stages_t), intent(inout) :: self
 
-        call apply(self%n, self%to_modes, self%f, self%modes)
+        call apply(self%n, self%to_modes, self%room(self%first, f), self%room(self%first, modes))
     end subroutine expand
 
     pure subroutine shorten(self)
         !! The step at hand is too long, but its polynomial is known now; `expand` came before.
         class(gauss_stages_t), intent(inout) :: self
 
-        self%known(:, :) = self%modes
+        self%room(:, known) = self%room(:, modes)
         self%h_known = self%h
         self%from = 0.0_dp
     end subroutine shorten
@@ -207,7 +222,7 @@ contains
             self%v_end(d) = self%v(d)
             self%v_end_low(d) = self%v_low(d)
         end do
-        call end_state(self%n, self%hb, self%f, self%q_end, self%q_end_low, self%v_end, &
+        call end_state(self%n, self%hb, self%room(self%first, f), self%q_end, self%q_end_low, self%v_end, &
                        self%v_end_low)
     end subroutine reach
 
@@ -230,7 +245,7 @@ contains
             self%v(d) = self%v_end(d)
             self%v_low(d) = self%v_end_low(d)
         end do
-        self%known(:, :) = self%modes
+        self%room(:, known) = self%room(:, modes)
         self%h_known = self%h
         self%from = 1.0_dp
     end subroutine finish
