@@ -9,6 +9,7 @@ module lagrangia_gauss_dense
     use lagrangia_chebyshev_tables, only: chebyshev_tables_t, points
     use lagrangia_gauss_kernels, only: apply, apply_both, distance, fly, fly_by_modes, &
                                        integrals
+    use lagrangia_gauss_stages, only: line_start
     use lagrangia_gauss_tables, only: nodes
     use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: lanes, system_t
@@ -23,17 +24,19 @@ module lagrangia_gauss_dense
     real(dp), parameter :: top = 2.0_dp**29*40320.0_dp**4/(17.0_dp*20922789888000.0_dp**2)
     !! what the nodes miss of \(\int s\,T_{15}(2s)\): \(2^{29}\,8!^4/(17\cdot16!^2)\)
 
+    integer, parameter :: f(2) = [1, 2]      !! accelerations at the points, two groups of lanes
+    integer, parameter :: f_old(2) = [3, 4]  !! those before the last sweep
+    integer, parameter :: q = 5, v = 6       !! states at eight of the points
+
     type :: gauss_dense_t
         real(dp) :: t = 0.0_dp, t_new = 0.0_dp        !! start and end of the step, s
         real(dp) :: h = 1.0_dp                        !! its length, s
-        logical :: fitted = .false.                   !! what is inside the step is known
         real(dp), allocatable :: q_old(:), v_old(:)   !! state at its start
         real(dp), allocatable :: q_new(:), v_new(:)   !! and at its end
         integer :: sweeps = 0                         !! of the last `fit`, 16 evaluations each
         type(chebyshev_tables_t) :: table
-        real(dp), allocatable :: f(:, :, :)           !! accelerations at the points, by lanes
-        real(dp), allocatable :: f_old(:, :, :)       !! those before the last sweep
-        real(dp), allocatable :: q(:, :), v(:, :)     !! states at eight of them
+        real(dp), allocatable :: room(:, :)           !! of the points: columns as below
+        integer :: first = 1                          !! where they begin, as in `gauss_stages_t`
         real(dp), allocatable :: a(:, :)              !! Chebyshev coefficients of accelerations
         real(dp), allocatable :: apart(:, :)  !! of both quadratures: velocity/h, coordinate/h**2
         real(dp), allocatable :: ends(:, :)   !! the series of the accelerations there
@@ -52,11 +55,10 @@ contains
         !! Allocate.
         class(gauss_dense_t), intent(inout) :: self
         integer, intent(in) :: n  !! degrees of freedom
-        real(dp) :: state(n), block(lanes, n), two_blocks(lanes, n, 2)
+        real(dp) :: state(n), block(lanes, n)
 
         state = 0.0_dp
         block = 0.0_dp
-        two_blocks = 0.0_dp
         self%q_old = state
         self%v_old = state
         self%q_new = state
@@ -64,12 +66,9 @@ contains
         self%apart = block(:2, :)
         self%ends = block(:2, :)
         self%noise = state
-        self%q = block
-        self%v = block
-        self%f = two_blocks
-        self%f_old = two_blocks
-        self%a = reshape(two_blocks, [points, n])
-        self%fitted = .false.
+        if (allocated(self%room)) deallocate (self%room, self%a)
+        allocate (self%a(points, n), self%room(lanes*(n + 1), v), source=0.0_dp)
+        self%first = line_start(self%room(:, 1))
         call self%table%fill()
     end subroutine prepare
 
@@ -82,7 +81,6 @@ contains
         self%t = t
         self%t_new = t
         self%h = 0.0_dp
-        self%fitted = .false.
         self%q_old(:) = q
         self%v_old(:) = v
         self%q_new(:) = q
@@ -115,19 +113,19 @@ contains
             do group = 1, 2
                 if (sweep == 1) then
                     call apply(system%ndof, self%table%legendre_f(:, :, group), modes, &
-                               self%f_old(:, :, group))
+                               self%room(self%first, f_old(group)))
                     call fly_by_modes(system%ndof, self%h, self%table%x(:, group), self%q_old, &
                                       self%v_old, self%table%legendre_q(:, :, group), &
-                                      self%table%legendre_v(:, :, group), modes, self%q, self%v)
+                                      self%table%legendre_v(:, :, group), modes, &
+                                      self%room(self%first, q), self%room(self%first, v))
                 else
-                    call fly_by_points(self, system%ndof, self%f_old, group)
+                    call fly_by_points(self, system%ndof, group)
                 end if
-                call system%accelerations_lanes(self%t + self%h*self%table%x(:, group), self%q, &
-                                                self%v, self%f(:, :, group))
-                change = change + distance(system%ndof, weight, self%f(:, :, group), &
-                                           self%f_old(:, :, group))
+                call evaluate(self, system, self%t + self%h*self%table%x(:, group), f(group))
+                change = change + distance(system%ndof, weight, self%room(self%first, f(group)), &
+                                           self%room(self%first, f_old(group)))
             end do
-            self%f_old(:, :, :) = self%f
+            self%room(:, f_old) = self%room(:, f)
             self%sweeps = sweep
             change = sqrt(0.5_dp*change)
             good = change < huge(change)
@@ -137,18 +135,29 @@ contains
             last = change
         end do
         call expand(self, system%ndof)
-        self%fitted = .true.
     end subroutine fit
 
-    pure subroutine fly_by_points(self, n, f, group)
-        !! Where the motion with the accelerations `f` is at eight of the points.
+    pure subroutine fly_by_points(self, n, group)
+        !! Where the motion with the accelerations `f_old` is at eight of the points.
         type(gauss_dense_t), intent(inout) :: self
         integer, intent(in) :: n, group
-        real(dp), intent(in) :: f(lanes, n, 2)
 
         call fly(n, self%h, self%table%x(:, group), self%q_old, self%v_old, &
-                 self%table%q(:, :, group), self%table%v(:, :, group), f, self%q, self%v)
+                 self%table%q(:, :, group), self%table%v(:, :, group), &
+                 self%room(self%first, f_old(1)), self%room(self%first, f_old(2)), &
+                 self%room(self%first, q), self%room(self%first, v))
     end subroutine fly_by_points
+
+    pure subroutine evaluate(self, system, times, column)
+        !! The accelerations there, into a column of the room.
+        type(gauss_dense_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: times(lanes)
+        integer, intent(in) :: column
+
+        call system%accelerations_lanes(times, self%room(self%first, q), &
+                                        self%room(self%first, v), self%room(self%first, column))
+    end subroutine evaluate
 
     pure subroutine expand(self, n)
         !! The series of the accelerations, with a straight line added so that it leads to the end
@@ -156,17 +165,19 @@ contains
         type(gauss_dense_t), intent(inout) :: self
         integer, intent(in) :: n
         real(dp) :: difference(2), a(lanes, n), even, odd
-        integer :: d, group
+        integer :: d, group, i
 
         do group = 1, 2
-            call apply_both(n, self%table%series(:, :, group), self%f(:, :, 1), self%f(:, :, 2), a)
+            call apply_both(n, self%table%series(:, :, group), self%room(self%first, f(1)), &
+                            self%room(self%first, f(2)), a)
             self%a((group - 1)*lanes + 1:group*lanes, :) = a
         end do
         do d = 1, n
+            i = self%first + (d - 1)*lanes
             difference(1) = (self%v_new(d) - self%v_old(d))/self%h &
-                            - sum(self%table%v_end*self%f(:, d, :))
+                            - sum(self%table%v_end*self%room(i:i + lanes - 1, f))
             difference(2) = ((self%q_new(d) - self%q_old(d))/self%h - self%v_old(d))/self%h &
-                            - sum(self%table%q_end*self%f(:, d, :))
+                            - sum(self%table%q_end*self%room(i:i + lanes - 1, f))
             even = sum(self%a(1::2, d))
             odd = sum(self%a(2::2, d))
             self%ends(:, d) = [even - odd, even + odd]
@@ -229,22 +240,23 @@ contains
         class(system_t), intent(in) :: system
         real(dp), parameter :: turn(lanes) = 1.0_dp + ulps*[1, -1, 1, -1, 1, -1, 1, -1]
         real(dp) :: times(lanes)
-        integer :: d, group
+        integer :: d, group, i
 
         self%noise(:) = 0.0_dp
         do group = 1, 2
-            call fly_by_points(self, system%ndof, self%f, group)
             times = self%t + self%h*self%table%x(:, group)
-            call system%accelerations_lanes(times, self%q, self%v, self%f_old(:, :, 1))
-            do d = 1, system%ndof
-                self%q(:, d) = turn*self%q(:, d)
-                self%v(:, d) = turn*self%v(:, d)
+            call fly_by_points(self, system%ndof, group)
+            call evaluate(self, system, times, f(1))
+            do d = 0, system%ndof - 1
+                i = self%first + d*lanes
+                self%room(i:i + lanes - 1, q) = turn*self%room(i:i + lanes - 1, q)
+                self%room(i:i + lanes - 1, v) = turn*self%room(i:i + lanes - 1, v)
             end do
-            times = turn*times
-            call system%accelerations_lanes(times, self%q, self%v, self%f_old(:, :, 2))
+            call evaluate(self, system, turn*times, f(2))
             do d = 1, system%ndof
-                self%noise(d) = self%noise(d) &
-                                + sum((self%f_old(:, d, 2) - self%f_old(:, d, 1))**2)
+                i = self%first + (d - 1)*lanes
+                self%noise(d) = self%noise(d) + sum((self%room(i:i + lanes - 1, f(2)) &
+                                                     - self%room(i:i + lanes - 1, f(1)))**2)
             end do
         end do
         self%noise(:) = sqrt(self%noise/points)

@@ -201,7 +201,7 @@ contains
         end do
     end subroutine apply
 
-    pure subroutine fly(n, h, x, q, v, m_q, m_v, f, q_lane, v_lane)
+    pure subroutine fly(n, h, x, q, v, m_q, m_v, f1, f2, q_lane, v_lane)
         !! States in a step by its accelerations, of which the matrices make \(v\) and \(q\) for a
         !! step of 1 that begins at rest.
         integer, intent(in) :: n                   !! degrees of freedom
@@ -209,7 +209,7 @@ contains
         real(dp), intent(in) :: x(lanes)           !! where in it
         real(dp), intent(in) :: q(n), v(n)         !! state at its start
         real(dp), intent(in) :: m_q(lanes, 2*lanes), m_v(lanes, 2*lanes)  !! tables
-        real(dp), intent(in) :: f(lanes, n, 2)     !! accelerations at the points
+        real(dp), intent(in) :: f1(lanes, n), f2(lanes, n)  !! accelerations at the points
         real(dp), intent(out) :: q_lane(lanes, n), v_lane(lanes, n)  !! coordinates, velocities
         real(dp) :: change
         integer :: d, i
@@ -217,26 +217,26 @@ contains
         do d = 1, n
             !GCC$ vector
             do i = 1, lanes
-                change = (((m_v(i, 1)*f(1, d, 1) + m_v(i, 2)*f(2, d, 1)) &
-                           + (m_v(i, 3)*f(3, d, 1) + m_v(i, 4)*f(4, d, 1))) &
-                          + ((m_v(i, 5)*f(5, d, 1) + m_v(i, 6)*f(6, d, 1)) &
-                             + (m_v(i, 7)*f(7, d, 1) + m_v(i, 8)*f(8, d, 1)))) &
-                         + (((m_v(i, 9)*f(1, d, 2) + m_v(i, 10)*f(2, d, 2)) &
-                             + (m_v(i, 11)*f(3, d, 2) + m_v(i, 12)*f(4, d, 2))) &
-                            + ((m_v(i, 13)*f(5, d, 2) + m_v(i, 14)*f(6, d, 2)) &
-                               + (m_v(i, 15)*f(7, d, 2) + m_v(i, 16)*f(8, d, 2))))
+                change = (((m_v(i, 1)*f1(1, d) + m_v(i, 2)*f1(2, d)) &
+                           + (m_v(i, 3)*f1(3, d) + m_v(i, 4)*f1(4, d))) &
+                          + ((m_v(i, 5)*f1(5, d) + m_v(i, 6)*f1(6, d)) &
+                             + (m_v(i, 7)*f1(7, d) + m_v(i, 8)*f1(8, d)))) &
+                         + (((m_v(i, 9)*f2(1, d) + m_v(i, 10)*f2(2, d)) &
+                             + (m_v(i, 11)*f2(3, d) + m_v(i, 12)*f2(4, d))) &
+                            + ((m_v(i, 13)*f2(5, d) + m_v(i, 14)*f2(6, d)) &
+                               + (m_v(i, 15)*f2(7, d) + m_v(i, 16)*f2(8, d))))
                 v_lane(i, d) = v(d) + h*change
             end do
             !GCC$ vector
             do i = 1, lanes
-                change = (((m_q(i, 1)*f(1, d, 1) + m_q(i, 2)*f(2, d, 1)) &
-                           + (m_q(i, 3)*f(3, d, 1) + m_q(i, 4)*f(4, d, 1))) &
-                          + ((m_q(i, 5)*f(5, d, 1) + m_q(i, 6)*f(6, d, 1)) &
-                             + (m_q(i, 7)*f(7, d, 1) + m_q(i, 8)*f(8, d, 1)))) &
-                         + (((m_q(i, 9)*f(1, d, 2) + m_q(i, 10)*f(2, d, 2)) &
-                             + (m_q(i, 11)*f(3, d, 2) + m_q(i, 12)*f(4, d, 2))) &
-                            + ((m_q(i, 13)*f(5, d, 2) + m_q(i, 14)*f(6, d, 2)) &
-                               + (m_q(i, 15)*f(7, d, 2) + m_q(i, 16)*f(8, d, 2))))
+                change = (((m_q(i, 1)*f1(1, d) + m_q(i, 2)*f1(2, d)) &
+                           + (m_q(i, 3)*f1(3, d) + m_q(i, 4)*f1(4, d))) &
+                          + ((m_q(i, 5)*f1(5, d) + m_q(i, 6)*f1(6, d)) &
+                             + (m_q(i, 7)*f1(7, d) + m_q(i, 8)*f1(8, d)))) &
+                         + (((m_q(i, 9)*f2(1, d) + m_q(i, 10)*f2(2, d)) &
+                             + (m_q(i, 11)*f2(3, d) + m_q(i, 12)*f2(4, d))) &
+                            + ((m_q(i, 13)*f2(5, d) + m_q(i, 14)*f2(6, d)) &
+                               + (m_q(i, 15)*f2(7, d) + m_q(i, 16)*f2(8, d))))
                 q_lane(i, d) = q(d) + h*(x(i)*v(d) + h*change)
             end do
         end do

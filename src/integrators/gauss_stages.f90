@@ -21,6 +21,7 @@ module lagrangia_gauss_stages
     private
     public :: gauss_stages_t
     public :: f, f_old, known, modes  ! columns of the stages' room
+    public :: line_start
 
     integer, parameter :: f = 1        !! accelerations of the stages
     integer, parameter :: f_old = 2    !! those before the last sweep
@@ -96,7 +97,7 @@ contains
 
     pure function line_start(x) result(first)
         !! The first element whose address 64 divides.
-        real(dp), intent(in), target :: x(:)
+        real(dp), intent(in), target :: x(:)  !! eight elements at least
         integer :: first
 
         first = 1 + int(modulo(-transfer(c_loc(x), 0_c_intptr_t), 64_c_intptr_t)/8)
