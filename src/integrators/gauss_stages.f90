@@ -223,8 +223,8 @@ contains
             self%v_end(d) = self%v(d)
             self%v_end_low(d) = self%v_low(d)
         end do
-        call end_state(self%n, self%hb, self%room(self%first, f), self%q_end, self%q_end_low, self%v_end, &
-                       self%v_end_low)
+        call end_state(self%n, self%hb, self%room(self%first, f), self%q_end, self%q_end_low, &
+                       self%v_end, self%v_end_low)
     end subroutine reach
 
     pure subroutine look_ahead(self, system)
