@@ -125,7 +125,8 @@ contains
                 change = change + distance(system%ndof, weight, self%room(self%first, f(group)), &
                                            self%room(self%first, f_old(group)))
             end do
-            self%room(:, f_old) = self%room(:, f)
+            self%room(:, f_old(1)) = self%room(:, f(1))
+            self%room(:, f_old(2)) = self%room(:, f(2))
             self%sweeps = sweep
             change = sqrt(0.5_dp*change)
             good = change < huge(change)
@@ -164,20 +165,23 @@ contains
         !! of the step.
         type(gauss_dense_t), intent(inout) :: self
         integer, intent(in) :: n
-        real(dp) :: difference(2), a(lanes, n), even, odd
+        real(dp) :: difference(2), even, odd
         integer :: d, group, i
 
         do group = 1, 2
             call apply_both(n, self%table%series(:, :, group), self%room(self%first, f(1)), &
-                            self%room(self%first, f(2)), a)
-            self%a((group - 1)*lanes + 1:group*lanes, :) = a
+                            self%room(self%first, f(2)), self%room(self%first, q))
+            do d = 1, n
+                i = self%first + (d - 1)*lanes
+                self%a((group - 1)*lanes + 1:group*lanes, d) = self%room(i:i + lanes - 1, q)
+            end do
         end do
         do d = 1, n
             i = self%first + (d - 1)*lanes
             difference(1) = (self%v_new(d) - self%v_old(d))/self%h &
-                            - sum(self%table%v_end*self%room(i:i + lanes - 1, f))
+                            - sum(self%table%v_end*self%room(i:i + lanes - 1, f(1):f(2)))
             difference(2) = ((self%q_new(d) - self%q_old(d))/self%h - self%v_old(d))/self%h &
-                            - sum(self%table%q_end*self%room(i:i + lanes - 1, f))
+                            - sum(self%table%q_end*self%room(i:i + lanes - 1, f(1):f(2)))
             even = sum(self%a(1::2, d))
             odd = sum(self%a(2::2, d))
             self%ends(:, d) = [even - odd, even + odd]
