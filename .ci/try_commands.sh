@@ -236,6 +236,37 @@ refuses 2 "sheet:1: unknown system 'pendulun'; did you mean 'pendulum'?" grade "
 refuses 2 "grade what?" grade
 refuses 5 "no such file" grade "$work/none.txt"
 
+# Derivations: every line holds, or the command says so by its status
+for system in $systems spring_pendulum double_pendulum_formulas atwood_lift; do
+    run derive "$system" --numbers
+    [ "$status" -eq 0 ] && [ "$(grep -c 'difference' "$work/out")" -gt 8 ] && ! grep -q ' <- ' "$work/out" || { check "derive $system" false; }
+done
+run derive cart_pendulum --set cart_pendulum%l=1.3 --json
+check "derive --json: every line holds, omega^2 is the last" json 'd["holds"] and all(r.get("holds", True) for r in d["lines"]) and d["lines"][-1]["formula"] == "(m1 + m2) g/(m1 l)" and abs(d["lines"][-1]["value"] - 2*9.81/1.3) < 1e-13'
+run derive cart_pendulum --slip E1 --json
+check "derive --slip: the notes' line is the first that is wrong" json '[r["line"] for r in d["lines"] if not r.get("holds", True)][:2] == ["m2 l^2 theta_ddot + m2 l x_ddot cos(theta) - m2 g l sin(theta) = 0", "l theta_ddot + x_ddot cos(theta) - g sin(theta) = 0"] and d["lines"][-1]["formula"] == "-(m1 + m2) g/(m1 l)"'
+run derive double_pendulum --latex
+check "derive --latex: environments close" eval '[ "$(grep -c "begin{align" "$work/out")" -eq "$(grep -c "end{align" "$work/out")" ] && grep -qF "\\ddot{\\theta}_{1}" "$work/out"'
+check "docs/derive.md: commands print what it says" python3 -c 'import re, subprocess, sys
+blocks = re.findall(r"```console\n(.*?)```", open("docs/derive.md").read(), re.S)
+bad = len(blocks) != 3
+for block in blocks:
+    first, _, text = block.partition("\n")
+    words = first.removeprefix("$ lagrangia ").split(" | ")
+    got = subprocess.run([sys.argv[1]] + words[0].split(), text=True, stdout=subprocess.PIPE).stdout
+    for tool in words[1:]:
+        got = subprocess.run(tool.split(), input=got, text=True, stdout=subprocess.PIPE).stdout
+    bad = bad or got != text
+sys.exit(bad)' "$program"
+run derive pendulum --set pendulum%b=0.1
+check "derive: friction beside L" grep -q '^   m l^2 theta_ddot + b theta_dot + m g l sin(theta) = 0$' "$work/out"
+refuses 2 "derive what?" derive
+refuses 2 "slip 'E7' is no formula of a derivation; those are E1, E2, E3, E21, E25" derive cart_pendulum --slip E7
+refuses 2 "slip 'E1' is one of the cart_pendulum" derive wedge --slip E1
+refuses 2 "unknown slip 'E99'" derive wedge --slip E99
+refuses 2 "do not go together" derive wedge --latex --json
+refuses 2 "take fewer bodies" derive hanging_chain --set hanging_chain%n=6
+
 # status 1: a tolerance that does not hold
 run run pendulum --set scene%expect_error=1e-30 --output "$work/o"
 check "status 1: a tolerance is missed" eval '[ $status -eq 1 ] && one_line && grep -q "1 of 1 scenes did not hold" "$work/err" && grep -q "NOT error" "$work/out" && [ -s "$work/o/pendulum.dat" ]'

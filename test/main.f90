@@ -33,6 +33,8 @@ module suites
     use test_dense_orders, only: dense_orders_suite
     use test_dense_powers, only: dense_powers_suite
     use test_dense_run, only: dense_run_suite
+    use test_derivation, only: derivation_suite
+    use test_derivation_algebra, only: derivation_algebra_suite
     use test_derivative, only: derivative_suite
     use test_dop853, only: dop853_suite
     use test_dop853_coefficients, only: dop853_coefficients_suite
@@ -190,6 +192,8 @@ contains
         call suite%addTest(dense_orders_suite())
         call suite%addTest(dense_powers_suite())
         call suite%addTest(dense_run_suite())
+        call suite%addTest(derivation_suite())
+        call suite%addTest(derivation_algebra_suite())
         call suite%addTest(dop853_suite())
         call suite%addTest(dop853_coefficients_suite())
         call suite%addTest(dop853_steps_suite())

@@ -17,7 +17,7 @@ module lagrangia_describe
     use lagrangia_text, only: to_text, word_t
     implicit none (type, external)
     private
-    public :: describe_command, has_closed_form
+    public :: best_break, describe_command, has_closed_form
 
 contains
 
@@ -232,8 +232,9 @@ contains
     pure function best_break(text) result(best)
         !! The blank at which a formula is broken best: behind a comma, else in front of a sign
         !! inside as few brackets as can be, and as late as can be; 0 if there is none.
-        character(*), intent(in) :: text
-        integer :: best, at, depth, rank, least
+        character(*), intent(in) :: text  !! a formula, cut where the line ends
+        integer :: best
+        integer :: at, depth, rank, least
 
         best = 0
         least = huge(least)

@@ -34,6 +34,9 @@ module lagrangia_registry
         option_t("methods", needs_value, "rk4,gsl_rk8pd,...", "that are measured"), &
         option_t("systems", needs_value, "pendulum,...", "or scenes, whose steps are measured"), &
         option_t("tolerances", needs_value, "1e-6,1e-9,...", "of the methods that take one"), &
+        option_t("numbers", no_value, "", "each line of a derivation at a random state, twice"), &
+        option_t("slip", needs_value, "ID", "derive with this slip of the notes"), &
+        option_t("latex", no_value, "", "print LaTeX for slides"), &
         option_t("json", no_value, "", "print the results as JSON"), &
         option_t("quiet", no_value, "", "print nothing but errors"), &
         option_t("help", no_value, "", "this text, or a command's"), &
@@ -61,7 +64,9 @@ module lagrangia_registry
                   "json quiet"), &
         command_t("list", "[systems|methods|scenes]", "what there is, one a line", 1, ""), &
         command_t("describe", "SYSTEM|SCENE|scene", "L, equations, ...; of the word scene: "// &
-                  "every key of a scene", 1, "set")]
+                  "every key of a scene", 1, "set"), &
+        command_t("derive", "SYSTEM|SCENE", "from x(q) to the equations of motion, line by line", &
+                  1, "set numbers slip latex json")]
 
 contains
 

@@ -56,7 +56,7 @@ contains
         !! See `system_t`.
         class(atwood_t), intent(in) :: self
         type(description_t), intent(out) :: d
-        character(:), allocatable :: pulley, gravity
+        character(:), allocatable :: pulley, gravity, lift, up
 
         d%name = "atwood"
         d%title = "two masses on a string over a pulley"
@@ -114,8 +114,12 @@ contains
             d%motion = [character(formula_length) :: &
                 "x = x_0 + x_dot_0 t + (m1 - m2) "//gravity//"/(2 "//total//") t^2"]
         end associate
-        d%points = [mass_point("m1", self%m1), mass_point("m2", self%m2)]
-        d%rotors = [mass_point("pulley", self%pulley_inertia)]
+        lift = ""
+        if (self%time_dependent) lift = "a_s/2 t^2"
+        up = trim(merge("+", " ", self%time_dependent))
+        d%points = [mass_point("m1", self%m1, "m1", "- R", lift//" - x"), &
+                    mass_point("m2", self%m2, "m2", "R", lift//" "//up//" x")]
+        d%rotors = [mass_point("pulley", self%pulley_inertia, merge("I", "0", pulley /= ""), "x/R")]
         d%reactions = [ &
             quantity("tension1", "N", "of the string at m1", "y_m1 - a_s/2 t^2 + R phi_pulley"), &
             quantity("tension2", "N", "of the string at m2", "y_m2 - a_s/2 t^2 - R phi_pulley")]

@@ -66,7 +66,7 @@ contains
         d%energy_scale = self%m*self%g
         d%quantities = [quantity("contact_force", "N", "of the floor on the ball, without the "// &
                                  "impacts", "m (y_ddot + g)")]
-        d%points = [mass_point("ball", self%m)]
+        d%points = [mass_point("ball", self%m, "m", y="y")]
         d%reactions = [quantity_t ::]
         d%letters = [letter_t("lambda", "contact_force")]
         d%kinetic_energy = "m/2 y_dot^2"

@@ -78,7 +78,8 @@ contains
                 quantity("tension", "N", "force along the rod", &
                          "m1 m2 (l theta_dot^2 + g cos(theta))/(m1 + m2 sin(theta)^2)")]
         end associate
-        d%points = [mass_point("cart", self%m1), mass_point("bob", self%m2)]
+        d%points = [mass_point("cart", self%m1, "m1", "x"), &
+                    mass_point("bob", self%m2, "m2", "x + l sin(theta)", "- l cos(theta)")]
         d%reactions = [ &
             quantity("track_force", "N", "of the track on the cart, upwards", "y_cart"), &
             quantity("tension", "N", "of the rod", "(l^2 - (x_bob - x_cart)^2 "// &

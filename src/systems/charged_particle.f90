@@ -112,7 +112,7 @@ contains
         d%quantities(:3)%scale = self%m*per_speed
         d%quantities(6:)%scale = self%m*per_speed
         d%quantities(6)%scale = per_speed
-        d%points = [mass_point("particle", self%m)]
+        d%points = [mass_point("particle", self%m, "m", "x", "y", "z")]
         d%reactions = [quantity_t ::]
         d%dimensions = 3
         d%kinetic_energy = "m/2 (x_dot^2 + y_dot^2 + z_dot^2)"

@@ -46,6 +46,8 @@ module lagrangia_description
         !! A mass point (or a body's centre) whose Cartesian position is known.
         character(name_length) :: name = ""
         real(dp) :: mass = 0.0_dp  !! kg
+        character(formula_length) :: mass_formula = ""  !! `m1`; "": this and the next are unknown
+        character(formula_length) :: position(3) = ""   !! of x, y, z; "": 0; a rotor's angle first
     end type point_t
 
     type :: letter_t
@@ -207,14 +209,20 @@ contains
         item%value = value
     end function real_vector
 
-    pure function mass_point(name, mass) result(item)
-        !! A point of mass `mass`, kg.
-        character(*), intent(in) :: name  !! as columns have it
-        real(dp), intent(in) :: mass      !! kg; of a rotor its moment of inertia, kg m^2
+    pure function mass_point(name, mass, mass_formula, x, y, z) result(item)
+        !! A point of mass `mass`, kg, and where it is, as formulas.
+        character(*), intent(in) :: name  !! as in `x_bob`
+        real(dp), intent(in) :: mass      !! kg, or kg m^2 of a rotor
+        character(*), intent(in), optional :: mass_formula  !! `m1`
+        character(*), intent(in), optional :: x, y, z       !! absent: 0; of a rotor x is its angle
         type(point_t) :: item
 
         item%name = name
         item%mass = mass
+        if (present(mass_formula)) item%mass_formula = mass_formula
+        if (present(x)) item%position(1) = x
+        if (present(y)) item%position(2) = y
+        if (present(z)) item%position(3) = z
     end function mass_point
 
     pure function domain(self) result(text)

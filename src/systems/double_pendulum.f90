@@ -70,7 +70,10 @@ contains
         if (self%g <= 0.0_dp) d%quantities(1) = &
             conserved("L_z", "kg m^2/s", "angular momentum about the pivot, conserved without "// &
                       "gravity", 0.0_dp, "p_theta1 + p_theta2")
-        d%points = [mass_point("bob1", self%m1), mass_point("bob2", self%m2)]
+        d%points = [ &
+            mass_point("bob1", self%m1, "m1", "l1 sin(theta1)", "- l1 cos(theta1)"), &
+            mass_point("bob2", self%m2, "m2", "l1 sin(theta1) + l2 sin(theta2)", &
+                       "- l1 cos(theta1) - l2 cos(theta2)")]
         d%reactions = [ &
             quantity("tension1", "N", "of the upper rod", "(l1^2 - x_bob1^2 - y_bob1^2)/(2 l1)"), &
             quantity("tension2", "N", "of the lower rod", &

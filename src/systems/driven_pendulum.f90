@@ -94,7 +94,7 @@ contains
             d%quantities(2)%conserved = self%g <= 0.0_dp
             d%quantities(1:3:2)%scale = d%energy_scale
         end if
-        d%points = [mass_point("bob", self%m)]
+        d%points = [mass_point("bob", self%m, "m", "l sin(theta)", "y_p - l cos(theta)")]
         d%reactions = [quantity("tension", "N", "of the rod", &
                                 "(l^2 - x_bob^2 - (y_bob - y_p)^2)/(2 l)")]
         d%kinetic_energy = "m/2 (l^2 theta_dot^2 + 2 l theta_dot y_p_dot sin(theta) + y_p_dot^2)"

@@ -139,6 +139,7 @@ contains
             if (i > 1) x = "x"//to_text(i - 1)//" + "//x
             if (i > 1) y = "y"//to_text(i - 1)//" "//y
             d%letters = [d%letters, letter_t("x"//k, x), letter_t("y"//k, y)]
+            d%points(i) = mass_point("bob"//k, self%m, "m", "x"//k, "y"//k)
             squares = squares//" + x"//k//"_dot^2 + y"//k//"_dot^2"
             heights = heights//" + y"//k
             moments = moments//" + x"//k//" y"//k//"_dot - y"//k//" x"//k//"_dot"

@@ -75,7 +75,7 @@ contains
             quantity("p_x", "kg m/s", "momentum", "m x_dot")]
         if (self%cyclic == 1) d%quantities(2) = &
             conserved("p_x", "kg m/s", "momentum, x is cyclic without a spring", 0.0_dp, "m x_dot")
-        d%points = [mass_point("mass", self%m)]
+        d%points = [mass_point("mass", self%m, "m", "x")]
         d%reactions = [quantity_t ::]
         d%kinetic_energy = "m/2 x_dot^2"
         d%potential_energy = "k/2 x^2"

@@ -75,7 +75,7 @@ contains
         if (self%cyclic == 1) d%quantities(1) = &
             conserved("L_z", "kg m^2/s", "angular momentum, theta is cyclic without gravity", &
                       0.0_dp, "m l^2 theta_dot")
-        d%points = [mass_point("bob", self%m)]
+        d%points = [mass_point("bob", self%m, "m", "l sin(theta)", "- l cos(theta)")]
         d%reactions = [quantity("tension", "N", "of the rod", &
                                 "(l^2 - x_bob^2 - y_bob^2)/(2 l)")]
         d%kinetic_energy = "m/2 l^2 theta_dot^2"

@@ -122,8 +122,9 @@ contains
                 conserved("p_phi", "kg m^2/s", "about the contact; the plane is level", &
                           self%m*self%r*speed, "(i_roll + m r^2) phi_dot")
         end associate
-        d%points = [mass_point("centre", self%m)]
-        d%rotors = [mass_point("roll", self%i_roll), mass_point("heading", self%i_yaw)]
+        d%points = [mass_point("centre", self%m, "m", "x", "y", "r")]
+        d%rotors = [mass_point("roll", self%i_roll, "i_roll", "phi"), &
+                    mass_point("heading", self%i_yaw, "i_yaw", "theta")]
         d%reactions = [ &
             quantity("plane_force", "N", "of the plane on the disk, off it", "z_centre - r"), &
             quantity("friction_x", "N", "that keeps it rolling", "x_dot - r sin(theta) phi_dot"), &

@@ -76,7 +76,8 @@ contains
             d%quantities(1)%conserved = .true.
             d%quantities(1)%scale = d%energy_scale
         end if
-        d%points = [mass_point("bead", self%m)]
+        d%points = [mass_point("bead", self%m, "m", "r sin(theta) cos(omega t)", &
+                               "r sin(theta) sin(omega t)", "- r cos(theta)")]
         d%reactions = [ &
             quantity("side_force", "N", "across the hoop", &
                      "y_bead cos(omega t) - x_bead sin(omega t)"), &

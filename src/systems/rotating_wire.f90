@@ -67,7 +67,7 @@ contains
             quantity("L_z", "kg m^2/s", "angular momentum, fed by the wire", "m omega r^2"), &
             quantity("wire_force", "N", "push of the wire, across it", "2 m omega r_dot")]
         d%quantities(2)%conserved = abs(self%omega) <= 0.0_dp
-        d%points = [mass_point("bead", self%m)]
+        d%points = [mass_point("bead", self%m, "m", "r cos(omega t)", "r sin(omega t)")]
         d%reactions = [quantity("wire_force", "N", "of the wire, across it", &
                                 "y_bead cos(omega t) - x_bead sin(omega t)")]
         d%kinetic_energy = "m/2 (r_dot^2 + omega^2 r^2)"

@@ -78,7 +78,9 @@ contains
         if (level(self)) d%quantities(3) = &
             conserved("p_q1", "kg m/s", "momentum along the incline, q1 is cyclic if "// &
                       "g sin(alpha) = 0", 0.0_dp, "m (q1_dot + q2_dot cos(alpha))")
-        d%points = [mass_point("block", self%m_block), mass_point("wedge", self%m_wedge)]
+        d%points = [mass_point("block", self%m_block, "m", "q2 + q1 cos(alpha)", &
+                               "- q1 sin(alpha)"), &
+                    mass_point("wedge", self%m_wedge, "M", "q2")]
         d%reactions = [ &
             quantity("plane_force", "N", "of the plane on the wedge, upwards", "y_wedge"), &
             quantity("normal_force", "N", "of the wedge on the block", &

@@ -74,6 +74,7 @@ contains
             d%dimensions = e%dimensions
             allocate (d%points(size(e%points)))
             d%points%name = e%points
+            call state_places(e, d)
             call state_formulas(formulas, e, d)
             allocate (constants(size(e%masses) + size(e%equilibrium)))
             do i = 1, size(e%masses)
@@ -92,6 +93,27 @@ contains
         call system%configure([(formulas%parameters(i)%value(1), i=1, &
                                 size(formulas%parameters))], error)
     end subroutine new_written_system
+
+    subroutine state_places(e, d)
+        !! Masses and places of the points, as far as there is room for their formulas.
+        type(written_expressions_t), intent(in) :: e
+        type(description_t), intent(inout) :: d
+        character(:), allocatable :: text
+        integer :: i, k, longest
+
+        longest = 0
+        do i = 1, size(d%points)
+            text = formula_text(e%masses(i), e%symbols)
+            longest = max(longest, len(text))
+            d%points(i)%mass_formula = text
+            do k = 1, 3
+                text = formula_text(e%places(3*i - 3 + k), e%symbols)
+                longest = max(longest, len(text))
+                if (text /= "0") d%points(i)%position(k) = text
+            end do
+        end do
+        if (longest > formula_length) d%points%mass_formula = ""
+    end subroutine state_places
 
     subroutine state_formulas(formulas, expressions, d)
         !! T, V, L and the definitions as they were typed; definitions that are too long for a

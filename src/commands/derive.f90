@@ -1,0 +1,237 @@
+module lagrangia_derive
+    !! `lagrangia derive SYSTEM`: the lecture's recipe from the positions of the masses to the
+    !! equations of motion and the frequencies, each line compared with what the program computes.
+    use lagrangia_aligned_latex, only: aligned_latex
+    use lagrangia_command_line, only: command_line_t
+    use lagrangia_console, only: put_line
+    use lagrangia_derivation, only: derivation_t, line_omega2, line_words
+    use lagrangia_derivation_numbers, only: comparison_t, compare_lines
+    use lagrangia_derivation_slips, only: find_slip
+    use lagrangia_derivation_steps, only: derive, slip_in_formula_t
+    use lagrangia_describe, only: best_break
+    use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t, fail, status_not_held
+    use lagrangia_formula_latex, only: latex
+    use lagrangia_formula_text, only: formula_text
+    use lagrangia_json, only: json_item, json_object, json_pair
+    use lagrangia_kinds, only: dp
+    use lagrangia_number_text, only: scientific
+    use lagrangia_random_draws, only: random_t
+    use lagrangia_scene_reader, only: read_named_system
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: derive_command
+
+contains
+
+    subroutine derive_command(line, error)
+        !! Print the derivation of one system, named or of a scene. Without a slip status 1 where a
+        !! line does not hold.
+        type(command_line_t), intent(in) :: line          !! what was typed
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
+        class(system_t), allocatable :: system
+        type(description_t) :: d
+        type(derivation_t) :: derivation
+        type(comparison_t), allocatable :: comparisons(:)
+        type(slip_in_formula_t) :: slip
+        type(random_t) :: random
+        real(dp), allocatable :: values(:)
+
+        if (size(line%arguments) == 0) then
+            call fail(error, "derive what? 'lagrangia list systems' shows the names")
+        else if (line%has("latex") .and. line%has("json")) then
+            call fail(error, "the options '--latex' and '--json' do not go together")
+        end if
+        if (allocated(error)) return
+        call read_named_system(line%arguments(1)%text, line%values_of("set"), system, error)
+        if (allocated(error)) return
+        call system%describe(d)
+        if (line%has("slip")) call find_slip(line%value_of("slip", ""), trim(d%name), slip, error)
+        if (.not. allocated(error)) call derive(system, slip, derivation, error)
+        if (.not. allocated(error)) then
+            call compare_lines(derivation, system, random, comparisons, error, values)
+        end if
+        if (allocated(error)) return
+        if (line%has("json")) then
+            call put_json(derivation, comparisons)
+        else if (line%has("latex")) then
+            call put_latex(derivation)
+        else
+            call put_text(derivation, comparisons, values, line%has("numbers"))
+        end if
+        if (all(comparisons%agrees()) .or. line%has("slip")) return
+        call fail(error, trim(d%name)//": a line of the derivation is not what the program "// &
+                  "computes", status_not_held)
+    end subroutine derive_command
+
+    subroutine put_text(derivation, comparisons, values, numbers)
+        !! For the eye.
+        type(derivation_t), intent(in) :: derivation
+        type(comparison_t), intent(in) :: comparisons(:)
+        real(dp), intent(in) :: values(:)
+        logical, intent(in) :: numbers
+        logical :: slipped, true_so_far
+        integer :: at, digits, i, step
+
+        digits = merge(16, 6, numbers)
+        call put_line(trim(derivation%d%name)//": "//trim(derivation%d%title))
+        if (numbers) call put_state(derivation, values)
+        step = 0
+        slipped = .false.
+        true_so_far = .true.
+        do i = 1, derivation%count
+            associate (this => derivation%lines(i), c => comparisons(i))
+                if (this%heading /= "") then
+                    step = step + 1
+                    call put_line("")
+                    call put_line(to_text(step)//". "//this%heading)
+                end if
+                if (this%hidden .and. c%agrees()) cycle
+                if (this%slipped .and. .not. slipped) call put_line("   as the notes have it:")
+                slipped = this%slipped
+                at = merge(5, 3, this%left == "" .and. .not. this%is_zero)
+                call put_broken(repeat(" ", at), derivation%line_text(i))
+                if (.not. c%agrees()) then
+                    if (true_so_far) then
+                        call put_line("       <- here it leaves the truth: "//both(c, digits))
+                    else
+                        call put_line("       <- wrong, too: "//both(c, digits))
+                    end if
+                    true_so_far = .false.
+                else if (this%kind == line_words .or. .not. c%known) then
+                    cycle
+                else if (numbers) then
+                    call put_line("       "//both(c, digits))
+                else if (this%kind == line_omega2) then
+                    call put_line("       = "//scientific(c%formula, 6)//" s^-2, LAPACK "// &
+                                  scientific(c%program, 6))
+                end if
+            end associate
+        end do
+    end subroutine put_text
+
+    subroutine put_state(derivation, values)
+        !! Where the numbers are taken.
+        type(derivation_t), intent(in) :: derivation
+        real(dp), intent(in) :: values(:)
+        character(:), allocatable :: text
+        integer :: i
+
+        text = ""
+        do i = 1, size(values) - 2
+            text = text//", "//trim(derivation%symbols%names(i))//" = "//scientific(values(i), 6)
+        end do
+        call put_line("each line by the program and by the formula, at a state drawn at random:")
+        call put_broken("  ", text(3:))
+        call put_line("the last two steps with the accelerations of the motion, and at rest")
+    end subroutine put_state
+
+    function both(c, digits) result(text)
+        !! The numbers and their difference.
+        type(comparison_t), intent(in) :: c
+        integer, intent(in) :: digits
+        character(:), allocatable :: text
+
+        text = "program "//scientific(c%program, digits)//", formula "// &
+               scientific(c%formula, digits)//", difference "//scientific(c%formula - c%program, 2)
+    end function both
+
+    subroutine put_broken(indentation, text)
+        !! In lines of at most 98 characters, those after the first further to the right.
+        character(*), intent(in) :: indentation, text
+        integer, parameter :: widest = 98
+        character(:), allocatable :: head, rest
+        integer :: at
+
+        head = indentation
+        rest = text
+        do while (len(head) + len(rest) > widest)
+            at = best_break(rest(:widest - len(head)))
+            if (at == 0) exit
+            call put_line(head//trim(rest(:at)))
+            rest = rest(at + 1:)
+            head = repeat(" ", len(indentation) + 4)
+        end do
+        call put_line(head//rest)
+    end subroutine put_broken
+
+    subroutine put_latex(derivation)
+        !! For slides: a paragraph a step, with `amsmath`.
+        type(derivation_t), intent(in) :: derivation
+        character(:), allocatable :: right
+        logical :: open
+        integer :: i
+
+        open = .false.
+        call put_line("% needs \usepackage{amsmath}")
+        do i = 1, derivation%count
+            associate (this => derivation%lines(i))
+                if (this%heading /= "") then
+                    call close_align()
+                    call put_line("\paragraph{"//this%heading//"}")
+                end if
+                if (this%hidden) cycle
+                if (this%kind == line_words) then
+                    call close_align()
+                    call put_line(this%left_latex//"\par")
+                    cycle
+                end if
+                if (open) then
+                    call put_line("    \\")
+                else
+                    call put_line("\begin{align*}")
+                end if
+                open = .true.
+                right = aligned_latex(this%right, derivation%symbols)
+                if (this%is_zero) then
+                    right = "    & "//right//" = 0"
+                else
+                    right = "    "//this%left_latex//" & = "//right
+                end if
+                do while (index(right, new_line("a")) > 0)
+                    call put_line(right(:index(right, new_line("a")) - 1))
+                    right = right(index(right, new_line("a")) + 1:)
+                end do
+                call put_line(right)
+            end associate
+        end do
+        call close_align()
+    contains
+        subroutine close_align()
+            if (open) call put_line("\end{align*}")
+            open = .false.
+        end subroutine close_align
+    end subroutine put_latex
+
+    subroutine put_json(derivation, comparisons)
+        !! Everything.
+        type(derivation_t), intent(in) :: derivation
+        type(comparison_t), intent(in) :: comparisons(:)
+        character(:), allocatable :: members, rows, step
+        integer :: i
+
+        rows = ""
+        step = ""
+        do i = 1, derivation%count
+            associate (this => derivation%lines(i), c => comparisons(i))
+                if (this%heading /= "") step = this%heading
+                members = json_pair("step", step)//json_pair("line", derivation%line_text(i))
+                if (this%kind /= line_words) then
+                    members = members//json_pair("formula", formula_text(this%right, &
+                                                                         derivation%symbols)) &
+                              //json_pair("latex", latex(this%right, derivation%symbols)) &
+                              //json_pair("value", c%formula)
+                    if (c%known) members = members//json_pair("program", c%program) &
+                                           //json_pair("holds", c%agrees())
+                    if (this%slipped) members = members//json_pair("slip", .true.)
+                end if
+                rows = rows//", "//json_object(members)
+            end associate
+        end do
+        call put_line(json_object(json_pair("system", trim(derivation%d%name))// &
+                                  json_pair("holds", all(comparisons%agrees()))// &
+                                  json_item("lines", "["//rows(3:)//"]")))
+    end subroutine put_json
+end module lagrangia_derive
