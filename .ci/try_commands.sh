@@ -381,6 +381,32 @@ interrupt() { # interrupt SIGNAL STATUS
 set -m # else a shell lets its background jobs ignore SIGINT
 interrupt INT 130
 interrupt TERM 143
+# a system in formulas, from a scene
+spring=data/scenes/spring_pendulum.nml
+run run "$spring" --output "$work/o"
+check "formulas: a run, and its file" eval '[ $status -eq 0 ] && grep -q " holds$" "$work/out" && [ -s "$work/o/spring_pendulum.dat" ]'
+sed -n "/^# &scene/,/^# build/{/^# build/d;s/^# //p}" "$work/o/spring_pendulum.dat" >"$work/spring_pendulum.nml"
+run run "$work/spring_pendulum.nml" --output "$work/again"
+check "formulas: the echo in the data file runs again, with the same rows" eval '[ $status -eq 0 ] && cmp <(grep -v "^#" "$work/o/spring_pendulum.dat") <(grep -v "^#" "$work/again/spring_pendulum.dat")'
+run run "$spring" --format csv --output "$work/o" --set spring_pendulum%g=0 --set "scene%columns='t','p_theta','p_theta_drift'" --set scene%plot=p_theta
+check "formulas: without gravity the angle's momentum is conserved" eval '[ $status -eq 0 ] && tail -n 1 "$work/o/spring_pendulum.csv" | awk -F, "{ exit !(\$3 < 1e-10 && \$3 > -1e-10) }"'
+run modes "$spring" --json
+check "formulas: modes k/m and g/(l0 + m g/k)" json 'd["system"] == "spring_pendulum" and abs(d["omega2"][1]/40 - 1) < 1e-14 and abs(d["omega2"][0]/(9.81/1.24525) - 1) < 1e-13'
+run check "$spring"
+check "formulas: the audit holds" eval '[ $status -eq 0 ] && grep -q " 0 do not hold" "$work/out"'
+run describe "$spring"
+check "formulas: the equations are written" grep -qF "m r^2 theta_ddot + 2 m r r_dot theta_dot + m g r sin(theta) = 0" "$work/out"
+run run "$spring" --set "lagrangian%parameters='m','k','l0','g','b'" --set spring_pendulum%b=1 --output "$work/o"
+check "formulas: a parameter for nothing is said" eval '[ $status -eq 0 ] && grep -qF "no formula contains b" "$work/err"'
+refuses 2 "&lagrangian: V: column 11: 'cos' needs brackets; write 'cos(theta)'" run "$spring" --set "lagrangian%V=m g r cos theta" --output "$work/none"
+refuses 2 "the mass matrix d2L/dv dv is singular" run "$spring" --set "scene%q=0,1" --output "$work/none"
+refuses 2 "L has no theta_dot in it" modes "$spring" --set "lagrangian%T=m/2 r_dot^2"
+refuses 2 "give either L, or T and V" check "$spring" --set "lagrangian%L=r_dot^2"
+refuses 2 "unknown name 'thetadot'; did you mean 'theta_dot'?" describe "$spring" --set "lagrangian%T=m thetadot^2"
+refuses 2 "--set goes with one scene" check "$spring" pendulum --set spring_pendulum%k=2
+refuses 5 "no such file" modes "$work/nothing.nml"
+check "formulas: nothing refused left a file" [ ! -e "$work/none" ]
+
 run --help
 check "--help: a signal's status is what those were" eval 'formula=$(grep -o "128 . n signal n" "$work/out") && n=2 && [ $((${formula% signal n})) -eq 130 ]'
 

@@ -198,9 +198,9 @@ contains
         integer :: i
 
         formula = ""
-        do i = 1, size(texts)
-            if (i > 1) formula = formula//repeat(" ", gap(texts(i - 1), texts(i)))
-            formula = formula//trim(texts(i))
+        if (size(texts) > 0) formula = trim(texts(1))
+        do i = 2, size(texts)
+            formula = formula//repeat(" ", gap(texts(i - 1), texts(i)))//trim(texts(i))
         end do
     end subroutine join_pieces
 
