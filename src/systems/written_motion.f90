@@ -41,8 +41,8 @@ contains
             motion%momenta(i) = derivative(lagrangian, 1 + n + i)
             motion%slopes(i) = derivative(lagrangian, 1 + i)
             motion%right(i) = motion%slopes(i) - time_derivative(motion%momenta(i), rates, 1)
-            if (.not. is_zero(forces(i))) motion%right(i) = motion%right(i) + forces(i)
             call leave_out_what_cancels(motion%right(i), 1 + 2*n, symbols)
+            if (.not. is_zero(forces(i))) motion%right(i) = motion%right(i) + forces(i)
             motion%energy = motion%energy + symbol(1 + n + i)*motion%momenta(i)
             do j = 1, i
                 motion%mass(i, j) = derivative(motion%momenta(i), 1 + n + j)
