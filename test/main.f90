@@ -49,8 +49,8 @@ module suites
     use test_events, only: events_suite
     use test_exact_maps, only: exact_maps_suite
     use test_failure_contract, only: failure_contract_suite
-    use test_formula_fuzz, only: formula_fuzz_suite
     use test_forced_oscillation, only: forced_oscillation_suite
+    use test_formula_fuzz, only: formula_fuzz_suite
     use test_formula_latex, only: formula_latex_suite
     use test_formula_parser, only: formula_parser_suite
     use test_formula_program, only: formula_program_suite
@@ -126,6 +126,7 @@ module suites
     use test_scene_reference, only: scene_reference_suite
     use test_scene_steps, only: scene_steps_suite
     use test_scenes, only: scenes_suite
+    use test_scratch, only: clean_up
     use test_second_run, only: second_run_suite
     use test_sinc, only: sinc_suite
     use test_sine_cosine, only: sine_cosine_suite
@@ -146,7 +147,6 @@ module suites
     use test_walls, only: walls_suite
     use test_whole_file, only: whole_file_suite
     use test_written_refusals, only: written_refusals_suite
-    use test_written_system, only: written_system_suite
     implicit none (type, external)
     private
     public :: load_tests
@@ -312,7 +312,7 @@ program main
     use funit, only: finalize, initialize, run
     use suites, only: load_tests
     use surroundings, only: prepare
-    use test_scratch, only: clean_up
+    use test_written_system, only: written_system_suite
     implicit none (type, external)
     logical :: ok
 
