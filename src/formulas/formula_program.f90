@@ -14,6 +14,7 @@ module lagrangia_formula_program
                                    operator(*), operator(**), operator(+), operator(-), &
                                    operator(/), sin, sinh, sqrt, tan, tanh
     use lagrangia_kinds, only: dp, lanes
+    use lagrangia_sine_cosine, only: sine_cosine
     implicit none (type, external)
     private
     public :: formula_program_t
@@ -85,8 +86,14 @@ contains
         integer :: i, n
 
         n = size(code%numbers)
-        r(:n) = code%numbers
-        r(n + 1:n + code%inputs) = values
+        !GCC$ novector
+        do i = 1, n  ! few: vector instructions would cost more than they save
+            r(i) = code%numbers(i)
+        end do
+        !GCC$ novector
+        do i = 1, code%inputs
+            r(n + i) = values(i)
+        end do
         do i = 1, size(code%steps)
             associate (step => code%steps(i))
                 select case (step%op)
@@ -119,6 +126,7 @@ contains
                 end select
             end associate
         end do
+        !GCC$ novector
         do i = 1, size(code%outputs)
             results(i) = r(code%outputs(i))
         end do
@@ -229,7 +237,7 @@ contains
         real(dp), intent(in) :: values(lanes, code%inputs)
         real(dp), intent(inout) :: r(lanes, code%registers)
         real(dp), intent(out) :: results(lanes, size(code%outputs))
-        real(dp) :: x(lanes)
+        real(dp) :: x(lanes), y(lanes)
         integer :: i, n
 
         n = size(code%numbers)
@@ -252,16 +260,15 @@ contains
                 case (op_power); x = r(:, step%a)**r(:, step%b)
                 case (op_whole_power); x = r(:, step%a)**step%b
                 case (op_sin_cos)
-                    x = r(:, step%a)
-                    r(:, step%b) = cos(x)
-                    x = sin(x)
+                    call sine_cosine(r(:, step%a), x, y)
+                    r(:, step%b) = y
                 case (op_function + f_abs); x = abs(r(:, step%a))
                 case (op_function + f_atan); x = atan(r(:, step%a))
-                case (op_function + f_cos); x = cos(r(:, step%a))
+                case (op_function + f_cos); call sine_cosine(r(:, step%a), y, x)
                 case (op_function + f_cosh); x = cosh(r(:, step%a))
                 case (op_function + f_exp); x = exp(r(:, step%a))
                 case (op_function + f_log); x = log(r(:, step%a))
-                case (op_function + f_sin); x = sin(r(:, step%a))
+                case (op_function + f_sin); call sine_cosine(r(:, step%a), x, y)
                 case (op_function + f_sinh); x = sinh(r(:, step%a))
                 case (op_function + f_sqrt); x = sqrt(r(:, step%a))
                 case (op_function + f_tan); x = tan(r(:, step%a))

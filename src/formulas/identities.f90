@@ -184,11 +184,18 @@ contains
         type(table_t), intent(in) :: table
         type(sum_t), intent(in) :: s
         type(term_t), intent(in) :: term
-        integer :: place
+        integer :: first, found, last, place
 
-        do place = s%count, 1, -1
-            if (compare(table%order, s%terms(place), term) == 0) return
+        first = 1
+        last = s%count
+        do while (first <= last)
+            place = (first + last)/2
+            found = compare(table%order, term, s%terms(place))
+            if (found == 0) return
+            if (found < 0) last = place - 1
+            if (found > 0) first = place + 1
         end do
+        place = 0
     end function place_of
 
     pure subroutine replace(table, s, i, other, new)
