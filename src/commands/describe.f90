@@ -181,7 +181,8 @@ contains
             end do
         end if
         if (allocated(d%motion)) then
-            call put_line("closed form, from x_0, x_dot_0 at t = 0")
+            call put_line("closed form, from "//trim(d%coordinates(1)%name)//"_0, "// &
+                          trim(d%coordinates(1)%name)//"_dot_0 at t = 0")
             do i = 1, size(d%motion)
                 call put_wrapped(trim(d%motion(i)))
             end do
