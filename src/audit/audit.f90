@@ -149,7 +149,8 @@ contains
         if (inside) call audit_mass(audit, system, t, q, v)
         call audit_cyclic(audit, system, t, q, v)
         call audit_flags(audit, system, t, q, v, other_t, other_v, inside .and. all_free)
-        if (.not. allocated(unsolved)) call audit_formulas(audit, nearby, motion, inside)
+        if (.not. allocated(unsolved)) call audit_formulas(audit, nearby, motion, &
+                                                           inside .and. all_free)
         call audit_closed_forms(audit, nearby)
     end subroutine audit_state
 

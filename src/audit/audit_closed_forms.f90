@@ -256,7 +256,7 @@ contains
 
             call rest_at(q, state)
             call statements%evaluate(system, d, state, left, right)
-            holds_at = all(abs(left - right) <= close_by*(1.0_dp + abs(left)))
+            holds_at = all(abs(left - right) <= close_by*(1.0_dp + maxval(abs(q))))
         end function holds_at
     end subroutine find_equilibrium
 end module lagrangia_audit_closed_forms
