@@ -173,7 +173,7 @@ refuses 2 "takes 2 values" modes double_pendulum --at 0
 refuses 2 "greater than 0.0 is needed" modes cart_pendulum --set cart_pendulum%m1=0
 refuses 4 "other units are needed" modes pendulum --set pendulum%g=1e308 --set pendulum%l=1e-300
 run check pendulum rolling_disk --json
-check "check: every claim holds" json 'len(d) == 74 and all(row["holds"] for row in d)'
+check "check: every claim holds" json 'len(d) == 78 and all(row["holds"] for row in d)'
 cp "$work/out" "$work/rows"
 run check pendulum rolling_disk
 check "check: the text's remarks are the JSON's" python3 -c 'import json, sys
