@@ -147,6 +147,7 @@ module suites
     use test_walls, only: walls_suite
     use test_whole_file, only: whole_file_suite
     use test_written_refusals, only: written_refusals_suite
+    use test_written_system, only: written_system_suite
     implicit none (type, external)
     private
     public :: load_tests
@@ -312,7 +313,6 @@ program main
     use funit, only: finalize, initialize, run
     use suites, only: load_tests
     use surroundings, only: prepare
-    use test_written_system, only: written_system_suite
     implicit none (type, external)
     logical :: ok
 
