@@ -42,6 +42,7 @@ contains
         real(dp) :: at_end(points, 2)
         integer :: g, j, k, rows(lanes)
 
+        !GCC$ novector
         do k = 0, 4*points - 1
             cosine(k) = cos(k*pi/(2*points))
         end do

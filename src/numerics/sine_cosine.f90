@@ -19,7 +19,7 @@ module lagrangia_sine_cosine
     use lagrangia_kinds, only: dp, lanes
     implicit none (type, external)
     private
-    public :: largest_angle, sine_cosine
+    public :: largest_angle, sine_cosine, sines_cosines
 
     real(dp), parameter :: largest_angle = 5.1e4_dp      !! rad; n < 2^15. Beyond: libm
     real(dp), parameter :: two_over_pi = 2.0_dp/acos(-1.0_dp)
@@ -83,4 +83,22 @@ contains
             cosine(i) = cos(x(i))
         end do
     end subroutine sine_cosine
+
+    pure subroutine sines_cosines(n, x, sine, cosine)
+        !! The same of any number of angles.
+        integer, intent(in) :: n                         !! how many
+        real(dp), intent(in) :: x(n)                     !! rad
+        real(dp), intent(out) :: sine(n), cosine(n)      !! as above
+        real(dp), dimension(lanes) :: eight, s_eight, c_eight
+        integer :: first, last
+
+        eight = 0.0_dp
+        do first = 1, n, lanes
+            last = min(n, first + lanes - 1)
+            eight(:last - first + 1) = x(first:last)
+            call sine_cosine(eight, s_eight, c_eight)
+            sine(first:last) = s_eight(:last - first + 1)
+            cosine(first:last) = c_eight(:last - first + 1)
+        end do
+    end subroutine sines_cosines
 end module lagrangia_sine_cosine

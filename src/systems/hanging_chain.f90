@@ -12,7 +12,7 @@ module lagrangia_hanging_chain
     use lagrangia_kinds, only: dp
     use lagrangia_laguerre, only: laguerre_zeros
     use lagrangia_linearised, only: linearised_t
-    use lagrangia_sine_cosine, only: sine_cosine
+    use lagrangia_sine_cosine, only: sine_cosine, sines_cosines
     use lagrangia_system, only: check_parameters, lanes, system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -196,16 +196,14 @@ contains
         class(hanging_chain_t), intent(in) :: self
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
         real(dp), intent(out) :: a(self%ndof)
-        real(dp) :: tau(most), s(most), l  ! of fixed size: not on the heap
+        real(dp) :: tau(most), s(most), c(most), l  ! of fixed size: not on the heap
         integer :: k
 
         associate (n => self%n, g => self%g)
             l = self%l/n
-            call tensions(self, q, v, tau(:n))
-            do k = 1, n - 1
-                s(k) = sin(q(k + 1) - q(k))
-            end do
-            a(1) = -g*sin(q(1))
+            call turns(self, q, s, c)
+            call tensions(self, v, c, tau(:n))
+            a(1) = -g*s(n)
             do k = 1, n - 1
                 a(k) = (a(k) + tau(k + 1)*s(k))/l
                 a(k + 1) = -tau(k)*s(k)
@@ -214,22 +212,29 @@ contains
         end associate
     end subroutine accelerations
 
-    pure subroutine tensions(self, q, v, tau)
-        !! The tensions over m.
+    pure subroutine turns(self, q, s, c)
+        !! Sine and cosine of \(\theta_{k+1} - \theta_k\) and, as the last, of \(\theta_1\).
         class(hanging_chain_t), intent(in) :: self
-        real(dp), intent(in) :: q(self%ndof), v(self%ndof)
-        real(dp), intent(out) :: tau(self%ndof)
-        real(dp) :: c(most)
-        integer :: k
+        real(dp), intent(in) :: q(self%ndof)
+        real(dp), intent(out) :: s(most), c(most)
+        real(dp) :: x(most)
 
         associate (n => self%n)
-            tau = self%l/n*v**2
-            tau(1) = tau(1) + self%g*cos(q(1))
-            do k = 1, n - 1
-                c(k) = cos(q(k + 1) - q(k))
-            end do
-            call eliminate(n, c, tau)
+            x(:n - 1) = q(2:) - q(:n - 1)
+            x(n) = q(1)
+            call sines_cosines(n, x, s, c)
         end associate
+    end subroutine turns
+
+    pure subroutine tensions(self, v, c, tau)
+        !! The tensions over m; `c` as in `turns`.
+        class(hanging_chain_t), intent(in) :: self
+        real(dp), intent(in) :: v(self%ndof), c(most)
+        real(dp), intent(out) :: tau(self%ndof)
+
+        tau = self%l/self%n*v**2
+        tau(1) = tau(1) + self%g*c(self%n)
+        call eliminate(self%n, c, tau)
     end subroutine tensions
 
     pure subroutine accelerations_lanes(self, t, q, v, a)
@@ -328,11 +333,12 @@ contains
         class(hanging_chain_t), intent(in) :: self
         integer, intent(in) :: i
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
-        real(dp) :: value, tau(self%ndof), r(2), r_dot(2)
+        real(dp) :: value, tau(self%ndof), s(most), c(most), r(2), r_dot(2)
         integer :: k
 
         if (i == 2) then
-            call tensions(self, q, v, tau)
+            call turns(self, q, s, c)
+            call tensions(self, v, c, tau)
             value = self%m*tau(1)
             return
         end if
