@@ -29,6 +29,7 @@ contains
                                       closed_forms_agree_with_the_file))
         call suite%addTest(TestMethod("energy_is_kept_to_the_end", energy_is_kept_to_the_end))
         call suite%addTest(TestMethod("everybody_solves_something", everybody_solves_something))
+        call suite%addTest(TestMethod("samples_cost_no_accuracy", samples_cost_no_accuracy))
         call suite%addTest(TestMethod("numbers_are_short", numbers_are_short))
         call suite%addTest(TestMethod("tables_are_lines_and_objects", tables_are_lines_and_objects))
         call suite%addTest(TestMethod("debug_builds_are_refused", debug_builds_are_refused))
@@ -118,6 +119,38 @@ contains
         end do
     end subroutine everybody_solves_something
 
+    subroutine samples_cost_no_accuracy()
+        !! The end of P2, as with no samples, to a thousand tolerances of one step; who leaves the
+        !! cart out says so. GSL, which steps to every sample, evaluates more often.
+        type(bench_problem_t), allocatable, target :: problems(:)
+        type(contestant_box_t), allocatable :: boxes(:)
+        type(error_t), allocatable :: error
+        character(name_length), parameter :: names(*) = [character(name_length) :: "gauss16", &
+            "dop853", "gsl_rk8pd"]
+        integer, parameter :: coordinates(*) = [1, 1, 2]
+        real(dp) :: q(2), v(2)
+        integer(i8) :: without
+        integer :: i, k
+
+        call read_problems(["P2"], problems, error)
+        do i = 1, size(names)
+            call new_contestants(names(i:i), boxes)
+            k = findloc([(boxes(k)%item%set_by, k=1, size(boxes))], set_by_tolerance, 1)
+            associate (one => boxes(k)%item)
+                call one%prepare(problems(1), 1e-10_dp, error)
+                call one%solve(problems(1), q, v, error)
+                without = one%evaluations
+                one%samples = 1000
+                call one%prepare(problems(1), 1e-10_dp, error)
+                call one%solve(problems(1), q, v, error)
+                call assertFalse(allocated(error), names(i))
+                call assertTrue(problems(1)%error_of(q, v) < 1e-7_dp, names(i))
+                call assertEqual(coordinates(i), one%coordinates, names(i))
+                if (i == 3) call assertTrue(one%evaluations > without, "steps to every sample")
+            end associate
+        end do
+    end subroutine samples_cost_no_accuracy
+
     subroutine numbers_are_short()
         !! So many digits, and no more.
         call assertEqual("123", short(123.4_dp, 3))
@@ -190,7 +223,7 @@ contains
         call refused("--methods="//repeat("m", 33), "unknown method '"//repeat("m", 31)// &
                      "?'; there are", begins=.true.)
         call refused("step", "unknown part 'step'; did you mean 'steps'?")
-        call refused("speed", "unknown part 'speed'; there are precision, steps, energy, "// &
+        call refused("speed", "unknown part 'speed'; there are precision, samples, steps, energy, "// &
                      "growth, modes, output")
         call refused("--output=", "option '--output' needs the name of a folder")
         call refused("--tolerances=0", "tolerance 0.0 is not allowed: a number from 1e-16 to "// &

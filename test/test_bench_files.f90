@@ -88,8 +88,10 @@ contains
         call follow(script, "set title ""oscillator: "//trim(problems(1)%title)//", T = "// &
                     to_text(problems(1)%duration)//" s""")
         call follow(script, "set xrange [1.0:10.0]")
+        call follow(script, "set x2range [")
         do i = 1, 4
             call follow(script, "index "//to_text(i - 1)//" ")
+            if (i == 4) call follow(script, " axes x2y1 ")
             call follow(script, "ls "//to_text(i)//" notitle")
         end do
         call follow(script, "set title ""P1: "//trim(problems(2)%title))

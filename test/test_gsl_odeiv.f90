@@ -1,8 +1,11 @@
 module test_gsl_odeiv
     !! GSL's integrators behind our door: right against closed forms, refusals in words.
-    use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int, c_loc, c_null_ptr, c_ptr
+    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_procpointer, c_funloc, &
+                                           c_int, c_loc, c_null_ptr, c_ptr
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_catalogue, only: new_system
+    use lagrangia_description, only: description_t
+    use lagrangia_direct_rates, only: direct_context_t, direct_rates
     use lagrangia_errors, only: error_t, status_library, status_numbers, status_usage
     use lagrangia_gsl_contestants, only: gsl_context_t, gsl_jacobian, gsl_rates
     use lagrangia_gsl_odeiv, only: gsl_driver_t, gsl_methods
@@ -27,6 +30,7 @@ contains
         call suite%addTest(TestMethod("evaluations_are_counted", evaluations_are_counted))
         call suite%addTest(TestMethod("the_jacobian_is_right", the_jacobian_is_right))
         call suite%addTest(TestMethod("time_enters_the_jacobian", time_enters_the_jacobian))
+        call suite%addTest(TestMethod("direct_rates_are_the_systems", direct_rates_are_the_systems))
         call suite%addTest(TestMethod("refusals_have_words", refusals_have_words))
     end function gsl_odeiv_suite
 
@@ -169,6 +173,43 @@ contains
         call assertEqual([0.0_dp, slope], by_time, tolerance=1e-6_dp*abs(slope))
         call assertEqual([0.0_dp, 1.0_dp], jacobian(1:2))
     end subroutine time_enters_the_jacobian
+
+    subroutine direct_rates_are_the_systems()
+        !! The right-hand sides in C are the accelerations, for other parameters than the default
+        !! too: some ten operations, each rounded.
+        character(16), parameter :: names(*) = [character(16) :: "oscillator", "pendulum", &
+            "double_pendulum", "cart_pendulum", "charged_particle"]
+        integer, parameter :: undamped(*) = [2, 3, 5, 4, 9]  !! parameters, without those of damping
+        procedure(broken), pointer :: rates
+        class(system_t), allocatable :: system
+        type(direct_context_t), target :: context
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+        real(dp) :: values(9), y(6), f(6), a(3)
+        integer :: given, i, k, n
+
+        do i = 1, size(names)
+            values = [(merge(0.3_dp + 0.17_dp*k, 0.0_dp, k <= undamped(i)), k=1, size(values))]
+            call new_system(trim(names(i)), system, error)
+            call system%describe(d)
+            given = sum(d%parameters%count)
+            call system%configure(values(:given), error)
+            call assertFalse(allocated(error), names(i))
+            context%parameters(:given) = values(:given)
+            context%evaluations = 0
+            n = system%ndof
+            call c_f_procpointer(direct_rates(trim(names(i))), rates)
+            do k = 1, 20
+                y = [0.3_dp, -0.4_dp, 0.7_dp, 1.1_dp, -1.3_dp, 0.2_dp]*k
+                call system%accelerations(0.1_dp*k, y(:n), y(n + 1:2*n), a(:n))
+                call assertEqual(0, int(rates(0.1_dp*k, y, f, c_loc(context))))
+                call assertEqual(y(n + 1:2*n), f(:n))
+                call assertEqual(a(:n), f(n + 1:2*n), 20*epsilon(a)*(1.0_dp + sum(y**2)), names(i))
+            end do
+            call assertEqual(20, int(context%evaluations))
+        end do
+        call assertFalse(c_associated(direct_rates("atwood")), "none is written")
+    end subroutine direct_rates_are_the_systems
 
     function broken(t, y, rates, context) bind(c) result(status)
         !! A right-hand side that fails half-way: GSL_EBADFUNC.

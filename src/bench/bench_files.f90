@@ -20,7 +20,7 @@ module lagrangia_bench_files
     public :: check_bench_files, write_bench_files
 
     character(*), parameter :: file_name = "bench.dat"
-    integer, parameter :: header_length = 200
+    integer, parameter :: header_length = 400
     character(*), parameter :: blank_lines = new_line("a")//new_line("a")
     integer, parameter :: width = 1300, panel = 390, top = 40  !! pixels of the picture
     character(7), parameter :: colours(16) = ["#1f77b4", "#ff7f0e", "#d62728", "#2ca02c", &
@@ -153,8 +153,9 @@ contains
             call script%add(style(i, methods(i)))
         end do
         call script%add("set grid lc rgb '#cccccc' lw 0.6 lt 1")
-        call script%add("set termoption enhanced; set logscale xy; set format '10^{%L}'")
-        call script%add("set xlabel 'time of a run [us]'; set ylabel 'largest error of q and v'")
+        call script%add("set termoption enhanced; set logscale xyx2; set format '10^{%L}'")
+        call script%add("set xlabel 'time of a run [us] (of closed_form: above)' noenhanced")
+        call script%add("set ylabel 'largest error of q and v'")
         call script%add("set multiplot title 'Run time against error at the end'")
         do i = 1, size(problems)
             call place(modulo(i - 1, across), (i - 1)/across)
@@ -171,7 +172,7 @@ contains
             left = 90.0_dp + real((width - 10)*column, dp)/across
             upper = real(height - top - panel*row, dp)
             call put_margins(left, left + real(width - 10, dp)/across - 110.0_dp, &
-                             upper - panel + 70.0_dp, upper - 20.0_dp)
+                             upper - panel + 70.0_dp, upper - 42.0_dp)
         end subroutine place
 
         subroutine put_margins(left, right, bottom, upper)
@@ -192,13 +193,20 @@ contains
             call script%add("set title "//gnuplot_string(trim(problems(which)%name)//": "// &
                             trim(problems(which)%title)//", T = "// &
                             to_text(problems(which)%duration)//" s")//" noenhanced offset 0,-0.7")
-            call script%add("set xrange ["//time_range(curves, which)//"]; set yrange [1e-16:2]")
+            call script%add("set xrange ["//time_range(curves, which, .false.)// &
+                            "]; set yrange [1e-16:2]; unset x2tics")
+            if (any(curves%problem_index == which .and. curves%source == source_closed_form)) then
+                call script%add("set x2range ["//time_range(curves, which, .true.)// &
+                                "]; set x2tics")
+            end if
             line = ""
             do k = 1, size(curves)
                 if (curves(k)%problem_index /= which) cycle
                 if (line /= "") line = line//", "
                 line = line//"data index "//to_text(k - 1)//" using 6:($5 > 1.2e-16 ? $5 : "// &
-                       "1.2e-16) with linespoints ls "// &
+                       "1.2e-16)"//trim(merge(" axes x2y1", "          ", &
+                                              curves(k)%source == source_closed_form))// &
+                       " with linespoints ls "// &
                        to_text(findloc(methods, label(curves(k)), 1))//" notitle"
             end do
             if (line /= "") call script%add("plot "//line)
@@ -222,10 +230,12 @@ contains
         end subroutine draw_legend
     end function bench_script
 
-    pure function time_range(curves, which) result(range)
-        !! Whole decades around the times of one problem, us.
+    pure function time_range(curves, which, closed) result(range)
+        !! Whole decades around the times of one problem, us: of its closed form, which has an axis
+        !! of its own above the panel, or of all others.
         type(curve_t), intent(in) :: curves(:)
         integer, intent(in) :: which
+        logical, intent(in) :: closed  !! of the closed form
         character(:), allocatable :: range
         real(dp) :: low, high
         integer :: k
@@ -234,6 +244,7 @@ contains
         high = 0.0_dp
         do k = 1, size(curves)
             if (curves(k)%problem_index /= which) cycle
+            if (closed .neqv. curves(k)%source == source_closed_form) cycle
             associate (p => curves(k)%points(:curves(k)%count))
                 low = min(low, minval(p%seconds))
                 high = max(high, maxval(p%seconds))

@@ -19,6 +19,10 @@ module lagrangia_contestant
         integer :: source = source_ours    !! who wrote it
         integer :: set_by = set_by_step    !! what sets its accuracy
         integer :: order = 1             !! of the error in the step
+        integer :: samples = 0           !! states between start and end that are asked for, at
+        !! equal intervals; only who is set by a tolerance gives them
+        integer :: coordinates = 0       !! that are integrated, since `prepare`; fewer than the
+        !! problem has where a cyclic one is left out, 0 of a closed form
         integer(i8) :: evaluations = 0   !! of accelerations, since `prepare`
     contains
         procedure(prepare_i), deferred :: prepare

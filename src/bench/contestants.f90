@@ -14,7 +14,7 @@ module lagrangia_contestants
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: nth_adaptive, nth_integrator
-    use lagrangia_reduced_motion, only: leave_cyclic
+    use lagrangia_reduced_motion, only: leave_cyclic, reduced_motion_t
     implicit none (type, external)
     private
     public :: contestant_names, new_contestants
@@ -30,7 +30,7 @@ module lagrangia_contestants
     end type fixed_contestant_t
 
     type, extends(contestant_t) :: adaptive_contestant_t
-        !! Steps of the method's own choice; nobody asks what is between them.
+        !! Steps of the method's own choice; samples between them by its dense output.
         class(dense_integrator_t), allocatable :: plain  !! the method
         class(integrator_t), allocatable :: method       !! and what a scene would make of it
     contains
@@ -161,7 +161,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
 
         self%steps = ceiling(problem%duration/setting*(1.0_dp - epsilon(setting)), i8)
-        call prepare_method(self%plain, problem, self%method, error)
+        call prepare_method(self%plain, problem, self%method, self%coordinates, error)
     end subroutine prepare_fixed
 
     subroutine solve_fixed(self, problem, q, v, error)
@@ -200,8 +200,8 @@ contains
         type(error_t), allocatable, intent(out) :: error
 
         self%plain%tolerance = setting
-        self%plain%dense = .false.
-        call prepare_method(self%plain, problem, self%method, error)
+        self%plain%dense = self%samples > 0
+        call prepare_method(self%plain, problem, self%method, self%coordinates, error)
     end subroutine prepare_adaptive
 
     subroutine solve_adaptive(self, problem, q, v, error)
@@ -210,30 +210,45 @@ contains
         type(bench_problem_t), intent(in) :: problem
         real(dp), intent(out) :: q(:), v(:)
         type(error_t), allocatable, intent(out) :: error
+        real(dp) :: t
+        integer :: k
 
         q = problem%q
         v = problem%v
+        k = 1
         select type (method => self%method)
         class is (dense_integrator_t)
             call method%start(problem%system, 0.0_dp, q, v, problem%duration)
             do while (method%t_new < problem%duration)
                 call method%step(problem%system, error)
                 if (allocated(error)) return
+                do while (k <= self%samples)
+                    t = problem%duration*k/(self%samples + 1)
+                    if (t > method%t_new) exit
+                    call method%state_at(t, q, v)
+                    k = k + 1
+                end do
             end do
             call method%state_at(method%t_new, q, v)
         end select
         self%evaluations = self%method%evaluations
     end subroutine solve_adaptive
 
-    subroutine prepare_method(plain, problem, method, error)
+    subroutine prepare_method(plain, problem, method, coordinates, error)
         !! What a scene would make of a method, ready for the problem.
         class(integrator_t), intent(in) :: plain
         type(bench_problem_t), intent(in) :: problem
         class(integrator_t), allocatable, intent(out) :: method
+        integer, intent(out) :: coordinates  !! that it integrates
         type(error_t), allocatable, intent(out) :: error
 
         allocate (method, source=plain)
         call leave_cyclic(method, problem%system)
+        coordinates = problem%system%ndof
+        select type (method)
+        class is (reduced_motion_t)
+            coordinates = coordinates - 1
+        end select
         call method%prepare(problem%system, error)
     end subroutine prepare_method
 

@@ -1,10 +1,15 @@
 module lagrangia_gsl_contestants
     !! GSL's methods in the benchmark, as its manual drives them.
     !!
-    !! GSL wants a mechanical system as \(y = (q, v)\), \(\dot y = (v, a)\), in C functions.
-    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_funloc, c_int, c_loc, c_ptr
+    !! GSL wants a mechanical system as \(y = (q, v)\), \(\dot y = (v, a)\), in C functions: those
+    !! of `direct_rates` where there is one, without damping; else, and for `bsimp`, the system
+    !! itself behind one.
+    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, &
+                                           c_funptr, c_int, c_loc, c_ptr
     use lagrangia_bench_problems, only: bench_problem_t
     use lagrangia_contestant, only: contestant_t, set_by_step, set_by_tolerance, source_gsl
+    use lagrangia_description, only: default_values, description_t
+    use lagrangia_direct_rates, only: direct_context_t, direct_rates
     use lagrangia_errors, only: error_t
     use lagrangia_gsl_odeiv, only: gsl_driver_t, gsl_success
     use lagrangia_kinds, only: dp, i8
@@ -15,13 +20,13 @@ module lagrangia_gsl_contestants
     public :: gsl_context_t, gsl_jacobian, gsl_rates
 
     real(dp), parameter :: first_step = 1e-3_dp  !! s; GSL makes it longer as it likes
-    real(dp), parameter :: any_error = 1e300_dp  !! at fixed steps GSL's estimate must not object
 
     type, extends(contestant_t) :: gsl_contestant_t
         private
         character(8) :: method = ""
         type(gsl_driver_t) :: driver
-        type(gsl_context_t), pointer :: context => null()  !! GSL keeps its address
+        type(gsl_context_t), pointer :: context => null()   !! GSL keeps its address,
+        type(direct_context_t), pointer :: direct => null() !! or that of this one
         integer(i8) :: steps = 0
         real(dp), allocatable :: y(:)
     contains
@@ -59,22 +64,36 @@ contains
         type(bench_problem_t), target, intent(in) :: problem
         real(dp), intent(in) :: setting
         type(error_t), allocatable, intent(out) :: error
+        type(description_t) :: d
+        real(dp), allocatable :: parameters(:)
+        type(c_funptr) :: rates
+        type(c_ptr) :: context
         real(dp) :: tolerance
 
         tolerance = setting
         if (self%set_by == set_by_step) then
-            tolerance = any_error
+            tolerance = 1.0_dp
             self%steps = ceiling(problem%duration/setting*(1.0_dp - epsilon(setting)), i8)
         end if
-        if (.not. associated(self%context)) allocate (self%context)
+        call release(self)
+        allocate (self%context, self%direct)
         self%context%system => problem%system
-        self%context%evaluations = 0
-        if (allocated(self%context%work)) deallocate (self%context%work)
+        call problem%system%describe(d)
+        rates = direct_rates(trim(d%name))
+        context = c_loc(self%direct)
+        parameters = default_values(d)
+        if (self%method == "bsimp" .or. .not. c_associated(rates) .or. &
+            problem%system%nonconservative) then
+            rates = c_funloc(gsl_rates)
+            context = c_loc(self%context)
+        else
+            self%direct%parameters(:size(parameters)) = parameters
+        end if
         if (allocated(self%y)) deallocate (self%y)
         allocate (self%y(2*problem%system%ndof))
-        call self%driver%start(trim(self%method), size(self%y), c_funloc(gsl_rates), &
-                               c_funloc(gsl_jacobian), c_loc(self%context), first_step, &
-                               tolerance, error)
+        self%coordinates = problem%system%ndof
+        call self%driver%start(trim(self%method), size(self%y), rates, c_funloc(gsl_jacobian), &
+                               context, first_step, tolerance, error)
     end subroutine prepare
 
     subroutine solve(self, problem, q, v, error)
@@ -84,7 +103,7 @@ contains
         real(dp), intent(out) :: q(:), v(:)
         type(error_t), allocatable, intent(out) :: error
         real(dp) :: t
-        integer :: n
+        integer :: k, n
 
         n = size(q)
         self%y(:n) = problem%q
@@ -95,9 +114,12 @@ contains
         if (self%set_by == set_by_step) then
             call self%driver%fixed_steps(t, problem%duration/self%steps, self%steps, self%y, error)
         else
-            call self%driver%integrate(t, problem%duration, self%y, error)
+            do k = 1, self%samples + 1
+                call self%driver%integrate(t, problem%duration*k/(self%samples + 1), self%y, error)
+                if (allocated(error)) exit
+            end do
         end if
-        self%evaluations = self%context%evaluations
+        self%evaluations = self%context%evaluations + self%direct%evaluations
         q = self%y(:n)
         v = self%y(n + 1:)
     end subroutine solve
@@ -108,6 +130,7 @@ contains
 
         call self%driver%free()
         if (associated(self%context)) deallocate (self%context)
+        if (associated(self%direct)) deallocate (self%direct)
     end subroutine release
 
     function gsl_rates(t, y, rates, context) bind(c) result(status)

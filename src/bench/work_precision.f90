@@ -37,6 +37,7 @@ module lagrangia_work_precision
         !! One contestant on one problem, coarsest setting first.
         character(name_length) :: problem = "", method = ""
         integer :: source = 0, set_by = 0
+        integer :: coordinates = 0                  !! that are integrated
         integer :: problem_index = 0, contestant_index = 0
         integer :: count = 0
         type(point_t) :: points(most_rungs)
@@ -132,6 +133,7 @@ contains
                 point%setting = setting
                 point%error = problem%error_of(q, v)
                 point%evaluations = contestant%evaluations
+                curve%coordinates = contestant%coordinates
                 point%seconds = took
                 if (point%error >= no_digit) cycle
                 idle = idle + 1
@@ -257,8 +259,9 @@ contains
         integer :: i, k
 
         call table%begin("time_to_error", "time to an error, us; over_gsl: divided "// &
-                         "by the best of GSL's methods there", [character(name_length) :: &
-                         "problem", "method", "set_by", "us_to_1e-3", "us_to_1e-6", &
+                         "by the best of GSL's methods there; coordinates: that are integrated", &
+                         [character(name_length) :: &
+                         "problem", "method", "set_by", "coordinates", "us_to_1e-3", "us_to_1e-6", &
                          "us_to_1e-9", "us_to_1e-12", "over_gsl_1e-3", "over_gsl_1e-6", &
                          "over_gsl_1e-9", "over_gsl_1e-12", "least_error"])
         do i = 1, size(curves)
@@ -269,7 +272,8 @@ contains
                                                               source_gsl, wanted(k))), 2)
             end do
             call table%add([word_cell(curves(i)%problem), word_cell(curves(i)%method), &
-                            word_cell(set_by_names(curves(i)%set_by)), times, ratios, &
+                            word_cell(set_by_names(curves(i)%set_by)), &
+                            count_cell(int(curves(i)%coordinates, i8)), times, ratios, &
                             number_cell(curves(i)%least_error(), 2)])
         end do
     end subroutine times_table

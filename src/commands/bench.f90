@@ -16,6 +16,7 @@ module lagrangia_bench
     use lagrangia_observer, only: observer_t
     use lagrangia_printed_table, only: printed_table_t
     use lagrangia_progress, only: progress_t
+    use lagrangia_sampled_bench, only: measure_samples
     use lagrangia_step_cost, only: measure_steps
     use lagrangia_version, only: build_text, is_optimised
     use lagrangia_work_precision, only: curve_t, measure_curves, points_table, times_table
@@ -64,6 +65,8 @@ contains
             select case (parts(i))
             case ("precision")
                 call bench_precision()
+            case ("samples")
+                call bench_samples()
             case ("steps")
                 call bench_steps()
             case ("energy")
@@ -113,6 +116,18 @@ contains
             call output%say("data file and gnuplot script: "//path)
             if (line%has("plot")) call draw(path, options%picture, error)
         end subroutine bench_precision
+
+        subroutine bench_samples()
+            type(bench_problem_t), allocatable, target :: problems(:)
+            type(contestant_box_t), allocatable :: contestants(:)
+
+            call read_problems(options%problems, problems, error)
+            if (allocated(error)) return
+            call new_contestants(options%methods, contestants)
+            call measure_samples(problems, contestants, options%plan, watcher, table, error)
+            if (allocated(error)) return
+            call output%show(table, progress)
+        end subroutine bench_samples
 
         subroutine bench_steps()
             type(contestant_box_t), allocatable :: contestants(:)

@@ -17,7 +17,7 @@ module lagrangia_bench_options
     public :: bench_options_t, parts, read_options
 
     character(name_length), parameter :: parts(*) = [character(name_length) :: "precision", &
-        "steps", "energy", "growth", "modes", "output"]
+        "samples", "steps", "energy", "growth", "modes", "output"]
     real(dp), parameter :: least_tolerance = 1e-16_dp
 
     type :: bench_options_t
