@@ -42,8 +42,9 @@ contains
         integer :: k
 
         associate (n => self%n, rod => self%l/self%n)
-            call sines_cosines(n, q, s, c)
             do k = 1, n
+                s(k) = sin(q(k))
+                c(k) = cos(q(k))
                 x(k) = rod*v(k)*c(k)
                 y(k) = rod*v(k)*s(k)
             end do
@@ -74,8 +75,9 @@ contains
 
         associate (n => self%n, rod => self%l/self%n)
             lambda = 0.0_dp
-            call sines_cosines(n - 1, q(2:) - q(:n - 1), s, c)
             do k = 1, n - 1
+                s(k) = sin(q(k + 1) - q(k))
+                c(k) = cos(q(k + 1) - q(k))
                 lambda(k) = lambda(k) - p(k + 1)/rod*s(k)
                 lambda(k + 1) = p(k)/rod*s(k)
             end do
