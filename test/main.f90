@@ -126,7 +126,6 @@ module suites
     use test_scene_reference, only: scene_reference_suite
     use test_scene_steps, only: scene_steps_suite
     use test_scenes, only: scenes_suite
-    use test_scratch, only: clean_up
     use test_second_run, only: second_run_suite
     use test_sinc, only: sinc_suite
     use test_sine_cosine, only: sine_cosine_suite
@@ -313,6 +312,7 @@ program main
     use funit, only: finalize, initialize, run
     use suites, only: load_tests
     use surroundings, only: prepare
+    use test_scratch, only: clean_up
     implicit none (type, external)
     logical :: ok
 
