@@ -83,11 +83,9 @@ contains
         end associate
         call new_formula_program(program, formulas, size(values))
         values%re = [scene%t0, scene%q, scene%v, system%p]
-        do k = 0, 1 + 2*system%ndof
-            if (k > 0) then
-                values(k)%d1 = 1.0_dp
-                values(k)%d2 = 1.0_dp
-            end if
+        do k = 0, 1 + 2*system%ndof  ! the values, then the derivatives by symbol k
+            values%d1 = merge(1.0_dp, 0.0_dp, [(i == k, i=1, size(values))])
+            values%d2 = values%d1
             call program%evaluate(values, results)
             do i = 1, size(keys)
                 if (ieee_is_finite(results(i)%re + results(i)%d1 + results(i)%d12)) cycle
@@ -102,7 +100,6 @@ contains
                 end if
                 return
             end do
-            if (k > 0) values(k) = hyperdual_t(re=values(k)%re)
         end do
     end subroutine refuse_infinite
 

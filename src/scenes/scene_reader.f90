@@ -182,7 +182,7 @@ contains
         if (allocated(found)) then
             allocate (names(tree%group_count))
             do i = 1, size(names)
-                names(i) = tree%groups(i)%name
+                names(i) = trim(tree%groups(i)%name)
             end do
             if (nearest_name(formula_group, names) /= "") then
                 call refuse_unknown_groups(tree, [formula_group], error)
@@ -246,7 +246,7 @@ contains
         call get_string(tree, "scene", "title", scene%title, error)
         if (.not. allocated(error)) call read_formulas(tree, formulas, error)
         if (allocated(error)) return
-        formulas%title = scene%title
+        formulas%title = trim(scene%title)
         call read_expressions(formulas, expressions, found)
         if (.not. allocated(found)) then
             call read_values(tree, formulas, error)

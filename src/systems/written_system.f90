@@ -129,8 +129,8 @@ contains
             allocate (d%letters(size(formulas%definitions)))
             do i = 1, size(d%letters)
                 equals = index(formulas%definitions(i), "=")
-                d%letters(i)%name = adjustl(formulas%definitions(i)(:equals - 1))
-                d%letters(i)%formula = adjustl(formulas%definitions(i)(equals + 1:))
+                d%letters(i)%name = trim(adjustl(formulas%definitions(i)(:equals - 1)))
+                d%letters(i)%formula = trim(adjustl(formulas%definitions(i)(equals + 1:)))
             end do
         end if
         if (formulas%lagrangian /= "") then
