@@ -2,11 +2,13 @@ module test_forced_oscillation
     !! The damped and driven oscillator in closed form, against mpmath: under, at and above critical
     !! damping, at and off resonance, with transients; and divided differences of the exponential.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_damped_rates, only: damped_rates
     use lagrangia_errors, only: error_t
     use lagrangia_exponential_differences, only: first_difference, second_difference
     use lagrangia_kinds, only: dp, qp
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_reference, only: reference_t
+    use lagrangia_small_oscillations, only: find_modes, modes_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -24,6 +26,7 @@ contains
                                       periods_are_those_of_the_damped))
         call suite%addTest(TestMethod("flags_follow_from_parameters", flags_follow_from_parameters))
         call suite%addTest(TestMethod("differences_meet", differences_meet))
+        call suite%addTest(TestMethod("modes_decay", modes_decay))
     end function forced_oscillation_suite
 
     subroutine as_by_mpmath()
@@ -156,6 +159,31 @@ contains
             call assertTrue(allocated(error), "no k")
         end subroutine expect
     end subroutine flags_follow_from_parameters
+
+    subroutine modes_decay()
+        !! m = 1: k = 25, b = 6 decays at 3 and turns at 4; k = 4, b = 5 decays at 1 and at 4; a
+        !! constant force of 2 N stretches k = 8 by 0.25 m.
+        type(oscillator_t) :: system
+        type(modes_t) :: modes
+        complex(dp), allocatable :: lambda(:)
+        type(error_t), allocatable :: error
+
+        call system%configure([1.0_dp, 25.0_dp, 6.0_dp], error)
+        call find_modes(system, [0.0_dp], .false., modes, error)
+        call assertFalse(allocated(error), "modes")
+        call assertEqual(25.0_dp, modes%omega2(1), 1e-13_dp, "undamped")
+        call damped_rates(system, modes, lambda, error)
+        call assertEqual(1, size(lambda), "of a pair one")
+        call assertEqual([-3.0_dp, 4.0_dp], [real(lambda(1)), aimag(lambda(1))], 1e-14_dp, "under")
+        call system%configure([1.0_dp, 4.0_dp, 5.0_dp], error)
+        call find_modes(system, [0.0_dp], .false., modes, error)
+        call damped_rates(system, modes, lambda, error)
+        call assertEqual([-1.0_dp, -4.0_dp], real(lambda), 1e-14_dp, "over")
+        call assertEqual([0.0_dp, 0.0_dp], aimag(lambda), 0.0_dp, "no oscillation")
+        call system%configure([1.0_dp, 8.0_dp, 0.0_dp, 2.0_dp], error)
+        call find_modes(system, [0.0_dp], .false., modes, error)
+        call assertEqual([0.25_dp], modes%at, 1e-14_dp, "stretched")
+    end subroutine modes_decay
 
     subroutine differences_meet()
         !! \(e^{[a, b]}\) and \(e^{[a, b, c]}\) of points at distances from 0 to 30, against the

@@ -3,6 +3,7 @@ module lagrangia_modes_command
     !! name or path stands for its system.
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: note, put, put_line
+    use lagrangia_damped_rates, only: damped_rates
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_interrupt, only: interrupt_status
@@ -128,6 +129,7 @@ contains
             row(105:) = labels(modes%label(j))
             call put_line(trim(row))
         end do
+        if (system%nonconservative .and. n <= widest) call put_damped(system, modes)
         if (n <= widest) then
             call put_line("")
             call put_shapes(modes)
@@ -140,6 +142,32 @@ contains
         row = "LAPACK: "//trim(modes%method)//trim(row)//" "//short(modes%ratio)
         call put_line(trim(row))
     end subroutine print_modes
+
+    subroutine put_damped(system, modes)
+        !! What the drag makes of the modes: decay rates and frequencies.
+        class(system_t), intent(in) :: system
+        type(modes_t), intent(in) :: modes
+        complex(dp), allocatable :: lambda(:)
+        type(error_t), allocatable :: error
+        integer :: j
+
+        call put_line("these modes are without the generalised forces beside L; with them, as "// &
+                      "exp(lambda t):")
+        call damped_rates(system, modes, lambda, error)
+        if (allocated(error)) then
+            call put_line("  "//error%message)
+            return
+        end if
+        do j = 1, size(lambda)
+            if (aimag(lambda(j)) > 0.0_dp) then
+                call put_line("  decay rate "//trim(number(-real(lambda(j))))// &
+                              " 1/s, omega "//trim(number(aimag(lambda(j))))//" rad/s")
+            else
+                call put_line("  decay rate "//trim(number(-real(lambda(j))))// &
+                              " 1/s, no oscillation")
+            end if
+        end do
+    end subroutine put_damped
 
     subroutine put_shapes(modes)
         !! One a line; of a mode that turns, what goes as \(\sin\omega t\) on a second line.

@@ -8,6 +8,7 @@ module lagrangia_small_oscillations
     use lagrangia_description, only: description_t, name_length
     use lagrangia_eigen, only: modes_from_factors, residual_ratio
     use lagrangia_errors, only: error_t, fail, status_library
+    use lagrangia_generalised_forces, only: add_generalised_forces
     use lagrangia_gyroscopic, only: gyroscopic_modes, gyroscopic_ratio, is_steady
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_jacobi, only: zero_modes
@@ -128,8 +129,13 @@ contains
             call fail(error, trim(d%name)//" has non-holonomic constraints: steady motions, "// &
                       "but no modes about an equilibrium")
         else if (system%time_dependent) then
-            call fail(error, "the Lagrangian of this "//trim(d%name)//" contains the time: it "// &
-                      "has no equilibrium to oscillate about")
+            if (system%nonconservative) then
+                call fail(error, "the equation of motion of this "//trim(d%name)//" contains "// &
+                          "the time: it has no equilibrium to oscillate about")
+            else
+                call fail(error, "the Lagrangian of this "//trim(d%name)//" contains the time: "// &
+                          "it has no equilibrium to oscillate about")
+            end if
         end if
         if (allocated(error)) return
         qq%re = start
@@ -140,7 +146,7 @@ contains
     end subroutine check_system
 
     pure function force(system, q) result(f)
-        !! \(\partial L/\partial q\) at rest.
+        !! \(\partial L/\partial q + Q\) at rest.
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: q(:)
         real(dp) :: f(size(q))
@@ -154,6 +160,7 @@ contains
             f(i) = l%d1
             qq(i)%d1 = 0.0_dp
         end do
+        call add_generalised_forces(system, 0.0_dp, q, 0.0_dp*q, f)
     end function force
 
     subroutine settle(system, wanted, q, error)

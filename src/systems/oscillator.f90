@@ -94,7 +94,7 @@ contains
         d%notes = [character(len(d%title)) :: &
             "The scan has dL/dx_dot = m d(x_dot)/dt: read dL/dx_dot = m x_dot, the momentum.", &
             "The frequency is the same at any amplitude.", &
-            "Damping b and a drive are forces beside L: see describe oscillator --set b=0.1.", &
+            "Damping and a drive are forces beside L: describe damped_oscillator shows them.", &
             "The actual path makes the action stationary; it is a minimum only for t < pi/omega."]
         d%source = "Hamilton's Principle: example HSM"
     end subroutine describe

@@ -1,0 +1,78 @@
+module lagrangia_damped_rates
+    !! Small oscillations with damping: \(M\ddot\delta + (C + G)\dot\delta + K\delta = 0\), where
+    !! \(C = -\partial Q/\partial\dot q\) is from the generalised forces beside L.
+    use lagrangia_errors, only: error_t, fail, status_library
+    use lagrangia_hyperdual, only: hyperdual, hyperdual_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_lapack, only: solve_linear
+    use lagrangia_lapack_eigen, only: dgeev
+    use lagrangia_small_oscillations, only: modes_t
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: damped_rates, damping_matrix
+
+contains
+
+    pure subroutine damping_matrix(system, q, damping)
+        !! \(C = -\partial Q/\partial\dot q\) at rest.
+        class(system_t), intent(in) :: system       !! with its parameters
+        real(dp), intent(in) :: q(:)                !! (n), the equilibrium
+        real(dp), intent(out) :: damping(:, :)      !! (n, n), kg/s, or kg m^2/s of angles
+        type(hyperdual_t) :: v(size(q)), f(size(q))
+        integer :: j
+
+        do j = 1, size(q)
+            v = hyperdual_t()
+            v(j)%d1 = 1.0_dp
+            call system%generalised_forces(hyperdual_t(), hyperdual(q), v, f)
+            damping(:, j) = -f%d1
+        end do
+    end subroutine damping_matrix
+
+    pure subroutine damped_rates(system, modes, lambda, error)
+        !! The exponents of \(e^{\lambda t}\), those with \(\mathrm{Im}\,\lambda\ge0\), the fastest
+        !! oscillation last: \(-\mathrm{Re}\,\lambda\) is the decay rate, \(\mathrm{Im}\,\lambda\)
+        !! the frequency. By LAPACK's `dgeev` in first-order form; two that nearly meet, at
+        !! critical damping, are right to the root of epsilon.
+        class(system_t), intent(in) :: system                 !! with its parameters
+        type(modes_t), intent(in) :: modes                    !! without damping, solved
+        complex(dp), allocatable, intent(out) :: lambda(:)    !! 1/s
+        type(error_t), allocatable, intent(out) :: error      !! status 4: LAPACK
+        real(dp), dimension(2*size(modes%at), 2*size(modes%at)) :: a
+        real(dp), dimension(2*size(modes%at)) :: re, im
+        real(dp), dimension(size(modes%at), size(modes%at)) :: damping
+        real(dp), dimension(size(modes%at)) :: column
+        real(dp) :: none(1, 1), work(40*size(modes%at) + 100)
+        logical :: left(2*size(modes%at))
+        integer :: j, n, info
+
+        n = size(modes%at)
+        call damping_matrix(system, modes%at, damping)
+        damping = damping + modes%gyroscopic
+        a = 0.0_dp
+        do j = 1, n
+            a(j, n + j) = 1.0_dp
+            call solve_linear(modes%mass, -modes%stiffness(:, j), column, error)
+            if (allocated(error)) return
+            a(n + 1:, j) = column
+            call solve_linear(modes%mass, -damping(:, j), column, error)
+            if (allocated(error)) return
+            a(n + 1:, n + j) = column
+        end do
+        call dgeev("N", "N", 2*n, a, 2*n, re, im, none, 1, none, 1, work, size(work), info)
+        if (info /= 0) then
+            call fail(error, "LAPACK found no damped modes (info = "//to_text(info)//")", &
+                      status_library)
+            return
+        end if
+        left = im >= 0.0_dp
+        allocate (lambda(0))
+        do while (any(left))
+            j = minloc(im + 1e-3_dp*abs(re), 1, left)
+            lambda = [lambda, cmplx(re(j), im(j), dp)]
+            left(j) = .false.
+        end do
+    end subroutine damped_rates
+end module lagrangia_damped_rates
