@@ -20,16 +20,20 @@ contains
 
     pure module subroutine forces(self, t, q, v, f)
         !! \(f_j = m\ell\,[\dot\theta_j\,(Y_j\cos\theta_j - X_j\sin\theta_j)
-        !! - (n + 1 - j)\,g\sin\theta_j]\); the sums as in `momenta`.
+        !! - (n + 1 - j)\,g\sin\theta_j]\); the sums as in `momenta`, without the term of rod j,
+        !! which is along it.
         class(hanging_chain_t), intent(in) :: self
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
         real(dp), intent(out) :: f(self%ndof)
         real(dp), dimension(most) :: s, c, x, y
+        real(dp) :: along
         integer :: j
 
         call velocity_sums(self, q, v, s, c, x, y)
         do j = 1, self%n
-            f(j) = self%m*(self%l/self%n)*(v(j)*(y(j)*c(j) - x(j)*s(j)) &
+            along = (self%n + 1 - j)*(self%l/self%n*v(j))
+            f(j) = self%m*(self%l/self%n)*(v(j)*((y(j) - along*s(j))*c(j) &
+                                                 - (x(j) - along*c(j))*s(j)) &
                                            - (self%n + 1 - j)*self%g*s(j))
         end do
     end subroutine forces
