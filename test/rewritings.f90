@@ -20,7 +20,7 @@ contains
         type(expression_t), intent(inout) :: expression
         type(random_t), intent(inout) :: random
         type(expression_t) :: new
-        integer :: place(expression%count), i, a, b, c
+        integer :: place(expression%count), i, a, b, c, next
 
         do i = 1, expression%count
             associate (node => expression%nodes(i))
@@ -52,7 +52,8 @@ contains
                     end if
                 case (kind_quotient)
                     call whole(new, -1, c)
-                    call new%add_operation(kind_power, b, c, b)
+                    call new%add_operation(kind_power, b, c, next)
+                    b = next
                     call new%add_operation(kind_product, b, a, place(i))
                 case (kind_power)
                     call new%add_operation(kind_power, a, b, place(i))
@@ -100,7 +101,7 @@ contains
         type(expression_t), intent(inout) :: new
         integer, intent(in) :: which, a, choice
         integer, intent(out) :: place
-        integer :: half, two, one, s, c
+        integer :: half, two, one, s, c, next
 
         if (choice > 1 .or. (which /= f_sin .and. which /= f_cos)) then
             call new%add_operation(kind_function, a, 0, place, which)
@@ -112,12 +113,15 @@ contains
         if (which == f_sin) then
             call new%add_operation(kind_function, half, 0, c, f_cos)
             call new%add_operation(kind_product, s, c, place)
-            call new%add_operation(kind_product, two, place, place)
+            call new%add_operation(kind_product, two, place, next)
+            place = next
         else
             call whole(new, 1, one)
             call new%add_operation(kind_power, s, two, place)
-            call new%add_operation(kind_product, two, place, place)
-            call new%add_operation(kind_difference, one, place, place)
+            call new%add_operation(kind_product, two, place, next)
+            place = next
+            call new%add_operation(kind_difference, one, place, next)
+            place = next
         end if
     end subroutine rewrite_function
 
@@ -128,7 +132,7 @@ contains
         type(random_t), intent(inout) :: random
         character(:), allocatable, intent(out) :: kind  !! "" if nothing could be changed there
         type(expression_t) :: new
-        integer :: place(expression%count), i, k, chosen, c
+        integer :: place(expression%count), i, k, chosen, c, next
 
         chosen = one_of(expression%count)
         kind = ""
@@ -148,11 +152,13 @@ contains
                     case (2)
                         kind = "exponent"
                         call whole(new, 2, c)
-                        call new%add_operation(kind_power, place(i), c, place(i))
+                        call new%add_operation(kind_power, place(i), c, next)
+                        place(i) = next
                     case default
                         kind = "factor"
                         call whole(new, 2, c)
-                        call new%add_operation(kind_product, c, place(i), place(i))
+                        call new%add_operation(kind_product, c, place(i), next)
+                        place(i) = next
                     end select
                 case (kind_function)
                     kind = "function"

@@ -290,6 +290,7 @@ contains
         symbols = lecture_symbols()
         n = size(symbols%names)
         symbols%names = symbols%names([2, 7, n - 1, n])
+        text = ""
         do i = 1, trials
             call draw(e, x)
             e = simplified(e, symbols)

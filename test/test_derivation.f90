@@ -196,8 +196,8 @@ contains
         type(comparison_t), allocatable :: comparisons(:)
         type(random_t) :: random
         type(error_t), allocatable :: error
-        integer, parameter :: found_at(4) = [line_stated, line_potential, line_position, &
-                                             line_kinetic]
+        integer, parameter :: found_at(0:4) = [0, line_stated, line_potential, line_position, &
+                                               line_kinetic]
         integer :: first, k
 
         call liar%configure([1.3_dp, 0.7_dp, 0.9_dp, 9.81_dp], error)

@@ -55,6 +55,7 @@ contains
         character(:), allocatable :: text
         integer :: i
 
+        text = ""
         do i = 1, size(entries)
             item = entries(i)
             if (any([character(9) :: "tolerance", "event", "samples"] == item%key)) then

@@ -242,7 +242,7 @@ contains
         integer :: i, k, row
 
         call system%describe(now)
-        parameters = default_values(now)
+        allocate (parameters, source=default_values(now))
         allocate (names, source=value_names(d))
         allocate (a(system%ndof))
         do k = 1, states

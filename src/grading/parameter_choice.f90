@@ -33,7 +33,7 @@ contains
             end do
         end if
         kept = ""
-        given = default_values(d)
+        allocate (given, source=default_values(d))
         allocate (fixed(size(given)), source=.false.)
         first = 0
         do i = 1, size(d%parameters)

@@ -44,7 +44,7 @@ contains
         real(dp), dimension(2*size(modes%at)) :: re, im
         real(dp), dimension(size(modes%at), size(modes%at)) :: damping
         real(dp), dimension(size(modes%at)) :: column
-        real(dp) :: none(1, 1), work(40*size(modes%at) + 100)
+        real(dp) :: none(1, 1), nothing(1, 1), work(40*size(modes%at) + 100)
         logical :: left(2*size(modes%at))
         integer :: j, n, info
 
@@ -61,7 +61,8 @@ contains
             if (allocated(error)) return
             a(n + 1:, n + j) = column
         end do
-        call dgeev("N", "N", 2*n, a, 2*n, re, im, none, 1, none, 1, work, size(work), info)
+        call dgeev("N", "N", 2*n, a, 2*n, re, im, none, 1, nothing, 1, work, size(work), &
+                   info)
         if (info /= 0) then
             call fail(error, "LAPACK found no damped modes (info = "//to_text(info)//")", &
                       status_library)

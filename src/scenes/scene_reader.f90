@@ -88,7 +88,8 @@ contains
         type(error_t), allocatable :: error
 
         yes = looks_like_path(name)
-        if (yes .or. any(system_names() == name)) return
+        if (yes) return
+        if (any(system_names() == name)) return
         call find_scene(name, path, error)
         yes = .not. allocated(error)
     end function names_scene

@@ -15,7 +15,7 @@ module lagrangia_oscillator
     use lagrangia_linearised, only: linearised_t
     use lagrangia_reference, only: reference_t
     use lagrangia_sine_cosine, only: sine_cosine
-    use lagrangia_system, only: check_parameters, lanes, system_t, with_zeros
+    use lagrangia_system, only: check_parameters, lanes, system_t, add_zeros
     implicit none (type, external)
     private
     public :: oscillator_t
@@ -135,7 +135,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
         real(dp), allocatable :: p(:)
 
-        p = with_zeros(values, 5, 2)
+        call add_zeros(values, 5, 2, p)
         call check_parameters(self, p, error)
         if (allocated(error)) return
         self%ndof = 1

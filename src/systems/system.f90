@@ -16,7 +16,7 @@ module lagrangia_system
     implicit none (type, external)
     private
     public :: system_t, system_box_t, reduced_t
-    public :: lanes, check_parameter, check_parameters, check_state, default_values, with_zeros
+    public :: lanes, check_parameter, check_parameters, check_state, default_values, add_zeros
 
     type, abstract :: system_t
         integer :: ndof = 0                  !! number of coordinates
@@ -380,18 +380,24 @@ contains
         end if
     end subroutine check_state
 
-    pure function with_zeros(values, n, needed) result(all)
+    pure subroutine add_zeros(values, n, needed, all)
         !! `values`, with zeros for the last of `n` parameters where no more than the first
         !! `needed` must be given; as they are where there are too few or too many.
-        real(dp), intent(in) :: values(:)    !! in the order of `describe`
-        integer, intent(in) :: n, needed     !! all parameter values; those without a default of 0
-        real(dp), allocatable :: all(:)      !! (n)
+        real(dp), intent(in) :: values(:)              !! in the order of `describe`
+        integer, intent(in) :: n, needed
+        !! all parameter values; those without a default of 0
+        real(dp), allocatable, intent(out) :: all(:)   !! (n)
+        integer :: given
 
-        all = values
-        if (size(values) >= needed .and. size(values) < n) then
-            all = [values, spread(0.0_dp, 1, n - size(values))]
+        given = size(values)
+        if (given < needed .or. given >= n) then
+            allocate (all(given))
+        else
+            allocate (all(n))
         end if
-    end function with_zeros
+        all = 0.0_dp
+        all(:given) = values
+    end subroutine add_zeros
 
     pure subroutine check_parameters(self, values, error)
         !! Refuse `values` that are too many, too few or outside their domains.

@@ -95,7 +95,7 @@ contains
     end subroutine new_written_system
 
     subroutine state_places(e, d)
-        !! Masses and places of the points, as far as there is room for their formulas.
+        !! Masses and places of the points, and forces, as far as there is room for the formulas.
         type(written_expressions_t), intent(in) :: e
         type(description_t), intent(inout) :: d
         character(:), allocatable :: text
@@ -113,6 +113,17 @@ contains
             end do
         end do
         if (longest > formula_length) d%points%mass_formula = ""
+        longest = 0
+        do i = 1, size(e%forces)
+            text = formula_text(e%forces(i), e%symbols)
+            if (text /= "0") longest = max(longest, len(text) + 40)
+        end do
+        if (longest == 0 .or. longest > formula_length) return
+        allocate (d%generalised_forces(size(e%forces)))
+        do i = 1, size(e%forces)
+            d%generalised_forces(i) = "Q_"//trim(d%coordinates(i)%name)//" = "// &
+                                      formula_text(e%forces(i), e%symbols)
+        end do
     end subroutine state_places
 
     subroutine state_formulas(formulas, expressions, d)
