@@ -15,8 +15,9 @@ module lagrangia_written_expressions
     type :: written_expressions_t
         !! A system as expressions of the symbols: t, coordinates, velocities, parameters.
         type(symbols_t) :: symbols                          !! and the definitions
-        type(expression_t) :: kinetic, potential            !! T and V; zero where L was given
-        type(expression_t) :: lagrangian                    !! L, J
+        ! gfortran 12 never frees the last two of these where they are not allocatable
+        type(expression_t), allocatable :: kinetic, potential  !! T and V; zero where L was given
+        type(expression_t), allocatable :: lagrangian       !! L, J
         type(expression_t), allocatable :: forces(:)        !! Q of each coordinate
         type(expression_t), allocatable :: places(:)        !! x, y, z of each point, m
         type(expression_t), allocatable :: masses(:)        !! of the points, kg
@@ -35,6 +36,7 @@ contains
         !! status 2, `key` and `element` of `&lagrangian` to blame; `column N: ` before a message
         !! about one place of a formula
 
+        allocate (expressions%kinetic, expressions%potential, expressions%lagrangian)
         call add_symbols(formulas, expressions%symbols, error)
         if (.not. allocated(error)) call add_definitions(formulas, expressions%symbols, error)
         if (.not. allocated(error)) call read_lagrangian(formulas, expressions, error)

@@ -22,23 +22,27 @@ module lagrangia_written_system
     private
     public :: written_system_t, new_written_system
 
+    ! programs of a system
+    integer, parameter :: of_l = 1         !! L
+    integer, parameter :: of_motion = 2    !! of `solved`
+    integer, parameter :: of_inverse = 3   !! of `inverse`, of t, q, p
+    integer, parameter :: of_momentum = 4  !! p, then M column by column
+    integer, parameter :: of_slope = 5     !! dL/dq
+    integer, parameter :: of_energy = 6    !! v p - L
+    integer, parameter :: of_force = 7     !! Q of each coordinate
+    integer, parameter :: of_place = 8     !! x, y, z of each point, m
+    integer, parameter :: of_constant = 9  !! masses of the points, then the equilibrium
+
     type, extends(lagrangian_system_t) :: written_system_t
         !! Made by `new_written_system`, with the parameters of the formulas.
         type(description_t) :: stated                !! all but what follows from the parameters
         type(written_expressions_t) :: expressions
-        type(formula_program_t) :: l_program         !! L
         type(written_motion_t) :: motion             !! what follows from L and Q
         type(expression_t), allocatable :: solved(:) !! accelerations, pivots, diagonal of M
         type(expression_t), allocatable :: inverse(:)  !! velocities, pivots, diagonal of M
         logical :: is_quadratic = .false.            !! `inverse` holds
-        type(formula_program_t) :: motion_program    !! of `solved`
-        type(formula_program_t) :: inverse_program   !! of `inverse`, of t, q, p
-        type(formula_program_t) :: momentum_program  !! p, then M column by column
-        type(formula_program_t) :: slope_program     !! dL/dq
-        type(formula_program_t) :: energy_program    !! v p - L
-        type(formula_program_t) :: force_program     !! Q of each coordinate
-        type(formula_program_t) :: place_program     !! x, y, z of each point, m
-        type(formula_program_t) :: constant_program  !! masses of the points, then the equilibrium
+        type(formula_program_t), allocatable :: programs(:)
+        !! `of_l` and the others. As components of their own gfortran 12 does not free some of them.
     contains
         procedure :: outline
         procedure :: prepare
@@ -66,6 +70,7 @@ contains
         integer :: i
 
         system%expressions = expressions
+        allocate (system%programs(of_constant))
         associate (e => system%expressions, d => system%stated)
             d%name = formulas%name
             d%title = formulas%title
@@ -83,7 +88,7 @@ contains
             do i = 1, size(e%equilibrium)
                 constants(size(e%masses) + i) = e%equilibrium(i)
             end do
-            call new_formula_program(system%constant_program, constants, size(e%symbols%names))
+            call new_formula_program(system%programs(of_constant), constants, size(e%symbols%names))
             call leave_out_what_cancels(e%lagrangian, 1 + 2*size(d%coordinates), e%symbols)
             call derive_motion(e%lagrangian, e%forces, e%symbols, system%motion)
             call write_equations(system%motion, e%forces, e%symbols, d)
@@ -194,7 +199,7 @@ contains
         do i = 1, size(d%parameters)
             values(k + i) = self%value(i, d%parameters(i)%value(1))
         end do
-        call self%constant_program%evaluate(values, constants)
+        call self%programs(of_constant)%evaluate(values, constants)
         k = size(d%points)
         d%points%mass = constants(:k)
         if (size(constants) > k) d%equilibrium = constants(k + 1:)
@@ -216,22 +221,23 @@ contains
         values(k + 1:) = self%p
         associate (e => self%expressions, motion => self%motion)
             one(1) = e%lagrangian
-            call new_formula_program(self%l_program, one, k, fixed, values)
+            call new_formula_program(self%programs(of_l), one, k, fixed, values)
             one(1) = motion%energy
-            call new_formula_program(self%energy_program, one, k, fixed, values)
-            call new_formula_program(self%motion_program, self%solved, k, fixed, values)
-            if (self%is_quadratic) call new_formula_program(self%inverse_program, self%inverse, k, &
+            call new_formula_program(self%programs(of_energy), one, k, fixed, values)
+            call new_formula_program(self%programs(of_motion), self%solved, k, fixed, values)
+            if (self%is_quadratic) call new_formula_program(self%programs(of_inverse), &
+                self%inverse, k, &
                                                             fixed, values)
-            call new_formula_program(self%slope_program, motion%slopes, k, fixed, values)
-            call new_formula_program(self%force_program, e%forces, k, fixed, values)
-            call new_formula_program(self%place_program, e%places, k, fixed, values)
+            call new_formula_program(self%programs(of_slope), motion%slopes, k, fixed, values)
+            call new_formula_program(self%programs(of_force), e%forces, k, fixed, values)
+            call new_formula_program(self%programs(of_place), e%places, k, fixed, values)
             do j = 1, n
                 all(j) = motion%momenta(j)
                 do i = 1, n
                     all(n*j + i) = motion%mass(i, j)
                 end do
             end do
-            call new_formula_program(self%momentum_program, all, k, fixed, values)
+            call new_formula_program(self%programs(of_momentum), all, k, fixed, values)
         end associate
     end subroutine prepare
 
@@ -262,7 +268,7 @@ contains
         values(1) = t
         values(2:1 + self%ndof) = q
         values(2 + self%ndof:) = v
-        call self%l_program%evaluate(values, results)
+        call self%programs(of_l)%evaluate(values, results)
         l = results(1)
     end function lagrangian
 
@@ -276,7 +282,7 @@ contains
         values(1) = t
         values(2:1 + self%ndof) = q
         values(2 + self%ndof:) = v
-        call self%force_program%evaluate(values, f)
+        call self%programs(of_force)%evaluate(values, f)
     end subroutine generalised_forces
 
     pure subroutine accelerations(self, t, q, v, a)
@@ -291,7 +297,7 @@ contains
         values(1) = t
         values(2:1 + n) = q
         values(2 + n:) = v
-        call self%motion_program%evaluate(values, results)
+        call self%programs(of_motion)%evaluate(values, results)
         a = results(:n)
         if (are_positive(results(n + 1:2*n), results(2*n + 1:))) return
         call set_to_nan(a)
@@ -330,7 +336,7 @@ contains
         values(:, 1) = t
         values(:, 2:1 + n) = q
         values(:, 2 + n:) = v
-        call self%motion_program%evaluate(values, results)
+        call self%programs(of_motion)%evaluate(values, results)
         a = results(:, :n)
         do i = 1, lanes
             if (are_positive(results(i, n + 1:2*n), results(i, 2*n + 1:))) cycle
@@ -345,7 +351,7 @@ contains
         real(dp), intent(out) :: p(self%ndof)
         real(dp) :: results(self%ndof + self%ndof**2)
 
-        call self%momentum_program%evaluate([t, q, v], results)
+        call self%programs(of_momentum)%evaluate([t, q, v], results)
         p = results(:self%ndof)
     end subroutine momenta
 
@@ -362,7 +368,7 @@ contains
             call invert_by_newton(self, t, q, p, v)
             return
         end if
-        call self%inverse_program%evaluate([t, q, p], results)
+        call self%programs(of_inverse)%evaluate([t, q, p], results)
         v = results(:n)
         if (.not. are_positive(results(n + 1:2*n), results(2*n + 1:))) call set_to_nan(v)
     end subroutine velocities
@@ -380,7 +386,7 @@ contains
 
         n = size(p)
         v = 0.0_dp
-        call self%momentum_program%evaluate([t, q, v], results)
+        call self%programs(of_momentum)%evaluate([t, q, v], results)
         do i = 1, most
             left = p - results(:n)
             size_left = maxval(abs(left))
@@ -388,7 +394,7 @@ contains
             mass = reshape(results(n + 1:), [n, n])
             call solve_positive(mass, 0.0_dp*p, step)
             do halvings = 1, most
-                call self%momentum_program%evaluate([t, q, v + step], results)
+                call self%programs(of_momentum)%evaluate([t, q, v + step], results)
                 if (maxval(abs(p - results(:n))) < size_left) exit
                 if (.not. maxval(abs(step)) > epsilon(v)*maxval(abs(v))) return
                 step = 0.5_dp*step
@@ -404,7 +410,7 @@ contains
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
         real(dp), intent(out) :: f(self%ndof)
 
-        call self%slope_program%evaluate([t, q, v], f)
+        call self%programs(of_slope)%evaluate([t, q, v], f)
     end subroutine slopes
 
     pure function energy(self, t, q, v) result(e)
@@ -414,7 +420,7 @@ contains
         real(dp) :: e
         real(dp) :: results(1)
 
-        call self%energy_program%evaluate([t, q, v], results)
+        call self%programs(of_energy)%evaluate([t, q, v], results)
         e = results(1)
     end function energy
 
@@ -439,7 +445,7 @@ contains
 
         values(1) = t
         values(2:1 + self%ndof) = q
-        call self%place_program%evaluate(values, results)
+        call self%programs(of_place)%evaluate(values, results)
         r = reshape(results, [3, size(r, 2)])
     end subroutine positions
 end module lagrangia_written_system
