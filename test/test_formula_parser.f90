@@ -171,7 +171,7 @@ contains
         symbols = lecture_symbols()
         call parse_formula("x - theta", symbols, e, error)
         call symbols%define("D", e, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error")
         call is("cos(D) D^2", cos(x - theta)*(x - theta)**2, symbols)
         call parse_formula("D^2 m", symbols, e, error)
         call symbols%define("E1", e, error)
@@ -193,7 +193,7 @@ contains
 
         symbols = lecture_symbols()
         call parse_equation("m x_dot = -m g sin(theta)", symbols, left, right, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error")
         call assertEqual("m x_dot", formula_text(left, symbols))
         call assertEqual("-m g sin(theta)", formula_text(right, symbols))
         call refused("m x_dot", "column 8: '=' and the other side are missing; "// &
@@ -392,7 +392,7 @@ contains
             if (allocated(error)) exit
             write (name, "(a, i2.2)") "D", i
             call symbols%define(name, e, error)
-            call assertFalse(allocated(error))
+            call assertFalse(allocated(error), "no error")
         end do
         call assertTrue(allocated(error), "too long")
         if (allocated(error)) call assertEqual("the formula, with its definitions written out, "// &

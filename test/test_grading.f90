@@ -181,9 +181,9 @@ contains
             if (statements == "") cycle
             call parse_homework("system: "//trim(d%name)//line_feed//statements, "page", &
                                 homework, error)
-            call assertFalse(allocated(error))
+            call assertFalse(allocated(error), "no error")
             call grade(homework, system, result, error)
-            call assertFalse(allocated(error))
+            call assertFalse(allocated(error), "no error")
             do k = 1, size(result%of)
                 call assertEqual(is_right, result%of(k)%verdict, trim(d%name)//": "// &
                                  homework%statements(k)%text//": "//result%of(k)%remark)
@@ -326,14 +326,14 @@ contains
                                 homework, error)
         call grade(homework, system, result, error)
         call assertEqual(1, result%equations)
-        call assertFalse(any(result%determined))
+        call assertFalse(any(result%determined), "one equation is not enough")
         call parse_homework("system: cart_pendulum"//line_feed//"L = L"//line_feed// &
                             "x_ddot = m2 sin(theta) (l theta_dot^2 + g cos(theta))/(m1 + m2 "// &
                                 "sin(theta)^2)", &
                             "sheet", homework, error)
         call grade(homework, system, result, error)
-        call assertTrue(result%determined(1))
-        call assertFalse(result%determined(2))
+        call assertTrue(result%determined(1), "x_ddot is given")
+        call assertFalse(result%determined(2), "theta_ddot is not")
     end subroutine which_accelerations_follow
 
     subroutine sheets_that_cannot_be_read()

@@ -100,7 +100,7 @@ contains
 
         call parse_scene("&scene system = 'pendulum' dt = 0.001 duration = 10 q = 1 /", "a/x.nml", &
                          [word_t ::], scene, system, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error")
         call stated("title", "empty", scene%title == "")
         call stated("method", "'rk4'", scene%method == "rk4")
         call stated("t0", "0.0", abs(scene%t0) <= 0.0_dp)
@@ -115,7 +115,7 @@ contains
                     all(scene%columns == [character(12) :: "t", "theta", "energy_drift"]))
         call parse_scene("&scene system = 'pendulum' method = 'gauss16' duration = 10 q = 1 /", &
                          "x.nml", [word_t ::], scene, system, error)
-        call assertFalse(allocated(error))
+        call assertFalse(allocated(error), "no error")
         call stated("tolerance", "1e-10", abs(scene%tolerance - 1e-10_dp) <= 0.0_dp)
         call stated("samples", "1000 with a tolerance", scene%samples == 1000_i8)
     contains

@@ -41,8 +41,7 @@ module lagrangia_written_system
         type(expression_t), allocatable :: solved(:) !! accelerations, pivots, diagonal of M
         type(expression_t), allocatable :: inverse(:)  !! velocities, pivots, diagonal of M
         logical :: is_quadratic = .false.            !! `inverse` holds
-        type(formula_program_t), allocatable :: programs(:)
-        !! `of_l` and the others. As components of their own gfortran 12 does not free some of them.
+        type(formula_program_t), allocatable :: programs(:)  !! gfortran 12 would not free nine
     contains
         procedure :: outline
         procedure :: prepare
