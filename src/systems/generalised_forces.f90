@@ -31,7 +31,8 @@ contains
         real(dp), intent(out) :: f(system%ndof)                    !! N, or N m on an angle
 
         call system%forces(t, q, v, f)
-        call add_generalised_forces(system, t, q, v, f)
+        ! arrays of the size of the state are allocated there
+        if (system%nonconservative) call add_generalised_forces(system, t, q, v, f)
     end subroutine momentum_rates
 
     pure function energy_rate(system, t, q, v) result(rate)
