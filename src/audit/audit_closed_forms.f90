@@ -74,7 +74,7 @@ contains
         type(hyperdual_t), allocatable :: path(:, :), start(:, :)
         real(dp), allocatable :: a(:, :)
         integer, allocatable :: which(:)
-        real(dp) :: sizes, values(0:neighbours)
+        real(dp) :: omega, sizes, values(0:neighbours)
         integer :: i, k, n
 
         n = nearby%systems(0)%item%ndof
@@ -97,13 +97,17 @@ contains
             call follow(nearby, k, statements, path(:, k), start(:, k), a(:, k))
         end do
         do i = 1, n
+            if (abs(a(i, 0)) < tiny(a)/epsilon(a)) cycle  ! subnormal numbers have few digits
             values = path(i, :)%d12
             sizes = term_size(values) + term_size(a(i, :))
+            ! a phase or an exponent of size omega t is only that exact
+            omega = sqrt(abs(a(i, 0))/max(abs(path(i, 0)%re), tiny(a)))
+            sizes = sizes + omega*abs(nearby%t(0))*abs(a(i, 0))
             call compare(audit, claim_motion, values(:0), a(i, :0), [sizes])
             values = start(i, :)%re
             sizes = term_size(values) + sum(abs(nearby%q(:, 0)))
             values = start(i, :)%d1
-            sizes = sizes + term_size(values)
+            sizes = sizes + term_size(values) + omega*abs(nearby%q(i, 0))
             call compare(audit, claim_motion, [start(i, 0)%re, start(i, 0)%d1], &
                          [nearby%q(i, 0), nearby%v(i, 0)], [sizes, sizes])
             if (audit%rows(audit%row_of(claim_motion))%holds) cycle

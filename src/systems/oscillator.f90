@@ -119,6 +119,7 @@ contains
                         "(x_dot_0 + gamma x_0)/omega sin(omega t))"]
         else if (self%b**2 > 4.0_dp*self%m*self%k) then
             d%letters(2)%formula = "sqrt(gamma^2 - k/m)"
+            if (self%b**2 > 16.0_dp*self%m*self%k) return  ! what follows would cancel
             d%motion = [character(formula_length) :: "x = exp(-gamma t) (x_0 cosh(omega t) + "// &
                         "(x_dot_0 + gamma x_0)/omega sinh(omega t))"]
         else
