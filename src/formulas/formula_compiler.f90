@@ -32,8 +32,8 @@ contains
         type(expression_t), intent(in) :: expressions(:)  !! over `inputs` symbols
         integer, intent(in) :: inputs                     !! number of symbols
         type(code_t), intent(out) :: code                 !! a result for each formula
-        logical, intent(in), optional :: fixed(:)         !! (inputs): symbols that stay as they are
-        real(dp), intent(in), optional :: values(:)       !! (inputs): the numbers that these are
+        logical, intent(in) :: fixed(:)         !! symbols that stay as they are
+        real(dp), intent(in) :: values(:)       !! the numbers that these are
         type(values_t) :: found
         type(plan_t) :: plan
         integer :: roots(size(expressions))
@@ -56,8 +56,8 @@ contains
         type(expression_t), intent(in) :: expression
         type(values_t), intent(inout) :: found
         integer, intent(out) :: root
-        logical, intent(in), optional :: fixed(:)
-        real(dp), intent(in), optional :: values(:)
+        logical, intent(in) :: fixed(:)
+        real(dp), intent(in) :: values(:)
         integer, parameter :: op_of(2:7) = [op_add, op_subtract, op_multiply, op_divide, &
                                             op_power, op_negate]
         integer :: place(0:expression%count), i
@@ -70,9 +70,7 @@ contains
                     call found%number(node%number%value, place(i))
                 case (kind_symbol)
                     place(i) = node%which
-                    if (present(fixed)) then
-                        if (fixed(node%which)) call found%number(values(node%which), place(i))
-                    end if
+                    if (fixed(node%which)) call found%number(values(node%which), place(i))
                 case (kind_function)
                     call found%operation(op_function + node%which, place(node%left), 0, place(i))
                 case default

@@ -45,8 +45,16 @@ contains
         integer, intent(in) :: inputs                     !! number of symbols
         logical, intent(in), optional :: fixed(:)         !! (inputs): symbols with a value
         real(dp), intent(in), optional :: values(:)       !! (inputs): these values
+        logical :: none(inputs)
+        real(dp) :: zeros(inputs)
 
-        call compile(expressions, inputs, self%code, fixed, values)
+        if (present(fixed) .and. present(values)) then
+            call compile(expressions, inputs, self%code, fixed, values)
+        else
+            none = .false.
+            zeros = 0.0_dp
+            call compile(expressions, inputs, self%code, none, zeros)
+        end if
         self%inputs = inputs
         self%outputs = size(expressions)
     end subroutine new_formula_program
