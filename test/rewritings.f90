@@ -34,7 +34,7 @@ contains
                 case (kind_symbol)
                     call new%add_symbol(node%which, place(i))
                 case (kind_sum)
-                    if (one_of(2) == 1) then
+                    if (one_of(random, 2) == 1) then
                         call new%add_operation(kind_sum, b, a, place(i))
                     else
                         call new%add_operation(kind_negation, b, 0, c)
@@ -45,7 +45,7 @@ contains
                     call new%add_operation(kind_sum, c, a, place(i))
                 case (kind_product)
                     call new%add_operation(kind_product, b, a, place(i))
-                    if (one_of(3) == 1) then  ! twice half of it
+                    if (one_of(random, 3) == 1) then  ! twice half of it
                         call whole(new, 2, c)
                         call new%add_operation(kind_quotient, place(i), c, b)
                         call new%add_operation(kind_product, c, b, place(i))
@@ -64,19 +64,11 @@ contains
                     call whole(new, -1, c)
                     call new%add_operation(kind_product, c, a, place(i))
                 case default
-                    call rewrite_function(new, node%which, a, one_of(3), place(i))
+                    call rewrite_function(new, node%which, a, one_of(random, 3), place(i))
                 end select
             end associate
         end do
         expression = new%pruned(place(expression%count))
-    contains
-        integer function one_of(n)
-            integer, intent(in) :: n
-            real(dp) :: x
-
-            call random%uniform(0.0_dp, 1.0_dp, x)
-            one_of = 1 + min(n - 1, int(n*x))
-        end function one_of
     end subroutine draw_rewriting
 
     subroutine whole(expression, value, place)
@@ -134,7 +126,7 @@ contains
         type(expression_t) :: new
         integer :: place(expression%count), i, k, chosen, c, next
 
-        chosen = one_of(expression%count)
+        chosen = one_of(random, expression%count)
         kind = ""
         do i = 1, expression%count
             call copy_node(expression%nodes(i))
@@ -142,9 +134,9 @@ contains
             associate (node => expression%nodes(i))
                 select case (node%kind)
                 case (kind_symbol)
-                    select case (one_of(3))
+                    select case (one_of(random, 3))
                     case (1)
-                        k = one_of(size(samples%role))
+                        k = one_of(random, size(samples%role))
                         if (k == node%which .or. .not. alike(samples%role(k), &
                             samples%role(node%which))) return
                         kind = "letter"
@@ -169,14 +161,14 @@ contains
                     kind = "sign"
                     call new%add_operation(kind_difference, place(node%left), place(node%right), &
                                            place(i))
-                    if (one_of(2) == 1) then
+                    if (one_of(random, 2) == 1) then
                         kind = "lost term"
                         place(i) = place(node%left)
                     end if
                 case (kind_difference)
                     kind = "sign"
                     call new%add_operation(kind_sum, place(node%left), place(node%right), place(i))
-                    if (one_of(2) == 1) then
+                    if (one_of(random, 2) == 1) then
                         kind = "lost term"
                         place(i) = place(node%left)
                     end if
@@ -207,15 +199,17 @@ contains
                 call new%add_operation(node%kind, place(node%left), place(node%right), place(i))
             end if
         end subroutine copy_node
-
-        integer function one_of(n)
-            integer, intent(in) :: n
-            real(dp) :: x
-
-            call random%uniform(0.0_dp, 1.0_dp, x)
-            one_of = 1 + min(n - 1, int(n*x))
-        end function one_of
     end subroutine draw_slip
+
+    integer function one_of(random, n)
+        !! From 1 to `n`.
+        type(random_t), intent(inout) :: random
+        integer, intent(in) :: n
+        real(dp) :: x
+
+        call random%uniform(0.0_dp, 1.0_dp, x)
+        one_of = 1 + min(n - 1, int(n*x))
+    end function one_of
 
     pure logical function alike(a, b)
         integer, intent(in) :: a, b

@@ -13,9 +13,9 @@ module lagrangia_direct_rates
     end type direct_context_t
 
     ! allow(assumed-size): C gives the address of the first element
-    interface
-        function rates_oscillator(t, y, f, context) result(status) &
-            bind(c, name="lagrangia_rates_oscillator")
+    abstract interface
+        function rates_i(t, y, f, context) result(status) bind(c)
+            !! As GSL's `gsl_odeiv2_system` has it.
             import :: c_double, c_int, c_ptr
             implicit none (type, external)
             real(c_double), value :: t
@@ -23,52 +23,14 @@ module lagrangia_direct_rates
             real(c_double), intent(inout) :: f(*)
             type(c_ptr), value :: context
             integer(c_int) :: status
-        end function rates_oscillator
-
-        function rates_pendulum(t, y, f, context) result(status) &
-            bind(c, name="lagrangia_rates_pendulum")
-            import :: c_double, c_int, c_ptr
-            implicit none (type, external)
-            real(c_double), value :: t
-            real(c_double), intent(in) :: y(*)
-            real(c_double), intent(inout) :: f(*)
-            type(c_ptr), value :: context
-            integer(c_int) :: status
-        end function rates_pendulum
-
-        function rates_double_pendulum(t, y, f, context) result(status) &
-            bind(c, name="lagrangia_rates_double_pendulum")
-            import :: c_double, c_int, c_ptr
-            implicit none (type, external)
-            real(c_double), value :: t
-            real(c_double), intent(in) :: y(*)
-            real(c_double), intent(inout) :: f(*)
-            type(c_ptr), value :: context
-            integer(c_int) :: status
-        end function rates_double_pendulum
-
-        function rates_cart_pendulum(t, y, f, context) result(status) &
-            bind(c, name="lagrangia_rates_cart_pendulum")
-            import :: c_double, c_int, c_ptr
-            implicit none (type, external)
-            real(c_double), value :: t
-            real(c_double), intent(in) :: y(*)
-            real(c_double), intent(inout) :: f(*)
-            type(c_ptr), value :: context
-            integer(c_int) :: status
-        end function rates_cart_pendulum
-
-        function rates_charged_particle(t, y, f, context) result(status) &
-            bind(c, name="lagrangia_rates_charged_particle")
-            import :: c_double, c_int, c_ptr
-            implicit none (type, external)
-            real(c_double), value :: t
-            real(c_double), intent(in) :: y(*)
-            real(c_double), intent(inout) :: f(*)
-            type(c_ptr), value :: context
-            integer(c_int) :: status
-        end function rates_charged_particle
+        end function rates_i
     end interface
+
+    procedure(rates_i), bind(c, name="lagrangia_rates_oscillator") :: rates_oscillator
+    procedure(rates_i), bind(c, name="lagrangia_rates_pendulum") :: rates_pendulum
+    procedure(rates_i), bind(c, name="lagrangia_rates_double_pendulum") :: rates_double_pendulum
+    procedure(rates_i), bind(c, name="lagrangia_rates_cart_pendulum") :: rates_cart_pendulum
+    procedure(rates_i), bind(c, name="lagrangia_rates_charged_particle") :: rates_charged_particle
 
 contains
 

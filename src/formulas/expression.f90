@@ -13,7 +13,7 @@ module lagrangia_expression
     public :: kind_number, kind_symbol, kind_sum, kind_difference, kind_product, kind_quotient, &
               kind_power, kind_negation, kind_function
     public :: f_abs, f_atan, f_cos, f_cosh, f_exp, f_log, f_sin, f_sinh, f_sqrt, f_tan, f_tanh
-    public :: function_names
+    public :: function_names, function_value
 
     integer, parameter :: kind_number = 0, kind_symbol = 1
     integer, parameter :: kind_sum = 2, kind_difference = 3, kind_product = 4, kind_quotient = 5
@@ -113,6 +113,27 @@ contains
         e = argument
         call e%add_operation(kind_function, argument%count, 0, node, which)
     end function apply
+
+    elemental function function_value(which, x) result(y)
+        !! A function of a number, as it is computed when a formula is evaluated.
+        integer, intent(in) :: which  !! one of `f_abs` to `f_tanh`
+        real(dp), intent(in) :: x     !! its argument
+        real(dp) :: y
+
+        select case (which)
+        case (f_abs); y = abs(x)
+        case (f_atan); y = atan(x)
+        case (f_cos); y = cos(x)
+        case (f_cosh); y = cosh(x)
+        case (f_exp); y = exp(x)
+        case (f_log); y = log(x)
+        case (f_sin); y = sin(x)
+        case (f_sinh); y = sinh(x)
+        case (f_sqrt); y = sqrt(x)
+        case (f_tan); y = tan(x)
+        case default; y = tanh(x)
+        end select
+    end function function_value
 
     pure function add(a, b) result(e)
         type(expression_t), intent(in) :: a, b

@@ -4,8 +4,7 @@ module lagrangia_formula_values
     !!
     !! No rule here changes a result by more than the rounding of a power: \(x^3\) is \(x^2x\).
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use lagrangia_expression, only: f_abs, f_atan, f_cos, f_cosh, f_exp, f_log, f_sin, f_sinh, &
-                                    f_sqrt, f_tan, f_tanh
+    use lagrangia_expression, only: f_log, f_sqrt, function_value
     use lagrangia_formula_code, only: op_add, op_divide, op_function, op_input, op_multiply, &
                                       op_negate, op_number, op_power, op_subtract, op_whole_power
     use lagrangia_kinds, only: dp
@@ -188,27 +187,6 @@ contains
         if (.not. ieee_is_finite(result)) return
         call self%number(result, which)
     end subroutine fold
-
-    pure function function_value(which, x) result(y)
-        !! As it is computed when the formula is evaluated.
-        integer, intent(in) :: which
-        real(dp), intent(in) :: x
-        real(dp) :: y
-
-        select case (which)
-        case (f_abs); y = abs(x)
-        case (f_atan); y = atan(x)
-        case (f_cos); y = cos(x)
-        case (f_cosh); y = cosh(x)
-        case (f_exp); y = exp(x)
-        case (f_log); y = log(x)
-        case (f_sin); y = sin(x)
-        case (f_sinh); y = sinh(x)
-        case (f_sqrt); y = sqrt(x)
-        case (f_tan); y = tan(x)
-        case default; y = tanh(x)
-        end select
-    end function function_value
 
     pure subroutine look_up(self, new, which)
         !! The place of a value, at the end if it is new.

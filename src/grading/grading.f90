@@ -117,8 +117,7 @@ contains
 
     subroutine find_determined(samples, result)
         !! The accelerations that follow from the right statements: \(\partial R/\partial\ddot q\)
-        !! of
-        !! their residuals has a unit vector among its combinations of rows.
+        !! of their residuals has a unit vector among its combinations of rows.
         type(samples_t), intent(in) :: samples
         type(grade_t), intent(inout) :: result
         real(dp), allocatable :: rows(:, :), values(:, :), before(:, :), after(:, :)

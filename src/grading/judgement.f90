@@ -1,7 +1,7 @@
 module lagrangia_judgement
     !! Is this statement right? Both sides are evaluated on the motion, at states and with
-    !! parameters
-    !! at random: any equivalent form is right, whatever it was multiplied by or mixed with.
+    !! parameters at random: any equivalent form is right, whatever it was multiplied by or mixed
+    !! with.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, kind_symbol, operator(-)
@@ -136,8 +136,7 @@ contains
 
     pure function is_new_name(text, samples) result(yes)
         !! Is it a name alone, which nobody has given yet? What looks like a velocity or a momentum
-        !! of
-        !! an unknown coordinate is a mistake.
+        !! of an unknown coordinate is a mistake.
         character(*), intent(in) :: text
         type(samples_t), intent(in) :: samples
         logical :: yes
@@ -244,8 +243,7 @@ contains
 
     subroutine choose_modes(residual, samples, values, right_one, found)
         !! Give omega its values: of that equilibrium, and for each draw of parameters that mode,
-        !! for
-        !! which the statement holds; the first ones where it holds for none.
+        !! for which the statement holds; the first ones where it holds for none.
         type(expression_t), intent(in) :: residual
         type(samples_t), intent(in) :: samples
         real(dp), intent(inout) :: values(:, :)

@@ -337,8 +337,7 @@ contains
 
     subroutine add_modes(samples, system, draw)
         !! \(\omega^2\) of the oscillations about the equilibrium at or near zero, and about
-        !! another one
-        !! that the page knows; 0 where there is none.
+        !! another one that the page knows; 0 where there is none.
         type(samples_t), intent(inout) :: samples
         class(system_t), intent(in) :: system  !! with the parameters of this draw
         integer, intent(in) :: draw

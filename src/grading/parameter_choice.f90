@@ -13,8 +13,7 @@ contains
 
     subroutine keep(d, said, settings, fixed, given, kept)
         !! The parameters that keep their values, and these; NaN: the system's formula. In words
-        !! those
-        !! that are zero.
+        !! those that are zero.
         type(description_t), intent(in) :: d              !! of the system
         character(*), intent(in) :: said                  !! all statements
         type(word_t), intent(in) :: settings(:)           !! `name=value`: these keep their values

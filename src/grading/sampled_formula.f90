@@ -1,10 +1,8 @@
 module lagrangia_sampled_formula
     !! A formula's value at many samples at once, and what it would be with one node changed.
-    use lagrangia_expression, only: expression_t, f_abs, f_atan, f_cos, f_cosh, f_exp, f_log, &
-                                    f_sin, &
-                                    f_sinh, f_sqrt, f_tan, f_tanh, kind_difference, kind_function, &
-                                    kind_negation, kind_number, kind_power, kind_product, &
-                                    kind_quotient, kind_sum, kind_symbol
+    use lagrangia_expression, only: expression_t, function_value, kind_difference, kind_negation, &
+                                    kind_number, kind_power, kind_product, kind_quotient, &
+                                    kind_sum, kind_symbol
     use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
@@ -38,8 +36,7 @@ contains
 
     subroutine evaluate_nodes(expression, values, results, change, sizes)
         !! The values of all nodes; that of the whole formula is the last. Their `sizes` say how
-        !! large
-        !! the rounding errors may be, in units of the relative error of one operation.
+        !! large the rounding errors may be, in units of the relative error of one operation.
         type(expression_t), intent(in) :: expression      !! not empty
         real(dp), intent(in) :: values(:, :)              !! of the symbols, (samples, symbols)
         real(dp), intent(out) :: results(:, :)
@@ -68,7 +65,7 @@ contains
                 case (kind_negation)
                     results(:, i) = -results(:, node%left)
                 case default
-                    results(:, i) = value_of(node%which, results(:, node%left))
+                    results(:, i) = function_value(node%which, results(:, node%left))
                 end select
                 if (present(change)) then
                     if (change%node == i) call apply_change()
@@ -87,7 +84,7 @@ contains
                 case (change_symbol)
                     results(:, i) = values(:, change%which)
                 case (change_function)
-                    results(:, i) = value_of(change%which, results(:, node%left))
+                    results(:, i) = function_value(change%which, results(:, node%left))
                 case (change_exponent)
                     results(:, i) = power(results(:, i), change%factor)
                 case (change_divided)
@@ -97,7 +94,7 @@ contains
                 case (change_number)
                     results(:, i) = results(:, i) + change%factor
                 case (change_applied)
-                    results(:, i) = value_of(change%which, results(:, i))
+                    results(:, i) = function_value(change%which, results(:, i))
                 case (change_argument)
                     results(:, i) = results(:, node%left)
                 case default
@@ -141,27 +138,6 @@ contains
             value = x**y
         end if
     end function power
-
-    elemental function value_of(which, x) result(value)
-        !! One of the functions.
-        integer, intent(in) :: which
-        real(dp), intent(in) :: x
-        real(dp) :: value
-
-        select case (which)
-        case (f_abs); value = abs(x)
-        case (f_atan); value = atan(x)
-        case (f_cos); value = cos(x)
-        case (f_cosh); value = cosh(x)
-        case (f_exp); value = exp(x)
-        case (f_log); value = log(x)
-        case (f_sin); value = sin(x)
-        case (f_sinh); value = sinh(x)
-        case (f_sqrt); value = sqrt(x)
-        case (f_tan); value = tan(x)
-        case default; value = tanh(x)
-        end select
-    end function value_of
 
     pure subroutine summands(expression, nodes, signs)
         !! What is added up in a formula, through brackets of sums and signs.

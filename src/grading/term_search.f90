@@ -1,7 +1,6 @@
 module lagrangia_term_search
     !! Which term of a wrong statement must be counted otherwise, or has a letter, a dot or a
-    !! function
-    !! too many or too few; which one is missing.
+    !! function too many or too few; which one is missing.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_expression, only: expression_t, kind_function, kind_symbol
     use lagrangia_formula_text, only: formula_text
