@@ -62,6 +62,7 @@ module suites
     use test_gauss_tables, only: gauss_tables_suite
     use test_generalised_forces, only: generalised_forces_suite
     use test_gnuplot, only: gnuplot_suite
+    use test_graded_responses, only: graded_responses_suite
     use test_grading, only: grading_suite
     use test_gsl, only: gsl_suite
     use test_gsl_odeiv, only: gsl_odeiv_suite
@@ -221,6 +222,7 @@ contains
         call suite%addTest(gauss_tables_suite())
         call suite%addTest(generalised_forces_suite())
         call suite%addTest(gnuplot_suite())
+        call suite%addTest(graded_responses_suite())
         call suite%addTest(grading_suite())
         call suite%addTest(gsl_suite())
         call suite%addTest(gsl_odeiv_suite())

@@ -123,12 +123,17 @@ contains
         real(dp), allocatable :: rows(:, :), values(:, :), before(:, :), after(:, :)
         type(error_t), allocatable :: error
         integer :: i, j, rank, with_unit
+        logical :: where_only
 
         allocate (result%determined(samples%ndof), source=.false.)
         allocate (rows(size(result%of) + 1, samples%ndof), source=0.0_dp)
         do i = 1, size(result%of)
             if (result%of(i)%verdict /= is_right .or. .not. result%of(i)%of_motion) cycle
             associate (residual => result%of(i)%residual)
+                ! where the masses are is not how they move
+                where_only = any([(residual%depends_on(j), j=samples%first_point, &
+                                   samples%last_point)])
+                if (where_only) cycle
                 allocate (before(1, residual%count), after(1, residual%count))
                 values = samples%values(1:1, :)
                 call evaluate_nodes(residual, values, before)

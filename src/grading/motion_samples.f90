@@ -7,8 +7,10 @@ module lagrangia_motion_samples
     use lagrangia_expression, only: expression_t
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_formula_program, only: formula_program_t, new_formula_program
+    use lagrangia_gauss_principle, only: masses_of, place_points
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
+    use lagrangia_named_values, only: motion_state_t, path
     use lagrangia_parameter_choice, only: keep, spread_values
     use lagrangia_random_draws, only: random_t
     use lagrangia_small_oscillations, only: find_modes, modes_t
@@ -32,6 +34,8 @@ module lagrangia_motion_samples
     integer, parameter :: role_known = 6      !! L, the energy, momenta, quantities
     integer, parameter :: role_frequency = 7  !! omega of a small oscillation
 
+    character, parameter :: axes(3) = ["x", "y", "z"]
+
     type :: compiled_t
         !! A name that stands for a formula.
         integer :: symbol = 0              !! its place
@@ -47,6 +51,8 @@ module lagrangia_motion_samples
         real(dp), allocatable :: omega2(:, :)      !! of small oscillations, (draws, modes); 0: none
         integer :: ndof = 0                        !! coordinates
         integer :: first_acceleration = 0          !! place of the first one
+        integer :: first_point = 0, last_point = -1
+        !! places of `x_bob`, `x_bob_dot`, ..., what the masses and rotors do
         integer :: frequency = 0                   !! place of omega, or of Omega if omega is taken;
         !! behind it that of its square, `omega_2`, which is negative where it is unstable
         character(:), allocatable :: kept          !! parameters that are zero: `a_s = 0`
@@ -128,6 +134,7 @@ contains
         do i = 1, size(d%quantities)
             call add(trim(d%quantities(i)%name), role_known)
         end do
+        call add_points()
         call add("L", role_known)
         call add("E", role_known)
         call add_each("p_", "", role_known)
@@ -165,6 +172,34 @@ contains
                 call add(before//trim(d%coordinates(j)%name)//after, role)
             end do
         end subroutine add_each
+
+        subroutine add_points()
+            !! `x_bob`, `phi_pulley`, with their rates.
+            integer :: j, m
+
+            samples%first_point = size(samples%role) + 1
+            if (allocated(d%points)) then
+                do j = 1, size(d%points)
+                    do m = 1, 3
+                        call add_rates(axes(m)//"_"//trim(d%points(j)%name))
+                    end do
+                end do
+            end if
+            if (allocated(d%rotors)) then
+                do j = 1, size(d%rotors)
+                    call add_rates("phi_"//trim(d%rotors(j)%name))
+                end do
+            end if
+            samples%last_point = size(samples%role)
+        end subroutine add_points
+
+        subroutine add_rates(called)
+            character(*), intent(in) :: called
+
+            call add(called, role_known)
+            call add(called//"_dot", role_known)
+            call add(called//"_ddot", role_known)
+        end subroutine add_rates
 
         subroutine add_letter(letter, formula)
             !! One that moves has rates as well.
@@ -265,6 +300,7 @@ contains
                 call put(trim(d%quantities(i)%name), system%quantity(i, t, q, v))
             end do
             call put("E", system%energy(t, q, v))
+            call put_points()
             call put_derivatives()
             do i = 1, size(samples%compiled)
                 call put_letter(samples%compiled(i))
@@ -281,6 +317,38 @@ contains
 
             samples%values(row, samples%symbols%find(called)) = value
         end subroutine put
+
+        subroutine put_points()
+            !! Where the masses are, how rotors are turned, and their rates.
+            type(hyperdual_t), allocatable :: x(:)
+            real(dp), allocatable :: mass(:)
+            integer :: j, m, points
+
+            allocate (mass, source=masses_of(now))
+            if (size(mass) == 0) return
+            allocate (x(size(mass)))
+            call place_points(system, now, hyperdual_t(t, 1.0_dp, 1.0_dp, 0.0_dp), &
+                              path(motion_state_t(t=t, q=q, v=v, a=a)), x)
+            points = 0
+            if (allocated(now%points)) points = size(now%points)
+            do j = 1, points
+                do m = 1, 3
+                    call put_rates(axes(m)//"_"//trim(now%points(j)%name), x(3*j - 3 + m))
+                end do
+            end do
+            do j = 1, size(mass) - 3*points
+                call put_rates("phi_"//trim(now%rotors(j)%name), x(3*points + j))
+            end do
+        end subroutine put_points
+
+        subroutine put_rates(called, value)
+            character(*), intent(in) :: called
+            type(hyperdual_t), intent(in) :: value
+
+            call put(called, value%re)
+            call put(called//"_dot", value%d1)
+            call put(called//"_ddot", value%d12)
+        end subroutine put_rates
 
         subroutine put_letter(letter)
             !! Its value, and its rates along the motion.

@@ -144,13 +144,13 @@ contains
                 if (samples%role(i) /= role_parameter) cycle
                 letter = values(:, i)
                 one = needed*letter
-                if (is_constant(one)) then
+                if (is_constant(one) .and. abs(one(1)) > equal) then
                     remark = "on the left is missing "//times(one(1))//text//"/"// &
                              trim(samples%symbols%names(i))
                     return
                 end if
                 one = needed/letter
-                if (is_constant(one)) then
+                if (is_constant(one) .and. abs(one(1)) > equal) then
                     remark = "on the left is missing "//times(one(1))// &
                              trim(samples%symbols%names(i))//" "//text
                     return

@@ -1,0 +1,159 @@
+module test_graded_responses
+    !! The table of tried responses in the docs is what the program says, and how often it errs.
+    use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
+    use lagrangia_errors, only: error_t
+    use lagrangia_files, only: read_whole_file
+    use lagrangia_judgement, only: is_right, is_unreadable, is_wrong
+    use lagrangia_text, only: to_text
+    use tried_responses, only: draw_responses, group_t, responses_by_hand, responses_of_the_notes
+    implicit none (type, external)
+    private
+    public :: graded_responses_suite
+
+    character, parameter :: line_feed = new_line("a")
+    character(*), parameter :: page = "docs/graded_responses.md"
+    character(*), parameter :: written = "build/graded_responses.md"
+
+contains
+
+    function graded_responses_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("graded_responses")
+        call suite%addTest(TestMethod("the_page_is_what_comes_out", the_page_is_what_comes_out))
+    end function graded_responses_suite
+
+    subroutine the_page_is_what_comes_out()
+        !! None is misjudged, nine of ten slips are named, and the page has every row.
+        type(group_t) :: groups(4)
+        type(error_t), allocatable :: error
+        character(:), allocatable :: text, there
+        integer :: i
+
+        call responses_by_hand(groups(1))
+        call responses_of_the_notes(groups(2))
+        call draw_responses(.false., 200, groups(3))
+        call draw_responses(.true., 200, groups(4))
+        do i = 1, size(groups)
+            call assertEqual("", misjudged(groups(i)))
+        end do
+        call assertEqual(200, count(groups(3)%of%verdict == is_right), "rewritings are right")
+        call assertEqual(200, count(groups(4)%of%verdict == is_wrong), "slips are wrong")
+        call assertTrue(named(groups(4)) >= 180, to_text(named(groups(4)))//" are named")
+        text = page_text(groups)
+        call read_whole_file(page, there, error)
+        if (allocated(error)) there = ""
+        if (there /= text .or. len(there) /= len(text)) call keep(text)
+        call assertTrue(there == text .and. len(there) == len(text), page//" is not what the "// &
+                        "program says; now 'cp "//written//" "//page//"' and look at the change")
+    end subroutine the_page_is_what_comes_out
+
+    function misjudged(group) result(text)
+        !! The statements whose verdict is not the one that they deserve.
+        type(group_t), intent(in) :: group
+        character(:), allocatable :: text
+        integer :: i
+
+        text = ""
+        do i = 1, size(group%of)
+            if (group%of(i)%verdict == group%of(i)%expected) cycle
+            text = text//group%of(i)%system//": "//group%of(i)%statement//": "// &
+                   group%of(i)%remark//"; "
+        end do
+    end function misjudged
+
+    integer function named(group)
+        !! Wrong ones with a change that mends them.
+        type(group_t), intent(in) :: group
+        integer :: i
+
+        named = 0
+        do i = 1, size(group%of)
+            if (group%of(i)%verdict /= is_wrong) cycle
+            if (index(group%of(i)%remark, "no single") == 0) named = named + 1
+        end do
+    end function named
+
+    function page_text(groups) result(text)
+        !! All of the page.
+        type(group_t), intent(in) :: groups(4)
+        character(:), allocatable :: text
+
+        text = "# Every response that was tried"//line_feed//line_feed// &
+            "Statements whose verdict is known, and what `lagrangia grade` says about each, "// &
+            "failures included."//line_feed// &
+            "A test makes this page anew and compares it (`fpm test -- --filter "// &
+            "graded_responses`); where it differs, it"//line_feed// &
+            "leaves the new one in `"//written//"`."//line_feed
+        call add_group("Written by hand", "Each kind of equivalence and of slip once; the last "// &
+                       "wrong ones have more than one slip.", groups(1))
+        call add_group("Slips of the notes", "As they stand there (`lagrangia errata`), and as "// &
+                       "derived from the notes' own L.", groups(2))
+        call add_group("Right, in other words", "Statements that `describe` prints, rewritten "// &
+                       "by a program.", groups(3))
+        call add_group("One slip", "Statements that `describe` prints, with one change by a "// &
+                       "program that makes them false.", groups(4))
+    contains
+        subroutine add_group(title, meaning, group)
+            character(*), intent(in) :: title, meaning
+            type(group_t), intent(in) :: group
+            integer :: i
+
+            text = text//line_feed//"## "//title//line_feed//line_feed//meaning//line_feed// &
+                to_text(size(group%of))//" responses, "// &
+                to_text(count(group%of%verdict /= group%of%expected))//" misjudged"
+            if (count(group%of%verdict == is_wrong) > 0) text = text//"; of "// &
+                to_text(count(group%of%verdict == is_wrong))//" wrong ones "// &
+                to_text(named(group))//" have their slip named"
+            text = text//"."//line_feed//line_feed// &
+                "| system | response | verdict | because |"//line_feed//"|---|---|---|---|"// &
+                line_feed
+            do i = 1, size(group%of)
+                text = text//"| "//group%of(i)%system//" | `"//in_a_cell(group%of(i)%statement)// &
+                       "` | "//verdict_text(group%of(i)%verdict)//" | "// &
+                       in_a_cell(group%of(i)%remark)//" |"//line_feed
+            end do
+        end subroutine add_group
+    end function page_text
+
+    pure function in_a_cell(text) result(cell)
+        !! Lines side by side, and no bar that would end the cell.
+        character(*), intent(in) :: text
+        character(:), allocatable :: cell
+        integer :: i
+
+        cell = ""
+        do i = 1, len(text)
+            select case (text(i:i))
+            case (line_feed); cell = cell//"; "
+            case ("|"); cell = cell//"\|"
+            case default; cell = cell//text(i:i)
+            end select
+        end do
+    end function in_a_cell
+
+    pure function verdict_text(verdict) result(text)
+        integer, intent(in) :: verdict
+        character(:), allocatable :: text
+
+        select case (verdict)
+        case (is_right); text = "right"
+        case (is_wrong); text = "wrong"
+        case (is_unreadable); text = "unreadable"
+        case default; text = "?"
+        end select
+    end function verdict_text
+
+    subroutine keep(text)
+        !! For whoever brings the page up to date.
+        character(*), intent(in) :: text
+        integer :: unit, status
+
+        open (newunit=unit, file=written, access="stream", form="unformatted", &
+              status="replace", action="write", iostat=status)
+        if (status /= 0) return
+        write (unit) text
+        close (unit)
+    end subroutine keep
+end module test_graded_responses
