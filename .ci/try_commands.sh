@@ -302,9 +302,39 @@ refuses 5 "\\x20data/scenes/pendulum.nml: no such file; there is one without tha
 cp data/scenes/pendulum.nml "$work/blank.nml "
 run run "$work/blank.nml " --quiet --set scene%output=blank --output "$work/b "
 check "names that end with a blank are those files" eval '[ $status -eq 0 ] && [ -s "$work/b /blank.dat" ]'
-(cd "$work" && "$program" run pendlum) >"$work/out" 2>"$work/err"
-status=$?
-check "outside the checkout: a wrong word is named" eval '[ $status -eq 5 ] && one_line && grep -qF "unknown scene '"'pendlum'"'; there are no scenes in '"'data/scenes/'"' here: start lagrangia in the project" "$work/err"'
+
+# In any folder the program has its scenes, sheets and references with it
+away() { # away WORDS...: as run, in a folder that has nothing but what was put there
+    mkdir -p "$work/away"
+    (cd "$work/away" && timeout 120 "$program" "$@") >"$work/out" 2>"$work/err" </dev/null
+    status=$?
+}
+away run pendlum
+check "elsewhere: a wrong word is named, with the nearest" eval '[ $status -eq 2 ] && one_line && grep -qF "unknown scene '"'pendlum'"'; did you mean '"'pendulum'"'?" "$work/err"'
+away run data/scenes/pendulum.nml
+check "elsewhere: a path is a path" eval '[ $status -eq 5 ] && one_line && grep -qF "data/scenes/pendulum.nml: no such file; did you mean '"'pendulum'"'?" "$work/err"'
+away --json
+check "elsewhere: lagrangia alone runs every scene" json 'len(d) == '"$scenes"' and all(row["verdict"] == "holds" for row in d)'
+check "elsewhere: the same bytes" eval 'for f in data/scenes/*.nml; do f=$(basename "$f" .nml); cmp "$work/all/$f.dat" "$work/away/data/output/$f.dat" || exit 1; done'
+for words in "list" "describe wedge" "describe spring_pendulum" "modes pendulum_slack --output o" "derive spring_pendulum" "check spring_pendulum" "principle action --output o" \
+    "bench steps --systems pendulum --quick --output o" "bench precision --problems P4 --methods dop853 --tolerances 1e-9 --quick --output o" "errata E1" "grade right" "grade data/homework/right.txt"; do
+    away $words
+    check "elsewhere: $words" [ $status -eq 0 ]
+done
+away grade atwood
+check "elsewhere: a sheet by name" eval '[ $status -eq 1 ] && grep -q "2 right, 2 wrong" "$work/out"'
+away grade atwod
+check "elsewhere: a wrong sheet is named" eval '[ $status -eq 5 ] && one_line && grep -qF "atwod: no such file; did you mean the sheet '"'atwood'"'?" "$work/err"'
+away show pendulum
+check "show: a scene, byte for byte" cmp "$work/out" data/scenes/pendulum.nml
+away show atwood atwood.txt homework/right.txt
+check "show: scenes and sheets, as they are" eval 'cat data/scenes/atwood.nml data/homework/atwood.txt data/homework/right.txt | cmp - "$work/out"'
+refuses 2 "no file 'pendlum' comes with the program; did you mean 'pendulum.nml'?" show pendulum pendlum
+mkdir -p "$work/away/data/scenes" && sed "s/title = .*/title = 'Mine'/" data/scenes/pendulum.nml >"$work/away/data/scenes/pendulum.nml"
+away list scenes
+check "a folder's own scenes come first" eval '[ "$(head -n 1 "$work/out")" = "pendulum                    Mine" ] && [ "$(wc -l <"$work/out")" -eq "$scenes" ]'
+away --json
+check "a folder's own scenes are those that run" json 'len(d) == 1'
 long=$(printf '%03000d' 0)
 for words in "$long" "run $long" "run pendulum --$long" "run pendulum --format $long" "run pendulum --plot=$long" "run pendulum --set scene%dt=$long.x" \
     "run pendulum --set $long" "run pendulum $long" "modes $long" "modes pendulum --at $long,x" "describe $long" "describe wedge $long" "list $long" \

@@ -128,6 +128,7 @@ module suites
     use test_scene_steps, only: scene_steps_suite
     use test_scenes, only: scenes_suite
     use test_second_run, only: second_run_suite
+    use test_shipped_files, only: shipped_files_suite
     use test_sinc, only: sinc_suite
     use test_sine_cosine, only: sine_cosine_suite
     use test_small_oscillations, only: small_oscillations_suite
@@ -285,6 +286,7 @@ contains
         call suite%addTest(scenes_suite())
         call suite%addTest(cross_check_suite())
         call suite%addTest(second_run_suite())
+        call suite%addTest(shipped_files_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(sine_cosine_suite())
         call suite%addTest(small_oscillations_suite())

@@ -3,11 +3,11 @@ module lagrangia_bench_problems
     use lagrangia_catalogue, only: new_system
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_files, only: read_whole_file
     use lagrangia_kinds, only: dp
     use lagrangia_namelist, only: get_real, get_reals, get_string, namelist_t, parse_namelist, &
                                   refuse_unknown_keys
     use lagrangia_reference, only: reference_t
+    use lagrangia_shipped_files, only: read_file_or_shipped
     use lagrangia_system, only: system_t
     use lagrangia_text, only: lower
     implicit none (type, external)
@@ -62,7 +62,7 @@ contains
 
         group = lower(name)
         read_group: block
-            call read_whole_file(path, text, error)
+            call read_file_or_shipped(path, text, error)
             if (allocated(error)) exit read_group
             call parse_namelist(text, path, tree, error)
             if (allocated(error)) exit read_group

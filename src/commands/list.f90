@@ -10,7 +10,7 @@ module lagrangia_list
     use lagrangia_names, only: advice
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: read_scene
-    use lagrangia_shipped, only: shipped_scenes
+    use lagrangia_shipped, only: named_scenes
     use lagrangia_system, only: system_t
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
@@ -97,8 +97,7 @@ contains
             type(scene_t) :: scene
             integer :: k
 
-            call shipped_scenes(paths, error)
-            if (allocated(error)) return
+            call named_scenes(paths)
             do k = 1, size(paths)
                 call read_scene(paths(k)%text, [word_t ::], scene, system, error)
                 if (allocated(error)) return

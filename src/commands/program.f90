@@ -20,6 +20,7 @@ module lagrangia_program
     use lagrangia_registry, only: check_line, commands, help_text, options
     use lagrangia_resources, only: check_memory, check_stack
     use lagrangia_run_command, only: run_command
+    use lagrangia_show, only: show_command
     use lagrangia_stress, only: stress_command
     use lagrangia_unfinished, only: is_creating, remove_unfinished
     use lagrangia_version, only: build_text, version
@@ -90,6 +91,7 @@ contains
             case ("describe"); call describe_command(line, error)
             case ("bench"); call bench_command(line, error)
             case ("stress"); call stress_command(line, error)
+            case ("show"); call show_command(line, error)
             case ("modes"); call modes_command(line, error)
             case ("principle"); call principle_command(line, error)
             case default; call run_command(line, error)

@@ -63,6 +63,8 @@ module lagrangia_registry
         command_t("grade", "FILE...", "a student's equations: right, or which term is wrong", -1, &
                   "json quiet"), &
         command_t("list", "[systems|methods|scenes]", "what there is, one a line", 1, ""), &
+        command_t("show", "[FILE...]", "a scene or sheet that comes with the program, as it is", &
+                  -1, ""), &
         command_t("describe", "SYSTEM|SCENE|scene", "L, equations, ...; of the word scene: "// &
                   "every key of a scene", 1, "set"), &
         command_t("derive", "SYSTEM|SCENE", "from x(q) to the equations of motion, line by line", &

@@ -157,7 +157,7 @@ contains
         integer :: i, turn
 
         if (line%command == "") then
-            call shipped_scenes(paths, error)
+            call shipped_scenes(paths)
         else if (size(line%arguments) == 0) then
             call fail(error, "run what? 'lagrangia list scenes' shows the names; a path ends "// &
                       "in .nml")

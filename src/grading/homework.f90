@@ -11,8 +11,10 @@ module lagrangia_homework
     !! `#` begins a comment. `system:` names a system of the catalogue or a scene file, `set:` fixes
     !! a parameter (`set: g = 0`). A line that ends in `\` goes on in the next one.
     use lagrangia_characters, only: printable
-    use lagrangia_errors, only: error_t, fail
-    use lagrangia_files, only: read_whole_file
+    use lagrangia_errors, only: error_t, fail, status_file
+    use lagrangia_files, only: facts_t, look_at
+    use lagrangia_names, only: name_length, nearest_name
+    use lagrangia_shipped_files, only: read_file_or_shipped, shipped_files
     use lagrangia_text, only: quoted, short_source, to_text, word_t
     implicit none (type, external)
     private
@@ -41,15 +43,50 @@ module lagrangia_homework
 contains
 
     subroutine read_homework(path, homework, error)
-        !! The file at `path`.
-        character(*), intent(in) :: path                  !! of a readable file
+        !! The file at `path`; or the sheet of that name which the program carries.
+        character(*), intent(in) :: path                  !! of a readable file, or `atwood`
         type(homework_t), intent(out) :: homework         !! its statements
         type(error_t), allocatable, intent(out) :: error  !! names file and line
         character(:), allocatable :: text
 
-        call read_whole_file(path, text, error)
-        if (.not. allocated(error)) call parse_homework(text, path, homework, error)
+        character(:), allocatable :: source
+
+        call find_sheet(path, source, error)
+        if (.not. allocated(error)) call read_file_or_shipped(source, text, error)
+        if (.not. allocated(error)) call parse_homework(text, source, homework, error)
     end subroutine read_homework
+
+    subroutine find_sheet(name, path, error)
+        !! The path of the sheet that the program carries by this name, where no file has it; else
+        !! the name itself. Fails where a word without `/` and `.` is neither.
+        character(*), intent(in) :: name
+        character(:), allocatable, intent(out) :: path
+        type(error_t), allocatable, intent(out) :: error
+        character(*), parameter :: folder = "data/homework/", ending = ".txt"
+        character(name_length), allocatable :: names(:)
+        character(:), allocatable :: near
+        type(word_t), allocatable :: paths(:)
+        type(facts_t) :: facts
+        integer :: i
+
+        path = name
+        facts = look_at(name)
+        if (facts%found .or. scan(name, "/.") > 0 .or. name == "") return
+        call shipped_files(folder, paths)
+        allocate (names(size(paths)))
+        do i = 1, size(paths)
+            names(i) = paths(i)%text(len(folder) + 1:len(paths(i)%text) - len(ending))
+        end do
+        path = folder//name//ending
+        if (any(names == name)) return
+        near = nearest_name(name, names)
+        if (near /= "") then
+            near = "did you mean the sheet '"//near//"'?"
+        else
+            near = "'lagrangia show' lists the sheets that come with the program"
+        end if
+        call fail(error, trim(short_source(name))//": no such file; "//near, status_file)
+    end subroutine find_sheet
 
     subroutine parse_homework(text, source, homework, error)
         !! The lines of `text`.

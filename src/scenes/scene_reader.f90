@@ -6,7 +6,6 @@ module lagrangia_scene_reader
     use lagrangia_command_line, only: word_t
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_files, only: read_whole_file
     use lagrangia_formula_start, only: check_formulas_at_start
     use lagrangia_kinds, only: dp
     use lagrangia_lagrangian_group, only: formula_group => group, formula_lines, read_formulas, &
@@ -19,6 +18,7 @@ module lagrangia_scene_reader
     use lagrangia_scene_keys, only: coordinates, expectation_keys, key_length, keys, &
                                     read_columns, read_state, read_times
     use lagrangia_shipped, only: find_scene, looks_like_path, scene_name
+    use lagrangia_shipped_files, only: read_file_or_shipped
     use lagrangia_system, only: check_parameter, default_values, system_t
     use lagrangia_text, only: lower, quoted
     use lagrangia_written_expressions, only: read_expressions, unused_parameters, &
@@ -33,14 +33,14 @@ contains
 
     subroutine read_scene(path, overrides, scene, system, error)
         !! Read the file at `path`; `overrides` are the words behind `--set`.
-        character(*), intent(in) :: path  !! of a readable file
+        character(*), intent(in) :: path  !! of a readable file, or of one that the program carries
         type(word_t), intent(in) :: overrides(:)  !! they come after the file's values
         type(scene_t), intent(out) :: scene  !! remembers the place of each key
         class(system_t), allocatable, intent(out) :: system  !! with the scene's parameters
         type(error_t), allocatable, intent(out) :: error  !! names file, line and key
         character(:), allocatable :: text
 
-        call read_whole_file(path, text, error)
+        call read_file_or_shipped(path, text, error)
         if (allocated(error)) return
         call parse_scene(text, path, overrides, scene, system, error)
     end subroutine read_scene

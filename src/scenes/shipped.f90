@@ -1,15 +1,17 @@
 module lagrangia_shipped
-    !! The scenes that come with the toolkit: the files of `data/scenes`.
-    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_funptr, c_int, &
-                                           c_null_char, c_null_funptr, c_ptr, c_size_t
+    !! The scenes that have names: the files of `data/scenes` in the working folder, and those that
+    !! the program carries with it.
+    use, intrinsic :: iso_c_binding, only: c_char, c_f_pointer, c_funptr, c_int, c_null_char, &
+                                           c_null_funptr, c_ptr, c_size_t
     use lagrangia_command_line, only: has_outer_blanks, is_same, word_t
     use lagrangia_errors, only: error_t, fail, status_file, status_usage
-    use lagrangia_files, only: facts_t, look_at
+    use lagrangia_files, only: facts_t, fortran_text, look_at
     use lagrangia_names, only: nearest_name
+    use lagrangia_shipped_files, only: shipped_files
     use lagrangia_text, only: quoted, short_source
     implicit none (type, external)
     private
-    public :: shipped_scenes, find_scene, looks_like_path, scene_name
+    public :: shipped_scenes, named_scenes, find_scene, looks_like_path, scene_name
 
     character(*), parameter :: folder = "data/scenes/"
     character(*), parameter :: ending = ".nml"
@@ -37,55 +39,78 @@ module lagrangia_shipped
             implicit none (type, external)
             type(glob_t), intent(inout) :: found
         end subroutine c_globfree
-
-        pure function c_strlen(text) bind(c, name="strlen") result(length)
-            import :: c_ptr, c_size_t
-            implicit none (type, external)
-            type(c_ptr), value :: text
-            integer(c_size_t) :: length
-        end function c_strlen
     end interface
 
 contains
 
-    subroutine shipped_scenes(paths, error)
-        !! The paths of all shipped scenes, in alphabetical order; fails where there is none.
+    subroutine shipped_scenes(paths)
+        !! The paths of the scenes that `lagrangia` alone runs, in alphabetical order: those of the
+        !! working folder; where it has none, those that the program carries.
         type(word_t), allocatable, intent(out) :: paths(:)  !! from the working folder
-        type(error_t), allocatable, intent(out) :: error  !! status of a file
+
+        call scenes_here(paths)
+        if (size(paths) == 0) call shipped_files(folder, paths)
+    end subroutine shipped_scenes
+
+    subroutine named_scenes(paths)
+        !! The paths of all scenes that a name alone finds: those of the working folder, and then
+        !! those that the program carries and the folder does not have.
+        type(word_t), allocatable, intent(out) :: paths(:)  !! from the working folder
+        type(word_t), allocatable :: here(:), carried(:)
+        logical, allocatable :: other(:)
+        integer :: i, k, n
+
+        call scenes_here(here)
+        call shipped_files(folder, carried)
+        allocate (other(size(carried)), source=.true.)
+        do i = 1, size(carried)
+            do k = 1, size(here)
+                if (is_same(carried(i)%text, here(k)%text)) other(i) = .false.
+            end do
+        end do
+        allocate (paths(size(here) + count(other)))
+        n = size(here)
+        do i = 1, n
+            paths(i)%text = here(i)%text
+        end do
+        do i = 1, size(carried)
+            if (.not. other(i)) cycle
+            n = n + 1
+            paths(n)%text = carried(i)%text
+        end do
+    end subroutine named_scenes
+
+    subroutine scenes_here(paths)
+        !! Those of the working folder, in alphabetical order.
+        type(word_t), allocatable, intent(out) :: paths(:)
         type(glob_t) :: found
         type(c_ptr), pointer :: list(:)
-        character(kind=c_char), pointer :: bytes(:)
-        integer :: i, k
+        integer :: i
 
         if (c_glob(folder//"*"//ending//c_null_char, 0_c_int, c_null_funptr, found) /= 0) then
-            call fail(error, "no scenes in '"//folder//"': start lagrangia in the project's "// &
-                      "folder, or give the path of a .nml file", status_file)
+            allocate (paths(0))
             return
         end if
         call c_f_pointer(found%paths, list, [found%count])
         allocate (paths(size(list)))
         do i = 1, size(list)
-            call c_f_pointer(list(i), bytes, [c_strlen(list(i))])
-            allocate (character(size(bytes)) :: paths(i)%text)
-            do k = 1, size(bytes)
-                paths(i)%text(k:k) = bytes(k)
-            end do
+            paths(i)%text = fortran_text(list(i))
         end do
         call c_globfree(found)
-    end subroutine shipped_scenes
+    end subroutine scenes_here
 
     subroutine find_scene(name, path, error)
-        !! The path of a scene: `name` itself if it looks like a path, or a shipped scene's. Fails
+        !! The path of a scene: `name` itself if it looks like a path, or a named scene's. Fails
         !! where neither is there.
-        character(*), intent(in) :: name  !! of a shipped scene, or a path
-        character(:), allocatable, intent(out) :: path  !! of a file that exists
+        character(*), intent(in) :: name  !! of a scene, or a path
+        character(:), allocatable, intent(out) :: path  !! for `read_scene`
         type(error_t), allocatable, intent(out) :: error  !! names the nearest scene
         type(word_t), allocatable :: paths(:)
         character(255), allocatable :: names(:)  !! no file's name is longer
         character(:), allocatable :: near
         type(facts_t) :: facts
         logical :: is_path
-        integer :: i, status
+        integer :: i
 
         path = name
         is_path = looks_like_path(name)
@@ -93,31 +118,23 @@ contains
             facts = look_at(name)
             if (facts%found) return
         end if
-        call shipped_scenes(paths, error)
-        status = status_usage
-        if (is_path .or. allocated(error)) status = status_file
-        if (allocated(error)) then
-            near = ""
-            if (.not. is_path) near = "; there are no scenes in '"//folder//"' here: start "// &
-                "lagrangia in the project's folder, or give the path of a .nml file"
-        else
-            allocate (names(size(paths)))
-            do i = 1, size(paths)
-                names(i) = scene_name(paths(i)%text)
-                if (is_same(trim(names(i)), name) .and. .not. is_path) then
-                    path = paths(i)%text
-                    return
-                end if
-            end do
-            near = remedy(name, names)
-        end if
+        call named_scenes(paths)
+        allocate (names(size(paths)))
+        do i = 1, size(paths)
+            names(i) = scene_name(paths(i)%text)
+            if (is_same(trim(names(i)), name) .and. .not. is_path) then
+                path = paths(i)%text
+                return
+            end if
+        end do
+        near = remedy(name, names)
         facts = look_at(trim(adjustl(name)))
         if (has_outer_blanks(name) .and. facts%found) near = "; there is one without "// &
             "that blank"
         if (is_path) then
-            call fail(error, trim(short_source(name))//": no such file"//near, status)
+            call fail(error, trim(short_source(name))//": no such file"//near, status_file)
         else
-            call fail(error, "unknown scene "//quoted(name)//near, status)
+            call fail(error, "unknown scene "//quoted(name)//near, status_usage)
         end if
     end subroutine find_scene
 
