@@ -329,7 +329,7 @@ away show pendulum
 check "show: a scene, byte for byte" cmp "$work/out" data/scenes/pendulum.nml
 away show atwood atwood.txt homework/right.txt
 check "show: scenes and sheets, as they are" eval 'cat data/scenes/atwood.nml data/homework/atwood.txt data/homework/right.txt | cmp - "$work/out"'
-refuses 2 "no file 'pendlum' comes with the program; did you mean 'pendulum.nml'?" show pendulum pendlum
+refuses 2 "no file 'pendlum' comes with the program; did you mean 'pendulum'?" show pendulum pendlum
 mkdir -p "$work/away/data/scenes" && sed "s/title = .*/title = 'Mine'/" data/scenes/pendulum.nml >"$work/away/data/scenes/pendulum.nml"
 away list scenes
 check "a folder's own scenes come first" eval '[ "$(head -n 1 "$work/out")" = "pendulum                    Mine" ] && [ "$(wc -l <"$work/out")" -eq "$scenes" ]'

@@ -1,6 +1,6 @@
 program main
     !! The command, as it is shipped.
-    use lagrangia_program, only: lagrangia_main
+    use lagrangia, only: lagrangia_main
     implicit none (type, external)
 
     call lagrangia_main()

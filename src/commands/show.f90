@@ -4,6 +4,7 @@ module lagrangia_show
     use lagrangia_console, only: put, put_line
     use lagrangia_errors, only: error_t, fail
     use lagrangia_names, only: name_length, nearest_name
+    use lagrangia_shipped, only: scene_name
     use lagrangia_shipped_files, only: shipped_files, shipped_text
     use lagrangia_text, only: quoted, word_t
     implicit none (type, external)
@@ -22,9 +23,10 @@ contains
         integer :: i, k
 
         call shipped_files("data/", paths)
-        allocate (names(size(paths)))
+        allocate (names(2*size(paths)))
         do i = 1, size(paths)
-            names(i) = paths(i)%text(index(paths(i)%text, "/", back=.true.) + 1:)
+            names(i) = scene_name(paths(i)%text)
+            names(size(paths) + i) = paths(i)%text(index(paths(i)%text, "/", back=.true.) + 1:)
         end do
         if (size(line%arguments) == 0) then
             do i = 1, size(paths)
