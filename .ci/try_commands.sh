@@ -224,11 +224,13 @@ run grade data/homework/right.txt
 check "grade: a right sheet" eval '[ $status -eq 0 ] && grep -q "^8 right$" "$work/out" && [ ! -s "$work/err" ]'
 run grade data/homework/wedge.txt data/homework/cart_pendulum.txt --json
 check "grade --json: two sheets, the terms named" json '[sheet["wrong"] for sheet in d] == [1, 1] and [[s["remark"] for s in sheet["statements"] if s["verdict"] == "wrong"] for sheet in d] == [["\u0027M\u0027 must be \u0027m\u0027 in \u0027M (q1_ddot + q2_ddot cos(alpha))\u0027"], ["the sign of \u0027m2 g l sin(theta)\u0027"]]'
+run grade data/homework/derivation.txt --json
+check "grade --json: one slip in T, and seven lines that follow from it" json '[(s["line"], s["follows_from"]) for s in d[0]["statements"] if s["verdict"] in ("wrong", "follows")] == [(5, [])] + [(n, [5]) for n in range(6, 13)]'
 check "docs/grading.md: commands print what it says" python3 -c 'import re, subprocess, sys
 block = re.search(r"```console\n(.*?)```", open("docs/grading.md").read(), re.S).group(1)
 pairs = re.findall(r"^\$ lagrangia (.*)\n((?:(?!\$ ).*\n)*)", block, re.M)
 got = [subprocess.run([sys.argv[1]] + words.split(), text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE) for words, _ in pairs]
-sys.exit(len(pairs) != 3 or any(g.stdout + g.stderr != text for g, (_, text) in zip(got, pairs)))' "$program"
+sys.exit(len(pairs) != 4 or any(g.stdout + g.stderr != text for g, (_, text) in zip(got, pairs)))' "$program"
 printf 'system: pendulum\ntheta_ddot + 3\n' >"$work/sheet"
 refuses 2 "sheet:2: no '='; a statement is 'left = right', not 'theta_ddot + 3'" grade "$work/sheet"
 printf 'system: pendulun\ntheta_ddot = 3\n' >"$work/sheet"

@@ -5,10 +5,10 @@ module rewritings
                                     kind_negation, kind_number, kind_power, kind_product, &
                                     kind_quotient, kind_sum, kind_symbol, node_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_motion_samples, only: role_acceleration, role_coordinate, role_parameter, &
+    use lagrangia_random_draws, only: random_t
+    use lagrangia_sample_names, only: role_acceleration, role_coordinate, role_parameter, &
                                         role_time, &
                                         role_velocity, samples_t
-    use lagrangia_random_draws, only: random_t
     implicit none (type, external)
     private
     public :: draw_rewriting, draw_slip

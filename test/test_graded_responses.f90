@@ -3,9 +3,10 @@ module test_graded_responses
     use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
     use lagrangia_errors, only: error_t
     use lagrangia_files, only: read_whole_file
-    use lagrangia_judgement, only: is_right, is_unreadable, is_wrong
+    use lagrangia_judgement, only: is_consequence, is_right, is_unreadable, is_wrong
     use lagrangia_text, only: to_text
-    use tried_responses, only: draw_responses, group_t, responses_by_hand, responses_of_the_notes
+    use tried_responses, only: draw_derivations, draw_responses, group_t, responses_by_hand, &
+                               responses_of_the_notes
     implicit none (type, external)
     private
     public :: graded_responses_suite
@@ -26,7 +27,7 @@ contains
 
     subroutine the_page_is_what_comes_out()
         !! None is misjudged, nine of ten slips are named, and the page has every row.
-        type(group_t) :: groups(4)
+        type(group_t) :: groups(6)
         type(error_t), allocatable :: error
         character(:), allocatable :: text, there
         integer :: i
@@ -35,6 +36,8 @@ contains
         call responses_of_the_notes(groups(2))
         call draw_responses(.false., 200, groups(3))
         call draw_responses(.true., 200, groups(4))
+        call draw_derivations(.true., 100, groups(5))
+        call draw_derivations(.false., 100, groups(6))
         do i = 1, size(groups)
             call assertEqual("", misjudged(groups(i)))
         end do
@@ -77,7 +80,7 @@ contains
 
     function page_text(groups) result(text)
         !! All of the page.
-        type(group_t), intent(in) :: groups(4)
+        type(group_t), intent(in) :: groups(6)
         character(:), allocatable :: text
 
         text = "# Every response that was tried"//line_feed//line_feed// &
@@ -94,6 +97,10 @@ contains
                        "by a program.", groups(3))
         call add_group("One slip", "Statements that `describe` prints, with one change by a "// &
                        "program that makes them false.", groups(4))
+        call add_group("A slip, and what follows from it", "The second line says in other "// &
+                       "words what the first one says wrongly.", groups(5))
+        call add_group("A slip, and another one", "The second line has a slip of its own.", &
+                       groups(6))
     contains
         subroutine add_group(title, meaning, group)
             character(*), intent(in) :: title, meaning
@@ -141,6 +148,7 @@ contains
         case (is_right); text = "right"
         case (is_wrong); text = "wrong"
         case (is_unreadable); text = "unreadable"
+        case (is_consequence); text = "follows"
         case default; text = "?"
         end select
     end function verdict_text

@@ -6,7 +6,7 @@ module test_grading
     use lagrangia_errors, only: error_t
     use lagrangia_grading, only: grade, grade_t
     use lagrangia_homework, only: homework_t, parse_homework
-    use lagrangia_judgement, only: is_right, is_unreadable, is_wrong
+    use lagrangia_judgement, only: is_consequence, is_right, is_unreadable, is_wrong
     use lagrangia_system, only: system_t
     use tried_responses, only: graded, printed_statements
     implicit none (type, external)
@@ -26,6 +26,7 @@ contains
         call suite%addTest(TestMethod("every_printed_statement_is_right", &
                                       every_printed_statement_is_right))
         call suite%addTest(TestMethod("which_accelerations_follow", which_accelerations_follow))
+        call suite%addTest(TestMethod("lines_that_follow", lines_that_follow))
         call suite%addTest(TestMethod("sheets_that_cannot_be_read", sheets_that_cannot_be_read))
     end function grading_suite
 
@@ -124,6 +125,79 @@ contains
         call assertEqual(is_right, result%of(1)%verdict, result%of(1)%remark)
         call assertEqual(0, result%equations, "where the bob is says nothing of its motion")
     end subroutine which_accelerations_follow
+
+    subroutine lines_that_follow()
+        !! From a wrong T, an equation of motion, a momentum, a frequency, or two of them; and a new
+        !! mistake does not.
+        call traced("cart_pendulum", "w0fffffffr", &
+            "T = (m1 + m2)/2 x_dot^2 + m2/2 l^2 theta_dot^2 - m2 l x_dot theta_dot cos(theta)"// &
+            "; V = -m2 g l cos(theta)"// &
+            "; L = (m1 + m2)/2 x_dot^2 + m2/2 l^2 theta_dot^2 + m2 g l cos(theta)"// &
+            " - m2 l x_dot theta_dot cos(theta)"// &
+            "; p_x = (m1 + m2) x_dot - m2 l theta_dot cos(theta)"// &
+            "; d/dt dL/dtheta_dot = m2 l^2 theta_ddot - m2 l x_ddot cos(theta)"// &
+            " + m2 l x_dot theta_dot sin(theta)"// &
+            "; dL/dtheta = m2 l x_dot theta_dot sin(theta) - m2 g l sin(theta)"// &
+            "; (m1 + m2) x_ddot - m2 l theta_ddot cos(theta) + m2 l theta_dot^2 sin(theta) = 0"// &
+            "; l theta_ddot = x_ddot cos(theta) - g sin(theta)"// &
+            "; (m1 + m2 sin(theta)^2) x_ddot = -m2 sin(theta) (l theta_dot^2 + g cos(theta))"// &
+            "; omega^2 = (m1 + m2) g/(m1 l)")
+        call traced("cart_pendulum", "rwfffw", &
+            "(m1 + m2) x_ddot + m2 l theta_ddot cos(theta) - m2 l theta_dot^2 sin(theta) = 0"// &
+            "; m2 l^2 theta_ddot + m2 l x_ddot cos(theta) - m2 g l sin(theta) = 0"// &
+            "; theta_ddot = (g sin(theta) - x_ddot cos(theta))/l"// &
+            "; theta_ddot = ((m1 + m2) g sin(theta) - m2 l theta_dot^2 sin(theta) cos(theta))"// &
+            "/(l (m1 + m2 sin(theta)^2))"// &
+            "; omega^2 = -(m1 + m2) g/(m1 l); omega^2 = -(m1 + m2) g/(m2 l)")
+        call traced("pendulum", "wffffr", "p_theta = m l theta_dot"// &
+            "; d/dt dL/dtheta_dot = m l theta_ddot; m l theta_ddot = -m g l sin(theta)"// &
+            "; theta_ddot = -g sin(theta); omega = sqrt(g); omega = sqrt(g/l)")
+        call traced("pendulum", "wfw", "omega^2 = 2 g/l; omega = sqrt(2 g/l); omega = g/l")
+        call traced("double_pendulum", "wwfw", "(m1 + m2) l1 theta1_ddot + m2 l2 theta2_ddot "// &
+            "cos(D) - m2 l2 theta2_dot^2 sin(D) + (m1 + m2) g sin(theta1) = 0"// &
+            "; l2 theta2_ddot + l1 theta1_ddot sin(D) - l1 theta1_dot^2 sin(D) + "// &
+            "g sin(theta2) = 0"// &
+            "; (m1 + m2) l1 theta1_ddot + m2 cos(D) (l1 theta1_dot^2 sin(D) - g sin(theta2) - "// &
+            "l1 theta1_ddot sin(D)) - m2 l2 theta2_dot^2 sin(D) + (m1 + m2) g sin(theta1) = 0"// &
+            "; l2 theta2_ddot + l1 theta1_ddot sin(D) + l1 theta1_dot^2 sin(D) + "// &
+            "g sin(theta2) = 0")
+        call traced("pendulum", "wffw", "V = m g l cos(theta); dL/dtheta = m g l sin(theta)"// &
+            "; E = m/2 l^2 theta_dot^2 + m g l cos(theta); omega = sqrt(2 g/l)")
+        call traced("pendulum", "wfwf", "T = m l^2 theta_dot^2; L = m l^2 theta_dot^2 - V"// &
+            "; V = m g l sin(theta); l theta_ddot = -g cos(theta)/2")
+    contains
+        subroutine traced(system, expected, statements)
+            !! `r`, `w`, `f`, or `0` for any: a letter for each statement.
+            character(*), intent(in) :: system, expected, statements
+            class(system_t), allocatable :: about
+            type(homework_t) :: homework
+            type(grade_t) :: result
+            type(error_t), allocatable :: error
+            character(:), allocatable :: text
+            integer :: i
+
+            text = statements
+            do i = 1, len(text)
+                if (text(i:i) == ";") text(i:i) = line_feed
+            end do
+            call new_system(system, about, error)
+            call parse_homework("system: "//system//line_feed//text, "sheet", homework, error)
+            call grade(homework, about, result, error)
+            call assertFalse(allocated(error), "no error")
+            call assertEqual(len(expected), size(result%of), statements)
+            do i = 1, size(result%of)
+                select case (expected(i:i))
+                case ("r"); call assertEqual(is_right, result%of(i)%verdict, homework% &
+                                             statements(i)%text)
+                case ("w"); call assertEqual(is_wrong, result%of(i)%verdict, homework% &
+                                             statements(i)%text)
+                case ("f"); call assertEqual(is_consequence, result%of(i)%verdict, homework% &
+                                             statements(i)%text//" "//result%of(i)%remark)
+                case default; cycle
+                end select
+            end do
+        end subroutine traced
+    end subroutine lines_that_follow
 
     subroutine sheets_that_cannot_be_read()
         call refused("", "no line 'system: NAME'")

@@ -10,10 +10,11 @@ module tried_responses
     use lagrangia_formula_text, only: formula_text
     use lagrangia_grading, only: grade, grade_t
     use lagrangia_homework, only: homework_t, parse_homework
-    use lagrangia_judgement, only: is_right, is_unreadable, is_wrong
+    use lagrangia_judgement, only: is_consequence, is_right, is_unreadable, is_wrong
     use lagrangia_kinds, only: dp
-    use lagrangia_motion_samples, only: new_samples, samples_t
+    use lagrangia_motion_samples, only: new_samples
     use lagrangia_random_draws, only: random_t
+    use lagrangia_sample_names, only: samples_t
     use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_system, only: system_t
@@ -22,7 +23,8 @@ module tried_responses
     implicit none (type, external)
     private
     public :: group_t, response_t
-    public :: draw_responses, graded, printed_statements, responses_by_hand, responses_of_the_notes
+    public :: draw_derivations, draw_responses, graded, printed_statements, responses_by_hand, &
+              responses_of_the_notes
 
     type :: response_t
         !! A statement, and what the program says about it.
@@ -256,6 +258,49 @@ contains
             end do
         end do
     end subroutine draw_responses
+
+    subroutine draw_derivations(follows, number, group)
+        !! Sheets of two lines: one slip, and then the same in other words, or another slip.
+        logical, intent(in) :: follows
+        integer, intent(in) :: number
+        type(group_t), intent(out) :: group
+        type(random_t) :: random
+        class(system_t), allocatable :: system
+        type(samples_t) :: samples
+        type(error_t), allocatable :: error
+        type(description_t) :: d
+        character(:), allocatable :: statements, first, second
+        type(word_t) :: none(0)
+        logical :: the_same
+        integer :: i
+
+        allocate (group%of(0))
+        do while (size(group%of) < number)
+            do i = 1, built_in
+                call nth_system(i, system)
+                call system%describe(d)
+                if (system%constraints > 0) cycle
+                call printed_statements(system, statements)
+                if (statements == "") cycle
+                call new_samples(system, statements, none, samples, error)
+                call change_one(statements, samples, random, .true., first)
+                if (first == "") cycle
+                if (follows) then
+                    call change_one(first//line_feed, samples, random, .false., second)
+                else
+                    call change_one(statements, samples, random, .true., second)
+                end if
+                if (second == "" .or. second == first) cycle
+                the_same = index(second, trim(first(index(first, "= ") + 2:))) > 0
+                if (the_same .and. .not. follows) cycle
+                call new_samples(system, first//second, none, samples, error)
+                if (.not. is_false(first, samples) .or. .not. is_false(second, samples)) cycle
+                call group%add(trim(d%name), first//line_feed//second, &
+                               merge(is_consequence, is_wrong, follows))
+                if (size(group%of) == number) return
+            end do
+        end do
+    end subroutine draw_derivations
 
     subroutine change_one(statements, samples, random, with_slip, statement)
         !! One of the lines, rewritten, perhaps with a slip that matters; "" if none came out.

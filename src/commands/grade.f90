@@ -7,7 +7,8 @@ module lagrangia_grade
     use lagrangia_grading, only: grade, grade_t
     use lagrangia_homework, only: homework_t, read_homework
     use lagrangia_json, only: json_item, json_object, json_pair, json_string
-    use lagrangia_judgement, only: is_definition, is_right, is_unreadable, is_wrong
+    use lagrangia_judgement, only: is_consequence, is_definition, is_right, is_unreadable, &
+                                   is_wrong
     use lagrangia_printed_table, only: left
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_system, only: system_t
@@ -16,8 +17,8 @@ module lagrangia_grade
     private
     public :: grade_command
 
-    character(12), parameter :: verdicts(4) = [character(12) :: "right", "definition", "wrong", &
-                                               "unreadable"]
+    character(12), parameter :: verdicts(5) = [character(12) :: "right", "definition", "wrong", &
+                                               "unreadable", "follows"]
 
 contains
 
@@ -115,9 +116,22 @@ contains
             end associate
         end do
         call put_line(count_text(result))
+        call put_first_mistake(homework, result)
         if (result%kept /= "") call put_line("not named, and therefore: "//result%kept)
         if (result%equations > 0) call put_line(determined_text(system, result))
     end subroutine print_sheet
+
+    subroutine put_first_mistake(homework, result)
+        !! Where a derivation leaves the truth, if others go on from there.
+        type(homework_t), intent(in) :: homework
+        type(grade_t), intent(in) :: result
+        integer :: first
+
+        if (.not. any(result%of%verdict == is_consequence)) return
+        first = findloc(result%of%verdict, is_wrong, 1)
+        call put_line("the first step that does not follow: line "// &
+                      to_text(homework%statements(first)%line))
+    end subroutine put_first_mistake
 
     function count_text(result) result(text)
         !! `3 right, 1 wrong`.
@@ -130,7 +144,12 @@ contains
             number = count(result%of%verdict == k)
             if (number == 0 .or. k == is_definition) cycle
             if (text /= "") text = text//", "
-            text = text//to_text(number)//" "//trim(verdicts(k))
+            if (k == is_consequence) then
+                text = text//to_text(number)//trim(" follow"//merge("s", " ", number == 1))// &
+                       " from what is wrong"
+            else
+                text = text//to_text(number)//" "//trim(verdicts(k))
+            end if
         end do
     end function count_text
 
@@ -171,6 +190,7 @@ contains
                 json = json//json_object(json_pair("line", statement%line)// &
                     json_pair("statement", statement%text)// &
                     json_pair("verdict", trim(verdicts(judgement%verdict)))// &
+                    json_item("follows_from", lines_json(homework, judgement%because))// &
                     json_pair("remark", judgement%remark)//json_pair("example", judgement%example))
             end associate
         end do
@@ -179,7 +199,25 @@ contains
             json_pair("right", count(result%of%verdict == is_right))// &
             json_pair("wrong", count(result%of%verdict == is_wrong))// &
             json_pair("unreadable", count(result%of%verdict == is_unreadable))// &
+            json_pair("follows", count(result%of%verdict == is_consequence))// &
             json_pair("equations", result%equations)// &
             json_pair("determined", all(result%determined))//json_item("statements", json//"]"))
     end function sheet_json
+
+    pure function lines_json(homework, because) result(json)
+        !! The lines of some statements.
+        type(homework_t), intent(in) :: homework
+        integer, allocatable, intent(in) :: because(:)
+        character(:), allocatable :: json
+        integer :: i
+
+        json = "["
+        if (allocated(because)) then
+            do i = 1, size(because)
+                if (i > 1) json = json//", "
+                json = json//to_text(homework%statements(because(i))%line)
+            end do
+        end if
+        json = json//"]"
+    end function lines_json
 end module lagrangia_grade

@@ -1,18 +1,22 @@
 module lagrangia_grading
     !! A whole sheet: every statement judged, and whether the right ones determine the motion.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_consequences, only: consequences_t
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, kind_number
     use lagrangia_formula_parser, only: parse_equation, parse_formula
     use lagrangia_homework, only: homework_t
-    use lagrangia_judgement, only: is_right, judge, judgement_t
+    use lagrangia_judgement, only: is_consequence, is_definition, is_right, is_wrong, judge, &
+                                   judgement_t
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: matrix_rank
-    use lagrangia_motion_samples, only: new_samples, samples_t
+    use lagrangia_motion_samples, only: new_samples
+    use lagrangia_sample_names, only: samples_t
     use lagrangia_sampled_formula, only: evaluate_nodes, summands
     use lagrangia_system, only: system_t
     use lagrangia_term_search, only: library_t
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: grade_t
@@ -37,6 +41,7 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! the system has no states to try
         type(samples_t) :: samples
         type(library_t), allocatable :: library(:)
+        type(consequences_t) :: consequences
         character(:), allocatable :: said
         integer :: i
 
@@ -50,10 +55,45 @@ contains
         call collect_terms(system, samples, library)
         allocate (result%of(size(homework%statements)))
         do i = 1, size(homework%statements)
-            call judge(homework%statements(i), samples, library, result%of(i))
+            call judge(homework%statements(i), samples, library, .true., result%of(i))
+            associate (judgement => result%of(i))
+                select case (judgement%verdict)
+                case (is_definition)
+                    call consequences%add_names(samples%symbols)
+                case (is_wrong)
+                    call consequences%find(homework%statements(i), judgement%residual, samples, &
+                                           judgement%because)
+                    if (size(judgement%because) > 0) then
+                        call put_consequence(homework, judgement)
+                        call consequences%add_consequence(judgement%because, &
+                                                          judgement%residual, samples)
+                    else
+                        call consequences%add_mistake(i, judgement%residual, samples)
+                    end if
+                case default
+                    cycle
+                end select
+            end associate
         end do
         call find_determined(samples, result)
     end subroutine grade
+
+    pure subroutine put_consequence(homework, judgement)
+        !! The mistake was made before.
+        type(homework_t), intent(in) :: homework
+        type(judgement_t), intent(inout) :: judgement
+
+        judgement%verdict = is_consequence
+        judgement%example = ""
+        associate (lines => homework%statements(judgement%because)%line)
+            if (size(lines) == 1) then
+                judgement%remark = "from line "//to_text(lines(1))//", which is wrong"
+            else
+                judgement%remark = "from lines "//to_text(minval(lines))//" and "// &
+                                   to_text(maxval(lines))//", which are wrong"
+            end if
+        end associate
+    end subroutine put_consequence
 
     subroutine collect_terms(system, samples, library)
         !! The terms of all formulas that the system prints, without signs.

@@ -8,9 +8,9 @@ module lagrangia_judgement
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_homework, only: statement_t
     use lagrangia_kinds, only: dp
-    use lagrangia_motion_samples, only: draws, role_parameter, samples_t, states
     use lagrangia_number_text, only: scientific
     use lagrangia_same_motion, only: same_equations
+    use lagrangia_sample_names, only: draws, role_parameter, samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_slip_search, only: explain_slip, holds, is_trivial
     use lagrangia_symbols, only: check_name
@@ -20,9 +20,10 @@ module lagrangia_judgement
     private
     public :: judgement_t
     public :: judge
-    public :: is_right, is_definition, is_wrong, is_unreadable
+    public :: is_right, is_definition, is_wrong, is_unreadable, is_consequence
 
     integer, parameter :: is_right = 1, is_definition = 2, is_wrong = 3, is_unreadable = 4
+    integer, parameter :: is_consequence = 5  !! false, and follows from lines before that are wrong
 
     type :: judgement_t
         !! Of one statement.
@@ -33,15 +34,17 @@ module lagrangia_judgement
         type(expression_t) :: residual
         !! left less right of the first pair, or of the wrong one
         logical :: of_motion = .false.        !! it holds on the motion only
+        integer, allocatable :: because(:)    !! wrong statements that it follows from, or none
     end type judgement_t
 
 contains
 
-    subroutine judge(statement, samples, library, judgement)
+    subroutine judge(statement, samples, library, explain, judgement)
         !! One line, `a = b` or `a = b = c`; a new name on the left is defined by it.
         type(statement_t), intent(in) :: statement      !! as typed
         type(samples_t), intent(inout) :: samples       !! gets the names that it defines
         type(library_t), intent(in) :: library(:)       !! right terms, for what is missing
+        logical, intent(in) :: explain                  !! say what is wrong
         type(judgement_t), intent(out) :: judgement     !! of it
         type(error_t), allocatable :: error
         type(expression_t) :: left, right
@@ -79,7 +82,7 @@ contains
                 call put_unreadable(error, judgement)
                 return
             end if
-            call judge_pair(left, right, chained, samples, library, judgement)
+            call judge_pair(left, right, chained, samples, library, explain, judgement)
             if (judgement%verdict /= is_right .or. next > len(text)) return
             left = right
             chained = .true.
@@ -177,12 +180,13 @@ contains
         judgement%remark = error%message
     end subroutine put_unreadable
 
-    subroutine judge_pair(left, right, chained, samples, library, judgement)
+    subroutine judge_pair(left, right, chained, samples, library, explain, judgement)
         !! One equality.
         type(expression_t), intent(in) :: left, right
         logical, intent(in) :: chained  !! the left side is known to be right
         type(samples_t), intent(in) :: samples
         type(library_t), intent(in) :: library(:)
+        logical, intent(in) :: explain
         type(judgement_t), intent(inout) :: judgement
         real(dp), allocatable :: values(:, :)
         logical :: judged, right_one, found
@@ -220,6 +224,7 @@ contains
             judgement%remark = "another L of the same motion"
         else
             judgement%verdict = is_wrong
+            if (.not. explain) return
             call explain_slip(judgement%residual, merge(left%count + 1, 1, chained), samples, &
                               values, library, judgement%remark)
             call put_example(left, right, samples, values, judgement%example)

@@ -4,10 +4,10 @@ module lagrangia_same_motion
     use lagrangia_formula_program, only: formula_program_t, new_formula_program
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
-    use lagrangia_motion_samples, only: samples_t
+    use lagrangia_sample_names, only: samples_t
     implicit none (type, external)
     private
-    public :: same_equations
+    public :: lagrange_terms, same_equations
 
 contains
 
@@ -49,28 +49,51 @@ contains
             !! \(d/dt\,\partial L/\partial\dot q_j - \partial L/\partial q_j\).
             real(dp), intent(in) :: values(:)
             real(dp), intent(out) :: residual(:), magnitude(:)
-            type(hyperdual_t) :: inputs(size(values)), l(1)
-            integer :: j, k, n
+            real(dp), dimension(samples%ndof) :: momentum, rate, slope
+            real(dp) :: value
 
-            n = samples%ndof
-            do j = 1, n
-                do k = 1, 2
-                    inputs = hyperdual_t()
-                    inputs%re = values
-                    inputs(1)%d2 = 1.0_dp
-                    inputs(2:1 + n)%d2 = values(2 + n:1 + 2*n)
-                    inputs(2 + n:1 + 2*n)%d2 = values(samples%first_acceleration: &
-                                                      samples%first_acceleration + n - 1)
-                    inputs(merge(1 + n, 1, k == 1) + j)%d1 = 1.0_dp
-                    call follow_letters(samples, inputs)
-                    call program%evaluate(inputs, l)
-                    if (k == 1) residual(j) = l(1)%d12
-                    if (k == 2) magnitude(j) = abs(residual(j)) + abs(l(1)%d1)
-                    if (k == 2) residual(j) = residual(j) - l(1)%d1
-                end do
-            end do
+            associate (first => samples%first_acceleration)
+                call lagrange_terms(samples, program, values, &
+                                    values(first:first + samples%ndof - 1), value, momentum, &
+                                    rate, slope)
+            end associate
+            residual = rate - slope
+            magnitude = abs(rate) + abs(slope)
         end subroutine residuals
     end function same_equations
+
+    subroutine lagrange_terms(samples, program, values, a, value, momentum, rate, slope)
+        !! L of a formula, \(\partial L/\partial\dot q_j\), its time derivative with the
+        !! accelerations `a`, and \(\partial L/\partial q_j\).
+        type(samples_t), intent(in) :: samples            !! know the names
+        type(formula_program_t), intent(in) :: program    !! of L, of all symbols
+        real(dp), intent(in) :: values(:)                 !! of the symbols
+        real(dp), intent(in) :: a(:)                      !! accelerations, (ndof)
+        real(dp), intent(out) :: value                    !! of L
+        real(dp), intent(out) :: momentum(:)              !! (ndof)
+        real(dp), intent(out) :: rate(:)                  !! of the momenta, (ndof)
+        real(dp), intent(out) :: slope(:)                 !! (ndof)
+        type(hyperdual_t) :: inputs(size(values)), l(1)
+        integer :: j, k, n
+
+        n = samples%ndof
+        do j = 1, n
+            do k = 1, 2
+                inputs = hyperdual_t()
+                inputs%re = values
+                inputs(1)%d2 = 1.0_dp
+                inputs(2:1 + n)%d2 = values(2 + n:1 + 2*n)
+                inputs(2 + n:1 + 2*n)%d2 = a
+                inputs(merge(1 + n, 1, k == 1) + j)%d1 = 1.0_dp
+                call follow_letters(samples, inputs)
+                call program%evaluate(inputs, l)
+                value = l(1)%re
+                if (k == 1) momentum(j) = l(1)%d1
+                if (k == 1) rate(j) = l(1)%d12
+                if (k == 2) slope(j) = l(1)%d1
+            end do
+        end do
+    end subroutine lagrange_terms
 
     subroutine follow_letters(samples, inputs)
         !! The letters, from what they stand for; their rates as functions of the time.

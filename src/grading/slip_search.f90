@@ -8,7 +8,7 @@ module lagrangia_slip_search
                                     kind_power, kind_symbol
     use lagrangia_formula_text, only: formula_text
     use lagrangia_kinds, only: dp
-    use lagrangia_motion_samples, only: role_acceleration, role_coordinate, role_known, &
+    use lagrangia_sample_names, only: role_acceleration, role_coordinate, role_known, &
                                         role_parameter, &
                                         role_time, role_velocity, samples_t
     use lagrangia_sampled_formula, only: change_applied, change_argument, change_divided, &

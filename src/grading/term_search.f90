@@ -5,7 +5,7 @@ module lagrangia_term_search
     use lagrangia_expression, only: expression_t, kind_function, kind_symbol
     use lagrangia_formula_text, only: formula_text
     use lagrangia_kinds, only: dp
-    use lagrangia_motion_samples, only: draws, role_known, role_parameter, samples_t, states
+    use lagrangia_sample_names, only: draws, role_known, role_parameter, samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes, summands
     use lagrangia_text, only: to_text
     implicit none (type, external)

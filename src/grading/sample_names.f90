@@ -1,0 +1,252 @@
+module lagrangia_sample_names
+    !! What a statement about a system may name: coordinates, velocities, accelerations, parameters,
+    !! letters, L, energies, momenta, derivatives of L, quantities, places of the masses, omega.
+    use lagrangia_description, only: description_t, name_length, value_names
+    use lagrangia_errors, only: error_t
+    use lagrangia_expression, only: expression_t
+    use lagrangia_formula_parser, only: parse_formula
+    use lagrangia_formula_program, only: formula_program_t, new_formula_program
+    use lagrangia_hyperdual, only: hyperdual_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_random_draws, only: random_t
+    use lagrangia_symbols, only: symbols_t
+    use lagrangia_system, only: system_t
+    implicit none (type, external)
+    private
+    public :: compiled_t, samples_t
+    public :: follow_letters, name_symbols
+    public :: axes, draws, states
+    public :: role_time, role_coordinate, role_velocity, role_acceleration, role_parameter, &
+              role_known, role_frequency
+
+    integer, parameter :: draws = 4   !! of parameters
+    integer, parameter :: states = 8  !! with each
+
+    integer, parameter :: role_time = 1, role_coordinate = 2, role_velocity = 3
+    integer, parameter :: role_acceleration = 4
+    integer, parameter :: role_parameter = 5  !! or a letter that stands for a formula
+    integer, parameter :: role_known = 6      !! L, the energy, momenta, quantities
+    integer, parameter :: role_frequency = 7  !! omega of a small oscillation
+
+    character, parameter :: axes(3) = ["x", "y", "z"]
+
+    type :: compiled_t
+        !! A name that stands for a formula.
+        integer :: symbol = 0              !! its place
+        type(formula_program_t) :: program
+    end type compiled_t
+
+    type :: samples_t
+        !! Rows of `values` are states, those of the first parameters first.
+        type(symbols_t) :: symbols
+        integer, allocatable :: role(:)            !! of each symbol
+        real(dp), allocatable :: values(:, :)      !! on the motion, (draws*states, symbols)
+        real(dp), allocatable :: elsewhere(:, :)   !! accelerations and known values are others
+        real(dp), allocatable :: omega2(:, :)      !! of small oscillations, (draws, modes); 0: none
+        integer :: ndof = 0                        !! coordinates
+        integer :: first_acceleration = 0          !! place of the first one
+        integer :: first_point = 0, last_point = -1
+        !! places of `x_bob`, `x_bob_dot`, ..., what the masses and rotors do
+        integer :: frequency = 0                   !! place of omega, or of Omega if omega is taken;
+        !! behind it that of its square, `omega_2`, which is negative where it is unstable
+        character(:), allocatable :: kept          !! parameters that are zero: `a_s = 0`
+        integer, allocatable :: rate(:)
+        !! place of the symbol's time derivative, or 0
+        type(compiled_t), allocatable :: compiled(:)
+        real(dp), allocatable :: mass(:, :, :)
+        !! \(\partial^2L/\partial\dot q_j\partial\dot q_k\), (ndof, ndof, draws*states);
+        !! no rows where there are many coordinates, or non-holonomic constraints
+        real(dp), allocatable :: equilibrium(:, :)      !! at or near zero, (ndof, draws); NaN: none
+        real(dp), allocatable :: stiffness(:, :, :)     !! and `inertia`, there, (ndof, ndof, draws)
+        real(dp), allocatable :: inertia(:, :, :)
+        type(random_t) :: random
+    end type samples_t
+
+contains
+
+    subroutine name_symbols(system, d, samples)
+        !! All names, in one order.
+        class(system_t), intent(in) :: system         !! of which the statements speak
+        type(description_t), intent(in) :: d          !! its own
+        type(samples_t), intent(inout) :: samples     !! gets names, roles, rates and letters
+        character(name_length), allocatable :: names(:)
+        character(name_length) :: name
+        integer :: i, k
+
+        samples%ndof = system%ndof
+        allocate (samples%role(0))
+        call add("t", role_time)
+        call add_each("", "", role_coordinate)
+        call add_each("", "_dot", role_velocity)
+        samples%first_acceleration = size(samples%role) + 1
+        call add_each("", "_ddot", role_acceleration)
+        allocate (names, source=value_names(d))
+        do i = 1, size(names)
+            call add(trim(names(i)), role_parameter)
+        end do
+        if (allocated(d%letters)) then
+            do i = 1, size(d%letters)
+                call add_letter(trim(d%letters(i)%name), trim(d%letters(i)%formula))
+            end do
+        end if
+        do i = 1, size(d%quantities)
+            call add(trim(d%quantities(i)%name), role_known)
+        end do
+        call add_points()
+        call add("L", role_known)
+        call add("E", role_known)
+        call add_each("p_", "", role_known)
+        call add_each("dL_d", "_dot", role_known)
+        call add_each("dL_d", "", role_known)
+        call add_each("d_dt_dL_d", "_dot", role_known)
+        if (allocated(d%kinetic_energy)) call add("T", role_known)
+        if (allocated(d%potential_energy)) call add("V", role_known)
+        if (samples%symbols%find("omega") == 0) then
+            call add("omega", role_frequency)
+            call add("omega_2", role_frequency)
+        else
+            call add("Omega", role_frequency)
+            call add("Omega_2", role_frequency)
+        end if
+        samples%frequency = size(samples%role) - 1  ! its square behind it
+        allocate (samples%rate(size(samples%role)))
+        do i = 1, size(samples%rate)
+            name = samples%symbols%names(i)
+            samples%rate(i) = samples%symbols%find(trim(name)//"_dot")
+            k = len_trim(name)
+            if (k > 4) then
+                if (name(k - 3:k) == "_dot") samples%rate(i) = samples%symbols%find(name(:k - 3)// &
+                    "ddot")
+            end if
+        end do
+        call compile_letters(d, samples)
+    contains
+        subroutine add_each(before, after, role)
+            character(*), intent(in) :: before, after
+            integer, intent(in) :: role
+            integer :: j
+
+            do j = 1, size(d%coordinates)
+                call add(before//trim(d%coordinates(j)%name)//after, role)
+            end do
+        end subroutine add_each
+
+        subroutine add_points()
+            !! `x_bob`, `phi_pulley`, with their rates.
+            integer :: j, m
+
+            samples%first_point = size(samples%role) + 1
+            if (allocated(d%points)) then
+                do j = 1, size(d%points)
+                    do m = 1, 3
+                        call add_rates(axes(m)//"_"//trim(d%points(j)%name))
+                    end do
+                end do
+            end if
+            if (allocated(d%rotors)) then
+                do j = 1, size(d%rotors)
+                    call add_rates("phi_"//trim(d%rotors(j)%name))
+                end do
+            end if
+            samples%last_point = size(samples%role)
+        end subroutine add_points
+
+        subroutine add_rates(called)
+            character(*), intent(in) :: called
+
+            call add(called, role_known)
+            call add(called//"_dot", role_known)
+            call add(called//"_ddot", role_known)
+        end subroutine add_rates
+
+        subroutine add_letter(letter, formula)
+            !! One that moves has rates as well.
+            character(*), intent(in) :: letter, formula
+            type(expression_t) :: expression
+            type(error_t), allocatable :: error
+            logical :: moves
+            integer :: j
+
+            call parse_formula(formula, samples%symbols, expression, error)
+            moves = .false.
+            do j = 1, size(samples%role)
+                if (.not. expression%depends_on(j)) cycle
+                moves = moves .or. samples%role(j) < role_parameter .or. &
+                        samples%symbols%find(trim(samples%symbols%names(j))//"_dot") > 0
+            end do
+            call add(letter, role_parameter)
+            if (.not. moves) return
+            call add(letter//"_dot", role_parameter)
+            call add(letter//"_ddot", role_parameter)
+        end subroutine add_letter
+
+        subroutine add(called, role)
+            character(*), intent(in) :: called
+            integer, intent(in) :: role
+
+            if (samples%symbols%find(called) > 0) return
+            call samples%symbols%add(called)
+            samples%role = [samples%role, role]
+        end subroutine add
+    end subroutine name_symbols
+
+    subroutine compile_letters(d, samples)
+        !! The definitions, T and V, in this order.
+        type(description_t), intent(in) :: d
+        type(samples_t), intent(inout) :: samples
+        integer :: i, k, n
+
+        n = 0
+        if (allocated(d%letters)) n = size(d%letters)
+        allocate (samples%compiled(n + 2))
+        k = 0
+        do i = 1, n
+            call add(trim(d%letters(i)%name), trim(d%letters(i)%formula))
+        end do
+        if (allocated(d%kinetic_energy)) call add("T", d%kinetic_energy)
+        if (allocated(d%potential_energy)) call add("V", d%potential_energy)
+        samples%compiled = samples%compiled(:k)
+    contains
+        subroutine add(name, formula)
+            character(*), intent(in) :: name, formula
+            type(expression_t) :: expression(1)
+            type(error_t), allocatable :: error
+
+            call parse_formula(formula, samples%symbols, expression(1), error)
+            if (allocated(error)) return
+            k = k + 1
+            samples%compiled(k)%symbol = samples%symbols%find(name)
+            call new_formula_program(samples%compiled(k)%program, expression, size(samples%role))
+        end subroutine add
+    end subroutine compile_letters
+
+    subroutine follow_letters(samples, row)
+        !! The letters, T and V, with their rates, at a state whose other values are known.
+        type(samples_t), intent(inout) :: samples  !! names, and values that change
+        integer, intent(in) :: row                 !! of the values
+        type(hyperdual_t) :: inputs(size(samples%role)), result(1)
+        integer :: i, j, rate
+
+        do i = 1, size(samples%compiled)
+            inputs = hyperdual_t()
+            inputs%re = samples%values(row, :)
+            inputs(1)%d1 = 1.0_dp
+            do j = 2, size(inputs)
+                rate = samples%rate(j)
+                if (rate == 0) cycle
+                inputs(j)%d1 = samples%values(row, rate)
+                rate = samples%rate(rate)
+                if (rate > 0) inputs(j)%d12 = samples%values(row, rate)
+            end do
+            inputs%d2 = inputs%d1
+            call samples%compiled(i)%program%evaluate(inputs, result)
+            j = samples%compiled(i)%symbol
+            samples%values(row, j) = result(1)%re
+            rate = samples%rate(j)
+            if (rate == 0) cycle
+            samples%values(row, rate) = result(1)%d1
+            rate = samples%rate(rate)
+            if (rate > 0) samples%values(row, rate) = result(1)%d12
+        end do
+    end subroutine follow_letters
+end module lagrangia_sample_names
