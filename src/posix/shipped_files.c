@@ -19,6 +19,21 @@ static const char *const files[][2] = {
         "m2 l^2 theta_ddot + m2 l x_ddot cos(theta) - m2 g l sin(theta) = 0\n"
         "omega^2 = (m1 + m2) g/(m1 l)\n"
     },
+    {"data/homework/derivation.txt",
+        "# From where the bob is to omega, with one slip, in line 5.\n"
+        "system: cart_pendulum\n"
+        "x_bob = x + l sin(theta)\n"
+        "y_bob_dot = l theta_dot sin(theta)\n"
+        "T = (m1 + m2)/2 x_dot^2 + m2/2 l^2 theta_dot^2 - m2 l x_dot theta_dot cos(theta)\n"
+        "L = (m1 + m2)/2 x_dot^2 + m2/2 l^2 theta_dot^2 - m2 l x_dot theta_dot cos(theta) + m2 g l cos(theta)\n"
+        "p_x = (m1 + m2) x_dot - m2 l theta_dot cos(theta)\n"
+        "d/dt dL/dtheta_dot = m2 l^2 theta_ddot - m2 l x_ddot cos(theta) + m2 l x_dot theta_dot sin(theta)\n"
+        "dL/dtheta = m2 l x_dot theta_dot sin(theta) - m2 g l sin(theta)\n"
+        "(m1 + m2) x_ddot - m2 l theta_ddot cos(theta) + m2 l theta_dot^2 sin(theta) = 0\n"
+        "l theta_ddot - x_ddot cos(theta) + g sin(theta) = 0\n"
+        "(m1 + m2 sin(theta)^2) x_ddot = -m2 sin(theta) (l theta_dot^2 + g cos(theta))\n"
+        "omega^2 = (m1 + m2) g/(m1 l)\n"
+    },
     {"data/homework/double_pendulum.txt",
         "system: double_pendulum\n"
         "s = sin(theta1 - theta2)\n"
