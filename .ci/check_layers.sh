@@ -2,7 +2,7 @@
 # The rules of the house that no compiler knows:
 #
 # - arrows point left: core < posix < namelist < numerics < formulas < systems < tables < references, integrators
-#   < oscillations < observers < catalogue < audit < grading < principles < derivation < scenes < runs < ensembles < bench < stress
+#   < oscillations < observers < catalogue < audit < grading < principles < derivation < scenes < runs < ensembles < pages < bench < stress
 #   < commands < app. src/lagrangia.f90 uses what it likes; nobody uses it.
 # - integrators and observers name no concrete system, observers no concrete integrator.
 # - only app/ and src/commands/ print or stop; lagrangia_console, which knows how, is theirs.
@@ -116,7 +116,7 @@ function examine(statement, head, word, used) {
 
 BEGIN {
     rooms = split("core posix namelist numerics formulas systems tables middle oscillations observers catalogue audit grading principles derivation" \
-                  " scenes runs ensembles bench stress commands app", order, " ")
+                  " scenes runs ensembles pages bench stress commands app", order, " ")
     for (i = 1; i <= rooms; i++) {
         level[order[i]] = i
         prints_not[order[i]] = order[i] != "commands" && order[i] != "app"

@@ -102,6 +102,7 @@ module suites
     use test_page_controls, only: page_controls_suite
     use test_page_formulae, only: page_formulae_suite
     use test_page_headings, only: page_headings_suite
+    use test_pages, only: pages_suite
     use test_partial_files, only: partial_files_suite
     use test_pendulum, only: pendulum_suite
     use test_period, only: period_suite
@@ -259,6 +260,7 @@ contains
         call suite%addTest(page_controls_suite())
         call suite%addTest(page_formulae_suite())
         call suite%addTest(page_headings_suite())
+        call suite%addTest(pages_suite())
         call suite%addTest(partial_files_suite())
         call suite%addTest(pendulum_suite())
         call suite%addTest(period_suite())

@@ -16,7 +16,7 @@ module lagrangia_registry
         character(32) :: arguments = ""
         character(80) :: meaning = ""
         integer :: most = 0              !! arguments at most; -1: any number
-        character(72) :: accepts = ""    !! options, beside --help and --version
+        character(80) :: accepts = ""    !! options, beside --help and --version
     end type command_t
 
     type(option_t), parameter :: options(*) = [ &
@@ -27,6 +27,7 @@ module lagrangia_registry
                  any_text=.true.), &
         option_t("format", needs_value, "text|csv|npy", "of the data files"), &
         option_t("plot", may_have_value, "svg|png", "draw the data files by gnuplot"), &
+        option_t("animate", no_value, "", "a film of each scene, one HTML page, beside its data"), &
         option_t("error-estimate", no_value, "", "state the final state to the digits that hold"), &
         option_t("quick", no_value, "", "measure less, in under 20 s"), &
         option_t("long", no_value, "", "up to 10^8 steps of every method"), &
@@ -44,9 +45,9 @@ module lagrangia_registry
 
     type(command_t), parameter :: commands(*) = [ &
         command_t("", "", "run every scene in data/scenes and print the scorecard", 0, &
-                  "set output format plot error-estimate json quiet"), &
+                  "set output format plot animate error-estimate json quiet"), &
         command_t("run", "SCENE...", "the same for .nml files, or shipped scenes by name", -1, &
-                  "set output format plot error-estimate json quiet"), &
+                  "set output format plot animate error-estimate json quiet"), &
         command_t("modes", "SYSTEM", "or a scene's: small oscillations, frequencies, shapes", 1, &
                   "set at output json quiet"), &
         command_t("check", "[SYSTEM...]", "the audit: equations, invariants, structure, Gauss, "// &

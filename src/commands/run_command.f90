@@ -1,13 +1,15 @@
 module lagrangia_run_command
     !! `lagrangia` and `lagrangia run SCENE...`: scenes, their files, the scorecard.
+    use lagrangia_animation, only: animate_scene
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: note, put, put_line
-    use lagrangia_data_files, only: check_format, draw
+    use lagrangia_data_files, only: check_format, data_path, draw, film_path
     use lagrangia_errors, only: error_t, fail, is_signal, status_not_held
     use lagrangia_final_values, only: final_values_legend, final_values_line
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_json, outcome_t, scorecard_head, scorecard_legend, &
                                  scorecard_row
+    use lagrangia_output_file, only: refuse_unwritable
     use lagrangia_places, only: places_t
     use lagrangia_progress, only: progress_t
     use lagrangia_run_plan, only: new_run_plan, run_plan_t
@@ -136,6 +138,8 @@ contains
             call progress%restart(trim(plan%scene%name), quiet)
             call run_scene(plan, folder, format, observer, outcome, error)
             outcome%warning = warning
+            if (.not. allocated(error) .and. line%has("animate")) call animate_scene(plan, &
+                outcome%file, error)
             if (allocated(error) .or. .not. line%has("plot")) return
             call draw(outcome%file, kind, error)
             if (allocated(error) .or. outcome%events == "") return
@@ -184,6 +188,9 @@ contains
                 else
                     call claim_files(chosen(i)%plan%scene, chosen(i)%plan%system, folder, format, &
                                      places, error)
+                    if (line%has("animate") .and. .not. allocated(error)) call refuse_unwritable( &
+                        film_path(data_path(folder, trim(chosen(i)%plan%scene%output), format)), &
+                        error)
                 end if
                 if (allocated(error)) then
                     call error%add_context(paths(i)%text)

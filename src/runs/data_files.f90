@@ -13,7 +13,7 @@ module lagrangia_data_files
     use lagrangia_text_table, only: text_table_t
     implicit none (type, external)
     private
-    public :: check_format, data_path, draw, event_path, new_table, script_path
+    public :: check_format, data_path, draw, event_path, film_path, new_table, script_path
 
     character(4), parameter :: formats(3) = ["text", "csv ", "npy "]
     character(4), parameter :: endings(3) = [".dat", ".csv", ".npy"]
@@ -72,6 +72,15 @@ contains
         if (dot <= index(path, "/", back=.true.)) dot = len(path) + 1
         script = path(:dot - 1)//".gp"
     end function script_path
+
+    pure function film_path(path) result(film)
+        !! The animation beside a data file.
+        character(*), intent(in) :: path  !! with or without an ending
+        character(:), allocatable :: film
+
+        film = script_path(path)
+        film = film(:len(film) - 2)//"html"
+    end function film_path
 
     subroutine draw(path, kind, error)
         !! Let gnuplot draw the data file at `path`, as `kind` (png or svg); no shell is involved.

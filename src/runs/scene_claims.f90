@@ -68,6 +68,7 @@ contains
         if (.not. allocated(error)) call places%add(stem//"gp", kind//" script", owner, error)
         if (.not. allocated(error)) call places%add(stem//"png", kind//" picture", owner, error)
         if (.not. allocated(error)) call places%add(stem//"svg", kind//" picture", owner, error)
+        if (.not. allocated(error)) call places%add(stem//"html", kind//" animation", owner, error)
         if (.not. allocated(error)) call places%add(path//partial_ending, "partial "//kind// &
                                                     " file", owner, error)
     end subroutine claim_table

@@ -4,9 +4,9 @@ module lagrangia_atwood
     !! Source: Hamilton's Principle, case I. The notes write \((m_1+m_2)\,d\dot x^2/dt^2\) for
     !! \((m_1+m_2)\,\ddot x\). The pulley's inertia \(I\) and the support's upward acceleration
     !! \(a_s\), both zero in the notes, are added: \(a_s\) makes the constraint rheonomic.
-    use lagrangia_description, only: conserved, coordinate, description_t, formula_length, &
-                                     letter_t, mass_point, nonnegative, positive, quantity, &
-                                     real_number
+    use lagrangia_description, only: conserved, coordinate, description_t, figure_length, &
+                                     formula_length, letter_t, mass_point, nonnegative, positive, &
+                                     quantity, real_number
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(+), operator(-)
     use lagrangia_kinds, only: dp
@@ -135,8 +135,33 @@ contains
             "dF/dt, F = (m1 - m2) a_s t x + f(t).", &
             "A string only pulls: for a_s < -g it goes slack, and this is no longer the machine.", &
             "A slow way to measure g: choose m1 close to m2."]
+        call draw_machine(self, d, lift)
         d%source = "Hamilton's Principle: case I, Atwood's machine"
     end subroutine describe
+
+    pure subroutine draw_machine(self, d, lift)
+        !! With ropes at a distance D of the axle that can be seen, the weights' sides as the cube
+        !! roots of their masses; s is how far the support has gone.
+        class(atwood_t), intent(in) :: self
+        type(description_t), intent(inout) :: d
+        character(*), intent(in) :: lift  !! the formula of s; "": 0
+
+        d%figure = [character(figure_length) :: "let D = R + size/12", &
+            "let s = 0 "//trim(merge("+", " ", lift /= ""))//" "//lift, &
+            "let b = (x_max - x_min + |x_max + x_min|)/2", "let h = s + b + 3 D", &
+            "let w1 = 1.2 D (m1/(m1 + m2))^(1/3)", "let w2 = 1.2 D (m2/(m1 + m2))^(1/3)", &
+            "rod (0, h) (0, h + 1.7 D)", "rope (- D, s - x) (- D, h)", "rope (D, s + x) (D, h)", &
+            "wheel (0, h) (D cos(x/D), h + D sin(x/D)) (- D sin(x/D), h + D cos(x/D))", &
+            "box (- D, s - x - w1/2) (w1, w1, 0)", "box (D, s + x - w2/2) (w2, w2, 0)"]
+        if (self%time_dependent) then
+            d%figure = [character(figure_length) :: d%figure, "frame (- 3 D, h + 1.7 D) "// &
+                "(3 D, h + 1.7 D) (3 D, s - b - 3 D) (- 3 D, s - b - 3 D)", &
+                "ground (0, - b - 3 D) (1, - b - 3 D)"]
+        else
+            d%figure = [character(figure_length) :: d%figure, &
+                "ground (0, h + 1.7 D) (- 1, h + 1.7 D)"]
+        end if
+    end subroutine draw_machine
 
     pure subroutine configure(self, values, error)
         !! In this order: m1, m2, g, pulley_inertia, radius, support_acceleration.

@@ -6,9 +6,9 @@ module lagrangia_bouncing_ball
     !! a throw from the floor, at \(\frac{2v_0}{g}\frac{1-e^n}{1-e}\), and after infinitely many
     !! of them in a finite time the ball rests, held by \(\lambda = mg\):
     !! $$ y \ge 0,\quad \lambda \ge 0,\quad \lambda y = 0 $$
-    use lagrangia_description, only: between, coordinate, description_t, formula_length, &
-                                     letter_t, mass_point, nonnegative, positive, quantity, &
-                                     quantity_t
+    use lagrangia_description, only: between, coordinate, description_t, figure_length, &
+                                     formula_length, letter_t, mass_point, nonnegative, positive, &
+                                     quantity, quantity_t
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(-)
     use lagrangia_kinds, only: dp
@@ -85,6 +85,8 @@ contains
             "Thrown from the floor with v0 it rests after 2 v0/(g (1 - restitution)); elastic, "// &
             "never.", &
             "A flight shorter than the time's last digit is none: there the ball comes to rest."]
+        d%figure = [character(figure_length) :: "ground (0, 0) (1, 0)", &
+                    "round (0, y + size/16) (size/16, y + size/16)"]
         d%source = "Phys 601, 1 September 2011: the constraint y > 0, unilateral"
     end subroutine describe
 

@@ -5,8 +5,9 @@ module lagrangia_cart_pendulum
     !! \(-m_2 g\ell\sin\theta\) in the \(\theta\)-equation, against their own Lagrangian and
     !! their own frequency; the sign below is the one that follows from \(L\).
     use lagrangia_cart_swing, only: cart_swing_t
-    use lagrangia_description, only: conserved, coordinate, description_t, formula_length, &
-                                     frequency_t, mass_point, nonnegative, positive, quantity
+    use lagrangia_description, only: conserved, coordinate, description_t, figure_length, &
+                                     formula_length, frequency_t, mass_point, nonnegative, &
+                                     positive, quantity
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, dot_product, hyperdual_t, operator(*), operator(**), &
                                    operator(+), operator(-), sin
@@ -104,6 +105,8 @@ contains
         d%notes = [character(len(d%title)) :: &
             "The notes have - m2 g l sin(theta): a slip, see their own L and frequency.", &
             "With p_x = 0 the bob moves on an ellipse of semi-axes m1 l/(m1 + m2) and l."]
+        d%figure = [character(figure_length) :: "ground (0, - 0.14 l) (1, - 0.14 l)", &
+                    "trail bob", "cart cart (0.4 l, 0.16 l)", "rod cart bob", "ball bob"]
         d%source = "Phys 601, 1 September 2011: cart-pendulum"
     end subroutine describe
 

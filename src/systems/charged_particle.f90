@@ -5,9 +5,10 @@ module lagrangia_charged_particle
     !! \(L = \tfrac12 mv^2 - e\varphi + e\,A\cdot v\). The notes say that \(B = 0\) gives
     !! \(F = -\nabla\varphi\): the charge is missing, \(F = -e\nabla\varphi\), and also
     !! \(\partial A/\partial t\) must vanish, as it does here.
-    use lagrangia_description, only: conserved, coordinate, description_t, formula_length, &
-                                     frequency_t, letter_t, mass_point, nonnegative, positive, &
-                                     quantity, quantity_t, real_number, real_vector
+    use lagrangia_description, only: conserved, coordinate, description_t, figure_length, &
+                                     formula_length, frequency_t, letter_t, mass_point, &
+                                     nonnegative, positive, quantity, quantity_t, real_number, &
+                                     real_vector
     use lagrangia_errors, only: error_t
     use lagrangia_gyrating_system, only: gyrating_system_t
     use lagrangia_hyperdual, only: dot_product, hyperdual_t, operator(*), operator(+), operator(-)
@@ -142,6 +143,11 @@ contains
             "Free: drift E x B/B^2, turning at omega_c = e B/m, falling freely along B.", &
             "L_axis is conserved in a trap; without one where E is parallel to B or zero.", &
             "In the trap two of the frequencies belong to turning across B."]
+        d%figure = [character(figure_length) :: "trail particle", "ball particle"]
+        if (any(abs(self%electric) > 0.0_dp)) d%figure = [character(figure_length) :: d%figure, &
+            "field E (electric_x, electric_y, electric_z)"]
+        if (any(abs(self%magnetic) > 0.0_dp)) d%figure = [character(figure_length) :: d%figure, &
+            "field B (magnetic_x, magnetic_y, magnetic_z)"]
         d%source = "Phys 601, 1 September 2011: velocity-dependent generalized potentials"
     end subroutine describe
 

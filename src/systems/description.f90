@@ -11,10 +11,11 @@ module lagrangia_description
     public :: coordinate, conserved, quantity, positive, nonnegative, between, real_number, &
               whole_number, real_vector, mass_point
     public :: check_parameter, constraint_text, default_values, value_names
-    public :: name_length, line_length, formula_length
+    public :: figure_length, formula_length, line_length, name_length
 
     integer, parameter :: line_length = 120     !! of a line of text
     integer, parameter :: formula_length = 200  !! of a formula
+    integer, parameter :: figure_length = 300   !! of one part of a figure
 
     type :: quantity_t
         !! A coordinate, or a function of the state.
@@ -94,6 +95,8 @@ module lagrangia_description
         type(frequency_t), allocatable :: frequencies(:)
         character(formula_length), allocatable :: motion(:)  !! `x = x_0 + x_dot_0 t`, from t = 0
         real(dp), allocatable :: equilibrium(:)          !! at or near one; absent: try zero
+        character(figure_length), allocatable :: figure(:)
+        !! how it is drawn, part by part: `rod origin bob`; see `lagrangia_figure`; absent: points
         character(line_length), allocatable :: notes(:)  !! slips corrected, limits, remarks
         character(line_length) :: source = ""            !! where in the lecture notes
     end type description_t

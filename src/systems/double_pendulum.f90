@@ -3,9 +3,9 @@ module lagrangia_double_pendulum
     !!
     !! The notes write both constraints as \(f_i = x_i^2 + y_i^2 = \ell_i^2\); this is true for
     !! the first rod only. The second is \((x_2-x_1)^2 + (y_2-y_1)^2 = \ell_2^2\).
-    use lagrangia_description, only: conserved, coordinate, description_t, formula_length, &
-                                     frequency_t, letter_t, mass_point, nonnegative, positive, &
-                                     quantity
+    use lagrangia_description, only: conserved, coordinate, description_t, figure_length, &
+                                     formula_length, frequency_t, letter_t, mass_point, &
+                                     nonnegative, positive, quantity
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, dot_product, hyperdual_t, operator(*), operator(**), &
                                    operator(+), operator(-), sin
@@ -100,6 +100,8 @@ contains
             "The notes have x2^2 + y2^2 = l2^2: a slip, the second rod starts at the first bob.", &
             "dx2 = l1 cos(theta1) dtheta1 + l2 cos(theta2) dtheta2, and the same for delta x2.", &
             "Masses and lengths all equal: omega^2 = (2 +- sqrt(2)) g/l."]
+        d%figure = [character(figure_length) :: "trail bob2", "pivot origin", "rod origin bob1", &
+                    "rod bob1 bob2", "ball bob1", "ball bob2"]
         d%source = "Phys 601, 1 September 2011: double planar pendulum"
     end subroutine describe
 

@@ -8,9 +8,9 @@ module lagrangia_driven_pendulum
     !!
     !! Signs: \(y\) and \(y_p = a\cos\Omega t\) count upwards, \(\theta\) from the downward
     !! vertical; \(g + \ddot y_p\) is the gravity that the bob feels.
-    use lagrangia_description, only: coordinate, description_t, formula_length, frequency_t, &
-                                     letter_t, mass_point, nonnegative, positive, quantity, &
-                                     real_number
+    use lagrangia_description, only: coordinate, description_t, figure_length, formula_length, &
+                                     frequency_t, letter_t, mass_point, nonnegative, positive, &
+                                     quantity, real_number
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-), sin
@@ -122,6 +122,8 @@ contains
             "y_p, the pivot's height, counts upwards; at t = 0 it is a.", &
             "A function of t alone may be left out of L (uniqueness): then h changes, not theta.", &
             "Upside down it is stable for a fast drive: (a W)^2 > 2 g l, a << l (Kapitza)."]
+        d%figure = [character(figure_length) :: "axis (0, - a) (0, a)", "trail bob", &
+                    "pivot (0, y_p)", "rod (0, y_p) bob", "ball bob"]
         d%source = "Hamilton's Principle: rheonomic constraints (the notes define the concept only)"
     end subroutine describe
 

@@ -3,9 +3,9 @@ module lagrangia_hanging_chain
     !!
     !! One bob is the pendulum, two are the double pendulum. The equations are solved for the
     !! tensions of the rods first: their matrix is tridiagonal, so accelerations cost O(n).
-    use lagrangia_description, only: conserved, coordinate, description_t, formula_length, &
-                                     letter_t, mass_point, nonnegative, positive, quantity, &
-                                     whole_number
+    use lagrangia_description, only: conserved, coordinate, description_t, figure_length, &
+                                     formula_length, letter_t, mass_point, nonnegative, positive, &
+                                     quantity, whole_number
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: assignment(=), cos, dot_product, hyperdual_t, operator(*), &
                                    operator(**), operator(+), operator(-), sin
@@ -115,6 +115,9 @@ contains
             d%notes = [character(len(d%title)) :: &
                 "The formulas are printed for at most "//to_text(spelled)//" bobs.", d%notes]
         end if
+        d%figure = [character(figure_length) :: "pivot origin", "rod origin bob1", &
+                    ("rod bob"//to_text(k)//" bob"//to_text(k + 1), k=1, self%n - 1), &
+                    ("ball bob"//to_text(k), k=1, self%n)]
         d%source = "Phys 601, 1 September 2011: double planar pendulum, continued"
     end subroutine describe
 

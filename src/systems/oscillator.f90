@@ -6,9 +6,9 @@ module lagrangia_oscillator
     !!
     !! Damping and a drive are generalised forces beside L: \(Q = -b\dot x + F_0\cos Wt\), the
     !! first from Rayleigh's function \(R = \tfrac b2\dot x^2\), \(Q = -\partial R/\partial\dot x\).
-    use lagrangia_description, only: conserved, coordinate, description_t, formula_length, &
-                                     frequency_t, letter_t, mass_point, nonnegative, positive, &
-                                     quantity, quantity_t, real_number
+    use lagrangia_description, only: conserved, coordinate, description_t, figure_length, &
+                                     formula_length, frequency_t, letter_t, mass_point, &
+                                     nonnegative, positive, quantity, quantity_t, real_number
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(-)
     use lagrangia_kinds, only: dp
@@ -96,6 +96,9 @@ contains
             "The frequency is the same at any amplitude.", &
             "Damping and a drive are forces beside L: describe damped_oscillator shows them.", &
             "The actual path makes the action stationary; it is a minimum only for t < pi/omega."]
+        d%figure = [character(figure_length) :: "ground (x_min - size, 0) (x_min - size, - 1)", &
+                    "ground (x_min - size, - size/12) (x_min, - size/12)", &
+                    "spring (x_min - size, 0) mass", "box mass (size/6, size/6)"]
         d%source = "Hamilton's Principle: example HSM"
     end subroutine describe
 

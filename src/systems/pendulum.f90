@@ -6,8 +6,9 @@ module lagrangia_pendulum
     !!
     !! Friction in the pivot is a generalised force beside L: \(Q = -b\dot\theta\), from
     !! Rayleigh's function \(R = \tfrac b2\dot\theta^2\).
-    use lagrangia_description, only: conserved, coordinate, description_t, formula_length, &
-                                     frequency_t, mass_point, nonnegative, positive, quantity
+    use lagrangia_description, only: conserved, coordinate, description_t, figure_length, &
+                                     formula_length, frequency_t, mass_point, nonnegative, &
+                                     positive, quantity
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, dot_product, hyperdual_t, operator(*), operator(**), &
                                    operator(+), operator(-), sin
@@ -97,6 +98,7 @@ contains
             "A constant, or a total time derivative, may be added to L: the equation stays.", &
             "Period 2 pi sqrt(l/g)/agm(1, cos(theta0/2)), agm the arithmetic-geometric mean.", &
             "A rod can push: where the tension is negative, a string would go slack."]
+        d%figure = [character(figure_length) :: "pivot origin", "rod origin bob", "ball bob"]
         d%source = "Phys 601, 1 September 2011: uniqueness of the Lagrangian"
     end subroutine describe
 

@@ -8,9 +8,9 @@ module lagrangia_rolling_disk
     !! integrating factor exists, \(a\wedge da = R\cos\theta\,dx\wedge d\varphi\wedge d\theta\ne 0\)
     !! (Frobenius): the conclusion stands.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
-    use lagrangia_description, only: between, conserved, coordinate, description_t, &
-                                     formula_length, letter_t, mass_point, nonnegative, &
-                                     positive, quantity
+    use lagrangia_description, only: between, conserved, coordinate, description_t, figure_length, &
+                                     formula_length, letter_t, mass_point, nonnegative, positive, &
+                                     quantity
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: assignment(=), cos, hyperdual_t, operator(*), operator(**), &
                                    operator(+), operator(-), sin
@@ -160,6 +160,11 @@ contains
             "r kappa/(2 theta_dot).", &
             "Lagrange-d'Alembert: the constraint is not put into L.", &
             "What holds the disk upright resists no motion; v may be given as phi_dot, theta_dot."]
+        d%figure = [character(figure_length) :: "plane origin", "trail (x, y, 0)", &
+            "field g (sin(incline), 0, - cos(incline))", &
+            "wheel centre (x + r sin(phi) sin(theta), y - r sin(phi) cos(theta), "// &
+            "r + r cos(phi)) (x + r cos(phi) sin(theta), y - r cos(phi) cos(theta), "// &
+            "r - r sin(phi))"]
         d%source = "Phys 601, 1 September 2011: nonholonomic constraint A.q_dot + B = 0"
     end subroutine describe
 

@@ -4,8 +4,9 @@ module lagrangia_rotating_hoop
     !! Source: Hamilton's Principle, where the notes define the concept only: a constraint that
     !! contains the time is rheonomic. Beyond \(\omega^2 = g/R\) the bottom is unstable and the
     !! bead finds two tilted equilibria, \(\cos\theta_* = g/(\omega^2R)\).
-    use lagrangia_description, only: coordinate, description_t, formula_length, frequency_t, &
-                                     mass_point, nonnegative, positive, quantity, real_number
+    use lagrangia_description, only: coordinate, description_t, figure_length, formula_length, &
+                                     frequency_t, mass_point, nonnegative, positive, quantity, &
+                                     real_number
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, dot_product, hyperdual_t, operator(*), operator(**), &
                                    operator(+), operator(-), sin
@@ -104,6 +105,8 @@ contains
             "Power of the drive: d(T + V)/dt = omega torque, torque = dL_z/dt.", &
             "At the bottom it is stable while omega^2 < g/r, at the top never. Faster, it "// &
             "stands tilted."]
+        d%figure = [character(figure_length) :: "axis (0, 0, - 1.3 r) (0, 0, 1.3 r)", &
+                    "circle origin (r cos(omega t), r sin(omega t), 0) (0, 0, r)", "ball bead"]
         d%source = "Hamilton's Principle: rheonomic constraints (the notes define the concept only)"
     end subroutine describe
 

@@ -4,8 +4,9 @@ module lagrangia_rotating_wire
     !! Source: Hamilton's Principle, where the notes define the concept only: a constraint that
     !! contains the time is rheonomic. This is its simplest case: what is conserved is the energy
     !! function \(h = \dot r\,\partial L/\partial\dot r - L\), which is not the energy.
-    use lagrangia_description, only: conserved, coordinate, description_t, formula_length, &
-                                     frequency_t, mass_point, positive, quantity, real_number
+    use lagrangia_description, only: conserved, coordinate, description_t, figure_length, &
+                                     formula_length, frequency_t, mass_point, positive, quantity, &
+                                     real_number
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-), sin
@@ -87,6 +88,8 @@ contains
             "L has no t: h = r_dot dL/dr_dot - L is conserved. T is not: the wire does work.", &
             "At rest only on the axis; everywhere else it is thrown out.", &
             "Turning is horizontal: gravity does not enter."]
+        d%figure = [character(figure_length) :: "trail bead", &
+                    "line origin (cos(omega t), sin(omega t))", "pivot origin", "ball bead"]
         d%source = "Hamilton's Principle: rheonomic constraints (the notes define the concept only)"
     end subroutine describe
 

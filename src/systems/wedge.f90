@@ -4,9 +4,9 @@ module lagrangia_wedge
     !! Source: Hamilton's Principle, case II. The notes end with \(mg\sin\alpha =
     !! M(\ddot q_1 + \ddot q_2\cos\alpha)\), where it must be the mass of the block, \(m\): with
     !! \(M\) the acceleration is off by \(m/M\) and contradicts the \(\ddot q_1\) they state.
-    use lagrangia_description, only: between, conserved, coordinate, description_t, &
-                                     formula_length, letter_t, mass_point, nonnegative, &
-                                     positive, quantity
+    use lagrangia_description, only: between, conserved, coordinate, description_t, figure_length, &
+                                     formula_length, letter_t, mass_point, nonnegative, positive, &
+                                     quantity
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t, operator(*), operator(**), operator(+), operator(-)
     use lagrangia_kinds, only: dp
@@ -111,6 +111,13 @@ contains
             "The accelerations are constant: K = 0, no oscillation.", &
             "M -> infinity: q1_ddot -> g sin(alpha); alpha = pi/2: free fall beside a wedge "// &
             "that stays."]
+        d%figure = [character(figure_length) :: "let a = q1_min - size/6", &
+            "let b = q1_max + size/6", &
+            "ground (0, - b sin(alpha)) (1, - b sin(alpha))", &
+            "polygon (q2 + a cos(alpha), - a sin(alpha)) (q2 + b cos(alpha), - b sin(alpha)) "// &
+            "(q2 + a cos(alpha), - b sin(alpha))", &
+            "box (x_block + size/20 sin(alpha), y_block + size/20 cos(alpha)) "// &
+            "(size/7, size/10, - alpha)"]
         d%source = "Hamilton's Principle: case II, a block sliding on a wedge"
     end subroutine describe
 

@@ -1,0 +1,154 @@
+module lagrangia_animation
+    !! A scene as a film: one HTML page that needs nothing else, no network and no server.
+    use lagrangia_data_files, only: film_path
+    use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_film, only: count_channels, film_json
+    use lagrangia_frames, only: add_reference, film_speed, find_pace, frames_t, record_frames, &
+                                window_of
+    use lagrangia_html, only: fill_template, html_text, script_json
+    use lagrangia_json, only: json_item, json_object, json_pair, json_string
+    use lagrangia_kinds, only: dp
+    use lagrangia_methods, only: exact
+    use lagrangia_output_file, only: output_file_t
+    use lagrangia_run_plan, only: run_plan_t
+    use lagrangia_shipped_files, only: shipped_text
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text, word_t
+    implicit none (type, external)
+    private
+    public :: animate_scene, page_of_film, page_of_films, scene_film, write_page
+
+    integer, parameter :: most_bytes = 215000      !! of the series of a page, of 300 kB
+    integer, parameter :: bytes_of_channel = 160   !! besides its numbers
+    integer, parameter :: least_frames = 120
+    integer, parameter :: most_frames = 4000
+    integer, parameter :: frames_for_two = 400     !! where there are fewer, one motion is shown
+
+contains
+
+    subroutine animate_scene(plan, path, error)
+        !! Write the page of a scene, `NAME.html` beside its data.
+        type(run_plan_t), intent(in) :: plan  !! of the scene; may have been run
+        character(*), intent(in) :: path      !! of its data file
+        type(error_t), allocatable, intent(out) :: error  !! 2, 3 or 5: why there is none
+        character(:), allocatable :: film
+
+        call scene_film(plan, film, error)
+        if (allocated(error)) return
+        call write_page(film_path(path), trim(plan%scene%title), page_of_film(plan, film), error)
+    end subroutine animate_scene
+
+    subroutine scene_film(plan, film, error)
+        !! The film of a scene, as JSON for `page_of_films`.
+        type(run_plan_t), intent(in) :: plan               !! of the scene; may have been run
+        character(:), allocatable, intent(out) :: film     !! one object
+        type(error_t), allocatable, intent(out) :: error   !! 2: too many parts; 3: the numbers
+        type(frames_t) :: probe, frames, reference
+        character(:), allocatable :: members, title, note
+        real(dp) :: omega, window
+        integer :: channels, count
+
+        associate (scene => plan%settled, system => plan%system)
+            call find_pace(scene, system, plan%closed_form, probe, omega, error)
+            if (.not. allocated(error)) call count_channels(system, probe, channels, error)
+            if (allocated(error)) return
+            count = room_for(2*channels)
+            if (count < frames_for_two) count = room_for(channels)
+            if (count < least_frames) then
+                call fail(error, "no film of so many moving parts fits into a page of 300 kB")
+                return
+            end if
+            window = window_of(scene%duration, omega, count)
+            call record_frames(scene, system, plan%closed_form, window, count, frames, error)
+            if (allocated(error)) return
+            title = ""
+            if (count == room_for(2*channels)) call add_reference(scene, system, &
+                plan%closed_form, frames, reference, title)
+            call film_json(system, frames, reference, members, error)
+            if (allocated(error)) return
+            note = ""
+            if (window < scene%duration) note = "the first "//to_text(window)// &
+                " s of "//to_text(scene%duration)//" s"
+            film = json_object(json_pair("name", trim(scene%name))//json_pair("note", note)// &
+                               json_pair("factor", film_speed(window, omega))// &
+                               json_pair("loop", .false.)//json_pair("reference", title)//members)
+        end associate
+    end subroutine scene_film
+
+    pure integer function room_for(channels)
+        !! Frames of so many series.
+        integer, intent(in) :: channels
+
+        room_for = min(most_frames, (most_bytes - bytes_of_channel*channels)/(3*channels))
+    end function room_for
+
+    function page_of_film(plan, film) result(json)
+        !! What a page says beside the film of a scene.
+        type(run_plan_t), intent(in) :: plan  !! of the scene
+        character(*), intent(in) :: film      !! of `scene_film`
+        character(:), allocatable :: json, method
+
+        associate (scene => plan%settled)
+            method = trim(scene%method)
+            if (scene%method == exact) then
+                method = "closed form"
+            else if (scene%tolerance > 0.0_dp) then
+                method = method//", tolerance "//to_text(scene%tolerance)
+            else
+                method = method//", dt = "//to_text(scene%dt)//" s"
+            end if
+            json = page_of_films(plan%system, trim(scene%title), method, film)
+        end associate
+    end function page_of_film
+
+    function page_of_films(system, title, method, films) result(json)
+        !! The data of a page.
+        class(system_t), intent(in) :: system         !! whose films they are
+        character(*), intent(in) :: title, method     !! of the page; how they were computed
+        character(*), intent(in) :: films             !! objects with commas between them
+        character(:), allocatable :: json, facts
+        type(description_t) :: d
+        character(:), allocatable :: values
+        integer :: i, k
+
+        call system%describe(d)
+        facts = json_string(method)
+        do i = 1, size(d%parameters)
+            associate (p => d%parameters(i))
+                values = ""
+                do k = 1, p%count
+                    values = values//" "//to_text(p%value(k))
+                end do
+                if (p%unit /= "1") values = values//" "//trim(p%unit)
+                facts = facts//", "//json_string(trim(p%name)//" ="//values)
+            end associate
+        end do
+        json = json_object(json_pair("title", title)// &
+                           json_pair("system", trim(d%name)//": "//d%title)// &
+                           json_item("facts", "["//facts//"]")// &
+                           json_item("films", "["//films//"]"))
+    end function page_of_films
+
+    subroutine write_page(path, title, json, error)
+        !! The page of one or more films of one system. It appears whole or not at all.
+        character(*), intent(in) :: path         !! of the file; folders are made
+        character(*), intent(in) :: title, json  !! of the page; of `page_of_films`
+        type(error_t), allocatable, intent(out) :: error  !! status 5: it cannot be written
+        type(output_file_t) :: file
+        type(word_t) :: texts(4)
+        character(:), allocatable :: template, page
+
+        call shipped_text("data/templates/animation.html", template)
+        texts(1)%text = html_text(title)
+        call shipped_text("data/templates/film.css", texts(2)%text)
+        call shipped_text("data/templates/film.js", texts(3)%text)
+        texts(4)%text = script_json(json)
+        call fill_template(template, [character(6) :: "TITLE", "STYLE", "SCRIPT", "DATA"], texts, &
+                           page)
+        call file%open(path, error)
+        if (allocated(error)) return
+        call file%write(page)
+        call file%commit(error)
+    end subroutine write_page
+end module lagrangia_animation

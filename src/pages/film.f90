@@ -1,0 +1,240 @@
+module lagrangia_film
+    !! What a page draws of one motion, as JSON: the parts of the mechanism and their places, the
+    !! coordinates, velocities and energies in time, and a second motion beside the first.
+    use lagrangia_channels, only: channels_t
+    use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t
+    use lagrangia_figure, only: figure_t, new_figure
+    use lagrangia_frames, only: frames_t
+    use lagrangia_hyperdual, only: hyperdual_t
+    use lagrangia_json, only: json_item, json_object, json_pair, json_string
+    use lagrangia_kinds, only: dp
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: count_channels, film_json
+
+    integer, parameter :: most_coordinates = 6  !! whose values and phase portrait are shown
+
+contains
+
+    subroutine film_json(system, frames, reference, film, error)
+        !! Members of a JSON object: `count`, `interval`, `t`, `parts`, `places`, ...
+        class(system_t), intent(in) :: system       !! whose motion it is
+        type(frames_t), intent(in) :: frames        !! the motion, one state at least
+        type(frames_t), intent(in) :: reference     !! of the same times; `count` 0: none
+        character(:), allocatable, intent(out) :: film    !! for `json_object`
+        type(error_t), allocatable, intent(out) :: error  !! a figure that cannot be read
+        type(channels_t) :: channels
+        type(figure_t) :: figure
+        real(dp), allocatable :: r(:, :, :), other(:, :, :), distance(:)
+        real(dp) :: extent
+        integer :: i, n, which
+
+        n = frames%count
+        extent = extent_of(system, frames)
+        call new_figure(system, extent, minval(frames%q(:, :n), 2), maxval(frames%q(:, :n), 2), &
+                        figure, error)
+        if (allocated(error)) return
+        call place_all(figure, system, frames, n, r)
+        film = json_pair("count", n)//json_pair("interval", frames%interval)// &
+               json_pair("start", frames%t(1))//json_pair("end", frames%t(n))// &
+               json_item("parts", parts_json(figure))// &
+               json_item("places", places_json(r, channels))
+        call add_series(system, frames, n, film, channels)
+        if (reference%count == n) then
+            call place_all(figure, system, reference, n, other)
+            allocate (distance(n))
+            do i = 1, n
+                if (figure%places > 0) then
+                    distance(i) = sqrt(maxval(sum((r(:, :, i) - other(:, :, i))**2, 1)))
+                else
+                    distance(i) = maxval(abs(frames%q(:, i) - reference%q(:, i)))
+                end if
+            end do
+            call channels%add(log10(max(distance, 1e-18_dp)), which)
+            film = film//json_pair("distance", which)
+            if (maxval(distance) > extent/500.0_dp) film = film// &
+                json_item("ghost", places_json(other, channels))// &
+                json_item("ghost_states", states_json(system, reference, n, channels))
+        end if
+        film = film//json_item("channels", "["//channels%json//"]")
+    end subroutine film_json
+
+    subroutine count_channels(system, frames, count, error)
+        !! How many series a film of this motion has at most.
+        class(system_t), intent(in) :: system    !! whose motion it is
+        type(frames_t), intent(in) :: frames     !! some of it
+        integer, intent(out) :: count            !! of `channels`
+        type(error_t), allocatable, intent(out) :: error  !! a figure that cannot be read
+        type(channels_t) :: channels
+        type(figure_t) :: figure
+        real(dp), allocatable :: r(:, :, :)
+        character(:), allocatable :: places
+
+        count = 0
+        call new_figure(system, extent_of(system, frames), minval(frames%q, 2), &
+                        maxval(frames%q, 2), figure, error)
+        if (allocated(error)) return
+        call place_all(figure, system, frames, frames%count, r)
+        places = places_json(r, channels)
+        count = 2*channels%count + 4*min(system%ndof, most_coordinates) + 3
+    end subroutine count_channels
+
+    function extent_of(system, frames) result(extent)
+        !! The diagonal of the box around the origin and all points at all times, m; 1 if that is 0.
+        class(system_t), intent(in) :: system
+        type(frames_t), intent(in) :: frames
+        real(dp) :: extent
+        type(description_t) :: d
+        type(hyperdual_t), allocatable :: r(:, :)
+        type(hyperdual_t) :: q(system%ndof)
+        real(dp) :: low(3), high(3)
+        integer :: i, k
+
+        low = 0.0_dp
+        high = 0.0_dp
+        call system%describe(d)
+        if (allocated(d%points)) then
+            allocate (r(3, size(d%points)))
+            do i = 1, frames%count
+                q%re = frames%q(:, i)
+                call system%positions(hyperdual_t(re=frames%t(i)), q, r)
+                do k = 1, size(r, 2)
+                    low = min(low, r(:, k)%re)
+                    high = max(high, r(:, k)%re)
+                end do
+            end do
+        end if
+        extent = norm2(high - low)
+        if (.not. (extent > 0.0_dp .and. extent <= huge(extent))) extent = 1.0_dp
+    end function extent_of
+
+    subroutine place_all(figure, system, frames, n, r)
+        !! All places at all times, `r(3, places, n)`.
+        type(figure_t), intent(in) :: figure
+        class(system_t), intent(in) :: system
+        type(frames_t), intent(in) :: frames
+        integer, intent(in) :: n
+        real(dp), allocatable, intent(out) :: r(:, :, :)
+        integer :: i
+
+        allocate (r(3, figure%places, n))
+        do i = 1, n
+            call figure%place(system, frames%t(i), frames%q(:, i), frames%v(:, i), r(:, :, i))
+        end do
+    end subroutine place_all
+
+    function parts_json(figure) result(json)
+        !! `[{"kind": "rod", "at": [0, 1]}, ...]`.
+        type(figure_t), intent(in) :: figure
+        character(:), allocatable :: json
+        integer :: i, k
+
+        json = "["
+        do i = 1, size(figure%parts)
+            associate (part => figure%parts(i))
+                if (i > 1) json = json//", "
+                json = json//'{"kind": '//json_string(part%kind)
+                if (part%label /= "") json = json//json_pair("label", part%label)
+                json = json//', "at": ['
+                do k = 1, part%count
+                    if (k > 1) json = json//", "
+                    json = json//to_text(part%at(k) - 1)
+                end do
+                json = json//"]}"
+            end associate
+        end do
+        json = json//"]"
+    end function parts_json
+
+    function places_json(r, channels) result(json)
+        !! Three numbers or series a place.
+        real(dp), intent(in) :: r(:, :, :)
+        type(channels_t), intent(inout) :: channels
+        character(:), allocatable :: json, item
+        integer :: i, k
+
+        json = "["
+        do i = 1, size(r, 2)
+            if (i > 1) json = json//", "
+            json = json//"["
+            do k = 1, 3
+                if (k > 1) json = json//", "
+                call channels%number(r(k, i, :), item)
+                json = json//item
+            end do
+            json = json//"]"
+        end do
+        json = json//"]"
+    end function places_json
+
+    subroutine add_series(system, frames, n, film, channels)
+        !! Coordinates with their velocities, energy, and the part of it that is quadratic in the
+        !! velocities.
+        class(system_t), intent(in) :: system
+        type(frames_t), intent(in) :: frames
+        integer, intent(in) :: n
+        character(:), allocatable, intent(inout) :: film
+        type(channels_t), intent(inout) :: channels
+        type(description_t) :: d
+        character(:), allocatable :: json
+        real(dp) :: energy(n), kinetic(n)
+        integer :: i
+
+        call system%describe(d)
+        json = ""
+        do i = 1, min(system%ndof, most_coordinates)
+            if (i > 1) json = json//", "
+            json = json//json_object(json_pair("name", d%coordinates(i)%name)// &
+                                     json_pair("unit", d%coordinates(i)%unit)// &
+                                     json_pair("meaning", d%coordinates(i)%meaning))
+        end do
+        film = film//json_item("coordinates", "["//json//"]")// &
+               json_item("states", states_json(system, frames, n, channels))
+        do i = 1, n
+            energy(i) = system%energy(frames%t(i), frames%q(:, i), frames%v(:, i))
+            kinetic(i) = kinetic_energy(system, frames%t(i), frames%q(:, i), frames%v(:, i))
+        end do
+        call channels%number(energy, json)
+        film = film//json_item("energy", json)
+        call channels%number(kinetic, json)
+        film = film//json_item("kinetic", json)//json_pair("conserved", system%conserves_energy())
+    end subroutine add_series
+
+    function states_json(system, frames, n, channels) result(json)
+        !! `[[q, v], ...]`, a pair a coordinate.
+        class(system_t), intent(in) :: system
+        type(frames_t), intent(in) :: frames
+        integer, intent(in) :: n
+        type(channels_t), intent(inout) :: channels
+        character(:), allocatable :: json, item
+        integer :: i
+
+        json = "["
+        do i = 1, min(system%ndof, most_coordinates)
+            if (i > 1) json = json//", "
+            call channels%number(frames%q(i, :n), item)
+            json = json//"["//item//", "
+            call channels%number(frames%v(i, :n), item)
+            json = json//item//"]"
+        end do
+        json = json//"]"
+    end function states_json
+
+    function kinetic_energy(system, t, q, v) result(kinetic)
+        !! \(\tfrac12\,\dot q\cdot M\dot q\), \(M = \partial^2 L/\partial\dot q^2\).
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(:), v(:)
+        real(dp) :: kinetic
+        type(hyperdual_t) :: l, x(size(q)), u(size(v))
+
+        x%re = q
+        u%re = v
+        u%d1 = v
+        u%d2 = v
+        l = system%lagrangian(hyperdual_t(re=t), x, u)
+        kinetic = 0.5_dp*l%d12
+    end function kinetic_energy
+end module lagrangia_film
