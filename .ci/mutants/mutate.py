@@ -2,20 +2,21 @@
 """Change one random place of the sources at a time, and see whether anything notices.
 
     .ci/mutants/mutate.py [--count 100] [--seed 1] [--only src/systems] [--skip TEXT]
-                          [--output mutants.jsonl] [--quick]
+                          [--output mutants.jsonl] [--quick] [--again mutants.jsonl]
 
 Run it, by nice, in a checkout of its own whose tests pass. Each mutant is one change of one statement in
 src: an operator, a number, an intrinsic function, a condition, a deleted statement or, within a
 string, a sign. Each kind of change has the same chance, and a line of src/audit, src/principles,
-src/scenes, src/runs, src/commands, src/bench and src/stress twice that of another. One file is compiled and linked with
-the objects of an ordinary build; where the change is seen by other files (a named constant, what
-a component begins with) a copy of the project is built again. A mutant whose object file is the
-original's is no mutant.
+src/scenes, src/runs, src/commands, src/bench and src/stress twice that of another. One file is compiled, and
+those that see a change of its interface (a named constant, what a component begins with), and linked
+with the other objects of an ordinary build. A mutant whose object file is the original's is no mutant.
 
-It dies if the unit tests fail, crash or use ten times the processor's time; what survives them
+It dies if a suite of the unit tests fails, crashes or uses ten times the processor's time: first those
+that use the module, then all from which it can be reached, the quickest first. What survives them
 meets what users run: the main job, check, errata, .ci/try_commands.sh and stress. Survivors are
 printed with their change: each is either a hole in the tests or the same program in other words,
-which a person decides. Not part of the gate: a hundred mutants take about half an hour on one core.
+which a person decides. `--again` tries the survivors of an earlier list once more. Not part of the
+gate: most mutants take seconds, a survivor as long as all that looks at it.
 """
 import argparse
 import gzip
@@ -30,6 +31,8 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
+import tomllib
 
 FLAGS = "-O2 -g0"  # what calls itself optimised
 SWAPS = {
@@ -165,110 +168,181 @@ def processor_time():
     return used.ru_utime + used.ru_stime
 
 
+class Sources:
+    """Who uses whom: modules, their submodules, and the suites of the tests."""
+
+    def __init__(self, root):
+        self.defined, self.uses, self.submodules, self.suites = {}, {}, {}, {}
+        for folder in ("src", "test", "app"):
+            for place, _, names in os.walk(os.path.join(root, folder)):
+                for name in names:
+                    if name.endswith((".f90", ".F90")) and "pfunit" not in place:
+                        self.read(root, os.path.relpath(os.path.join(place, name), root))
+        for path in self.uses:
+            self.uses[path] = {name for name in self.uses[path] if self.defined.get(name, path) != path}
+
+    def read(self, root, path):
+        text = open(os.path.join(root, path)).read()
+        for name in re.findall(r"^\s*module (\w+)\s*$", text, re.M):
+            self.defined[name] = path
+        self.uses[path] = set(re.findall(r"^\s*use(?:\s*,[^:]*::)?\s+(\w+)", text, re.M))
+        for parent in re.findall(r"^\s*submodule \((\w+)", text, re.M):
+            self.uses[path].add(parent)
+            self.submodules.setdefault(parent, []).append(path)
+        suite = re.search(r'TestSuite\("([^"]*)"\)', text)
+        if suite and path.startswith("test/test_"):
+            self.suites[suite.group(1)] = path
+
+    def reached(self, path):
+        """All files that a call from `path` can lead to."""
+        found, todo = set(), [path]
+        while todo:
+            path = todo.pop()
+            if path in found:
+                continue
+            found.add(path)
+            for name in self.uses[path]:
+                todo += [self.defined[name], *self.submodules.get(name, [])]
+        return found
+
+    def in_order(self):
+        """All files, users behind what they use."""
+        done = []
+
+        def add(path):
+            if path in done:
+                return
+            for name in self.uses[path]:
+                add(self.defined[name])
+            done.append(path)
+        for path in sorted(self.uses):
+            add(path)
+        return done
+
+
 class Build:
-    """The objects of an ordinary build, and how to link them with one of them exchanged."""
+    """The objects of an ordinary build, and how to link them with some of them exchanged."""
 
     def __init__(self, root, work):
         self.root, self.work = root, work
-        self.build(root)
-        self.objects = os.path.dirname(self.newest(root, "app_main.f90.o"))
-        self.library = self.newest(root, "liblagrangia.a")
-        self.tests = [os.path.join(self.objects, name) for name in os.listdir(self.objects)
-                      if name.startswith("test_") and name.endswith(".o")]
-        self.originals = {}
-        self.tree = None
-
-    def build(self, root):
         status, text = run(["fpm", "build", "--tests", "--flag", FLAGS], root, GENEROUS)
         if status != 0:
             sys.exit(text[-3000:])
-        self.unit = self.newest(root, "unit")
-        self.program = self.newest(root, "lagrangia")
+        self.unit = self.newest("unit")
+        self.objects = os.path.dirname(self.newest("app_main.f90.o"))
+        self.library = self.newest("liblagrangia.a")
+        macros = tomllib.load(open(os.path.join(root, "fpm.toml"), "rb"))["preprocess"]["cpp"]["macros"]
+        self.flags = subprocess.check_output(["sh", "-c", "echo " + " ".join("-D" + m for m in macros)], text=True).split()
+        self.sources = Sources(root)
+        self.order = self.sources.in_order()
+        self.originals = {}
 
-    def newest(self, root, name):
+    def newest(self, name):
         found = []
-        for folder, _, files in os.walk(os.path.join(root, "build")):
+        for folder, _, files in os.walk(os.path.join(self.root, "build")):
             if name in files:
                 found.append(os.path.join(folder, name))
         return max(found, key=os.path.getmtime)
 
-    def compile(self, source, text):
-        """The object of `text` in the place of `source`, and the interface that others see of it, in
-        bytes; both None if it does not compile."""
-        folder = os.path.join(self.work, "compiled")
-        shutil.rmtree(folder, ignore_errors=True)  # else the next file would see a mutant's .mod
+    def compile(self, path, source, folder):
+        """The object of the file `path` in the place of `source`, and the modules that others see of
+        it, in bytes; both None if it does not compile."""
+        target, seen = os.path.join(folder, source.replace("/", "_") + ".o"), {}
+        fresh = os.path.join(folder, "fresh")
+        os.makedirs(fresh, exist_ok=True)
+        status, _ = run(["gfortran", "-c", path, *FLAGS.split(), *self.flags, "-cpp", "-fimplicit-none", "-ffree-form",
+                         "-J", fresh, "-I", folder, "-I" + os.path.dirname(self.objects), "-o", target],
+                        self.root, GENEROUS)
+        if status != 0:
+            return None, None
+        for name in os.listdir(fresh):
+            text = gzip.open(os.path.join(fresh, name)).read()
+            seen[name] = text[text.index(b"\n"):]  # its first line names the file
+            shutil.move(os.path.join(fresh, name), os.path.join(folder, name))
+        return target, seen
+
+    def original(self, source):
+        """The object of a source as it stands, in bytes, and the modules that others see of it."""
+        if source not in self.originals:
+            folder = tempfile.mkdtemp(dir=self.work)
+            path = os.path.join(folder, os.path.basename(source))
+            shutil.copy(os.path.join(self.root, source), path)
+            target, seen = self.compile(path, source, folder)
+            if not target:
+                sys.exit("does not compile: " + source)
+            self.originals[source] = open(target, "rb").read(), seen
+            shutil.rmtree(folder)
+        return self.originals[source]
+
+    def mutant(self, source, text):
+        """The objects that differ with `text` in the place of `source`, by source, in the folder
+        `mutant`; None if there is no such mutant."""
+        folder = os.path.join(self.work, "mutant")
+        shutil.rmtree(folder, ignore_errors=True)
         os.mkdir(folder)
         path = os.path.join(folder, os.path.basename(source))
         with open(path, "w") as file:
             file.write(text)
-        target = os.path.join(folder, "mutant.o")
-        status, _ = run(["gfortran", "-c", path, *FLAGS.split(), "-fimplicit-none", "-ffree-form", "-J", folder,
-                         "-I" + os.path.dirname(self.objects), "-o", target], self.root, GENEROUS)
-        if status != 0:
-            return None, None
-        seen = [gzip.open(os.path.join(folder, name)).read() for name in sorted(os.listdir(folder))
-                if name.endswith(("mod", "smod"))]
-        return open(target, "rb").read(), seen
-
-    def original(self, source):
-        if source not in self.originals:
-            self.originals[source] = self.compile(source, open(os.path.join(self.root, source)).read())
-        return self.originals[source]
-
-    def mutant(self, source, text):
-        """The tests and the program with `text` in the place of `source`; None if there is no such mutant."""
-        code, seen = self.compile(source, text)
-        if code is None or (code, seen) == self.original(source):
+        target, seen = self.compile(path, source, folder)
+        code, known = self.original(source)
+        if not target or (seen == known and open(target, "rb").read() == code):
             return None
-        if seen != self.original(source)[1]:
-            return self.rebuilt(source, text)
-        self.compile(source, text)
-        pairs = []
-        for name, objects in (("unit", self.tests), ("lagrangia", [os.path.join(self.objects, "app_main.f90.o")])):
-            output = os.path.join(self.work, name)
-            status, _ = run(["gfortran", *objects, os.path.join(self.work, "compiled", "mutant.o"), self.library,
-                             "-llapack", "-lblas", "-lgsl", "-lgslcblas", "-o", output], self.root, GENEROUS)
-            if status != 0:
+        objects, changed = {source: target}, {name for name in seen if seen[name] != known.get(name)}
+        for user in self.order if changed else []:
+            needs = {f"{name}.{kind}" for name in self.sources.uses[user] for kind in ("mod", "smod")}
+            if user == source or not any(name.split("@")[0] in needs for name in changed):
+                continue
+            objects[user], seen = self.compile(os.path.join(self.root, user), user, folder)
+            if not objects[user]:
                 return None
-            pairs.append(output)
-        return pairs
+            known = self.original(user)[1]
+            changed |= {name for name in seen if seen[name] != known.get(name)}
+        return objects
 
-    def rebuilt(self, source, text):
-        """The same where others see the change."""
-        if not self.tree:
-            self.tree = os.path.join(self.work, "tree")
-            shutil.copytree(self.root, self.tree, symlinks=True, ignore=shutil.ignore_patterns(".git"))
-        path = os.path.join(self.tree, source)
-        shutil.copy(path, path + ".kept")
-        with open(path, "w") as file:
-            file.write(text)
-        status, _ = run(["fpm", "build", "--tests", "--flag", FLAGS], self.tree, GENEROUS)
-        os.replace(path + ".kept", path)
-        os.utime(path)
-        return [self.newest(self.tree, "unit"), self.newest(self.tree, "lagrangia")] if status == 0 else None
+    def link(self, name, objects):
+        """A program, `unit` or `lagrangia`; None if it cannot be."""
+        first = "test/" if name == "unit" else "app/"
+        place = lambda source: os.path.join(self.objects, source.replace("/", "_") + ".o")
+        own = {source: place(source) for source in self.sources.uses if source.startswith(first)}
+        own.update({s: o for s, o in objects.items() if s.startswith((first, "src/"))})
+        output = os.path.join(self.work, name)
+        status, _ = run(["gfortran", *own.values(), self.library, "-llapack", "-lblas", "-lgsl", "-lgslcblas",
+                         "-o", output], self.root, GENEROUS)
+        return output if status == 0 else None
 
 
-def noticed_by_tests(unit, root, source, limits):
+def suite_times(build):
+    """Seconds of the processor that each suite takes; ends the program if one fails."""
+    kept = os.path.join(build.root, "build", "suite_times.json")
+    if os.path.exists(kept) and os.path.getmtime(kept) > os.path.getmtime(build.unit):
+        return json.load(open(kept))
+    times = {}
+    for suite in build.sources.suites:
+        used = processor_time()
+        status, text = run([build.unit, "--filter", suite + "."], build.root, GENEROUS)
+        if status != 0:
+            sys.exit(f"without any mutant suite {suite} fails:\n" + text[-2000:])
+        times[suite] = processor_time() - used
+    json.dump(times, open(kept, "w"))
+    return times
+
+
+def noticed_by_tests(unit, build, source, times):
     """The first test that fails, the suites that use the module of `source` first; "" if none does."""
-    module = "lagrangia_" + os.path.basename(source)[:-4]
-    near = []
-    for name in sorted(os.listdir(os.path.join(root, "test"))):
-        if name.endswith(".f90"):
-            text = open(os.path.join(root, "test", name)).read()
-            suite = re.search(r'TestSuite\("([^"]*)"\)', text)
-            if suite and re.search(r"\b" + module + r"\b", text):
-                near.append(["--filter", suite.group(1) + "."])
-    for words in near[:4] + [[]]:
-        status, text = run([unit, *words], root, limits, stop_at="Failure in: ")
+    name = "lagrangia_" + os.path.basename(source)[:-4]
+    near = lambda suite: name in build.sources.uses[build.sources.suites[suite]]
+    reaching = [suite for suite, path in build.sources.suites.items() if source in build.sources.reached(path)]
+    for suite in sorted(reaching, key=lambda suite: (not near(suite), times[suite])):
+        status, text = run([unit, "--filter", suite + "."], build.root, Limits(10*times[suite] + 5), stop_at="Failure in: ")
         if status != 0:
             found = re.search(r"^(?:Failure|Error) in:? (.*)$", text, re.M)
-            return found.group(1) if found else "time-out" if status in (-9, -24) else f"crash {status}"
+            return found.group(1) if found else suite + (": time-out" if status in (-9, -24) else f": crash {status}")
     return ""
 
 
 def noticed_by_users(program, root, work, limits, quick):
     """The first of the things that users run which does not end well; "" if all do."""
-    for command in ([program, "--output", os.path.join(work, "data")], [program, "check"], [program, "errata"],
+    for command in ([program, "errata"], [program, "check"], [program, "--output", os.path.join(work, "data")],
                     ["bash", ".ci/try_commands.sh", program], [program, "stress", "--quiet"]):
         if quick and "stress" in command:
             continue
@@ -297,6 +371,30 @@ def sites_of(root, only, skip):
     return sorted(sites)
 
 
+def drawn(root, words):
+    """Mutants at random, without end: (file, line, kind, new line)."""
+    draw = random.Random(words.seed)
+    by_kind = {}
+    for site in sites_of(root, words.only, words.skip):
+        by_kind.setdefault(site[2], []).extend([site]*(2 if site[0].split("/")[1] in HEAVY else 1))
+    while True:
+        yield draw.choice(by_kind[draw.choice(sorted(by_kind))])
+
+
+def survivors(root, path):
+    """Those of an earlier list, wherever the line is now."""
+    for row in map(json.loads, open(path)):
+        lines = open(os.path.join(root, row["file"])).readlines()
+        same = [k for k, line in enumerate(lines) if line.strip() == row["old"]]
+        if row["fate"] != "survived":
+            continue
+        if not same:
+            print(f"gone         {row['file']}:{row['line']} {row['old']}")
+            continue
+        k = min(same, key=lambda k: abs(k + 1 - row["line"]))
+        yield row["file"], k, row["kind"], row["new"] + "\n" if row["new"] else ""
+
+
 def main():
     words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     words.add_argument("--count", type=int, default=100)
@@ -304,47 +402,47 @@ def main():
     words.add_argument("--only", default="src")
     words.add_argument("--skip", default="")
     words.add_argument("--output", default="mutants.jsonl")
-    words.add_argument("--quick", action="store_true", help="no stress, and nothing is run without a mutant")
+    words.add_argument("--quick", action="store_true", help="no stress, and no user's command without a mutant")
+    words.add_argument("--again", default="", metavar="LIST", help="the survivors of an earlier output")
     words = words.parse_args()
     root = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
     work = tempfile.mkdtemp()
     os.environ["TMPDIR"] = os.path.join(work, "tmp")
     os.mkdir(os.environ["TMPDIR"])
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    draw = random.Random(words.seed)
     build = Build(root, work)
-    limits = [Limits(60), Limits(300)] if words.quick else []
-    for notice in () if words.quick else (lambda: noticed_by_tests(build.unit, root, "", GENEROUS),
-                   lambda: noticed_by_users(build.program, root, work, GENEROUS, False)):
+    times = suite_times(build)
+    limits = Limits(300)
+    if not words.quick:
         used = processor_time()
-        noticed = notice()
+        noticed = noticed_by_users(build.newest("lagrangia"), root, work, GENEROUS, False)
         if noticed:
             sys.exit("without any mutant this fails: " + noticed)
-        limits.append(Limits(10*(processor_time() - used)))
-    sites = sites_of(root, words.only, words.skip)
-    by_kind = {}
-    for site in sites:
-        by_kind.setdefault(site[2], []).extend([site]*(2 if site[0].split("/")[1] in HEAVY else 1))
+        limits = Limits(10*(processor_time() - used))
     tally = {"died": 0, "died in use": 0, "survived": 0}
     with open(words.output, "a") as log:
-        while sum(tally.values()) < words.count:
-            source, k, kind, new = draw.choice(by_kind[draw.choice(sorted(by_kind))])
+        for source, k, kind, new in survivors(root, words.again) if words.again else drawn(root, words):
+            start = time.monotonic()
             lines = open(os.path.join(root, source)).readlines()
             old = lines[k]
             lines[k] = new if new else "\n"
-            pair = build.mutant(source, "".join(lines))
-            if not pair:
+            objects = build.mutant(source, "".join(lines))
+            unit = objects and build.link("unit", objects)
+            if not unit:
                 continue
-            fate, by = "died", noticed_by_tests(pair[0], root, source, limits[0])
+            fate, by = "died", noticed_by_tests(unit, build, source, times)
             if not by:
-                by = noticed_by_users(pair[1], root, work, limits[1], words.quick)
+                by = noticed_by_users(build.link("lagrangia", objects), root, work, limits, words.quick)
                 fate = "died in use" if by else "survived"
             tally[fate] += 1
             row = {"seed": words.seed, "file": source, "line": k + 1, "kind": kind, "old": old.strip(),
-                   "new": new.strip(), "fate": fate, "by": by}
+                   "new": new.strip(), "fate": fate, "by": by, "seconds": round(time.monotonic() - start)}
             log.write(json.dumps(row) + "\n")
             log.flush()
-            print(f"{fate:12} {source}:{k + 1} {kind}: {old.strip()}  ->  {new.strip() or '(deleted)'}  [{by}]", flush=True)
+            print(f"{fate:12} {source}:{k + 1} {kind}: {old.strip()}  ->  {new.strip() or '(deleted)'}  [{by}, "
+                  f"{row['seconds']} s]", flush=True)
+            if sum(tally.values()) == words.count:
+                break
     shutil.rmtree(work, ignore_errors=True)
     print(", ".join(f"{n} {fate}" for fate, n in tally.items()))
 
