@@ -10,6 +10,7 @@ module pushed_pendulum
     type, extends(double_pendulum_t) :: pushed_pendulum_t
         integer :: which = 1         !! coordinate that is pushed
         real(dp) :: push = 0.0_dp    !! more force than there is, N m; more acceleration, rad/s^2
+        real(dp) :: from = -huge(1.0_dp), to = huge(1.0_dp)  !! when it is pushed, s
     contains
         procedure :: lagrangian
         procedure :: accelerations
@@ -23,7 +24,8 @@ contains
         type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
         type(hyperdual_t) :: l
 
-        l = self%double_pendulum_t%lagrangian(t, q, v) + self%push*q(self%which)
+        l = self%double_pendulum_t%lagrangian(t, q, v)
+        if (self%from < t%re .and. t%re < self%to) l = l + self%push*q(self%which)
     end function lagrangian
 
     pure subroutine accelerations(self, t, q, v, a)
@@ -33,6 +35,6 @@ contains
         real(dp), intent(out) :: a(self%ndof)
 
         call self%double_pendulum_t%accelerations(t, q, v, a)
-        a(self%which) = a(self%which) + self%push
+        if (self%from < t .and. t < self%to) a(self%which) = a(self%which) + self%push
     end subroutine accelerations
 end module pushed_pendulum

@@ -3,6 +3,7 @@ module run_doubles
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
+    use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_t
     use lagrangia_system, only: system_t
@@ -11,14 +12,23 @@ module run_doubles
     public :: exploding_t, watcher_t
 
     type, extends(observer_t) :: watcher_t
-        !! Remembers every sample; fails at sample number `patience`.
+        !! Remembers every sample and event, and when each step ended if it is to; fails at sample
+        !! number `patience`.
         integer :: patience = huge(1)
+        logical :: every_step = .false.
         integer :: samples = 0
         integer(i8) :: done = 0                     !! steps, from the latest tick
         real(dp), allocatable :: times(:)
         real(dp), allocatable :: q(:, :), v(:, :)   !! `(ndof, samples)`
+        real(dp), allocatable :: followed(:)        !! times of steps, s
+        real(dp), allocatable :: met(:)             !! times of events, s
+        integer, allocatable :: events(:)           !! their numbers
     contains
         procedure :: observe
+        procedure :: follows
+        procedure :: follow
+        procedure :: follow_inside
+        procedure :: meet
         procedure :: tick
     end type watcher_t
 
@@ -50,6 +60,47 @@ contains
         self%v = reshape([self%v, v], [n, self%samples])
         if (self%samples >= self%patience) call fail(error, "seen enough")
     end subroutine observe
+
+    pure function follows(self)
+        !! See `observer_t`.
+        class(watcher_t), intent(in) :: self
+        logical :: follows
+
+        follows = self%every_step
+    end function follows
+
+    subroutine follow(self, system, t, q, v)
+        !! See `observer_t`.
+        class(watcher_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+
+        if (.not. allocated(self%followed)) allocate (self%followed(0))
+        self%followed = [self%followed, t]
+    end subroutine follow
+
+    subroutine follow_inside(self, method, t)
+        !! See `observer_t`.
+        class(watcher_t), intent(inout) :: self
+        class(dense_integrator_t), intent(in) :: method
+        real(dp), intent(in) :: t
+
+        if (.not. allocated(self%followed)) allocate (self%followed(0))
+        self%followed = [self%followed, t]
+    end subroutine follow_inside
+
+    subroutine meet(self, system, event, t, q, v, error)
+        !! See `observer_t`.
+        class(watcher_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: event
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        type(error_t), allocatable, intent(out) :: error
+
+        if (.not. allocated(self%met)) allocate (self%met(0), self%events(0))
+        self%met = [self%met, t]
+        self%events = [self%events, event]
+    end subroutine meet
 
     subroutine tick(self, done, steps)
         !! See `observer_t`.

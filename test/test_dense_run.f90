@@ -17,6 +17,7 @@ module test_dense_run
     use lagrangia_run, only: run
     use lagrangia_stepwise, only: new_stepwise, stepwise_t
     use lagrangia_time_grid, only: new_sample_times, new_time_grid, time_grid_t
+    use run_doubles, only: watcher_t
     implicit none (type, external)
     private
     public :: dense_run_suite
@@ -31,9 +32,59 @@ contains
         call suite%addTest(TestMethod("samples lie where the plan has them", sample_times))
         call suite%addTest(TestMethod("events leave fixed steps as they are", same_steps))
         call suite%addTest(TestMethod("as many steps are taken as the duration has", whole_steps))
+        call suite%addTest(TestMethod("the motion is followed to every event and the end", &
+                                      every_step_is_followed))
         call suite%addTest(TestMethod("between fixed steps the error is of order 6", &
                                       interpolation_order))
     end function dense_run_suite
+
+    subroutine every_step_is_followed()
+        !! RK4 with steps of 0.1 s over 0.65 s: their ends, the zero of the position at pi/10 s
+        !! (omega = 5/s; a step's phase is 3e-4 off, so three steps' time 2e-4 s), and what is left
+        !! of the last step. Where an event ends the run, nothing beyond it.
+        real(dp), parameter :: zero = acos(-1.0_dp)/10.0_dp
+        type(oscillator_t) :: system
+        type(watcher_t), target :: watcher
+        type(column_event_t) :: event
+        type(rk4_t) :: rk4
+        type(stepwise_t) :: method
+        type(event_box_t) :: events(1)
+        type(observer_box_t) :: observers(1)
+        type(time_grid_t) :: plan
+        type(error_t), allocatable :: error
+        real(dp) :: q(1), v(1), ended
+        integer :: i, k
+
+        observers(1)%item => watcher
+        call system%configure([1.0_dp, 25.0_dp], error)
+        do i = 1, 2
+            call new_column_event(event, trim(merge("x     ", "x stop", i == 1)), system, error)
+            if (allocated(events(1)%item)) deallocate (events(1)%item)
+            allocate (events(1)%item, source=event)
+            watcher = watcher_t(every_step=.true.)
+            q = 1.0_dp
+            v = 0.0_dp
+            call new_rk4(rk4)
+            call new_stepwise(method, rk4, 0.1_dp)
+            call new_sample_times(plan, 0.0_dp, 0.65_dp, 4_i8, error)
+            call run_dense(system, method, plan, events, observers, q, v, ended, error)
+            call assertTrue(.not. allocated(error), "no error")
+            if (anyExceptions()) return
+            if (i == 1) then
+                call assertEqual([0.1_dp, 0.2_dp, 0.3_dp, zero, 0.4_dp, 0.5_dp, 0.6_dp, 0.65_dp], &
+                                 watcher%followed, 1e-3_dp, "ends of steps, the event")
+                call assertEqual([zero], watcher%met, 1e-3_dp, "the event")
+                call assertEqual([1], watcher%events, "its number")
+                call assertEqual(0.65_dp, watcher%followed(8), message="the end")
+                call assertEqual([(0.65_dp*k/4, k=0, 4)], watcher%times, 1e-15_dp, "samples")
+            else
+                call assertEqual([0.1_dp, 0.2_dp, 0.3_dp, zero], watcher%followed, 1e-3_dp, &
+                                 "as far as it goes")
+                call assertEqual(watcher%met(1), watcher%followed(4), message="the event")
+                call assertEqual(watcher%met(1), ended, message="the end")
+            end if
+        end do
+    end subroutine every_step_is_followed
 
     subroutine samples_are_free()
         type(pendulum_t) :: system

@@ -8,6 +8,7 @@ module test_principles
     use lagrangia_ledger_text, only: statement_line
     use lagrangia_principle, only: principle_names, principle_report
     use lagrangia_report, only: report_t
+    use lagrangia_text, only: join
     implicit none (type, external)
     private
     public :: principles_suite
@@ -63,6 +64,9 @@ contains
         suite = TestSuite("principles")
         call suite%addTest(TestMethod("all_is_as_it_must_be", all_is_as_it_must_be))
         call suite%addTest(TestMethod("the_picture_of_the_action", the_picture_of_the_action))
+        call suite%addTest(TestMethod("pictures_say_what_they_show", pictures_say_what_they_show))
+        call suite%addTest(TestMethod("the_picture_of_the_rays", the_picture_of_the_rays))
+        call suite%addTest(TestMethod("the_picture_of_the_disk", the_picture_of_the_disk))
         call suite%addTest(TestMethod("what_is_replaced_is_said", what_is_replaced_is_said))
         call suite%addTest(TestMethod("pages_are_whole", pages_are_whole))
         call suite%addTest(TestMethod("rows_are_judged", rows_are_judged))
@@ -132,6 +136,95 @@ contains
             call assertEqual(0.0_dp, maxval(abs(values(:, 61))), 1e-15_dp, "nothing at 0")
         end associate
     end subroutine the_picture_of_the_action
+
+    subroutine pictures_say_what_they_show()
+        !! Title, columns with their units, panels: all of them, as they are printed.
+        character(*), parameter :: expected(5) = [character(300) :: &
+            "Action of q + a eta, less that of the actual path q; eta: what lowers it most | "// &
+            "a [m], oscillator_wT_2 [J s], oscillator_wT_4 [J s], a_theta [rad], "// &
+            "pendulum_0.45_periods [J s], pendulum_0.70_periods [J s] | "// &
+            "a:oscillator_wT_2+oscillator_wT_4, "// &
+            "a_theta:pendulum_0.45_periods+pendulum_0.70_periods", &
+            "A disk rolls, steers, rolls back, steers back, and is elsewhere | t [s], x [m], "// &
+            "y [m], phi [rad], theta [rad] | x:y, t:phi+theta", "", &
+            "Optical path of rays that touch elsewhere, less the actual one | offset [m], "// &
+            "flat_mirror [m], concave_mirror [m], elliptic_mirror [m], into_glass [m] | "// &
+            "offset:flat_mirror+concave_mirror+elliptic_mirror+into_glass", ""]
+        character(16), allocatable :: names(:)
+        character(:), allocatable :: text
+        type(report_t) :: report
+        type(error_t), allocatable :: error
+        integer :: i, k
+
+        allocate (names, source=principle_names())
+        do i = 1, size(names)
+            call principle_report(trim(names(i)), report, error)
+            text = ""
+            associate (picture => report%picture)
+                if (allocated(picture%names)) then
+                    do k = 1, size(picture%names)
+                        text = text//", "//trim(picture%names(k))//" ["// &
+                               trim(picture%units(k))//"]"
+                    end do
+                    text = trim(picture%title)//" | "//text(3:)//" | "// &
+                           join(picture%panels, ", ")
+                end if
+            end associate
+            call assertEqual(trim(expected(i)), text, "picture of "//names(i))
+        end do
+    end subroutine pictures_say_what_they_show
+
+    subroutine the_picture_of_the_rays()
+        !! From 1 m before to 1 m behind where the light goes, with the lengths by Pythagoras of
+        !! numbers typed in: Hero's point 3/3.5 m, Snell's from 22-digit arithmetic.
+        type(report_t) :: report
+        type(error_t), allocatable :: error
+        real(dp), parameter :: hero = 6.0_dp/7.0_dp, snell = 1.3626502055346011661_dp
+        real(dp) :: u
+        integer :: k
+
+        call principle_report("least-time", report, error)
+        call assertFalse(allocated(error), "least-time")
+        if (anyExceptions()) return
+        call assertEqual(101, size(report%picture%values, 2), "samples")
+        do k = 1, size(report%picture%values, 2)
+            u = 0.02_dp*(k - 51)
+            associate (touched => 2.0_dp*[sin(u/2.0_dp), cos(u/2.0_dp)])
+                call assertEqual([u, hypot(1.0_dp, hero + u) + hypot(2.5_dp, 3.0_dp - hero - u) &
+                                  - hypot(3.0_dp, 3.5_dp), hypot(touched(1) + 1.5_dp, touched(2)) &
+                                  + hypot(touched(1) - 1.5_dp, touched(2)) - 5.0_dp, 0.0_dp, &
+                                  hypot(1.0_dp, snell + u) + 1.5_dp*hypot(1.0_dp, 2.0_dp - snell &
+                                  - u) - 3.4689705938737185441_dp], &
+                                 report%picture%values(:, k), 1e-14_dp, "optical paths")
+            end associate
+        end do
+    end subroutine the_picture_of_the_rays
+
+    subroutine the_picture_of_the_disk()
+        !! Four legs of a second, 50 steps each: x and y on the circle's tangents, R = 0.3 m, from
+        !! heading 0.4 to 1.5 and back, 5 rad rolled; angles go evenly.
+        type(report_t) :: report
+        type(error_t), allocatable :: error
+        real(dp), parameter :: way = 1.5_dp, one = 0.4_dp, two = 1.5_dp
+        real(dp) :: s(4), x, y
+        integer :: k
+
+        call principle_report("constraints", report, error)
+        call assertFalse(allocated(error), "constraints")
+        if (anyExceptions()) return
+        associate (values => report%picture%values)
+            call assertEqual(201, size(values, 2), "samples")
+            do k = 1, size(values, 2)
+                associate (t => 0.02_dp*(k - 1))
+                    s = min(1.0_dp, max(0.0_dp, t - [0, 1, 2, 3]))  ! parts of the legs
+                    x = way*(s(1)*sin(one) - s(3)*sin(two))
+                    y = -way*(s(1)*cos(one) - s(3)*cos(two))
+                    call assertEqual([t, x, y, 5.0_dp*(s(1) - s(3)), one + 1.1_dp*(s(2) - s(4))], &
+                                     values(:, k), 1e-12_dp, "the disk")
+                end associate
+            end do
+        end associate
+    end subroutine the_picture_of_the_disk
 
     subroutine what_is_replaced_is_said()
         !! F = m l^2 theta theta_dot, with theta_ddot in dF/dt replaced: `gauge` has the numbers.

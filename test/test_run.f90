@@ -30,6 +30,7 @@ contains
         call suite%addTest(TestMethod("the_end_is_exactly_the_end", the_end_is_exactly_the_end))
         call suite%addTest(TestMethod("the_shortened_step_lands_on_the_end", &
                                       the_shortened_step_lands_on_the_end))
+        call suite%addTest(TestMethod("every_step_is_followed", every_step_is_followed))
         call suite%addTest(TestMethod("samples_change_no_byte", samples_change_no_byte))
         call suite%addTest(TestMethod("evaluations_are_counted", evaluations_are_counted))
         call suite%addTest(TestMethod("an_explosion_keeps_what_was_good", &
@@ -119,6 +120,33 @@ contains
         call assertEqual(1.0_dp + 0.5_dp*1.962_dp, q(1), 20*epsilon(1.0_dp), "the end")
         call assertEqual(16_i8, evaluations)
     end subroutine the_shortened_step_lands_on_the_end
+
+    subroutine every_step_is_followed()
+        !! To the last, also a shortened one, by who wants to; by nobody else.
+        type(atwood_t) :: system
+        type(time_grid_t) :: plan
+        type(watcher_t) :: watcher
+        type(error_t), allocatable :: error
+        real(dp) :: q(1), v(1), duration
+        integer :: i, k, n
+
+        call system%configure([3.0_dp, 2.0_dp, 9.81_dp, 0.0_dp, 1.0_dp, 0.0_dp], error)
+        do i = 1, 3
+            duration = 0.1_dp*merge(6.0_dp, 6.5_dp, i == 1)
+            call new_time_grid(plan, 0.7_dp, 0.1_dp, duration, 4_i8, error)
+            q = 0.0_dp
+            v = 1.0_dp
+            watcher = watcher_t(every_step=i < 3)
+            call perform(system, "rk4", plan, watcher, q, v, error)
+            call assertEqual(3, watcher%samples, "samples")
+            call assertEqual(i < 3, allocated(watcher%followed), message="followed")
+            if (i == 3) cycle
+            n = merge(6, 7, i == 1)
+            call assertEqual(n, size(watcher%followed), "steps")
+            call assertEqual([(0.7_dp + 0.1_dp*k, k=1, n - 1), 0.7_dp + duration], &
+                             watcher%followed, epsilon(1.0_dp), "when they end")
+        end do
+    end subroutine every_step_is_followed
 
     subroutine samples_change_no_byte()
         !! Whatever the stride, for every method, where the time enters, with a shortened step.

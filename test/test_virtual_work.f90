@@ -1,7 +1,7 @@
 module test_virtual_work
     !! D'Alembert's principle and generalized forces, for every system at random parameters.
-    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertGreaterThan, &
-                     assertLessThanOrEqual
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
+                     assertGreaterThan, assertLessThanOrEqual, assertTrue
     use lagrangia_catalogue, only: nth_system, system_names
     use lagrangia_description, only: description_t
     use lagrangia_driven_pendulum, only: driven_pendulum_t
@@ -11,9 +11,11 @@ module test_virtual_work
     use lagrangia_lagrange, only: accelerations_from_lagrangian, energy_from_lagrangian
     use lagrangia_point_motion, only: conservative_forces, dalembert, expand_points, &
                                       point_motion_t
+    use lagrangia_report, only: report_t
     use lagrangia_rotating_hoop, only: rotating_hoop_t
-    use lagrangia_system, only: system_t
+    use lagrangia_system, only: system_box_t, system_t
     use lagrangia_test_potentials, only: test_charge_t
+    use lagrangia_virtual_work, only: virtual_work_principle
     use pushed_pendulum, only: pushed_pendulum_t
     use random_states, only: draw_parameters, draw_state, restart_random
     implicit none (type, external)
@@ -30,6 +32,7 @@ contains
         call suite%addTest(TestMethod("every_system_obeys_dalembert", &
                                       every_system_obeys_dalembert, setUp=restart_random))
         call suite%addTest(TestMethod("wrong_forces_are_seen", wrong_forces_are_seen))
+        call suite%addTest(TestMethod("one_wrong_state_is_enough", one_wrong_state_is_enough))
         call suite%addTest(TestMethod("points_move_as_differences_say", &
                                       points_move_as_differences_say, setUp=restart_random))
         call suite%addTest(TestMethod("test_charge_is_consistent", test_charge_is_consistent, &
@@ -88,6 +91,41 @@ contains
             end do
         end do
     end subroutine wrong_forces_are_seen
+
+    subroutine one_wrong_state_is_enough()
+        !! The page names a system that is wrong at the first of all states alone, or at the last:
+        !! d'Alembert's sum at 0, 1, ..., 99 ms of a motion, forces at 0.1, 0.2, ..., 2 s.
+        real(dp), parameter :: when(2, 2) = reshape([0.0_dp, 0.099_dp, 0.1_dp, 2.0_dp], [2, 2])
+        type(system_box_t) :: systems(1)
+        type(pushed_pendulum_t) :: pushed
+        type(report_t) :: report
+        type(error_t), allocatable :: error
+        logical :: holds(2)
+        integer :: i, j, k, n
+
+        call pushed%configure([1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 9.81_dp], error)
+        pushed%push = 1.0_dp
+        do i = 1, 2
+            do k = 1, 2
+                pushed%from = when(i, k) - 0.4e-3_dp
+                pushed%to = when(i, k) + 0.4e-3_dp
+                if (allocated(systems(1)%item)) deallocate (systems(1)%item)
+                allocate (systems(1)%item, source=pushed)
+                call virtual_work_principle(systems, report, error)
+                call assertFalse(allocated(error), "no error")
+                if (anyExceptions()) return
+                n = 0
+                do j = 1, size(report%rows)
+                    if (report%rows(j)%name /= "double_pendulum") cycle
+                    n = n + 1
+                    holds(min(n, 2)) = report%rows(j)%holds
+                end do
+                call assertEqual(2, n, "rows of the system")
+                call assertEqual([k == 2, k == 1], holds, message="motion, forces: wrong at "// &
+                                 trim(merge("the start", "the end  ", i == 1)))
+            end do
+        end do
+    end subroutine one_wrong_state_is_enough
 
     subroutine points_move_as_differences_say()
         !! Velocity, acceleration, drift and slopes of moving points by fourth-order differences in

@@ -13,7 +13,7 @@ with the other objects of an ordinary build. A mutant whose object file is the o
 
 It dies if a suite of the unit tests fails, crashes or uses ten times the processor's time: first those
 that use the module, then all from which it can be reached, the quickest first. What survives them
-meets what users run: the main job, check, errata, .ci/try_commands.sh and stress. Survivors are
+meets what users run: the main job, check, errata, .ci/try_commands.sh and .ci/try_pages.sh. Survivors are
 printed with their change: each is either a hole in the tests or the same program in other words,
 which a person decides. `--again` tries the survivors of an earlier list once more. Not part of the
 gate: most mutants take seconds, a survivor as long as all that looks at it.
@@ -340,12 +340,10 @@ def noticed_by_tests(unit, build, source, times):
     return ""
 
 
-def noticed_by_users(program, root, work, limits, quick):
+def noticed_by_users(program, root, work, limits):
     """The first of the things that users run which does not end well; "" if all do."""
     for command in ([program, "errata"], [program, "check"], [program, "--output", os.path.join(work, "data")],
-                    ["bash", ".ci/try_commands.sh", program], [program, "stress", "--quiet"]):
-        if quick and "stress" in command:
-            continue
+                    ["bash", ".ci/try_commands.sh", program], ["bash", ".ci/try_pages.sh", program]):
         status, text = run(command, root, limits)
         if status != 0:
             claim = re.search(r"^FAILED +(.*)$", text, re.M)
@@ -402,7 +400,7 @@ def main():
     words.add_argument("--only", default="src")
     words.add_argument("--skip", default="")
     words.add_argument("--output", default="mutants.jsonl")
-    words.add_argument("--quick", action="store_true", help="no stress, and no user's command without a mutant")
+    words.add_argument("--quick", action="store_true", help="users' commands are not tried without a mutant first")
     words.add_argument("--again", default="", metavar="LIST", help="the survivors of an earlier output")
     words = words.parse_args()
     root = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
@@ -415,7 +413,7 @@ def main():
     limits = Limits(300)
     if not words.quick:
         used = processor_time()
-        noticed = noticed_by_users(build.newest("lagrangia"), root, work, GENEROUS, False)
+        noticed = noticed_by_users(build.newest("lagrangia"), root, work, GENEROUS)
         if noticed:
             sys.exit("without any mutant this fails: " + noticed)
         limits = Limits(10*(processor_time() - used))
@@ -432,7 +430,7 @@ def main():
                 continue
             fate, by = "died", noticed_by_tests(unit, build, source, times)
             if not by:
-                by = noticed_by_users(build.link("lagrangia", objects), root, work, limits, words.quick)
+                by = noticed_by_users(build.link("lagrangia", objects), root, work, limits)
                 fate = "died in use" if by else "survived"
             tally[fate] += 1
             row = {"seed": words.seed, "file": source, "line": k + 1, "kind": kind, "old": old.strip(),
