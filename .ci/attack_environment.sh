@@ -49,7 +49,7 @@ record() { # record FOLDER SETTING...: all that the commands print and write, an
     for command in "${words[@]}"; do
         # shellcheck disable=SC2086  # a command is several words
         (cd "$work/here" && timeout 60 env "${@:2}" "$program" $command </dev/null 2>&1; echo "status $?")
-    done | sed -E -e 's/"seconds": *[^,}]*/"seconds": s/' -e 's/ +[0-9]+\.[0-9]{4} +(holds|NOT|-)/ s \1/' >"$folder/printed"
+    done | sed -E -e 's/"seconds": *[^,}]*/"seconds": s/' -e 's/ [0-9]+\.[0-9]{4} s$/ TIME/' >"$folder/printed"
     mv "$work/here/o" "$folder/o" 2>/dev/null
     return 0
 }

@@ -106,7 +106,7 @@ for pair in text:dat csv:csv npy:npy; do
     check "$ending: a run that fails: status 3, a line that names the part" eval '[ $status -eq 3 ] && one_line && grep -q "o/b.$ending.partial" err'
     check "$ending: the old files live" eval 'unharmed o b.$ending b.gp b_events.$ending b_events.gp && leftovers o'
     check "$ending: beside them is what was good" eval '[ -s o/b.$ending.partial ] && [ -s o/b_events.$ending.partial ] && [ "$(ls o | wc -l)" = 6 ]'
-    run run blow.nml --quiet --format "${pair%:*}" --set scene%dt=0.1 --set scene%duration=10 --output o
+    run run blow.nml --quiet --format "${pair%:*}" --set scene%output=b --set scene%dt=0.1 --set scene%duration=10 --output o
     check "$ending: a run that succeeds removes it" eval '[ $status -eq 0 ] && ! ls o | grep -q partial && ! unharmed o b.$ending'
     rm -r o
 done
@@ -120,7 +120,7 @@ run run blow.nml --quiet --format csv --output o
 check "a folder has the name of the part" eval '[ $status -eq 3 ] && one_line && grep -q "Is a directory" err && leftovers o'
 
 # A disk that fills during a run that would take minutes
-minutes=(run pendulum --set scene%duration=1e6 --set scene%dt=1e-3 --output)
+minutes=(run pendulum --set scene%output=pendulum --set scene%duration=1e6 --set scene%dt=1e-3 --output)
 soon() { # soon CLAIM: the run above ended with status 5 within seconds, and left nothing
     check "$1" eval '[ $status -eq 5 ] && [ $seconds -le 5 ] && grep -q "cannot write" err && leftovers "$folder"'
 }
@@ -151,7 +151,7 @@ if [ "$(id -u)" -eq 0 ] && mkdir disk && mount -t tmpfs -o size=1m none disk 2>/
     soon "somebody else fills the disk"
     wait
     head -c 2M /dev/zero >disk/filler 2>/dev/null
-    for words in "bench" "modes hanging_chain --set hanging_chain%n=300" "run --set scene%duration=1e6 pendulum"; do
+    for words in "bench" "modes hanging_chain --set hanging_chain%n=300" "run --set scene%output=pendulum --set scene%duration=1e6 pendulum"; do
         timed unlimited $words --output disk
         soon "$words: a full disk is known before"
     done
@@ -180,7 +180,7 @@ if [ -n "$disk" ]; then
     mount -o remount,rw,size=1m disk
     (timeout 5 "$program" modes hanging_chain --set hanging_chain%n=200 --output disk/new >out 2>err)
     check "modes: more than there is room for" grep -q "up to 202.0 MB are to be written, but only .* free in 'disk/new'" err
-    (timeout 2 "$program" run pendulum --set scene%duration=1e4 --set scene%every=1 --output disk/new >out 2>err)
+    (timeout 2 "$program" run pendulum --set scene%output=pendulum --set scene%duration=1e4 --set scene%every=1 --output disk/new >out 2>err)
     check "a run: more than there is room for" grep -q "are to be written, but only .* free in 'disk/new'" err
 fi
 

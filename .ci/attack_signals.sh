@@ -22,7 +22,7 @@ ended() { # ended SIGNAL: send it to the child; its status. One that hangs is ki
 
 # Signals in the middle, kill -9, two runs of one file
 begin() { # begin FOLDER: a long run in the background; returns when its temporary is there
-    ${heard[@]+"${heard[@]}"} "$program" run pendulum --set scene%duration=1e6 --set scene%every=1000 --output "$1" >"$work/out" 2>"$work/err" &
+    ${heard[@]+"${heard[@]}"} "$program" run pendulum --set scene%output=pendulum --set scene%duration=1e6 --set scene%every=1000 --output "$1" >"$work/out" 2>"$work/err" &
     child=$!
     for _ in $(seq 200); do
         leftovers "$1" 2>/dev/null || return
@@ -87,14 +87,14 @@ done
 # The program's own clock runs out: SIGXCPU from the system, once a second
 mkdir "$work/clock"
 plant "$work/clock" pendulum.dat
-(ulimit -S -t 1; exec timeout 20 "$program" run pendulum --set scene%duration=1e6 --set scene%every=1000 --output "$work/clock" >"$work/out" 2>"$work/err" </dev/null)
+(ulimit -S -t 1; exec timeout 20 "$program" run pendulum --set scene%output=pendulum --set scene%duration=1e6 --set scene%every=1000 --output "$work/clock" >"$work/out" 2>"$work/err" </dev/null)
 status=$?
 check "ulimit -t: status 152, said at the end, the old file lives" eval '[ $status -eq 152 ] && only_ours && [ "$(tail -n 1 "$work/err")" = "lagrangia: interrupted" ] && unharmed "$work/clock" pendulum.dat && leftovers "$work/clock"'
 
 # A run of days off a terminal says so on stderr, once; --json stays JSON, --quiet stays quiet
 for words in "" --json --quiet; do
     : >"$work/err" # what an earlier command said must not end the wait
-    ${heard[@]+"${heard[@]}"} "$program" run pendulum --set scene%duration=1e9 --set scene%every=1000000 $words --output "$work/days" >"$work/out" 2>"$work/err" </dev/null &
+    ${heard[@]+"${heard[@]}"} "$program" run pendulum --set scene%output=pendulum --set scene%duration=1e9 --set scene%every=1000000 $words --output "$work/days" >"$work/out" 2>"$work/err" </dev/null &
     child=$!
     for _ in $(seq $([ "$words" = --quiet ] && echo 100 || echo 400)); do
         [ -s "$work/err" ] && break

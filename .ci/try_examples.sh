@@ -113,9 +113,9 @@ walk() {
     python3 - "$1/docs/your_own_system.md" "$1"/data/examples/*/*/*.f90 <<'END'
 import re, subprocess, sys
 def plain(text):
-    text = re.sub(r" +\d+\.\d{4}  holds", " TIME holds", text)
+    text = re.sub(r" \d+\.\d{4} s$", " TIME", text, flags=re.M)
     text = re.sub(r"(\d\.\d{11})\d+E", r"\1E", text)
-    return [re.sub(r"\d(\.\d+)?E-(09|1\d)", "~", line).rstrip() for line in text.splitlines()]
+    return [re.sub(r"\d(\.\d+)?[Ee]-(0?9|1\d)", "~", line).rstrip() for line in text.splitlines()]
 def stripped(text): return "\n".join(line.strip() for line in text.splitlines())
 text = open(sys.argv[1]).read()
 sources = [stripped(open(name).read()) for name in sys.argv[2:]]

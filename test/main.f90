@@ -16,6 +16,7 @@ module suites
     use test_canonical_maps, only: canonical_maps_suite
     use test_cart_pendulum, only: cart_pendulum_suite
     use test_catalogue, only: catalogue_suite
+    use test_changed_scene, only: changed_scene_suite
     use test_characters, only: characters_suite
     use test_charged_particle, only: charged_particle_suite
     use test_charged_particle_reference, only: charged_particle_reference_suite
@@ -128,6 +129,7 @@ module suites
     use test_scene_reference, only: scene_reference_suite
     use test_scene_steps, only: scene_steps_suite
     use test_scenes, only: scenes_suite
+    use test_scorecard, only: scorecard_suite
     use test_second_run, only: second_run_suite
     use test_shipped_files, only: shipped_files_suite
     use test_sinc, only: sinc_suite
@@ -286,6 +288,8 @@ contains
         call suite%addTest(scene_steps_suite())
         call suite%addTest(scene_reference_suite())
         call suite%addTest(scenes_suite())
+        call suite%addTest(changed_scene_suite())
+        call suite%addTest(scorecard_suite())
         call suite%addTest(cross_check_suite())
         call suite%addTest(second_run_suite())
         call suite%addTest(shipped_files_suite())

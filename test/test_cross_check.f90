@@ -6,8 +6,9 @@ module test_cross_check
     use lagrangia_errors, only: error_t
     use lagrangia_final_values, only: final_value_t, final_values_line
     use lagrangia_kinds, only: dp
-    use lagrangia_outcome, only: from_closed_form, from_half_step, outcome_t, scorecard_legend
+    use lagrangia_outcome, only: from_closed_form, from_half_step, outcome_t
     use lagrangia_scene, only: scene_t
+    use lagrangia_scorecard, only: scorecard_legend
     use lagrangia_system, only: system_t
     use scene_runs, only: plan_and_run, read_and_plan
     use stated_text, only: read_concise

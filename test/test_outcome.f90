@@ -1,12 +1,11 @@
 module test_outcome
-    !! Verdicts, the scorecard's rows, and the JSON that programs read.
+    !! Verdicts, and the JSON that programs read.
     use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_quiet_nan, ieee_value
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_json, only: json_list, json_number, json_string
     use lagrangia_kinds, only: dp, i8
     use lagrangia_ledger, only: claim_t
-    use lagrangia_outcome, only: from_closed_form, from_half_step, from_steps, outcome_json, &
-                                 outcome_t, scorecard_head, scorecard_row
+    use lagrangia_outcome, only: from_closed_form, from_half_step, outcome_json, outcome_t
     implicit none (type, external)
     private
     public :: outcome_suite
@@ -29,13 +28,7 @@ contains
                                       json_says_null_for_what_is_missing))
         call suite%addTest(TestMethod("json_strings_are_escaped", json_strings_are_escaped))
         call suite%addTest(TestMethod("json_has_what_stderr_says", json_has_what_stderr_says))
-        call suite%addTest(TestMethod("rows_have_no_asterisks", rows_have_no_asterisks))
-        call suite%addTest(TestMethod("a_row_is_one_line", a_row_is_one_line))
         call suite%addTest(TestMethod("json_numbers_have_17_digits", json_numbers_have_17_digits))
-        call suite%addTest(TestMethod("rows_stand_under_their_titles", &
-                                      rows_stand_under_their_titles))
-        call suite%addTest(TestMethod("rows_say_where_an_error_is_from", &
-                                      rows_say_where_an_error_is_from))
     end function outcome_suite
 
     subroutine set_up(outcome)
@@ -153,6 +146,8 @@ contains
                            '"error_from": null')
         call contains_once(json, '"period": null, "period_error": null, '// &
                            '"small_period_error": null, "omega": null')
+        call contains_once(json, '"title": null, "changes": null, "exact_period": null, '// &
+                           '"small_period": null, "omega_formula": null, "choice"')
         call contains_once(json, '"verdict": "not judged", "file": null, "events": null}')
         outcome%q = [ieee_value(1.0_dp, ieee_quiet_nan), ieee_value(1.0_dp, ieee_positive_inf)]
         outcome%drifts = [measure("energy_drift", ieee_value(1.0_dp, ieee_positive_inf))]
@@ -191,38 +186,6 @@ contains
                            '"verdict": "failed"')
     end subroutine json_has_what_stderr_says
 
-    subroutine rows_have_no_asterisks()
-        !! However large or small the numbers of a run that failed are.
-        type(outcome_t) :: outcome
-        character(:), allocatable :: row
-
-        call set_up(outcome)
-        outcome%drifts = [measure("energy_drift", 2e300_dp)]
-        outcome%others = [measure("error", 2.5e-300_dp), &
-                          measure("period", 5e150_dp, 1e-100_dp)]
-        outcome%error_from = from_closed_form
-        outcome%omega = 1.25e157_dp
-        outcome%omega_error = 1e-200_dp
-        outcome%seconds = 1e9_dp
-        row = scorecard_row(outcome)
-        call assertEqual(0, index(row, "*"), row)
-        call contains_once(row, " 2.0E+300 energy ")
-        call contains_once(row, " 2.5E-300 exact ")
-        call contains_once(row, " 1.25000E+157 1.0E-200 ")
-        call contains_once(row, " 1000000000.0000  NOT period 5.0E+150 > 1.0E-100")
-        outcome%omega = 1.25e-7_dp
-        call contains_once(scorecard_row(outcome), " 1.25000E-07 1.0E-200 ")
-    end subroutine rows_have_no_asterisks
-
-    subroutine a_row_is_one_line()
-        !! Whatever the scene is called.
-        type(outcome_t) :: outcome
-
-        call set_up(outcome)
-        outcome%scene = "a"//achar(27)//"[31m"//new_line("a")//char(255)//char(195)//char(164)
-        call starts(scorecard_row(outcome), "a\x1B[31m\x0A\xFF"//char(195)//char(164)//" ")
-    end subroutine a_row_is_one_line
-
     subroutine json_numbers_have_17_digits()
         !! So that a double survives; whole numbers of 64 bits as they are.
         real(dp) :: back
@@ -236,60 +199,6 @@ contains
         call assertEqual("9223372036854775807", json_number(huge(1_i8)))
         call assertEqual("[]", json_list([real(dp) ::]))
     end subroutine json_numbers_have_17_digits
-
-    subroutine rows_stand_under_their_titles()
-        !! Words begin where their titles do, counts end where theirs do.
-        type(outcome_t) :: outcome
-        character(:), allocatable :: head, row
-
-        call set_up(outcome)
-        outcome%drifts = [measure("energy_drift", 2e-9_dp), measure("p_x_drift", 3e-9_dp), &
-                          measure("L_drift", 1e-9_dp)]
-        outcome%others = [measure("period", 0.5_dp), measure("small_period", 0.25_dp, 0.0_dp)]
-        head = scorecard_head()
-        row = scorecard_row(outcome)
-        call assertEqual([index(head, "system"), index(head, "method")], &
-                         [index(row, "pendulum"), index(row, "rk4")], "system and method")
-        call assertEqual(index(head, "steps") + 5, index(row, " 10 ") + 3, "steps")
-        call assertEqual(index(head, "evaluations") + 11, index(row, " 40 ") + 3, "evaluations")
-        call assertEqual(index(head, "worst drift"), index(row, "3.0E-09 p_x"), "the worst drift")
-        call assertEqual(index(head, "period error"), index(row, "2.5E-01 small "), "judged")
-        call assertTrue(outcome%period_is_small(), "2 pi/omega")
-        call assertEqual(index(head, "verdict"), index(row, "NOT small_period"), "verdict")
-        outcome%others(1)%judged = .true.
-        outcome%others(2)%judged = .false.
-        row = scorecard_row(outcome)
-        call assertEqual(index(head, "period error"), index(row, "5.0E-01  "), "the exact period")
-        call assertFalse(outcome%period_is_small(), "the exact period")
-        outcome%others = [measure("period", 0.375_dp)]  ! alone, and not judged
-        call assertEqual(index(head, "period error"), index(scorecard_row(outcome), "3.8E-01"))
-    end subroutine rows_stand_under_their_titles
-
-    subroutine rows_say_where_an_error_is_from()
-        !! `exact`, `estimate` and `steps`; a hyphen where there is none: none was asked for, or the
-        !! run ended before its first row.
-        type(outcome_t) :: outcome
-        character(:), allocatable :: row
-        integer :: column
-
-        call set_up(outcome)
-        column = index(scorecard_head(), " error ") + 1
-        row = scorecard_row(outcome)
-        call assertEqual("- ", row(column:column + 1))
-        outcome%others = [measure("error", 3e-9_dp)]
-        outcome%error_from = from_closed_form
-        row = scorecard_row(outcome)
-        call assertEqual("3.0E-09 exact  ", row(column:column + 14))
-        outcome%error_from = from_half_step
-        row = scorecard_row(outcome)
-        call assertEqual("3.0E-09 estimate", row(column:column + 15))
-        outcome%error_from = from_steps
-        row = scorecard_row(outcome)
-        call assertEqual("3.0E-09 steps  ", row(column:column + 14))
-        outcome%others = [measure("period", 0.375_dp)]
-        row = scorecard_row(outcome)
-        call assertEqual("-  ", row(column:column + 2))
-    end subroutine rows_say_where_an_error_is_from
 
     subroutine starts(text, expected)
         !! Assert that `text` begins with `expected`.

@@ -1,14 +1,14 @@
 module lagrangia_run_command
     !! `lagrangia` and `lagrangia run SCENE...`: scenes, their files, the scorecard.
     use lagrangia_animation, only: animate_scene
+    use lagrangia_changed_scene, only: make_own_scene
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: note, put, put_line
     use lagrangia_data_files, only: check_format, data_path, draw, film_path
     use lagrangia_errors, only: error_t, fail, is_signal, status_not_held
     use lagrangia_final_values, only: final_values_legend, final_values_line
     use lagrangia_observer, only: observer_t
-    use lagrangia_outcome, only: outcome_json, outcome_t, scorecard_head, scorecard_legend, &
-                                 scorecard_row
+    use lagrangia_outcome, only: outcome_json, outcome_t
     use lagrangia_output_file, only: refuse_unwritable
     use lagrangia_places, only: places_t
     use lagrangia_progress, only: progress_t
@@ -17,6 +17,7 @@ module lagrangia_run_command
     use lagrangia_scene_claims, only: claim_files, claim_scene, size_warning
     use lagrangia_scene_reader, only: read_scene
     use lagrangia_scene_run, only: run_scene
+    use lagrangia_scorecard, only: scorecard_head, scorecard_legend, scorecard_lines, scorecard_row
     use lagrangia_shipped, only: find_scene, shipped_scenes
     use lagrangia_step_warning, only: step_warning
     use lagrangia_system, only: system_t
@@ -46,8 +47,9 @@ contains
         class(observer_t), pointer :: observer
         type(outcome_t) :: outcome
         character(:), allocatable :: folder, format, kind
-        logical :: json, quiet, small, stated
-        integer :: i, missed
+        type(word_t), allocatable :: lines(:), remarks(:)
+        logical :: json, quiet, stated
+        integer :: i, k, missed
 
         json = line%has("json")
         quiet = line%has("quiet")
@@ -70,7 +72,7 @@ contains
 
         observer => progress
         missed = 0
-        small = .false.
+        allocate (remarks(2*size(chosen)))
         stated = .false.
         if (json) then
             call put_line("[")
@@ -91,15 +93,17 @@ contains
                 call put_line(outcome_json(outcome)//trim(merge(",", " ", i < size(chosen))))
             else if (.not. quiet) then
                 call put_line(scorecard_row(outcome))
+                call scorecard_lines(outcome, line%command /= "", lines)
+                do k = 1, size(lines)
+                    call put_line(lines(k)%text)
+                end do
                 if (allocated(outcome%state)) call put_line("    at the end: "// &
                                                             final_values_line(outcome%state))
                 stated = stated .or. allocated(outcome%state)
-                small = small .or. outcome%period_is_small()
             end if
-            if (outcome%choice /= "" .and. .not. quiet) call note(chosen(i)%path%text//": "// &
-                outcome%choice)
-            if (outcome%remark /= "" .and. .not. quiet) call note(chosen(i)%path%text//": "// &
-                to_text(outcome%steps)//" steps"//outcome%remark)
+            if (outcome%choice /= "") remarks(2*i - 1)%text = outcome%choice
+            if (outcome%remark /= "") remarks(2*i)%text = to_text(outcome%steps)//" steps"// &
+                                                          outcome%remark
             if (allocated(scene_error)) then
                 call note(scene_error%message)
                 if (.not. allocated(error)) call fail(error, "", scene_error%status)
@@ -107,12 +111,17 @@ contains
                 missed = missed + 1
             end if
         end do
+        do i = 1, size(remarks)  ! they would tear the table apart
+            if (.not. allocated(remarks(i)%text) .or. quiet) cycle
+            call note(chosen((i + 1)/2)%path%text//": "//remarks(i)%text)
+        end do
         if (json) then
             call put_line("]")
         else if (.not. quiet) then
-            call put(scorecard_legend//new_line("a"))
-            if (small) call put_line("small: against 2 pi/omega of small oscillations, not the "// &
-                                     "exact period")
+            call put_line("")
+            call put(scorecard_legend)
+            if (line%command == "") call put_line("'lagrangia run NAME' says more: steps, "// &
+                                                  "period, omega")
             if (stated) call put(final_values_legend//new_line("a"))
             call put_line("data files and gnuplot scripts: "//folder)
         end if
@@ -180,6 +189,7 @@ contains
                     chosen(i)%path = paths(i)
                     call read_scene(paths(i)%text, line%values_of("set"), scene, system, error)
                     if (allocated(error)) return
+                    call make_own_scene(scene, line%values_of("set"))
                     scene%error_estimate = scene%error_estimate .or. line%has("error-estimate")
                     call new_run_plan(chosen(i)%plan, scene, system, error)
                     if (allocated(error)) return

@@ -2,6 +2,7 @@ module lagrangia_measures
     !! What a run is judged by: the worst of its columns, its period, its small oscillations.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t
+    use lagrangia_frequency_formula, only: find_formula
     use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: claim_t
     use lagrangia_outcome, only: outcome_t
@@ -44,6 +45,8 @@ contains
         if (scene%period_of == "") return
         outcome%period = period%period()
         if (.not. allocated(reference)) return
+        outcome%exact_period = max(0.0_dp, reference%period)
+        outcome%small_period = max(0.0_dp, reference%small_period)
         measured = outcome%period
         if (measured <= 0.0_dp) measured = ieee_value(measured, ieee_quiet_nan)
         if (reference%period > 0.0_dp) outcome%others = [outcome%others, &
@@ -60,8 +63,9 @@ contains
             m%name = name
             m%value = worst
             k = findloc(scene%expectations%name == name, .true., 1)
-            m%judged = k > 0
-            if (m%judged) m%most = scene%expectations(k)%limit
+            if (k == 0) return
+            m%judged = scene%expectations(k)%judged
+            m%most = scene%expectations(k)%limit
         end function measure
     end subroutine take_measures
 
@@ -79,7 +83,10 @@ contains
         if (allocated(error)) return
         do j = 1, size(modes%omega2)
             if (modes%label(j) /= is_oscillation) cycle
-            if (outcome%omega <= 0.0_dp) outcome%omega = sqrt(modes%omega2(j))
+            if (outcome%omega <= 0.0_dp) then
+                outcome%omega = sqrt(modes%omega2(j))
+                call find_formula(system, modes%at, modes%omega2(j), outcome%omega_formula)
+            end if
             if (.not. allocated(modes%analytic%omega2)) cycle
             outcome%omega_error = max(outcome%omega_error, &
                                       abs(sqrt(modes%analytic%omega2(j)/modes%omega2(j)) - 1.0_dp))

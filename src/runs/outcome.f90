@@ -1,28 +1,16 @@
 module lagrangia_outcome
-    !! What came out of one scene: a row of the scorecard.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-    use lagrangia_characters, only: printable
+    !! What came out of one scene, the verdict on it, and both as JSON.
     use lagrangia_final_values, only: final_value_t, final_values_json
     use lagrangia_json, only: json_item, json_list, json_number, json_object, json_pair, &
                               json_string
     use lagrangia_kinds, only: dp, i8
     use lagrangia_ledger, only: claim_t
-    use lagrangia_number_text, only: fixed, scientific
-    use lagrangia_printed_table, only: left, right
-    use lagrangia_text, only: to_text
+    use lagrangia_number_text, only: scientific
     implicit none (type, external)
     private
     public :: outcome_t
-    public :: outcome_json, scorecard_head, scorecard_legend, scorecard_row
+    public :: outcome_json
     public :: from_closed_form, from_half_step, from_steps
-
-    character(*), parameter :: scorecard_legend = &
-        "drift: the largest change of an invariant in the rows, relative to its start or "// &
-        "natural size"//new_line("a")//"error: the largest of a coordinate in the rows, not "// &
-        "of a velocity, absolute below 1 and"//new_line("a")//"relative above; exact: "// &
-        "against a closed form, estimate: against the same run at half the"// &
-        new_line("a")//"step or a hundredth of the tolerance, and against another method; "// &
-        "steps: a closed form"//new_line("a")//"against steps of gauss16"
 
     integer, parameter :: from_closed_form = 1, from_half_step = 2
     integer, parameter :: from_steps = 3  !! of a method, where the run is the closed form
@@ -40,9 +28,14 @@ module lagrangia_outcome
         type(final_value_t), allocatable :: state(:)     !! final, with errors, if that was asked
         integer :: error_from = 0                   !! 0: no error known
         real(dp) :: period = 0.0_dp                 !! measured, s; 0 if not
+        real(dp) :: exact_period = 0.0_dp           !! by the closed form, s; 0 if there is none
+        real(dp) :: small_period = 0.0_dp           !! \(2\pi/\omega\) of small swings, s; or 0
         real(dp) :: omega = 0.0_dp                  !! of the slowest small oscillation; or 0
         real(dp) :: omega_error = -1.0_dp           !! of all frequencies from the closed form
+        character(:), allocatable :: omega_formula  !! `omega^2 = g/l`, which gives that; or absent
         real(dp) :: seconds = 0.0_dp
+        character(:), allocatable :: title          !! of the scene
+        character(:), allocatable :: changes        !! of the scene, by `--set`; absent: none
         character(:), allocatable :: choice         !! `auto took ...`; "" if a method was named
         character(:), allocatable :: warning        !! of a step that is too long, or ""
         character(:), allocatable :: remark         !! about the steps; "" if there is none
@@ -51,8 +44,7 @@ module lagrangia_outcome
         procedure :: verdict
         procedure :: holds
         procedure :: error
-        procedure :: period_is_small
-        procedure, private :: shown_period
+        procedure :: error_source
     end type outcome_t
 
 contains
@@ -88,29 +80,14 @@ contains
         end do
     end function error
 
-    pure function shown_period(self) result(which)
-        !! Which of `others` is the period error of the scorecard: one that is judged, or the
-        !! first; 0 if there is none.
+    pure function error_source(self) result(word)
+        !! `exact`, `estimate` or `steps`, what the error is against; empty where none is known.
         class(outcome_t), intent(in) :: self
-        integer :: which, i
+        character(:), allocatable :: word
 
-        which = 0
-        do i = 1, size(self%others)
-            if (index(self%others(i)%name, "period") == 0) cycle
-            if (self%others(i)%judged .or. which == 0) which = i
-        end do
-    end function shown_period
-
-    pure function period_is_small(self) result(yes)
-        !! Whether that is the error beside \(2\pi/\omega\) and not beside the exact period.
-        class(outcome_t), intent(in) :: self
-        logical :: yes
-        integer :: i
-
-        i = self%shown_period()
-        yes = .false.
-        if (i > 0) yes = self%others(i)%name == "small_period"
-    end function period_is_small
+        word = ""
+        if (.not. self%error() < 0.0_dp) word = trim(sources(self%error_from))
+    end function error_source
 
     function verdict(self) result(text)
         !! `holds`, `not judged`, or what did not hold.
@@ -167,8 +144,7 @@ contains
         end do
         state = "null"
         if (allocated(self%state)) state = final_values_json(self%state)
-        error_from = ""
-        if (.not. self%error() < 0.0_dp) error_from = trim(sources(self%error_from))
+        error_from = self%error_source()
         json = json_pair("scene", self%scene)//json_pair("system", self%system)// &
                json_pair("method", self%method)//json_pair("t", self%t)// &
                json_item("q", json_list(self%q))//json_item("v", json_list(self%v))// &
@@ -183,6 +159,11 @@ contains
                json_item("omega", known(self%omega, self%omega > 0.0_dp))// &
                json_item("omega_error", known(self%omega_error, self%omega_error >= 0.0_dp))// &
                json_item("state", state)//json_pair("seconds", self%seconds)
+        json = json//json_item("title", json_text(self%title))// &
+               json_item("changes", json_text(self%changes))// &
+               json_item("exact_period", known(self%exact_period, self%exact_period > 0.0_dp))// &
+               json_item("small_period", known(self%small_period, self%small_period > 0.0_dp))// &
+               json_item("omega_formula", json_text(self%omega_formula))
         json = json//json_item("choice", json_text(self%choice))// &
                json_item("warning", json_text(self%warning))// &
                json_item("remark", json_text(remark))// &
@@ -224,62 +205,4 @@ contains
             if (measures(i)%name == name) json = json_number(measures(i)%value)
         end do
     end function find
-
-    function scorecard_head() result(line)
-        !! The titles over the rows.
-        character(:), allocatable :: line
-
-        line = cells("scene", "system", "method", "steps", "evaluations", "worst drift", "error", &
-                     "period error", "omega", "seconds", "verdict")
-    end function scorecard_head
-
-    function scorecard_row(self) result(line)
-        !! One line a scene.
-        type(outcome_t), intent(in) :: self  !! of a run that has ended
-        character(:), allocatable :: line
-        character(:), allocatable :: drift, error_text, period_text
-        character(:), allocatable :: omega_text
-        integer :: i, k
-
-        drift = "-"
-        if (size(self%drifts) > 0) then
-            k = maxloc(self%drifts%value, 1)
-            associate (name => self%drifts(k)%name)
-                drift = short(self%drifts(k)%value)//" "//name(:index(name, "_drift") - 1)
-            end associate
-        end if
-        error_text = "-"
-        if (.not. self%error() < 0.0_dp) error_text = short(self%error())//" "// &
-                                                      trim(sources(self%error_from))
-        period_text = "-"
-        i = self%shown_period()
-        if (i > 0) then
-            if (.not. ieee_is_nan(self%others(i)%value)) period_text = short(self%others(i)%value)
-            if (self%period_is_small()) period_text = period_text//" small"
-        end if
-        omega_text = "-"
-        if (self%omega > 0.0_dp) then
-            omega_text = fixed(self%omega, 5)
-            if (self%omega < 0.01_dp .or. self%omega >= 1e6_dp) then
-                omega_text = scientific(self%omega, 6)
-            end if
-            if (self%omega_error >= 0.0_dp) omega_text = omega_text//" "//short(self%omega_error)
-        end if
-        line = cells(printable(self%scene), self%system, self%method, to_text(self%steps), &
-                     to_text(self%evaluations), drift, error_text, period_text, omega_text, &
-                     fixed(self%seconds, 4), self%verdict())
-    end function scorecard_row
-
-    pure function cells(scene, system, method, steps, evaluations, drift, error, period, omega, &
-                        seconds, verdict) result(line)
-        !! The row's columns: words to the left, counts to the right.
-        character(*), intent(in) :: scene, system, method, steps, evaluations, drift, error, &
-                                    period, omega, seconds, verdict
-        character(:), allocatable :: line
-
-        line = left(scene, 26)//left(system, 17)//left(method, 8)//right(steps, 8)// &
-               right(evaluations, 12)//"  "//left(drift, 23)//left(error, 18)//left(period, 14)// &
-               left(omega, 17)// &
-               right(seconds, 8)//"  "//verdict
-    end function cells
 end module lagrangia_outcome

@@ -154,6 +154,8 @@ contains
             do i = 1, size(scene%expectations)
                 associate (name => scene%expectations(i)%name)
                     if (is_period(name) .or. any(names == name)) cycle
+                    if (name == "error" .and. system%contacts > 0 .and. &
+                        .not. scene%expectations(i)%judged) cycle  ! none is estimated
                     names = [character(name_length) :: names, name]
                 end associate
             end do
@@ -235,7 +237,7 @@ contains
 
         do i = 1, size(scene%expectations)
             associate (name => scene%expectations(i)%name)
-                if (.not. is_period(name)) cycle
+                if (.not. is_period(name) .or. .not. scene%expectations(i)%judged) cycle
                 known = .false.
                 if (allocated(closed_form)) known = merge(closed_form%period, &
                     closed_form%small_period, name == "period") > 0.0_dp

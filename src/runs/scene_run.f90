@@ -163,6 +163,8 @@ contains
             outcome%v = scene%v
             allocate (outcome%drifts(0), outcome%others(0))
             outcome%choice = plan%choice
+            outcome%title = trim(scene%title)
+            if (allocated(plan%scene%changes)) outcome%changes = plan%scene%changes
             outcome%error_from = plan%error_from
         end associate
     end subroutine begin_outcome

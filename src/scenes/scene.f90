@@ -16,6 +16,7 @@ module lagrangia_scene
         !! The scene's own tolerance: the column `name` stays within `limit`.
         character(name_length) :: name = ""
         real(dp) :: limit = 0.0_dp
+        logical :: judged = .true.  !! false: measured only, in a scene that `--set` has changed
     end type expectation_t
 
     type :: scene_t
@@ -43,6 +44,7 @@ module lagrangia_scene
         type(expectation_t), allocatable :: expectations(:)
         character(scene_line_length), allocatable :: formulas(:)
         !! the group `&lagrangian` of a system in formulas, line by line; else absent
+        character(:), allocatable :: changes       !! by `--set`: `m1=5`; absent: none
         character(:), allocatable :: warning       !! about what is there for nothing; else absent
         type(namelist_t), allocatable :: file      !! where each key stands; absent: nowhere
     contains
@@ -100,6 +102,7 @@ contains
         if (scene%modes) call add("  modes = .true.")
         if (scene%period_of /= "") call add("  period_of = "//text_value(scene%period_of))
         do i = 1, size(scene%expectations)
+            if (.not. scene%expectations(i)%judged) cycle
             call add("  expect_"//trim(scene%expectations(i)%name)//" = "// &
                      to_text(scene%expectations(i)%limit))
         end do

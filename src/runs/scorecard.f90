@@ -1,0 +1,198 @@
+module lagrangia_scorecard
+    !! The scorecard: a row a scene in 80 columns and, for those who name the scene, lines below it
+    !! that say in words what was measured.
+    use lagrangia_characters, only: printable
+    use lagrangia_kinds, only: dp
+    use lagrangia_ledger, only: claim_t
+    use lagrangia_number_text, only: fixed, scientific
+    use lagrangia_outcome, only: outcome_t
+    use lagrangia_printed_table, only: left, short, two_digits
+    use lagrangia_text, only: to_text, word_t
+    use lagrangia_wrapping, only: wrapped
+    implicit none (type, external)
+    private
+    public :: scorecard_head, scorecard_legend, scorecard_lines, scorecard_row
+    public :: scorecard_width
+
+    integer, parameter :: scorecard_width = 80  !! columns of a terminal
+    character(*), parameter :: lf = new_line("a")
+    character(*), parameter :: scorecard_legend = &
+        "method   of the steps; exact: none, but the closed form of the motion"//lf// &
+        "drift    of the invariant that changed most: its largest change in the rows,"//lf// &
+        "         relative to its start or natural size; a hyphen: none is known"//lf// &
+        "error    the largest of a coordinate in the rows, not of a velocity, absolute"//lf// &
+        "         below 1 and relative above; exact: against the closed form; estimate:"//lf// &
+        "         against the same run at half the step or a hundredth of the tolerance,"//lf// &
+        "         and against another method; steps: the closed form against gauss16's"//lf// &
+        "verdict  holds: within what the scene expects, expect_energy_drift and the like;"//lf// &
+        "         a hyphen: nothing is expected of it"//lf
+
+contains
+
+    function scorecard_head() result(line)
+        !! The titles over the rows.
+        character(:), allocatable :: line
+
+        line = cells("scene", "method", "drift", "error", "verdict")
+    end function scorecard_head
+
+    function scorecard_row(self) result(line)
+        !! One line a scene; what a verdict `NOT` means stands below it.
+        type(outcome_t), intent(in) :: self  !! of a run that has ended
+        character(:), allocatable :: line
+        character(:), allocatable :: drift, error, verdict
+        integer :: k
+
+        drift = "-"
+        if (size(self%drifts) > 0) then
+            k = maxloc(self%drifts%value, 1)
+            drift = two_digits(self%drifts(k)%value)//" "//quantity_of(self%drifts(k))
+        end if
+        error = "-"
+        if (.not. self%error() < 0.0_dp) error = two_digits(self%error())//" "//self%error_source()
+        verdict = self%verdict()
+        if (index(verdict, "NOT ") == 1) verdict = "NOT"
+        if (verdict == "not judged") verdict = "-"
+        line = cells(printable(self%scene), self%method, drift, error, verdict)
+    end function scorecard_row
+
+    subroutine scorecard_lines(self, all, lines)
+        !! What stands below a row: what did not hold, and with `all` what was measured besides.
+        type(outcome_t), intent(in) :: self             !! of a run that has ended
+        logical, intent(in) :: all                      !! steps, period and frequency too
+        type(word_t), allocatable, intent(out) :: lines(:)  !! indented, in 80 columns
+        integer :: i
+
+        allocate (lines(0))
+        if (index(self%verdict(), "NOT ") == 1) then
+            do i = 1, size(self%drifts)
+                call judge(self%drifts(i))
+            end do
+            do i = 1, size(self%others)
+                call judge(self%others(i))
+            end do
+        end if
+        if (.not. all) return
+        if (allocated(self%title)) call add(printable(self%title))
+        if (allocated(self%changes)) then
+            call add("changed by --set: what the file expects is of the unchanged scene and "// &
+                     "does not judge this one; data file: "//printable(self%file))
+        end if
+        if (self%steps > 0) then
+            call add(to_text(self%steps)//" steps, "//to_text(self%evaluations)// &
+                     " evaluations of the accelerations, "//fixed(self%seconds, 4)//" s")
+        else if (.not. allocated(self%failure)) then
+            call add("no steps: the motion by its closed form, "//fixed(self%seconds, 4)//" s")
+        end if
+        if (self%period > 0.0_dp) then
+            call add_number("period", self%period, "s", "measured")
+            if (self%exact_period > 0.0_dp) call add_number("", self%exact_period, "s", &
+                "exact; they differ by "//difference("period"))
+            if (self%small_period > 0.0_dp) call add_number("", self%small_period, "s", &
+                "2 pi/omega of small swings: "//difference("small_period"))
+        end if
+        if (self%omega > 0.0_dp) then
+            call add_number("omega", self%omega, "rad/s", &
+                            "the slowest small oscillation, by LAPACK")
+            if (allocated(self%omega_formula)) call add(self%omega_formula, 12)
+            if (self%omega_error >= 0.0_dp) call add("all frequencies: LAPACK and closed forms "// &
+                "differ by at most "//short(self%omega_error, 2), 12)
+        end if
+    contains
+        subroutine judge(measure)
+            type(claim_t), intent(in) :: measure
+
+            if (.not. measure%judged .or. measure%value <= measure%most) return
+            call add("NOT as expected: "//trim(measure%name)//" is "// &
+                     two_digits(measure%value)//", expect_"//trim(measure%name)//" = "// &
+                     to_text(measure%most))
+        end subroutine judge
+
+        subroutine add_number(name, value, unit, meaning)
+            character(*), intent(in) :: name, unit, meaning
+            real(dp), intent(in) :: value
+
+            call add_line(left("    "//name, 12)//left(number(value)//" "//unit, 20)//meaning)
+        end subroutine add_number
+
+        function difference(name) result(text)
+            character(*), intent(in) :: name
+            character(:), allocatable :: text
+            integer :: k
+
+            text = "?"
+            do k = 1, size(self%others)
+                if (self%others(k)%name == name) text = short(self%others(k)%value, 2)//" of it"
+            end do
+        end function difference
+
+        subroutine add(text, indentation)
+            character(*), intent(in) :: text
+            integer, intent(in), optional :: indentation
+            type(word_t), allocatable :: more(:)
+            integer :: blanks, k
+
+            blanks = 4
+            if (present(indentation)) blanks = indentation
+            call wrapped(text, scorecard_width - blanks - 4, more)
+            do k = 1, size(more)
+                call add_line(repeat(" ", merge(blanks, blanks + 4, k == 1))//more(k)%text)
+            end do
+        end subroutine add
+
+        subroutine add_line(text)
+            character(*), intent(in) :: text
+            type(word_t), allocatable :: longer(:)
+            integer :: k
+
+            allocate (longer(size(lines) + 1))
+            do k = 1, size(lines)
+                longer(k)%text = lines(k)%text
+            end do
+            longer(size(longer))%text = text
+            call move_alloc(longer, lines)
+        end subroutine add_line
+    end subroutine scorecard_lines
+
+    pure function quantity_of(measure) result(name)
+        !! `energy` of `energy_drift`.
+        type(claim_t), intent(in) :: measure
+        character(:), allocatable :: name
+
+        name = trim(measure%name)
+        if (index(name, "_drift") > 0) name = name(:index(name, "_drift") - 1)
+    end function quantity_of
+
+    pure function number(value) result(text)
+        !! Ten digits behind the point, where the number is of a handy size.
+        real(dp), intent(in) :: value
+        character(:), allocatable :: text
+
+        if (value >= 0.01_dp .and. value < 1e6_dp) then
+            text = fixed(value, 10)
+        else
+            text = scientific(value, 11)
+        end if
+    end function number
+
+    function cells(scene, method, drift, error, verdict) result(line)
+        !! The row's columns; a long word takes of the room behind it.
+        character(*), intent(in) :: scene, method, drift, error, verdict
+        character(:), allocatable :: line
+
+        line = ""
+        call put(scene, 0)
+        call put(method, 25)
+        call put(drift, 34)
+        call put(error, 56)
+        call put(verdict, 73)
+    contains
+        subroutine put(word, column)
+            character(*), intent(in) :: word
+            integer, intent(in) :: column
+
+            if (column > 0) line = line//" "
+            line = line//repeat(" ", max(0, column - len(line)))//word
+        end subroutine put
+    end function cells
+end module lagrangia_scorecard

@@ -1,0 +1,105 @@
+module lagrangia_changed_scene
+    !! A scene that the command line changes is another one: it has a title and files of its own,
+    !! and what the file expects of the unchanged motion does not judge it.
+    use lagrangia_scene, only: scene_t
+    use lagrangia_text, only: lower, word_t
+    implicit none (type, external)
+    private
+    public :: make_own_scene
+
+    character(*), parameter :: same_motion(*) = [character(14) :: "title", "output", "columns", &
+        "plot", "event_columns", "event_plot", "error_estimate", "modes", "every", "samples"]
+    !! keys of `&scene` that leave the motion as it is, and so does `expect_...`
+    integer, parameter :: longest = 120  !! bytes of what a file's name gets
+
+contains
+
+    pure subroutine make_own_scene(scene, overrides)
+        !! Give a scene that was read with these overrides a title and an output of its own; of its
+        !! expectations only those that were set with them judge it. It says so in `changes`.
+        type(scene_t), intent(inout) :: scene     !! as `read_scene` gives it
+        type(word_t), intent(in) :: overrides(:)  !! `GROUP%KEY=VALUE`, as typed
+        character(:), allocatable :: changes, group, key, value
+        logical, allocatable :: kept(:)
+        logical :: titled, placed
+        integer :: dot, i
+
+        changes = ""
+        titled = .false.
+        placed = .false.
+        allocate (kept(size(scene%expectations)), source=.false.)
+        do i = 1, size(overrides)
+            call split(overrides(i)%text, group, key, value)
+            if (group == "scene") then
+                titled = titled .or. key == "title"
+                placed = placed .or. key == "output"
+                if (index(key, "expect_") == 1) where ( &
+                    lower_names(scene) == key(len("expect_") + 1:)) kept = .true.
+                if (any(same_motion == key) .or. index(key, "expect_") == 1) cycle
+            end if
+            if (changes /= "") changes = changes//", "
+            changes = changes//key//"="//value
+        end do
+        if (changes == "") return
+        scene%changes = changes
+        scene%expectations%judged = kept
+        if (.not. titled) then
+            scene%title = trim(scene%title)//" ("//changes//")"
+        end if
+        if (placed) return
+        dot = index(scene%output, ".", back=.true.)
+        if (dot <= index(scene%output, "/", back=.true.)) dot = len_trim(scene%output) + 1
+        scene%output = scene%output(:dot - 1)//"_"//name_of(changes)//scene%output(dot:)
+    end subroutine make_own_scene
+
+    pure function lower_names(scene) result(names)
+        !! What the scene expects something of, in small letters, as keys are.
+        type(scene_t), intent(in) :: scene
+        character(len(scene%expectations%name)) :: names(size(scene%expectations))
+        integer :: i
+
+        do i = 1, size(names)
+            names(i) = lower(scene%expectations(i)%name)
+        end do
+    end function lower_names
+
+    pure subroutine split(text, group, key, value)
+        !! `Scene%q(2) = 0.5` into `scene`, `q` and, with the index, what follows; no blanks.
+        character(*), intent(in) :: text
+        character(:), allocatable, intent(out) :: group, key, value
+        character(:), allocatable :: plain
+        integer :: equals, i, percent
+
+        plain = ""
+        do i = 1, len(text)
+            if (text(i:i) > " ") plain = plain//text(i:i)
+        end do
+        percent = index(plain, "%")
+        equals = index(plain, "=")
+        group = lower(plain(:percent - 1))
+        key = lower(plain(percent + 1:equals - 1))
+        value = plain(equals + 1:)
+        if (index(key, "(") > 0 .and. group == "scene") key = key(:index(key, "(") - 1)//"_"// &
+            key(index(key, "(") + 1:index(key//")", ")") - 1)
+    end subroutine split
+
+    pure function name_of(changes) result(name)
+        !! The same in letters that `output` takes: `m1_5_dt_1e-3`.
+        character(*), intent(in) :: changes
+        character(:), allocatable :: name
+        character(*), parameter :: plain = "abcdefghijklmnopqrstuvwxyz"// &
+            "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-"
+        integer :: i
+
+        name = ""
+        do i = 1, len(changes)
+            if (changes(i:i) == " " .or. changes(i:i) == "+") cycle
+            if (index(plain, changes(i:i)) > 0) then
+                name = name//changes(i:i)
+            else
+                name = name//"_"
+            end if
+        end do
+        if (len(name) > longest) name = "changed"
+    end function name_of
+end module lagrangia_changed_scene
