@@ -82,21 +82,27 @@ contains
         !! to two units in its largest values' last place. Other changes: together.
         real(dp), parameter :: most(3) = [1.0_dp, 10.0_dp, 4.0_dp]
         real(dp), parameter :: zero(3) = 0.0_dp
-        real(dp) :: error(3)
+        real(dp) :: error(3), sense
+        integer :: i
 
-        ! errors 16, 4, 1 in units of 2**-10
-        error = estimate([16.0_dp, 0.0_dp, 0.0_dp]/1024, [4.0_dp, 0.0_dp, 0.0_dp]/1024, &
-                         [1.0_dp, 0.0_dp, 0.0_dp]/1024, most, 4.0_dp)
-        call assertEqual([16.0_dp/1024, 20.0_dp*epsilon(most), 8.0_dp*epsilon(most)], error, &
-                         4.0_dp*epsilon(most), "as they should")
-        ! as large a change again: the error is no less, and three times what is expected too much
-        error = estimate([1.0_dp, 0.0_dp, 0.0_dp]/1024, zero, [1.0_dp, 0.0_dp, 0.0_dp]/1024, most, &
-                         4.0_dp)
-        call assertEqual([3.0_dp, 30.0_dp, 12.0_dp]/1024, error, 4.0_dp*epsilon(most), "together")
-        ! a larger change: no more than five times
-        error = estimate(zero, zero, [3.0_dp, 0.0_dp, 0.0_dp]/1024, most, 4.0_dp)
-        call assertEqual(5.0_dp*[4.0_dp, 40.0_dp, 16.0_dp]/1024, error, 4.0_dp*epsilon(most), &
-                         "warily")
+        do i = 1, 2  ! to either side
+            sense = merge(1.0_dp, -1.0_dp, i == 1)/1024
+            ! errors 16, 4, 1 in units of 2**-10
+            error = estimate([16.0_dp, 0.0_dp, 0.0_dp]*sense, [4.0_dp, 0.0_dp, 0.0_dp]*sense, &
+                             [1.0_dp, 0.0_dp, 0.0_dp]*sense, most, 4.0_dp)
+            call assertEqual([16.0_dp/1024, 20.0_dp*epsilon(most), 8.0_dp*epsilon(most)], error, &
+                             4.0_dp*epsilon(most), "as they should")
+            ! as large a change again: the error is no less, and three times what is expected too
+            ! much
+            error = estimate([1.0_dp, 0.0_dp, 0.0_dp]*sense, zero, [1.0_dp, 0.0_dp, 0.0_dp]*sense, &
+                             most, 4.0_dp)
+            call assertEqual([3.0_dp, 30.0_dp, 12.0_dp]/1024, error, 4.0_dp*epsilon(most), &
+                             "together")
+            ! a larger change: no more than five times
+            error = estimate(zero, zero, [3.0_dp, 0.0_dp, 0.0_dp]*sense, most, 4.0_dp)
+            call assertEqual(5.0_dp*[4.0_dp, 40.0_dp, 16.0_dp]/1024, error, &
+                             4.0_dp*epsilon(most), "warily")
+        end do
     end subroutine what_does_not_shrink_is_not_trusted
 
     subroutine check_method(name, adaptive, shortest, longest, only_digits, systems, draws)

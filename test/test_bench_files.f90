@@ -25,6 +25,8 @@ contains
 
         suite = TestSuite("bench_files")
         call suite%addTest(TestMethod("numbers_are_explained", numbers_are_explained))
+        call suite%addTest(TestMethod("panels_lie_side_by_side", panels_lie_side_by_side))
+        call suite%addTest(TestMethod("methods_are_told_apart", methods_are_told_apart))
         call suite%addTest(TestMethod("errors_are_of_the_worst", errors_are_of_the_worst))
     end function bench_files_suite
 
@@ -107,6 +109,97 @@ contains
         call assertTrue(remove_file(folder//"/bench.gp"), "the script was there")
         call assertTrue(remove_file(folder), "nothing else is left")
     end subroutine numbers_are_explained
+
+    function picture_of(problems, curves) result(script)
+        !! The script of the benchmark's picture.
+        type(bench_problem_t), intent(in) :: problems(:)
+        type(curve_t), intent(in) :: curves(:)
+        character(:), allocatable :: script, folder, path
+        type(error_t), allocatable :: error
+
+        folder = new_folder("bench_picture")
+        call write_bench_files(folder, problems, curves, path, error)
+        call assertFalse(allocated(error), "written")
+        script = contents(folder//"/bench.gp")
+        call assertTrue(remove_file(path) .and. remove_file(folder//"/bench.gp"), "both files")
+        call assertTrue(remove_file(folder), "nothing else is left")
+    end function picture_of
+
+    subroutine panels_lie_side_by_side()
+        !! Pixels: 40 for the title, rows of 390, legend below; a panel alone is as wide as two. Times
+        !! in whole decades, the closed form's on the axis above.
+        type(bench_problem_t), allocatable :: problems(:)
+        type(error_t), allocatable :: error
+        character(:), allocatable :: script
+        integer :: i
+
+        call read_problems(problem_names(:3), problems, error)
+        script = picture_of(problems, [curve(1, "rk4", source_ours, set_by_step, 2), &
+                                       curve(1, "closed_form", source_closed_form, &
+                                             set_by_nothing, 1), &
+                                       curve(3, "gauss16", source_ours, set_by_tolerance, 12)])
+        call follow(script, "size 1300,860 ")
+        call follow(script, "size 100,60 ")
+        do i = 1, 3
+            associate (left => 645*modulo(i - 1, 2), upper => 820 - 390*((i - 1)/2))
+                call follow(script, margins(left + 90, left + 625, upper - 320, upper - 42, 860))
+            end associate
+            if (i == 1) call follow(script, newline//"set xrange [1.0:10.0]; set yrange "// &
+                                    "[1e-16:2]; unset x2tics"//newline// &
+                                    "set x2range [1.0:1.0]; set x2tics"//newline)
+            if (i == 2) call follow(script, newline//"set xrange [*:*]; set yrange")
+            if (i == 3) call follow(script, newline//"set xrange [1.0:100.0]; set yrange")
+        end do
+        call follow(script, margins(10, 1290, 4, 40, 860))
+        call follow(script, "unset multiplot"//newline)
+        call assertEqual("", script, "behind the picture")
+        script = picture_of(problems(:1), [curve(1, "rk4", source_ours, set_by_step, 2)])
+        call follow(script, "size 1300,470 ")
+        call follow(script, margins(90, 1270, 110, 388, 470))
+        call follow(script, margins(10, 1290, 4, 40, 470))
+    end subroutine panels_lie_side_by_side
+
+    function margins(left, right, bottom, upper, height) result(line)
+        !! Of a panel, pixels, in a picture 1300 wide and so high.
+        integer, intent(in) :: left, right, bottom, upper, height
+        character(:), allocatable :: line
+        character(120) :: text
+
+        write (text, "(4(a, f6.4))") "set lmargin at screen ", left/1300.0_dp, &
+            "; set rmargin at screen ", right/1300.0_dp, "; set bmargin at screen ", &
+            real(bottom, dp)/height, "; set tmargin at screen ", real(upper, dp)/height
+        line = trim(text)//newline
+    end function margins
+
+    subroutine methods_are_told_apart()
+        !! Ours by 16 colours and 15 marks, no two alike; GSL's dashed and the closed form whole, both
+        !! black; of each as many lines in the legend as it takes.
+        type(bench_problem_t), allocatable :: problems(:)
+        type(error_t), allocatable :: error
+        type(curve_t) :: curves(19)
+        character(:), allocatable :: script, line
+        character(24) :: looks(19)
+        integer :: i, at
+
+        call read_problems(problem_names(:1), problems, error)
+        do i = 1, 17
+            curves(i) = curve(1, "m"//to_text(i), source_ours, set_by_step, 1)
+        end do
+        curves(18) = curve(1, "gsl_rk4", source_gsl, set_by_tolerance, 1)
+        curves(19) = curve(1, "closed_form", source_closed_form, set_by_nothing, 1)
+        script = picture_of(problems, curves)
+        call follow(script, "size 1300,542 ")  ! 40 + 390 + 4*24 + 16
+        do i = 1, 19
+            line = "set style line "//to_text(i)//" lw 1.5 ps 0.9 pt "// &
+                   to_text(modulo(i - 1, 15) + 1)//" lc rgb '"
+            call follow(script, line)
+            at = index(script, newline)
+            looks(i) = to_text(modulo(i - 1, 15) + 1)//script(:at - 1)
+            if (i > 17) call assertEqual("#000000' dt "//merge("2", "1", i == 18), script(:at - 1))
+            if (i <= 17) call assertEqual("' dt 1", script(8:at - 1), "whole: "//script(:at - 1))
+            call assertFalse(any(looks(:i - 1) == looks(i)), "as another: "//looks(i))
+        end do
+    end subroutine methods_are_told_apart
 
     subroutine follow(text, part)
         !! `part` comes in `text`, which is then what is behind it.

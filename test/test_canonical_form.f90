@@ -195,6 +195,8 @@ contains
         call becomes("1/(1/(a + b) + 1/a)", "(a + b) a/(2 a + b)")
         call becomes("sqrt(k/m)^2 x + |x|^2 + sqrt(x)^3/x", "x^2 + k/m x + sqrt(x)")
         call becomes("sqrt(9/4) + sqrt(2) + cos(0) + exp(0) + sin(0) + |-3|", "sqrt(2) + 13/2")
+        call becomes("(-2 a)^3 + 8 a^3", "0")
+        call becomes("(-2 a)^-3 + 1/(2 a)^3", "0")
         call becomes("x - x", "0")
         call becomes("0 x/r", "0")
         call becomes("x/x", "1")

@@ -8,7 +8,8 @@ module test_gauge
                                        pendulum_with_q_q_dot
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
-    use lagrangia_lagrange, only: accelerations_from_lagrangian, energy_from_lagrangian
+    use lagrangia_lagrange, only: accelerations_from_lagrangian, energy_from_lagrangian, &
+                                  euler_lagrange_t, expand_lagrangian
     use lagrangia_pendulum, only: pendulum_t
     use random_states, only: restart_random, uniform
     implicit none (type, external)
@@ -95,6 +96,8 @@ contains
         type(gauged_system_t) :: gauged
         type(error_t), allocatable :: error
         type(hyperdual_t) :: one, other, q(3), v(3), t
+        type(euler_lagrange_t) :: terms
+        real(dp) :: place(3), speed(3), p(3), back(3)
         real(dp), parameter :: values(9) = [1.3_dp, -0.7_dp, 0.3_dp, 0.4_dp, -0.2_dp, 0.0_dp, &
                                             0.0_dp, 1.9_dp, 0.6_dp]
 
@@ -109,6 +112,14 @@ contains
         one = gauged%lagrangian(t, q, v)
         other = landau%lagrangian(t, q, v)
         call assertEqual(other%re, one%re, rounding)
+        place = q%re
+        speed = v%re
+        call expand_lagrangian(landau, 0.4_dp, place, speed, terms)
+        call landau%momenta(0.4_dp, place, speed, p)
+        call assertEqual(terms%dl_dv, p, rounding, "momenta of Landau's")
+        call assertEqual([0.78_dp, -1.69_dp - 0.7_dp*1.9_dp*0.4_dp, 0.65_dp], p, rounding, "by hand")
+        call landau%velocities(0.4_dp, place, p, back)
+        call assertEqual(speed, back, rounding, "and back")
     end subroutine chi_leads_to_landau
 
     subroutine forbidden_terms_in_numbers()

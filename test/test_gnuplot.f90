@@ -30,6 +30,8 @@ contains
         call suite%addTest(TestMethod("marks_are_letters", marks_are_letters))
         call suite%addTest(TestMethod("columns_are_drawn_with_units", columns_are_drawn_with_units))
         call suite%addTest(TestMethod("lengths_share_a_scale", lengths_share_a_scale))
+        call suite%addTest(TestMethod("ticks_are_round", ticks_are_round))
+        call suite%addTest(TestMethod("pictures_have_a_size", pictures_have_a_size))
         call suite%addTest(TestMethod("a_constant_has_a_range", a_constant_has_a_range))
     end function gnuplot_suite
 
@@ -243,7 +245,53 @@ contains
                               "set ytics 1.0") > 0, "a path")
         call assertEqual(0, index(script("", ["y"]), "ratio -1"), "over the time")
         call assertEqual(0, index(script("", [character(7) :: "x:theta"]), "ratio -1"), "an angle")
+        call assertTrue(to_scale(4.9_dp, 1.0_dp), "wide")
+        call assertFalse(to_scale(5.1_dp, 1.0_dp), "too wide")
+        call assertTrue(to_scale(1.0_dp, 4.9_dp), "high")
+        call assertFalse(to_scale(1.0_dp, 5.1_dp), "too high")
+    contains
+        logical function to_scale(width, height)
+            real(dp), intent(in) :: width, height
+            type(panel_t), allocatable :: panels(:)
+            type(error_t), allocatable :: error
+
+            call new_panels(["x:y"], ["t", "x", "y"], ["s", "m", "m"], panels, error)
+            to_scale = index(gnuplot_script("it.dat", "", "", ["t", "x", "y"], ["s", "m", "m"], &
+                             [0.0_dp, 0.0_dp, 0.0_dp], [1.0_dp, width, height], panels), &
+                             "ratio -1") > 0
+        end function to_scale
     end subroutine lengths_share_a_scale
+
+    subroutine ticks_are_round()
+        !! 1, 2 or 5 times a power of ten, three to seven of them, up to each of the ranges; of the
+        !! wider side of a path that is drawn to scale.
+        real(dp), parameter :: ranges(7) = [0.29_dp, 0.31_dp, 0.59_dp, 0.61_dp, 1.49_dp, 1.51_dp, &
+                                            2.9_dp]
+        character(4), parameter :: steps(7) = ["0.05", "0.1 ", "0.1 ", "0.2 ", "0.2 ", "0.5 ", "0.5 "]
+        type(panel_t), allocatable :: panels(:)
+        type(error_t), allocatable :: error
+        character(:), allocatable :: text
+        integer :: i, k
+
+        do i = 1, size(ranges)
+            do k = 1, 2
+                call new_panels(["x:y"], ["t", "x", "y"], ["s", "m", "m"], panels, error)
+                text = gnuplot_script("it.dat", "", "", ["t", "x", "y"], ["s", "m", "m"], &
+                                      [0.0_dp, 1.0_dp, 1.0_dp], [1.0_dp, 1.0_dp + ranges(i)/k, &
+                                                                  1.0_dp + ranges(i)/(3 - k)], panels)
+                call assertTrue(index(text, "set xtics "//trim(steps(i))//"; set ytics "// &
+                                      trim(steps(i))//new_line("a")) > 0, steps(i)//text)
+            end do
+        end do
+    end subroutine ticks_are_round
+
+    subroutine pictures_have_a_size()
+        !! 300 pixels a panel and 60 for the title, 560 for one panel alone; lines of text alike.
+        call assertTrue(index(script("", ["x"]), "size 1000,560 ") > 0, "one")
+        call assertTrue(index(script("", ["x"]), "size 100,30 ") > 0, "one, in letters")
+        call assertTrue(index(script("", ["x", "y", "t"]), "size 1000,960 ") > 0, "three")
+        call assertTrue(index(script("", ["x", "y", "t"]), "size 100,90 ") > 0, "three, in letters")
+    end subroutine pictures_have_a_size
 
     subroutine a_constant_has_a_range()
         !! gnuplot draws nothing between two equal numbers.

@@ -1,9 +1,9 @@
 module test_output_failures
     !! What cannot be written is refused or reported, and leaves nothing behind.
     use, intrinsic :: iso_c_binding, only: c_int, c_null_char
-    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertTrue
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_c_library, only: c_access, c_chmod
-    use lagrangia_data_files, only: new_table
+    use lagrangia_data_files, only: ends_well, new_table
     use lagrangia_errors, only: error_t, fail, message_length, status_file, status_usage
     use lagrangia_interrupt, only: catch_interrupts
     use lagrangia_kinds, only: i8
@@ -31,6 +31,8 @@ contains
                                       a_closed_file_cannot_be_written))
         call suite%addTest(TestMethod("a_failed_rename_is_reported", a_failed_rename_is_reported))
         call suite%addTest(TestMethod("a_full_disk_is_reported", a_full_disk_is_reported))
+        call suite%addTest(TestMethod("a_picture_ends_as_its_kind_does", &
+                                      a_picture_ends_as_its_kind_does))
         call suite%addTest(TestMethod("a_full_disk_is_seen_early", a_full_disk_is_seen_early))
         call suite%addTest(TestMethod("a_header_is_sent_before_the_run", &
                                       a_header_is_sent_before_the_run))
@@ -188,6 +190,31 @@ contains
         if (.not. allocated(error)) return
         if (error%message == "cannot write '"//path//"': File too large") status = error%status
     end function write_limited
+
+    subroutine a_picture_ends_as_its_kind_does()
+        !! Within its last 20 bytes, and not before; no other kind's end, no file, no bytes.
+        character(*), parameter :: texts(7) = [character(48) :: "", "IEND", "IEND|", &
+            "the picture goes on: IEND+ 4 of check", "IEND and then 21 bytes more", &
+            "IEND+ so many, just 20", "<svg> and all that </svg>"]
+        logical, parameter :: png(7) = [.false., .true., .true., .true., .false., .false., .false.]
+        character(:), allocatable :: path
+        integer :: i
+
+        path = new_folder("pictures")//"/it"
+        call assertFalse(ends_well(path, "png"), "no file")
+        do i = 1, size(texts)
+            call write_file(path, trim(texts(i)))
+            call assertEqual(png(i), ends_well(path, "png"), message="png: "//texts(i))
+            call assertEqual(i == 7, ends_well(path, "svg"), message="svg: "//texts(i))
+        end do
+        call write_file(path, "0123IEND012345678901")
+        call assertTrue(ends_well(path, "png"), "20 bytes")
+        call write_file(path, "0IEND0123456789012345")
+        call assertTrue(ends_well(path, "png"), "its first in the last 20")
+        call write_file(path, "IEND01234567890123456")
+        call assertFalse(ends_well(path, "png"), "its first is the 21st from the end")
+        call assertTrue(remove_file(path), "it was there: "//path)
+    end subroutine a_picture_ends_as_its_kind_does
 
     subroutine a_header_is_sent_before_the_run()
         !! In every format: where there is no room for it, that is said before anything is computed,

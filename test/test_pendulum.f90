@@ -7,6 +7,7 @@ module test_pendulum
     use lagrangia_kinds, only: dp
     use lagrangia_pendulum, only: pendulum_t
     use lagrangia_reference, only: reference_t
+    use lagrangia_text, only: to_text
     use motion, only: newton_lagrangian, point_accelerations
     use random_states, only: draw_parameters, draw_state, restart_random
     use reference_checks, only: check_reference, check_state
@@ -34,6 +35,8 @@ contains
         call suite%addTest(TestMethod("energies_close_to_the_separatrix", &
                                       energies_close_to_the_separatrix, setUp=restart_random))
         call suite%addTest(TestMethod("many_turns", many_turns))
+        call suite%addTest(TestMethod("with_friction_only_rest_is_known", &
+                                      with_friction_only_rest_is_known))
         call suite%addTest(TestMethod("equilibrium_and_no_gravity", equilibrium_and_no_gravity, &
                                       setUp=restart_random))
         call suite%addTest(TestMethod("reference_solves_it", reference_solves_it, &
@@ -203,6 +206,26 @@ contains
         call check_state(reference, 3.0_dp, [-4.5_dp], [-2.0_dp], 0.0_dp, "no gravity")
         call assertRelativelyEqual(pi, reference%period, 1e-15_dp)
     end subroutine equilibrium_and_no_gravity
+
+    subroutine with_friction_only_rest_is_known()
+        !! At the bottom and at the top, without gravity anywhere; not elsewhere, nor in motion.
+        type(pendulum_t) :: system
+        class(reference_t), allocatable :: reference
+        type(error_t), allocatable :: error
+        real(dp), parameter :: g(7) = [9.81_dp, 9.81_dp, 9.81_dp, 9.81_dp, 0.0_dp, 0.0_dp, 0.0_dp]
+        real(dp), parameter :: q(7) = [0.0_dp, pi, 0.7_dp, 0.0_dp, 0.7_dp, 0.0_dp, 0.7_dp]
+        real(dp), parameter :: v(7) = [0.0_dp, 0.0_dp, 0.0_dp, 0.5_dp, 0.0_dp, 0.0_dp, 0.5_dp]
+        logical, parameter :: known(7) = [.true., .true., .false., .false., .true., .true., .false.]
+        integer :: i
+
+        do i = 1, size(g)
+            call system%configure([0.5_dp, 0.8_dp, g(i), 0.1_dp], error)
+            call system%closed_form(0.3_dp, q(i:i), v(i:i), reference)
+            call assertEqual(known(i), allocated(reference), message="case "//to_text(i))
+            if (allocated(reference)) call check_state(reference, 3.0_dp, q(i:i), [0.0_dp], 0.0_dp, &
+                                                       "rest")
+        end do
+    end subroutine with_friction_only_rest_is_known
 
     subroutine reference_solves_it()
         !! From random states.

@@ -2,16 +2,19 @@ module test_stress
     !! The verdicts of `lagrangia stress` on methods: each is seen to hold, and to fail.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_edges_of_numbers, only: judge_edges
-    use lagrangia_energy_growth, only: growth_t, judge_energy_growth, judge_rounding
+    use lagrangia_energy_growth, only: growth_t, judge_energy_growth, judge_rounding, &
+                                       observe_energy
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_ledger, only: ledger_t
     use lagrangia_ledger_text, only: allowed, measured_json, verdict
+    use lagrangia_method_orders, only: new_problem
     use lagrangia_method_promises, only: judge_bytes, judge_reversal, judge_scaling, &
                                          judge_symplectic, judge_text
     use lagrangia_methods, only: method_names, new_integrator, nth_integrator
     use lagrangia_step_limits, only: judge_step_limit
+    use lagrangia_system, only: system_t
     use spoiled_methods, only: new_spoiled, spoiled_t
     implicit none (type, external)
     private
@@ -30,6 +33,7 @@ contains
         call suite%addTest(TestMethod("declared_step_limits_are_right", &
                                       declared_step_limits_are_right))
         call suite%addTest(TestMethod("energy_growth_is_named", energy_growth_is_named))
+        call suite%addTest(TestMethod("every_step_is_taken", every_step_is_taken))
         call suite%addTest(TestMethod("promises_are_held", promises_are_held))
         call suite%addTest(TestMethod("rounding_is_told_apart", rounding_is_told_apart))
         call suite%addTest(TestMethod("edges_of_numbers_are_seen", edges_of_numbers_are_seen))
@@ -221,4 +225,31 @@ contains
         call assertFalse(verdicts%rows(3)%holds, "friction")
         call assertEqual("linear", verdicts%rows(3)%remark(:6))
     end subroutine energy_growth_is_named
+
+    subroutine every_step_is_taken()
+        !! Whether or not sevens go into them: the end is that of one call, to the last bit, and as
+        !! many evaluations; the error is that of the worst step seen.
+        class(integrator_t), allocatable :: method
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(growth_t) :: growth
+        real(dp), allocatable :: q(:), v(:), q_end(:), v_end(:)
+        integer(i8) :: steps
+        integer :: i
+
+        call new_integrator("verlet", method, error)
+        do i = 0, 8
+            steps = 1400 + i
+            call new_problem(1, system, q, v)
+            q_end = q
+            v_end = v
+            call method%prepare(system, error)
+            call method%start(system, 0.0_dp, q_end, v_end)
+            call method%advance(system, 0.0_dp, 0.02_dp, 0_i8, steps, q_end, v_end)
+            call observe_energy(method, system, 0.02_dp, steps, q, v, growth)
+            call assertEqual([q_end, v_end], [q, v], message="the end")
+            call assertEqual(steps, method%evaluations, "evaluations")
+            call assertEqual(1001.0_dp, growth%steps(1), 0.0_dp, "first seen")
+        end do
+    end subroutine every_step_is_taken
 end module test_stress

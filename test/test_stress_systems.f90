@@ -224,6 +224,8 @@ contains
         call verdicts%section("chaos")
         call judge_chaos(system, method, other, 40.0_dp, verdicts)
         call check_all(verdicts, .true., "part")
+        call assertEqual(1e-14_dp, method%tolerance, 0.0_dp, "as the row says")
+        call assertEqual(1e-10_dp, other%tolerance, 0.0_dp, "as the last row says")
         call system%configure([1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 0.0_dp], error)
         call judge_chaos(system, method, other, 40.0_dp, verdicts)
         call check_all(verdicts, .false., "ln(growth)")

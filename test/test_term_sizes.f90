@@ -2,8 +2,10 @@ module test_term_sizes
     !! What rounding may do to a formula is not less than its terms, whatever their signs.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_cart_pendulum, only: cart_pendulum_t
+    use lagrangia_driven_pendulum, only: driven_pendulum_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
+    use lagrangia_system, only: system_t
     use lagrangia_term_sizes, only: motion_t, nearby_t, neighbours, new_nearby, size_of_solution, &
                                     solve_motion, term_size
     implicit none (type, external)
@@ -22,6 +24,7 @@ contains
                                       solutions_spread_what_rows_have))
         call suite%addTest(TestMethod("equations_are_as_large_as_their_terms", &
                                       equations_are_as_large_as_their_terms))
+        call suite%addTest(TestMethod("sizes_have_no_sign", sizes_have_no_sign))
     end function term_sizes_suite
 
     subroutine terms_that_cancel_are_seen()
@@ -82,4 +85,38 @@ contains
             call assertTrue(all(motion%size >= abs(motion%accelerations)), "of accelerations")
         end do
     end subroutine equations_are_as_large_as_their_terms
+
+    subroutine sizes_have_no_sign()
+        !! The mirror image of a motion, \(q, v \to -q, -v\), has terms of the same sizes, to the
+        !! last bit, and accelerations of the other sign; a driven pivot turned by half a period too.
+        type(cart_pendulum_t) :: cart
+        type(driven_pendulum_t) :: driven
+        type(error_t), allocatable :: error
+        real(dp), parameter :: masses(4) = [1.3_dp, 0.7_dp, 0.9_dp, 9.81_dp]
+        real(dp), parameter :: pivot(5) = [1.3_dp, 0.7_dp, 9.81_dp, 0.1_dp, 20.0_dp]
+
+        call cart%configure(masses, error)
+        call driven%configure(pivot, error)
+        call mirror(cart, masses, [0.2_dp, 0.8_dp], [-0.4_dp, 3.0_dp])
+        call mirror(cart, masses, [0.2_dp, 2.8_dp], [0.4_dp, -1.0_dp])
+        call mirror(driven, pivot, [0.8_dp], [3.0_dp])
+    contains
+        subroutine mirror(system, values, q, v)
+            class(system_t), intent(in) :: system
+            real(dp), intent(in) :: values(:), q(:), v(:)
+            type(nearby_t) :: nearby
+            type(motion_t) :: motion(2)
+            integer :: i
+
+            do i = 1, 2
+                call new_nearby(nearby, system, values, 0.3_dp, (3 - 2*i)*q, (3 - 2*i)*v)
+                call solve_motion(nearby, motion(i), error)
+                call assertFalse(allocated(error), "solved")
+                if (anyExceptions()) return
+            end do
+            call assertEqual(motion(1)%accelerations, -motion(2)%accelerations, 0.0_dp, "motion")
+            call assertEqual(motion(1)%equation_size, motion(2)%equation_size, 0.0_dp, "equations")
+            call assertEqual(motion(1)%size, motion(2)%size, 0.0_dp, "accelerations")
+        end subroutine mirror
+    end subroutine sizes_have_no_sign
 end module test_term_sizes

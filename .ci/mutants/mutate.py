@@ -13,7 +13,7 @@ with the other objects of an ordinary build. A mutant whose object file is the o
 
 It dies if a suite of the unit tests fails, crashes or uses ten times the processor's time: first those
 that use the module, then all from which it can be reached, the quickest first. What survives them
-meets what users run: the main job, check, errata, .ci/try_commands.sh and .ci/try_pages.sh. Survivors are
+meets what users run: the main job, .ci/try_pages.sh and .ci/try_commands.sh. Survivors are
 printed with their change: each is either a hole in the tests or the same program in other words,
 which a person decides. `--again` tries the survivors of an earlier list once more. Not part of the
 gate: most mutants take seconds, a survivor as long as all that looks at it.
@@ -342,8 +342,8 @@ def noticed_by_tests(unit, build, source, times):
 
 def noticed_by_users(program, root, work, limits):
     """The first of the things that users run which does not end well; "" if all do."""
-    for command in ([program, "errata"], [program, "check"], [program, "--output", os.path.join(work, "data")],
-                    ["bash", ".ci/try_commands.sh", program], ["bash", ".ci/try_pages.sh", program]):
+    for command in ([program, "--output", os.path.join(work, "data")], ["bash", ".ci/try_pages.sh", program],
+                    ["bash", ".ci/try_commands.sh", program]):
         status, text = run(command, root, limits)
         if status != 0:
             claim = re.search(r"^FAILED +(.*)$", text, re.M)

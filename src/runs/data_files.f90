@@ -13,7 +13,7 @@ module lagrangia_data_files
     use lagrangia_text_table, only: text_table_t
     implicit none (type, external)
     private
-    public :: check_format, data_path, draw, event_path, film_path, new_table, script_path
+    public :: check_format, data_path, draw, ends_well, event_path, film_path, new_table, script_path
 
     character(4), parameter :: formats(3) = ["text", "csv ", "npy "]
     character(4), parameter :: endings(3) = [".dat", ".csv", ".npy"]
@@ -125,7 +125,8 @@ contains
 
     function ends_well(path, kind)
         !! Whether a picture is there to its last byte, as far as its last bytes tell.
-        character(*), intent(in) :: path, kind
+        character(*), intent(in) :: path  !! of the picture
+        character(*), intent(in) :: kind  !! png or svg
         logical :: ends_well
         character(20) :: last
         integer :: unit, length, status
@@ -135,9 +136,10 @@ contains
               action="read", iostat=status)
         if (status /= 0) return
         inquire (unit=unit, size=length)
-        if (length > len(last)) read (unit, pos=length - len(last) + 1, iostat=status) last
+        last = ""
+        if (length > 0) read (unit, pos=max(1, length - len(last) + 1), iostat=status) &
+            last(:min(len(last), length))
         close (unit)
-        if (length > len(last) .and. status == 0) ends_well = &
-            index(last, trim(merge("IEND  ", "</svg>", kind == "png"))) > 0
+        if (status == 0) ends_well = index(last, trim(merge("IEND  ", "</svg>", kind == "png"))) > 0
     end function ends_well
 end module lagrangia_data_files
