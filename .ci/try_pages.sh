@@ -59,7 +59,6 @@ for system in $systems atwood_lift double_pendulum_formulas; do page plain descr
 for system in $systems; do page plain modes "$system"; done
 for principle in action constraints gauge least-time virtual-work; do page statements principle "$principle"; done
 for slip in "" $("$program" errata | grep -oE "\bE[0-9]+\b" | sort -u); do page plain errata $slip; done
-for command in "" run list describe check grade derive modes principle errata bench stress; do page plain $command --help; done
 for system in pendulum cart_pendulum rotating_hoop; do page shapes derive "$system" --json; done
 page plain list systems
 page plain list methods

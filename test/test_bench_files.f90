@@ -126,8 +126,8 @@ contains
     end function picture_of
 
     subroutine panels_lie_side_by_side()
-        !! Pixels: 40 for the title, rows of 390, legend below; a panel alone is as wide as two. Times
-        !! in whole decades, the closed form's on the axis above.
+        !! Pixels: 40 for the title, rows of 390, legend below; a panel alone is as wide as two.
+        !! Times in whole decades, the closed form's on the axis above.
         type(bench_problem_t), allocatable :: problems(:)
         type(error_t), allocatable :: error
         character(:), allocatable :: script
@@ -172,8 +172,8 @@ contains
     end function margins
 
     subroutine methods_are_told_apart()
-        !! Ours by 16 colours and 15 marks, no two alike; GSL's dashed and the closed form whole, both
-        !! black; of each as many lines in the legend as it takes.
+        !! Ours by 16 colours and 15 marks, no two alike; GSL's dashed and the closed form whole,
+        !! both black; of each as many lines in the legend as it takes.
         type(bench_problem_t), allocatable :: problems(:)
         type(error_t), allocatable :: error
         type(curve_t) :: curves(19)

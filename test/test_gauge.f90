@@ -117,7 +117,8 @@ contains
         call expand_lagrangian(landau, 0.4_dp, place, speed, terms)
         call landau%momenta(0.4_dp, place, speed, p)
         call assertEqual(terms%dl_dv, p, rounding, "momenta of Landau's")
-        call assertEqual([0.78_dp, -1.69_dp - 0.7_dp*1.9_dp*0.4_dp, 0.65_dp], p, rounding, "by hand")
+        call assertEqual([0.78_dp, -1.69_dp - 0.7_dp*1.9_dp*0.4_dp, 0.65_dp], p, rounding, &
+                         "by hand")
         call landau%velocities(0.4_dp, place, p, back)
         call assertEqual(speed, back, rounding, "and back")
     end subroutine chi_leads_to_landau

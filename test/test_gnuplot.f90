@@ -267,7 +267,8 @@ contains
         !! wider side of a path that is drawn to scale.
         real(dp), parameter :: ranges(7) = [0.29_dp, 0.31_dp, 0.59_dp, 0.61_dp, 1.49_dp, 1.51_dp, &
                                             2.9_dp]
-        character(4), parameter :: steps(7) = ["0.05", "0.1 ", "0.1 ", "0.2 ", "0.2 ", "0.5 ", "0.5 "]
+        character(4), parameter :: steps(7) = ["0.05", "0.1 ", "0.1 ", "0.2 ", "0.2 ", "0.5 ", &
+                                               "0.5 "]
         type(panel_t), allocatable :: panels(:)
         type(error_t), allocatable :: error
         character(:), allocatable :: text
@@ -277,8 +278,8 @@ contains
             do k = 1, 2
                 call new_panels(["x:y"], ["t", "x", "y"], ["s", "m", "m"], panels, error)
                 text = gnuplot_script("it.dat", "", "", ["t", "x", "y"], ["s", "m", "m"], &
-                                      [0.0_dp, 1.0_dp, 1.0_dp], [1.0_dp, 1.0_dp + ranges(i)/k, &
-                                                                  1.0_dp + ranges(i)/(3 - k)], panels)
+                                      [0.0_dp, 1.0_dp, 1.0_dp], &
+                                      1.0_dp + ranges(i)/[1, k, 3 - k], panels)
                 call assertTrue(index(text, "set xtics "//trim(steps(i))//"; set ytics "// &
                                       trim(steps(i))//new_line("a")) > 0, steps(i)//text)
             end do

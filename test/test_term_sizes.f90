@@ -88,7 +88,7 @@ contains
 
     subroutine sizes_have_no_sign()
         !! The mirror image of a motion, \(q, v \to -q, -v\), has terms of the same sizes, to the
-        !! last bit, and accelerations of the other sign; a driven pivot turned by half a period too.
+        !! last bit, and accelerations of the other sign.
         type(cart_pendulum_t) :: cart
         type(driven_pendulum_t) :: driven
         type(error_t), allocatable :: error

@@ -13,7 +13,8 @@ module lagrangia_data_files
     use lagrangia_text_table, only: text_table_t
     implicit none (type, external)
     private
-    public :: check_format, data_path, draw, ends_well, event_path, film_path, new_table, script_path
+    public :: check_format, data_path, draw, ends_well, event_path, film_path, new_table, &
+              script_path
 
     character(4), parameter :: formats(3) = ["text", "csv ", "npy "]
     character(4), parameter :: endings(3) = [".dat", ".csv", ".npy"]
