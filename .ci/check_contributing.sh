@@ -7,7 +7,7 @@ bad=0
 complain() { echo "$*"; bad=1; }
 
 order=$(sed -n '/rooms = split("/,/order, " ")/p' .ci/check_layers.sh | grep -o '"[a-z ]*"' | tr -d '"\n' |
-    sed 's/middle/references, integrators/; s/ ensembles//' | sed 's/ *$//; s/ \+/ /g; s/references, integrators/references,integrators/; s/ / < /g; s/,/, /')
+    sed 's/middle/references, integrators/' | sed 's/ *$//; s/ \+/ /g; s/references, integrators/references,integrators/; s/ / < /g; s/,/, /')
 tr '\n' ' ' <CONTRIBUTING.md | tr -s ' ' | grep -qF "$order" || complain "the order of the rooms is not '$order'"
 for text in README.md CONTRIBUTING.md; do
     while read -r path; do

@@ -9,7 +9,7 @@
 set -u
 cd "$(dirname "$0")/.." || exit 2
 export LC_ALL=C
-folders=(homework reference scenes templates)
+folders=(homework reference scenes sweeps templates)
 target=src/posix/shipped_files.c
 
 sources() {

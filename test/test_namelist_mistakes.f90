@@ -206,7 +206,8 @@ contains
         call no_scene("dt = 1e-2 "//rest, "--set scene%q(2)=1: &scene: q = 1: 2 values, but 1 "// &
                       "is needed: theta", "scene%q(2)=1")
         call no_scene("dt = 1e-2 "//rest, "--set wedge%alpha=1: unknown group 'wedge'; "// &
-                      "allowed: scene, pendulum, lagrangian (in a.nml)", "wedge%alpha=1")
+                      "allowed: scene, pendulum, lagrangian, "// &
+                      "sweep (in a.nml)", "wedge%alpha=1")
     end subroutine keys_of_a_scene
 
     subroutine values_of_a_scene()

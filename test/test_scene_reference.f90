@@ -7,6 +7,7 @@ module test_scene_reference
     use lagrangia_scene_keys, only: keys
     use lagrangia_scene_reader, only: parse_scene
     use lagrangia_scene_reference, only: entries, entry_t, reference_lines
+    use lagrangia_sweep_group, only: sweep_keys => keys
     use lagrangia_system, only: system_t
     use lagrangia_text, only: word_t
     implicit none (type, external)
@@ -35,6 +36,11 @@ contains
                              keys(i))
         end do
         call assertEqual(size(keys) + 1, count(entries%group == "scene"))
+        do i = 1, size(sweep_keys)
+            call assertEqual(1, count(entries%group == "sweep" .and. &
+                                      entries%key == sweep_keys(i)), sweep_keys(i))
+        end do
+        call assertEqual(size(sweep_keys), count(entries%group == "sweep"))
     end subroutine every_key_is_there
 
     subroutine every_example_is_taken()
@@ -64,6 +70,8 @@ contains
                 text = "&scene "//free//" event = 'theta = 0' "//trim(item%example)//" /"
             else if (item%group == "scene") then
                 text = "&scene "//without(fixed, item%key)//trim(item%example)//" /"
+            else if (item%group == "sweep") then
+                text = "&scene "//fixed//" / &sweep "//trim(item%example)//" /"
             else if (item%group == "NAME") then
                 text = "&scene "//fixed//" / &pendulum "//trim(item%example)//" /"
             else

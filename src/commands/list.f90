@@ -1,5 +1,5 @@
 module lagrangia_list
-    !! `lagrangia list [systems|methods|scenes]`: what there is, one a line.
+    !! `lagrangia list [systems|methods|scenes|sweeps]`: what there is, one a line.
     use lagrangia_catalogue, only: nth_system
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: put_line
@@ -10,7 +10,7 @@ module lagrangia_list
     use lagrangia_names, only: advice
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: read_scene
-    use lagrangia_shipped, only: named_scenes
+    use lagrangia_shipped, only: named_scenes, named_sweeps
     use lagrangia_system, only: system_t
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
@@ -20,10 +20,10 @@ module lagrangia_list
 contains
 
     subroutine list_command(line, error)
-        !! Print one list, or all three under their titles.
+        !! Print one list, or all under their titles.
         type(command_line_t), intent(in) :: line  !! what was typed
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
-        character(8), parameter :: kinds(3) = ["systems ", "methods ", "scenes  "]
+        character(8), parameter :: kinds(4) = ["systems ", "methods ", "scenes  ", "sweeps  "]
         character(:), allocatable :: what
         integer :: i
 
@@ -39,7 +39,8 @@ contains
             select case (i)
             case (1); call list_systems()
             case (2); call list_methods()
-            case default; call list_scenes(error)
+            case (3); call list_scenes(named_scenes, error)
+            case default; call list_scenes(named_sweeps, error)
             end select
             if (allocated(error)) return
         end do
@@ -90,14 +91,21 @@ contains
                      "fastest")
         end subroutine list_methods
 
-        subroutine list_scenes(error)
+        subroutine list_scenes(named, error)
+            interface
+                subroutine named(paths)
+                    import :: word_t
+                    implicit none (type, external)
+                    type(word_t), allocatable, intent(out) :: paths(:)
+                end subroutine named
+            end interface
             type(error_t), allocatable, intent(out) :: error
             type(word_t), allocatable :: paths(:)
             class(system_t), allocatable :: system
             type(scene_t) :: scene
             integer :: k
 
-            call named_scenes(paths)
+            call named(paths)
             do k = 1, size(paths)
                 call read_scene(paths(k)%text, [word_t ::], scene, system, error)
                 if (allocated(error)) return

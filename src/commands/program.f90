@@ -22,6 +22,7 @@ module lagrangia_program
     use lagrangia_run_command, only: run_command
     use lagrangia_show, only: show_command
     use lagrangia_stress, only: stress_command
+    use lagrangia_sweep_command, only: sweep_command
     use lagrangia_unfinished, only: is_creating, remove_unfinished
     use lagrangia_version, only: build_text, version
     implicit none (type, external)
@@ -90,6 +91,7 @@ contains
             case ("derive"); call derive_command(line, error)
             case ("describe"); call describe_command(line, error)
             case ("bench"); call bench_command(line, error)
+            case ("sweep"); call sweep_command(line, error)
             case ("stress"); call stress_command(line, error)
             case ("show"); call show_command(line, error)
             case ("modes"); call modes_command(line, error)

@@ -35,6 +35,12 @@ module lagrangia_registry
         option_t("methods", needs_value, "rk4,gsl_rk8pd,...", "that are measured"), &
         option_t("systems", needs_value, "pendulum,...", "or scenes, whose steps are measured"), &
         option_t("tolerances", needs_value, "1e-6,1e-9,...", "of the methods that take one"), &
+        option_t("over", needs_value, "NAME=FROM:TO:COUNT", "an axis of a sweep; repeatable", &
+                 repeatable=.true., any_text=.true.), &
+        option_t("keep", needs_value, "COLUMN|period|...", "what is kept of each trajectory", &
+                 repeatable=.true., any_text=.true.), &
+        option_t("seed", needs_value, "N", "of a sweep's random values (default 1)"), &
+        option_t("threads", needs_value, "N", "of a sweep (default: one a processor)"), &
         option_t("numbers", no_value, "", "each line of a derivation at a random state, twice"), &
         option_t("slip", needs_value, "ID", "derive with this slip of the notes"), &
         option_t("latex", no_value, "", "print LaTeX for slides"), &
@@ -63,7 +69,9 @@ module lagrangia_registry
                   "rows by name", -1, "long json quiet"), &
         command_t("grade", "FILE...", "a student's equations: right, or which term is wrong", -1, &
                   "json quiet"), &
-        command_t("list", "[systems|methods|scenes]", "what there is, one a line", 1, ""), &
+        command_t("sweep", "SCENE", "many trajectories over an axis or two, numbers of each", 1, &
+                  "set over keep seed threads output format plot json quiet"), &
+        command_t("list", "[systems|methods|scenes|sweeps]", "what there is, one a line", 1, ""), &
         command_t("show", "[FILE...]", "a scene or sheet that comes with the program, as it is", &
                   -1, ""), &
         command_t("describe", "SYSTEM|SCENE|scene", "L, equations, ...; of the word scene: "// &

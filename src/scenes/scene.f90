@@ -7,9 +7,11 @@ module lagrangia_scene
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: scene_t, expectation_t, add_texts, scene_lines, scene_line_length
+    public :: scene_t, expectation_t, sweep_group_t
+    public :: add_texts, axis_length, scene_lines, scene_line_length
 
     integer, parameter :: scene_line_length = 600  !! what a single value may need
+    integer, parameter :: axis_length = 120        !! of a text of `&sweep`
     integer, parameter :: short_line = 100         !! a list goes on in the next line
 
     type :: expectation_t
@@ -18,6 +20,15 @@ module lagrangia_scene
         real(dp) :: limit = 0.0_dp
         logical :: judged = .true.  !! false: measured only, in a scene that `--set` has changed
     end type expectation_t
+
+    type :: sweep_group_t
+        !! The group `&sweep`.
+        character(axis_length), allocatable :: over(:)     !! the axes: `'theta = 0.1:3:50'`
+        character(axis_length), allocatable :: keep(:)     !! of each trajectory: `'period'`
+        real(dp) :: after = -huge(1.0_dp)          !! samples before don't count, s
+        integer :: seed = 1                        !! of values drawn at random
+        integer :: threads = 0                     !! 0: as many as there are processors
+    end type sweep_group_t
 
     type :: scene_t
         character(:), allocatable :: source        !! the file it was read from
@@ -45,6 +56,7 @@ module lagrangia_scene
         character(scene_line_length), allocatable :: formulas(:)
         !! the group `&lagrangian` of a system in formulas, line by line; else absent
         character(:), allocatable :: changes       !! by `--set`: `m1=5`; absent: none
+        type(sweep_group_t) :: sweep               !! for `lagrangia sweep`
         character(:), allocatable :: warning       !! about what is there for nothing; else absent
         type(namelist_t), allocatable :: file      !! where each key stands; absent: nowhere
     contains

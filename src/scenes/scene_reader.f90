@@ -19,6 +19,7 @@ module lagrangia_scene_reader
                                     read_columns, read_state, read_times
     use lagrangia_shipped, only: find_scene, looks_like_path, scene_name
     use lagrangia_shipped_files, only: read_file_or_shipped
+    use lagrangia_sweep_group, only: read_sweep_group, sweep_group => group
     use lagrangia_system, only: check_parameter, default_values, system_t
     use lagrangia_text, only: lower, quoted
     use lagrangia_written_expressions, only: read_expressions, unused_parameters, &
@@ -133,8 +134,10 @@ contains
             if (allocated(error)) exit read_groups
             call refuse_unknown_keys(tree, "scene", allowed, error)
             if (allocated(error)) exit read_groups
+            call read_sweep_group(tree, scene%sweep, error)
+            if (allocated(error)) exit read_groups
             call refuse_unknown_groups(tree, [character(name_length) :: "scene", scene%system, &
-                                              formula_group], error)
+                                              formula_group, sweep_group], error)
         end block read_groups
         call move_alloc(tree, scene%file)
     end subroutine parse_scene
@@ -235,7 +238,7 @@ contains
         if (any(system_names() == scene%system)) then
             call refuse_value(tree, "scene", "system", "is a system of the lectures; give that "// &
                               "of &lagrangian another name", error)
-        else if (any(["scene     ", "methods   ", "lagrangian"] == scene%system)) then
+        else if (any(["scene     ", "methods   ", "lagrangian", "sweep     "] == scene%system)) then
             call refuse_value(tree, "scene", "system", "is the name of something else; give "// &
                               "the system of &lagrangian another one", error)
         else if (.not. is_group_name(trim(scene%system))) then

@@ -9,7 +9,7 @@ module lagrangia_scene_reference
     type :: entry_t
         !! One key. Texts are as people read them; the example is read back by a test.
         character(12) :: group = ""
-        !! `scene`, `lagrangian`, or `NAME`, that of the system
+        !! `scene`, `lagrangian`, `sweep`, or `NAME`, that of the system
         character(name_length) :: key = ""
         character(8) :: unit = ""
         character(110) :: default = ""         !! "": the key must be there
@@ -103,7 +103,18 @@ module lagrangia_scene_reference
                 "looked at, a formula for each coordinate", "equilibrium = 'l0 + m g/k', '0'"), &
         entry_t("NAME", "PARAMETER", "as is", "as 'lagrangia describe SYSTEM' says", &
                 "the group of "// &
-                "the system's name has its parameters", "l = 2.0")]
+                "the system's name has its parameters", "l = 2.0"), &
+        entry_t("sweep", "over", "", absent, "one or two axes, each 'NAME = FROM:TO:COUNT', "// &
+                "perhaps with ':log' or ':random'; NAME is a coordinate, its _dot, or a "// &
+                "parameter", "over = 'theta = -pi:pi:100', 'm = 0.1:10:50:log'"), &
+        entry_t("sweep", "keep", "", absent, "of each trajectory: a column at the end, 'max "// &
+                "COLUMN', 'min COLUMN', 'period', 'exact period', 'first EVENT', 'flip ANGLE'", &
+                "keep = 'period', 'max theta_dot'"), &
+        entry_t("sweep", "after", "s", "t0", "samples before this time don't count for max and "// &
+                "min", "after = 0.5"), &
+        entry_t("sweep", "seed", "", "1", "of values drawn at random", "seed = 7"), &
+        entry_t("sweep", "threads", "", "one a processor", "that compute at a time, a number "// &
+                "up to 10000", "threads = 2")]
 
 contains
 
@@ -131,6 +142,8 @@ contains
             else if (item%group /= before) then
                 call add("")
                 if (item%group == "lagrangian") call add("&lagrangian: a system in formulas")
+                if (item%group == "sweep") call add("&sweep: many trajectories, for "// &
+                                                    "'lagrangia sweep'")
                 if (item%group == "NAME") call add("&NAME: the parameters of the system NAME")
             end if
             head = "  "//trim(item%key)

@@ -11,9 +11,10 @@ module lagrangia_shipped
     use lagrangia_text, only: quoted, short_source
     implicit none (type, external)
     private
-    public :: shipped_scenes, named_scenes, find_scene, looks_like_path, scene_name
+    public :: shipped_scenes, named_scenes, named_sweeps, find_scene, find_sweep
+    public :: looks_like_path, scene_name
 
-    character(*), parameter :: folder = "data/scenes/"
+    character(*), parameter :: folder = "data/scenes/", sweeps = "data/sweeps/"
     character(*), parameter :: ending = ".nml"
 
     type, bind(c) :: glob_t
@@ -48,7 +49,7 @@ contains
         !! working folder; where it has none, those that the program carries.
         type(word_t), allocatable, intent(out) :: paths(:)  !! from the working folder
 
-        call scenes_here(paths)
+        call scenes_here(folder, paths)
         if (size(paths) == 0) call shipped_files(folder, paths)
     end subroutine shipped_scenes
 
@@ -56,11 +57,45 @@ contains
         !! The paths of all scenes that a name alone finds: those of the working folder, and then
         !! those that the program carries and the folder does not have.
         type(word_t), allocatable, intent(out) :: paths(:)  !! from the working folder
+
+        call named_in(folder, paths)
+    end subroutine named_scenes
+
+    subroutine named_sweeps(paths)
+        !! The same of the scenes with a group `&sweep`.
+        type(word_t), allocatable, intent(out) :: paths(:)  !! from the working folder
+
+        call named_in(sweeps, paths)
+    end subroutine named_sweeps
+
+    subroutine find_sweep(name, path, error)
+        !! `find_scene`, but first among the scenes with a group `&sweep`.
+        character(*), intent(in) :: name  !! of a scene, or a path
+        character(:), allocatable, intent(out) :: path  !! for `read_scene`
+        type(error_t), allocatable, intent(out) :: error  !! names the nearest scene
+        type(word_t), allocatable :: paths(:)
+        integer :: i
+
+        if (.not. looks_like_path(name)) then
+            call named_sweeps(paths)
+            do i = 1, size(paths)
+                path = paths(i)%text
+                if (is_same(scene_name(path), name)) return
+            end do
+        end if
+        call find_scene(name, path, error)
+    end subroutine find_sweep
+
+    subroutine named_in(folder, paths)
+        !! The scenes of a folder of the working folder, and then those that the program carries
+        !! and the folder does not have.
+        character(*), intent(in) :: folder
+        type(word_t), allocatable, intent(out) :: paths(:)
         type(word_t), allocatable :: here(:), carried(:)
         logical, allocatable :: other(:)
         integer :: i, k, n
 
-        call scenes_here(here)
+        call scenes_here(folder, here)
         call shipped_files(folder, carried)
         allocate (other(size(carried)), source=.true.)
         do i = 1, size(carried)
@@ -78,10 +113,11 @@ contains
             n = n + 1
             paths(n)%text = carried(i)%text
         end do
-    end subroutine named_scenes
+    end subroutine named_in
 
-    subroutine scenes_here(paths)
+    subroutine scenes_here(folder, paths)
         !! Those of the working folder, in alphabetical order.
+        character(*), intent(in) :: folder
         type(word_t), allocatable, intent(out) :: paths(:)
         type(glob_t) :: found
         type(c_ptr), pointer :: list(:)

@@ -13,11 +13,13 @@ module lagrangia_random_draws
     public :: random_t, random_box_t
 
     integer(i8), parameter :: first_seed = 20110901_i8
+    integer(i8), parameter :: modulus = 2147483647_i8  !! 2^31 - 1, a prime
 
     type :: random_t
         !! A sequence of numbers.
         integer(i8), private :: seed = first_seed
     contains
+        procedure :: start
         procedure :: uniform
         procedure :: parameters
         procedure :: state
@@ -31,6 +33,18 @@ module lagrangia_random_draws
 
 contains
 
+    pure subroutine start(self, seed)
+        !! Another sequence, the same one for the same `seed`.
+        class(random_t), intent(inout) :: self
+        integer, intent(in) :: seed  !! any number
+        integer :: i
+
+        self%seed = 1 + modulo(int(seed, i8), modulus - 1)
+        do i = 1, 10  ! the first numbers of neighbouring seeds are alike
+            self%seed = mod(48271_i8*self%seed, modulus)
+        end do
+    end subroutine start
+
     subroutine uniform(self, lower, upper, x)
         !! The next number between `lower` and `upper`.
         !!
@@ -38,7 +52,6 @@ contains
         class(random_t), intent(inout) :: self
         real(dp), intent(in) :: lower, upper  !! the ends, in the unit of `x`
         real(dp), intent(out) :: x            !! between them
-        integer(i8), parameter :: modulus = 2147483647_i8
 
         self%seed = mod(48271_i8*self%seed, modulus)
         x = lower + (upper - lower)*real(self%seed, dp)/modulus

@@ -1,0 +1,286 @@
+module lagrangia_sweep_command
+    !! `lagrangia sweep SCENE`: many trajectories of a scene, and a number or more of each.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_command_line, only: command_line_t, word_t
+    use lagrangia_console, only: note, put_line
+    use lagrangia_data_files, only: check_format, data_path, draw
+    use lagrangia_disk_space, only: space_warning
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_json, only: json_item, json_object, json_pair
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_namelist, only: has_key, refuse_value
+    use lagrangia_number_reader, only: to_integer
+    use lagrangia_number_text, only: field_width, scientific
+    use lagrangia_observer, only: observer_t
+    use lagrangia_places, only: places_t
+    use lagrangia_progress, only: progress_t
+    use lagrangia_resources, only: check_memory
+    use lagrangia_scene, only: add_texts, axis_length, scene_line_length, scene_t
+    use lagrangia_scene_claims, only: claim_scene, claim_table
+    use lagrangia_scene_reader, only: read_scene
+    use lagrangia_shipped, only: find_sweep
+    use lagrangia_sweep, only: new_sweep, sweep_t
+    use lagrangia_sweep_files, only: write_sweep
+    use lagrangia_sweep_grid, only: compute_grid, sweep_result_t, thread_count
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: quoted, to_text
+    implicit none (type, external)
+    private
+    public :: sweep_command
+
+contains
+
+    subroutine sweep_command(line, error)
+        !! Read the scene and its group `&sweep`, what the command line says instead, compute,
+        !! write, and say what came out.
+        type(command_line_t), intent(in) :: line          !! what was typed
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
+        type(scene_t) :: scene
+        class(system_t), allocatable :: system
+        type(sweep_t) :: sweep
+        type(sweep_result_t) :: result
+        type(progress_t), target :: progress
+        class(observer_t), pointer :: observer
+        character(:), allocatable :: format, kind, path, warning
+        integer :: threads
+        real(dp) :: numbers
+
+        if (size(line%arguments) == 0) then
+            call fail(error, "sweep what? 'lagrangia list sweeps' shows the names; a path ends "// &
+                      "in .nml")
+            return
+        end if
+        format = line%value_of("format", "text")
+        call check_format(format, error)
+        if (allocated(error)) return
+        kind = line%value_of("plot", "png")
+        if (kind == "") kind = "png"
+        if (kind /= "png" .and. kind /= "svg") call fail(error, "unknown picture format "// &
+            quoted(kind)//"; there are png, svg")
+        if (allocated(error)) return
+        call find_sweep(line%arguments(1)%text, path, error)
+        if (.not. allocated(error)) call read_scene(path, line%values_of("set"), scene, system, &
+                                                    error)
+        if (.not. allocated(error)) call take_options(line, scene, error)
+        if (.not. allocated(error)) call plan(scene, system, sweep, error)
+        if (allocated(error)) return
+        call claim(scene, line%value_of("output", "data/output"), format, path, error)
+        if (allocated(error)) return
+        numbers = real(sweep%trajectories(), dp)*(size(sweep%kept) + size(sweep%axes))
+        call check_memory(8.0_dp*numbers, to_text(sweep%trajectories())//" trajectories", error)
+        if (allocated(error)) return
+        warning = space_warning(numbers*merge(8, field_width + 1, format == "npy"), &
+                                line%value_of("output", "data/output"))
+        if (warning /= "" .and. .not. line%has("quiet")) call note(warning)
+
+        threads = thread_count(scene%sweep%threads)
+        observer => progress
+        call progress%restart(trim(scene%name), line%has("quiet"))
+        call compute_grid(sweep, threads, observer, result, error)
+        call progress%clear()
+        if (.not. allocated(error)) call write_sweep(sweep, result, path, format, &
+                                                     sweep_lines(scene), error)
+        if (allocated(error)) return
+        if (allocated(result%reason) .and. .not. line%has("quiet")) call note( &
+            to_text(result%failures)//" of "//to_text(sweep%trajectories())// &
+            " trajectories failed and are NaN; the first: "//result%reason)
+        if (line%has("json")) then
+            call put_json(sweep, result, threads, path)
+        else if (.not. line%has("quiet")) then
+            call put_summary(sweep, result, threads, path)
+        end if
+        if (line%has("plot")) call draw(path, kind, error)
+    end subroutine sweep_command
+
+    subroutine take_options(line, scene, error)
+        !! What the command line says in the place of `&sweep`.
+        type(command_line_t), intent(in) :: line
+        type(scene_t), intent(inout) :: scene
+        type(error_t), allocatable, intent(out) :: error
+
+        call take_texts("over", scene%sweep%over)
+        if (.not. allocated(error)) call take_texts("keep", scene%sweep%keep)
+        if (.not. allocated(error)) call take_number("seed", -huge(0), huge(0), &
+                                                   scene%sweep%seed)
+        if (.not. allocated(error)) call take_number("threads", 1, 10000, &
+                                                   scene%sweep%threads)
+        if (allocated(error)) return
+        if (size(scene%sweep%over) == 0) then
+            call fail(error, "sweep over what? '--over theta=0.1:3:50', or over = "// &
+                      "'theta = 0.1:3:50' in the group &sweep of the scene")
+        else if (size(scene%sweep%keep) == 0) then
+            call fail(error, "keep what of each trajectory? '--keep period', a column, "// &
+                      "'--keep ""max COLUMN""'; or keep = 'period' in the group &sweep of "// &
+                      "the scene")
+        end if
+    contains
+        subroutine take_texts(name, texts)
+            character(*), intent(in) :: name
+            character(axis_length), allocatable, intent(inout) :: texts(:)
+            type(word_t), allocatable :: words(:)
+            integer :: i
+
+            if (.not. line%has(name)) return
+            words = line%values_of(name)
+            deallocate (texts)
+            allocate (texts(size(words)))
+            do i = 1, size(words)
+                texts(i) = words(i)%text
+                if (len_trim(words(i)%text) <= len(texts)) cycle
+                call fail(error, "option '--"//name//"': a text of at most "// &
+                          to_text(len(texts))//" characters is needed")
+                return
+            end do
+        end subroutine take_texts
+
+        subroutine take_number(name, least, most, number)
+            character(*), intent(in) :: name
+            integer, intent(in) :: least, most
+            integer, intent(inout) :: number
+            character(:), allocatable :: problem
+            integer(i8) :: given
+
+            if (.not. line%has(name)) return
+            call to_integer(line%value_of(name, ""), given, problem)
+            if (problem == "" .and. given >= least .and. given <= most) then
+                number = int(given)
+                return
+            end if
+            if (problem == "") problem = "a number from "//to_text(least)//" to "// &
+                                         to_text(most)//" is needed"
+            call fail(error, "option '--"//name//"' "//quoted(line%value_of(name, ""))//": "// &
+                      problem)
+        end subroutine take_number
+    end subroutine take_options
+
+    subroutine plan(scene, system, sweep, error)
+        !! The sweep; what is refused is refused where it stands in the file, if it stands there.
+        type(scene_t), intent(inout) :: scene
+        class(system_t), intent(in) :: system
+        type(sweep_t), intent(out) :: sweep
+        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable :: located
+
+        call new_sweep(sweep, scene, system, scene%sweep%over, scene%sweep%keep, &
+                       scene%sweep%seed, scene%sweep%after, error)
+        if (.not. allocated(error)) return
+        if (.not. (allocated(error%key) .and. allocated(scene%file))) return
+        if (.not. has_key(scene%file, "sweep", error%key)) return
+        call refuse_value(scene%file, "sweep", error%key, error%message, located, error%element)
+        call move_alloc(located, error)
+    end subroutine plan
+
+    subroutine claim(scene, folder, format, path, error)
+        !! Where the data go; not over the scene itself.
+        type(scene_t), intent(in) :: scene
+        character(*), intent(in) :: folder, format
+        character(:), allocatable, intent(out) :: path
+        type(error_t), allocatable, intent(out) :: error
+        type(places_t) :: places
+        character(:), allocatable :: plain
+        integer :: dot
+
+        path = ""
+        if (folder == "") then
+            call fail(error, "option '--output' needs the name of a folder")
+            return
+        end if
+        plain = data_path(folder, trim(scene%output), format)
+        dot = index(plain, ".", back=.true.)
+        path = plain(:dot - 1)//"_sweep"//plain(dot:)
+        call claim_scene(scene, places, error)
+        if (.not. allocated(error)) call claim_table(path, "sweep", trim(scene%name), places, error)
+    end subroutine claim
+
+    function sweep_lines(scene) result(lines)
+        !! The group `&sweep` as it was computed, for the file's header.
+        type(scene_t), intent(in) :: scene
+        character(scene_line_length), allocatable :: lines(:)
+
+        lines = [character(scene_line_length) :: "&sweep"]
+        call add_texts(lines, "over", scene%sweep%over)
+        call add_texts(lines, "keep", scene%sweep%keep)
+        if (scene%sweep%after > -huge(1.0_dp)) lines = [character(scene_line_length) :: lines, &
+            "  after = "//to_text(scene%sweep%after)]
+        lines = [character(scene_line_length) :: lines, "  seed = "//to_text(scene%sweep%seed), "/"]
+    end function sweep_lines
+
+    subroutine put_summary(sweep, result, threads, path)
+        !! How many, how long, and between what bounds the numbers lie.
+        type(sweep_t), intent(in) :: sweep
+        type(sweep_result_t), intent(in) :: result
+        integer, intent(in) :: threads
+        character(*), intent(in) :: path
+        character(:), allocatable :: how
+        logical, allocatable :: there(:)
+        integer :: i, width
+
+        how = " on "//to_text(threads)//" thread"//trim(merge(" ", "s", threads == 1))
+        if (result%in_lanes) how = how//", in lanes"
+        call put_line(trim(sweep%scene%name)//": "//to_text(sweep%trajectories())// &
+                      " trajectories by "//trim(sweep%scene%method)//" in "// &
+                      scientific(result%seconds, 3)//" s"//how)
+        width = maxval(len_trim(sweep%kept%text)) + 2
+        allocate (there(sweep%trajectories()))
+        do i = 1, size(sweep%kept)
+            there = ieee_is_finite(result%values(i, :))
+            associate (kept => sweep%kept(i), values => result%values(i, :))
+                if (any(there)) then
+                    call put_line("  "//kept%text(:width)// &
+                                  scientific(minval(values, mask=there), 6)//" to "// &
+                                  scientific(maxval(values, mask=there), 6)//" "// &
+                                  unit(kept%unit)//missing(count(.not. there)))
+                else
+                    call put_line("  "//kept%text(:width)//"none of them has it")
+                end if
+            end associate
+        end do
+        call put_line("data file: "//path)
+    contains
+        pure function unit(text)
+            character(*), intent(in) :: text
+            character(:), allocatable :: unit
+
+            unit = trim(text)
+            if (text == "1") unit = ""
+        end function unit
+
+        pure function missing(number) result(text)
+            integer, intent(in) :: number
+            character(:), allocatable :: text
+
+            text = ""
+            if (number > 0) text = "; "//to_text(number)//" of them have none"
+        end function missing
+    end subroutine put_summary
+
+    subroutine put_json(sweep, result, threads, path)
+        !! The same as an object.
+        type(sweep_t), intent(in) :: sweep
+        type(sweep_result_t), intent(in) :: result
+        integer, intent(in) :: threads
+        character(*), intent(in) :: path
+        character(:), allocatable :: rows
+        logical, allocatable :: there(:)
+        integer :: i
+
+        rows = ""
+        allocate (there(sweep%trajectories()))
+        do i = 1, size(sweep%kept)
+            there = ieee_is_finite(result%values(i, :))
+            rows = rows//", "//json_object(json_pair("keep", trim(sweep%kept(i)%text))// &
+                json_pair("unit", trim(sweep%kept(i)%unit))// &
+                json_pair("found", to_text(count(there)))// &
+                json_pair("least", minval(result%values(i, :), mask=there))// &
+                json_pair("largest", maxval(result%values(i, :), mask=there)))
+        end do
+        call put_line(json_object(json_pair("scene", trim(sweep%scene%name))// &
+            json_pair("file", path)// &
+            json_item("trajectories", to_text(sweep%trajectories()))// &
+            json_item("failed", to_text(result%failures))// &
+            json_item("threads", to_text(threads))// &
+            json_pair("in_lanes", result%in_lanes)// &
+            json_pair("seconds", result%seconds)// &
+            json_item("kept", "["//rows(3:)//"]")))
+    end subroutine put_json
+end module lagrangia_sweep_command

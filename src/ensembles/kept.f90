@@ -1,0 +1,236 @@
+module lagrangia_kept
+    !! What a sweep keeps of a trajectory, a number each:
+    !!
+    !! | text | number |
+    !! |---|---|
+    !! | `theta` | a column at the end |
+    !! | `max theta`, `min theta` | its largest, its smallest value among the samples |
+    !! | `period`, `period x` | of the first coordinate, or that one, from its turning points |
+    !! | `exact period` | by the closed form of the start |
+    !! | `first theta = 0.5 rising` | the time of the first event |
+    !! | `flip theta2` | the time at which the angle first goes over the top: plus or minus pi |
+    !!
+    !! What does not happen, or is not known, is NaN.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
+    use lagrangia_columns, only: columns_t, new_columns
+    use lagrangia_description, only: description_t, name_length
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_kinds, only: dp
+    use lagrangia_names, only: advice
+    use lagrangia_observer, only: observer_t
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: quoted, to_text
+    implicit none (type, external)
+    private
+    public :: keeper_t, kept_t, kept_text_length, read_kept
+    public :: keeps_end, keeps_event, keeps_exact_period, keeps_flip, keeps_largest, keeps_period, &
+              keeps_smallest
+
+    integer, parameter :: keeps_end = 1, keeps_largest = 2, keeps_smallest = 3, keeps_period = 4
+    integer, parameter :: keeps_exact_period = 5, keeps_event = 6, keeps_flip = 7
+    integer, parameter :: kept_text_length = 120
+
+    type :: kept_t
+        !! One number of a trajectory.
+        character(kept_text_length) :: text = ""  !! as above
+        character(name_length) :: label = ""      !! one word: its column in the data file
+        character(16) :: unit = "1"
+        integer :: kind = 0
+        integer :: column = 0      !! of the columns that are evaluated
+        integer :: coordinate = 0  !! whose period or flip it is
+        integer :: events(2) = 0   !! the first of these is the time; 0: no event
+    end type kept_t
+
+    type, extends(observer_t) :: keeper_t
+        !! Sees one trajectory.
+        type(columns_t) :: columns
+        real(dp) :: after = 0.0_dp                  !! samples before this time don't count, s
+        real(dp), allocatable :: row(:)             !! the last sample
+        real(dp), allocatable :: low(:), high(:)    !! of each column
+        real(dp), allocatable :: met(:)             !! first time of each event, s; else NaN
+    contains
+        procedure :: begin
+        procedure :: observe
+        procedure :: meet
+    end type keeper_t
+
+contains
+
+    subroutine read_kept(texts, system, kept, columns, events, error)
+        !! What is to be kept; the columns and the events, as a scene has them, that it takes.
+        character(*), intent(in) :: texts(:)               !! as above
+        class(system_t), intent(in) :: system              !! with its parameters
+        type(kept_t), allocatable, intent(out) :: kept(:)  !! one for each text
+        type(columns_t), intent(out) :: columns            !! of the system
+        character(kept_text_length), allocatable, intent(out) :: events(:)  !! in a scene's words
+        type(error_t), allocatable, intent(out) :: error   !! status 2: what cannot be read
+        character(name_length), allocatable :: names(:)
+        integer :: i
+
+        allocate (kept(size(texts)), names(0), events(0))
+        do i = 1, size(texts)
+            call read_one(trim(adjustl(texts(i))), kept(i))
+            if (allocated(error)) return
+            kept(i)%label = one_word(kept(i)%text)
+            if (any(kept(:i - 1)%label == kept(i)%label)) then
+                call fail(error, "is kept already: "//quoted(trim(kept(i)%text)))
+                return
+            end if
+        end do
+        call new_columns(columns, names, system, .false., error)
+        if (allocated(error)) return
+        do i = 1, size(kept)
+            if (kept(i)%column > 0) kept(i)%unit = columns%items(kept(i)%column)%unit
+        end do
+    contains
+        subroutine read_one(text, this)
+            character(*), intent(in) :: text
+            type(kept_t), intent(inout) :: this
+            character(:), allocatable :: first, rest
+            integer :: blank
+
+            this%text = text
+            blank = index(text//" ", " ")
+            first = text(:blank - 1)
+            rest = trim(adjustl(text(blank:)))
+            if (len(text) > kept_text_length) then
+                call fail(error, "a text of at most "//to_text(kept_text_length)// &
+                          " characters is needed")
+            else if (text == "") then
+                call fail(error, "what is to be kept? a column, 'max COLUMN', 'min COLUMN', "// &
+                          "'period', 'exact period', 'first EVENT', 'flip ANGLE'")
+            else if (text == "exact period") then
+                this%kind = keeps_exact_period
+                this%unit = "s"
+            else if (first == "period") then
+                this%kind = keeps_period
+                this%unit = "s"
+                call take_coordinate(rest, this%coordinate)
+            else if (first == "flip") then
+                this%kind = keeps_flip
+                this%unit = "s"
+                call take_coordinate(rest, this%coordinate)
+                if (allocated(error)) return
+                this%events = size(events) + [1, 2]
+                call add_event(name_of(this%coordinate)//" = "//to_text(acos(-1.0_dp))//" rising")
+                call add_event(name_of(this%coordinate)//" = -"//to_text(acos(-1.0_dp))// &
+                               " falling")
+            else if (first == "first") then
+                this%kind = keeps_event
+                this%unit = "s"
+                this%events(1) = size(events) + 1
+                call add_event(rest)
+            else if (first == "max" .or. first == "min") then
+                this%kind = merge(keeps_largest, keeps_smallest, first == "max")
+                call take_column(rest, this%column)
+            else
+                this%kind = keeps_end
+                call take_column(text, this%column)
+            end if
+        end subroutine read_one
+
+        subroutine take_column(name, which)
+            !! Its place among the columns; `new_columns` says where there is none.
+            character(*), intent(in) :: name
+            integer, intent(out) :: which
+
+            if (all(names /= name)) names = [character(name_length) :: names, name]
+            which = findloc(names == name, .true., 1)
+            if (which == 0) call fail(error, "unknown column "//quoted(name))
+        end subroutine take_column
+
+        subroutine take_coordinate(name, which)
+            !! Number of the coordinate; the first where none is named.
+            character(*), intent(in) :: name
+            integer, intent(out) :: which
+            type(description_t) :: d
+            character(name_length), allocatable :: all_names(:)
+
+            call system%describe(d)
+            all_names = d%coordinates%name
+            which = 1
+            if (name /= "") which = findloc(all_names == name, .true., 1)
+            if (which == 0) call fail(error, "a coordinate is needed, not "//quoted(name)//"; "// &
+                                      advice(name, all_names))
+        end subroutine take_coordinate
+
+        function name_of(coordinate) result(name)
+            integer, intent(in) :: coordinate
+            character(:), allocatable :: name
+            type(description_t) :: d
+
+            call system%describe(d)
+            name = trim(d%coordinates(coordinate)%name)
+        end function name_of
+
+        subroutine add_event(text)
+            character(*), intent(in) :: text
+
+            events = [character(kept_text_length) :: events, text]
+        end subroutine add_event
+    end subroutine read_kept
+
+    pure function one_word(text) result(word)
+        !! `max_theta` for `max theta`, `first_theta=0.5_rising`.
+        character(*), intent(in) :: text
+        character(name_length) :: word
+        integer :: i, n
+
+        word = ""
+        n = 0
+        do i = 1, len_trim(text)
+            if (n == len(word)) exit
+            if (text(i:i) == " ") then
+                if (scan(text(i + 1:i + 1), " =") == 1 .or. text(i - 1:i - 1) == "=") cycle
+            end if
+            n = n + 1
+            word(n:n) = text(i:i)
+            if (text(i:i) == " ") word(n:n) = "_"
+        end do
+    end function one_word
+
+    subroutine begin(self, columns, events, after)
+        !! Before a trajectory.
+        class(keeper_t), intent(inout) :: self
+        type(columns_t), intent(in) :: columns  !! that are evaluated
+        integer, intent(in) :: events           !! number of events that are looked for
+        real(dp), intent(in) :: after           !! samples before don't count, s
+        integer :: n
+
+        n = size(columns%items)
+        self%columns = columns
+        self%after = after
+        if (.not. allocated(self%row)) allocate (self%row(n), self%low(n), self%high(n), &
+                                                 self%met(events))
+        self%row = ieee_value(1.0_dp, ieee_quiet_nan)
+        self%low = huge(1.0_dp)
+        self%high = -huge(1.0_dp)
+        self%met = ieee_value(1.0_dp, ieee_quiet_nan)
+    end subroutine begin
+
+    subroutine observe(self, system, t, q, v, error)
+        !! See `observer_t`.
+        class(keeper_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        type(error_t), allocatable, intent(out) :: error
+
+        if (size(self%row) == 0) return
+        call self%columns%evaluate(system, t, q, v, 0.0_dp, self%row)
+        if (t < self%after) return
+        self%low = min(self%low, self%row)
+        self%high = max(self%high, self%row)
+    end subroutine observe
+
+    subroutine meet(self, system, event, t, q, v, error)
+        !! See `observer_t`.
+        class(keeper_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: event
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        type(error_t), allocatable, intent(out) :: error
+
+        if (event > size(self%met)) return
+        if (ieee_is_nan(self%met(event))) self%met(event) = t
+    end subroutine meet
+end module lagrangia_kept

@@ -1,0 +1,237 @@
+module lagrangia_sweep_axis
+    !! An axis of a sweep: which number of a scene it changes, and to which values.
+    !!
+    !! `theta = -pi:pi:400` is 400 values of the coordinate, both ends among them; `:log` behind it
+    !! spaces them by equal factors, `:random` draws them between the ends. A name is that of a
+    !! coordinate, a velocity (`theta_dot`), a parameter (`m1`, `B(3)`), or `q`, `v`, `q(2)`.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_description, only: description_t, name_length
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_expression, only: expression_t
+    use lagrangia_formula_parser, only: parse_formula
+    use lagrangia_formula_program, only: formula_program_t, new_formula_program
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_names, only: advice
+    use lagrangia_number_reader, only: to_integer
+    use lagrangia_random_draws, only: random_t
+    use lagrangia_symbols, only: symbols_t
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: quoted, to_text
+    implicit none (type, external)
+    private
+    public :: sweep_axis_t, new_sweep_axis
+
+    integer, parameter :: of_coordinate = 1, of_velocity = 2, of_parameter = 3
+    integer, parameter :: most_values = 100000000
+    character(*), parameter :: example = "'theta = -pi:pi:400', 'm1 = 0.1:10:50:log'"
+
+    type :: sweep_axis_t
+        character(name_length) :: name = ""      !! as it was typed
+        character(16) :: unit = "1"
+        logical :: logarithmic = .false.         !! spaced by equal factors
+        logical :: random = .false.              !! drawn, so in no order
+        real(dp), allocatable :: values(:)       !! in that unit
+        integer, private :: kind = 0
+        integer, private :: element = 0          !! of q, v, or the parameters
+    contains
+        procedure :: set
+        procedure :: is_parameter
+    end type sweep_axis_t
+
+    type :: target_t
+        !! A number that an axis can change.
+        character(name_length) :: name = ""
+        character(16) :: unit = "1"
+        integer :: kind = 0
+        integer :: element = 0
+    end type target_t
+
+contains
+
+    subroutine new_sweep_axis(axis, text, system, random, error)
+        !! Read `NAME = FROM:TO:COUNT`, perhaps with `:log` or `:random` behind it.
+        type(sweep_axis_t), intent(out) :: axis           !! with its values
+        character(*), intent(in) :: text                  !! as above
+        class(system_t), intent(in) :: system             !! with its parameters
+        type(random_t), intent(inout) :: random           !! gives the values that are drawn
+        type(error_t), allocatable, intent(out) :: error  !! status 2: what cannot be read
+        real(dp) :: ends(2)
+        integer(i8) :: count
+        integer :: bounds(4), equals, i
+        character(:), allocatable :: range, spacing, problem
+
+        equals = index(text, "=")
+        if (equals == 0) then
+            call fail(error, "an axis of a sweep looks like "//example//"; "//quoted(trim(text))// &
+                      " has no '='")
+            return
+        end if
+        call find_target(axis, trim(adjustl(text(:equals - 1))), system, error)
+        if (allocated(error)) return
+        range = trim(text(equals + 1:))
+        call cut(range, bounds)
+        if (bounds(2) == 0) then
+            call fail(error, "the axis "//trim(axis%name)//" needs FROM:TO:COUNT, as in "// &
+                      example)
+            return
+        end if
+        call read_constant(range(:bounds(1) - 1), ends(1), error)
+        if (allocated(error)) return
+        call read_constant(range(bounds(1) + 1:bounds(2) - 1), ends(2), error)
+        if (allocated(error)) return
+        if (bounds(3) == 0) bounds(3) = len(range) + 1
+        call to_integer(trim(adjustl(range(bounds(2) + 1:bounds(3) - 1))), count, problem)
+        if (problem /= "" .or. count < 1 .or. count > most_values) then
+            call fail(error, "the axis "//trim(axis%name)//" needs a whole number of values, "// &
+                      "from 1 to "//to_text(most_values)//", not "// &
+                      quoted(trim(adjustl(range(bounds(2) + 1:bounds(3) - 1)))))
+            return
+        end if
+        spacing = ""
+        if (bounds(3) <= len(range)) spacing = trim(adjustl(range(bounds(3) + 1:)))
+        axis%logarithmic = spacing == "log"
+        axis%random = spacing == "random"
+        if (bounds(3) <= len(range) .and. .not. (axis%logarithmic .or. axis%random)) then
+            call fail(error, "the axis "//trim(axis%name)//": "//quoted(spacing)//" is neither "// &
+                      "'log' nor 'random'")
+        else if (axis%logarithmic .and. .not. minval(ends) > 0.0_dp) then
+            call fail(error, "the axis "//trim(axis%name)//" is spaced by factors, so both ends "// &
+                      "must be above 0")
+        else if (count == 1 .and. abs(ends(2) - ends(1)) > 0.0_dp) then
+            call fail(error, "the axis "//trim(axis%name)//" has one value but two ends")
+        end if
+        if (allocated(error)) return
+        allocate (axis%values(count))
+        do i = 1, int(count)
+            axis%values(i) = place(ends, real(i - 1, dp)/max(1_i8, count - 1), axis%logarithmic)
+            if (axis%random) call random%uniform(ends(1), ends(2), axis%values(i))
+        end do
+        axis%values(count) = merge(axis%values(count), ends(2), axis%random)
+    end subroutine new_sweep_axis
+
+    pure function place(ends, part, logarithmic) result(value)
+        !! A value at a part of the way from the first end to the last.
+        real(dp), intent(in) :: ends(2), part
+        logical, intent(in) :: logarithmic
+        real(dp) :: value
+
+        if (logarithmic) then
+            value = ends(1)*(ends(2)/ends(1))**part
+        else
+            value = (1.0_dp - part)*ends(1) + part*ends(2)
+        end if
+    end function place
+
+    pure subroutine cut(text, places)
+        !! Where the first four colons stand; 0 where there are fewer.
+        character(*), intent(in) :: text
+        integer, intent(out) :: places(4)
+        integer :: i, n
+
+        places = 0
+        n = 0
+        do i = 1, len(text)
+            if (text(i:i) /= ":" .or. n == size(places)) cycle
+            n = n + 1
+            places(n) = i
+        end do
+    end subroutine cut
+
+    subroutine read_constant(text, value, error)
+        !! A number, or a formula of numbers: `-pi/2`.
+        character(*), intent(in) :: text
+        real(dp), intent(out) :: value
+        type(error_t), allocatable, intent(out) :: error
+        type(symbols_t) :: none
+        type(expression_t) :: formula
+        type(formula_program_t) :: program
+        real(dp) :: results(1)
+
+        value = 0.0_dp
+        allocate (none%names(0))
+        call parse_formula(text, none, formula, error)
+        if (allocated(error)) return
+        call new_formula_program(program, [formula], 0)
+        call program%evaluate([real(dp) ::], results)
+        value = results(1)
+        if (.not. ieee_is_finite(value)) call fail(error, quoted(trim(text))//" is no number")
+    end subroutine read_constant
+
+    subroutine find_target(axis, name, system, error)
+        !! Which number of the scene `name` is.
+        type(sweep_axis_t), intent(inout) :: axis
+        character(*), intent(in) :: name
+        class(system_t), intent(in) :: system
+        type(error_t), allocatable, intent(out) :: error
+        type(target_t), allocatable :: targets(:)
+        character(name_length), allocatable :: names(:)
+        integer :: i
+
+        call all_targets(system, targets)
+        names = targets%name
+        i = findloc(names == name, .true., 1)
+        if (i == 0) then
+            call fail(error, "a sweep cannot change "//quoted(name)//"; "//advice(name, names))
+            return
+        end if
+        axis%name = targets(i)%name
+        axis%unit = targets(i)%unit
+        axis%kind = targets(i)%kind
+        axis%element = targets(i)%element
+    end subroutine find_target
+
+    subroutine all_targets(system, targets)
+        !! Every number of the start and of the parameters, by all its names.
+        class(system_t), intent(in) :: system
+        type(target_t), allocatable, intent(out) :: targets(:)
+        type(description_t) :: d
+        integer :: element, i, k
+
+        call system%describe(d)
+        allocate (targets(0))
+        do i = 1, size(d%coordinates)
+            associate (q => d%coordinates(i))
+                targets = [targets, target_t(q%name, q%unit, of_coordinate, i), &
+                           target_t(trim(q%name)//"_dot", trim(q%unit)//"/s", of_velocity, i), &
+                           target_t("q("//to_text(i)//")", q%unit, of_coordinate, i), &
+                           target_t("v("//to_text(i)//")", trim(q%unit)//"/s", of_velocity, i)]
+            end associate
+        end do
+        element = 0
+        do i = 1, size(d%parameters)
+            associate (p => d%parameters(i))
+                if (p%count == 1) targets = [targets, target_t(p%name, p%unit, of_parameter, &
+                                                               element + 1)]
+                do k = 1, merge(p%count, 0, p%count > 1)
+                    targets = [targets, target_t(trim(p%name)//"("//to_text(k)//")", p%unit, &
+                                                 of_parameter, element + k)]
+                end do
+                element = element + p%count
+            end associate
+        end do
+        if (size(d%coordinates) == 1) targets = [targets, &
+            target_t("q", d%coordinates(1)%unit, of_coordinate, 1), &
+            target_t("v", trim(d%coordinates(1)%unit)//"/s", of_velocity, 1)]
+    end subroutine all_targets
+
+    pure subroutine set(self, which, q, v, parameters)
+        !! Put value number `which` in its place.
+        class(sweep_axis_t), intent(in) :: self
+        integer, intent(in) :: which                            !! of `values`
+        real(dp), intent(inout) :: q(:), v(:), parameters(:)    !! of a scene
+
+        select case (self%kind)
+        case (of_coordinate); q(self%element) = self%values(which)
+        case (of_velocity); v(self%element) = self%values(which)
+        case default; parameters(self%element) = self%values(which)
+        end select
+    end subroutine set
+
+    elemental function is_parameter(self) result(yes)
+        !! It changes the system, not only its start.
+        class(sweep_axis_t), intent(in) :: self
+        logical :: yes
+
+        yes = self%kind == of_parameter
+    end function is_parameter
+end module lagrangia_sweep_axis

@@ -1,0 +1,56 @@
+module lagrangia_sweep_group
+    !! The group `&sweep` of a scene: over what many trajectories of it differ, and what is kept of
+    !! each. `lagrangia run` runs the scene alone.
+    use lagrangia_description, only: name_length
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_namelist, only: get_integer, get_real, get_strings, has_group, namelist_t, &
+                                  refuse_unknown_keys, refuse_value
+    use lagrangia_scene, only: sweep_group_t
+    implicit none (type, external)
+    private
+    public :: group, keys, read_sweep_group
+
+    character(*), parameter :: group = "sweep"
+    character(name_length), parameter :: keys(*) = [character(name_length) :: &
+        "over", "keep", "after", "seed", "threads"]
+    integer, parameter :: most_axes = 2, most_kept = 20
+
+contains
+
+    subroutine read_sweep_group(tree, sweep, error)
+        !! What the group says, if it is there.
+        type(namelist_t), intent(inout) :: tree           !! keys that are read are marked as used
+        type(sweep_group_t), intent(out) :: sweep         !! else as by default
+        type(error_t), allocatable, intent(out) :: error  !! a value that is not allowed
+        integer(i8) :: seed, threads
+
+        allocate (sweep%over(0), sweep%keep(0))
+        if (.not. has_group(tree, group)) return
+        call get_strings(tree, group, "over", 1, most_axes, sweep%over, error)
+        if (allocated(error)) return
+        call get_strings(tree, group, "keep", 1, most_kept, sweep%keep, error)
+        if (allocated(error)) return
+        call get_real(tree, group, "after", sweep%after, error)
+        if (allocated(error)) return
+        seed = sweep%seed
+        call get_integer(tree, group, "seed", seed, error)
+        if (allocated(error)) return
+        if (abs(seed) > huge(0)) then
+            call refuse_value(tree, group, "seed", "a whole number of at most nine figures is "// &
+                              "needed", error)
+            return
+        end if
+        threads = sweep%threads
+        call get_integer(tree, group, "threads", threads, error)
+        if (allocated(error)) return
+        if (threads < 1 .or. threads > 10000) then
+            if (threads /= sweep%threads) call refuse_value(tree, group, "threads", &
+                "a number from 1 to 10000 is needed", error)
+        end if
+        if (allocated(error)) return
+        sweep%seed = int(seed)
+        sweep%threads = int(threads)
+        call refuse_unknown_keys(tree, group, keys, error)
+    end subroutine read_sweep_group
+end module lagrangia_sweep_group

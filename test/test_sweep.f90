@@ -1,0 +1,369 @@
+module test_sweep
+    !! Many trajectories of one scene: their axes, what is kept, lanes, threads, failures, files.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_command_line, only: word_t
+    use lagrangia_errors, only: error_t, status_numbers
+    use lagrangia_files, only: read_whole_file
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_observer, only: observer_t
+    use lagrangia_random_draws, only: random_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_scene_reader, only: parse_scene
+    use lagrangia_sweep, only: compute_one, new_sweep, sweep_t
+    use lagrangia_sweep_axis, only: new_sweep_axis, sweep_axis_t
+    use lagrangia_sweep_files, only: write_sweep
+    use lagrangia_sweep_grid, only: compute_grid, sweep_result_t
+    use lagrangia_sweep_lanes, only: compute_lanes, fits_lanes
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
+    use test_scratch, only: new_folder
+    implicit none (type, external)
+    private
+    public :: sweep_suite
+
+    character(*), parameter :: line = new_line("a")
+    character(*), parameter :: pendulum = "&scene system = 'pendulum', method = 'gauss16', "// &
+        "tolerance = 1e-12, duration = 30, samples = 10, q = 1 / &pendulum l = 1 /"
+    character(*), parameter :: double = "&scene system = 'double_pendulum', method = 'rk4', "// &
+        "dt = 0.01, duration = 3.005, q = 0.5, 0.2, v = 0.1, 0 / &double_pendulum m2 = 0.7 /"
+
+contains
+
+    function sweep_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("sweep")
+        call suite%addTest(TestMethod("axes_have_their_ends", axes_have_their_ends))
+        call suite%addTest(TestMethod("an_axis_is_drawn_by_its_seed", an_axis_is_drawn_by_its_seed))
+        call suite%addTest(TestMethod("bad_axes_are_refused", bad_axes_are_refused))
+        call suite%addTest(TestMethod("bad_sweeps_are_refused", bad_sweeps_are_refused))
+        call suite%addTest(TestMethod("periods_are_those_of_closed_form", &
+                                      periods_are_those_of_closed_form))
+        call suite%addTest(TestMethod("resonance_is_that_of_the_closed_form", &
+                                      resonance_is_that_of_the_closed_form))
+        call suite%addTest(TestMethod("lanes_are_single_trajectories", &
+                                      lanes_are_single_trajectories))
+        call suite%addTest(TestMethod("threads_change_no_byte", threads_change_no_byte))
+        call suite%addTest(TestMethod("a_failure_is_nan_and_counted", &
+                                      a_failure_is_nan_and_counted))
+        call suite%addTest(TestMethod("least_and_largest_after_a_time", &
+                                      least_and_largest_after_a_time))
+        call suite%addTest(TestMethod("a_grid_is_written_line_by_line", &
+                                      a_grid_is_written_line_by_line))
+    end function sweep_suite
+
+    subroutine make(text, over, keep, sweep, error)
+        !! The sweep of a scene in `text`.
+        character(*), intent(in) :: text, over(:), keep(:)
+        type(sweep_t), intent(out) :: sweep
+        type(error_t), allocatable, intent(out) :: error
+        class(system_t), allocatable :: system
+        type(scene_t) :: scene
+        type(word_t) :: none(0)
+
+        call parse_scene(text, "text", none, scene, system, error)
+        if (allocated(error)) return
+        call new_sweep(sweep, scene, system, over, keep, 1, scene%sweep%after, error)
+    end subroutine make
+
+    subroutine compute(text, over, keep, threads, result, error, sweep)
+        !! What a sweep gives.
+        character(*), intent(in) :: text, over(:), keep(:)
+        integer, intent(in) :: threads
+        type(sweep_result_t), intent(out) :: result
+        type(error_t), allocatable, intent(out) :: error
+        type(sweep_t), intent(out) :: sweep
+        class(observer_t), pointer :: nobody
+
+        nullify (nobody)
+        call make(text, over, keep, sweep, error)
+        if (allocated(error)) return
+        call compute_grid(sweep, threads, nobody, result, error)
+    end subroutine compute
+
+    subroutine read_axis(text, axis, error, seed)
+        !! An axis of the double pendulum.
+        character(*), intent(in) :: text
+        type(sweep_axis_t), intent(out) :: axis
+        type(error_t), allocatable, intent(out) :: error
+        integer, intent(in), optional :: seed
+        class(system_t), allocatable :: system
+        type(scene_t) :: scene
+        type(word_t) :: none(0)
+        type(random_t) :: random
+
+        call parse_scene(double, "text", none, scene, system, error)
+        if (allocated(error)) return
+        if (present(seed)) call random%start(seed)
+        call new_sweep_axis(axis, text, system, random, error)
+    end subroutine read_axis
+
+    subroutine axes_have_their_ends()
+        !! Exactly, and what lies between by the rule; each name finds its number.
+        type(sweep_axis_t) :: axis
+        type(error_t), allocatable :: error
+        real(dp) :: q(2), v(2), p(5)
+
+        call read_axis("theta1 = -pi:pi/2:4", axis, error)
+        call assertFalse(allocated(error), "a linear axis")
+        call assertEqual(acos(-1.0_dp)*[-1.0_dp, -0.5_dp, 0.0_dp, 0.5_dp], axis%values, 9e-16_dp, &
+                         "linear")
+        call assertEqual(-acos(-1.0_dp), axis%values(1), 0.0_dp, "the first end")
+        call assertEqual("rad", trim(axis%unit), "its unit")
+        call read_axis("m1 = 1e-2 : 1e2 : 5 : log", axis, error)
+        call assertFalse(allocated(error), "a logarithmic axis")
+        call assertEqual([0.01_dp, 0.1_dp, 1.0_dp, 10.0_dp, 100.0_dp], axis%values, 1e-13_dp, "log")
+        call assertEqual(100.0_dp, axis%values(5), 0.0_dp, "the last end")
+        call assertTrue(axis%is_parameter(), "m1 is a parameter")
+        q = 0.0_dp
+        v = 0.0_dp
+        p = 0.0_dp
+        call axis%set(2, q, v, p)
+        call assertEqual([0.1_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], p, 1e-16_dp, "the first one")
+        call read_axis("l2=2:2:1", axis, error)
+        call axis%set(1, q, v, p)
+        call assertEqual(2.0_dp, p(4), 0.0_dp, "the fourth one")
+        call read_axis("theta2_dot=1:3:3", axis, error)
+        call axis%set(3, q, v, p)
+        call assertEqual([0.0_dp, 3.0_dp], v, 0.0_dp, "a velocity")
+        call assertEqual("rad/s", trim(axis%unit), "a velocity's unit")
+        call read_axis("q(2)=1:3:3", axis, error)
+        call axis%set(2, q, v, p)
+        call assertEqual([0.0_dp, 2.0_dp], q, 0.0_dp, "a coordinate by its number")
+    end subroutine axes_have_their_ends
+
+    subroutine an_axis_is_drawn_by_its_seed()
+        !! The same numbers by the same seed, others by another, all between the ends.
+        type(sweep_axis_t) :: first, again, other
+        type(error_t), allocatable :: error
+
+        call read_axis("theta1=-1:3:1000:random", first, error, 7)
+        call read_axis("theta1=-1:3:1000:random", again, error, 7)
+        call read_axis("theta1=-1:3:1000:random", other, error, 8)
+        call assertEqual(first%values, again%values, 0.0_dp, "the same seed")
+        call assertTrue(all(abs(first%values - other%values) > 0.0_dp), "another seed")
+        call assertTrue(all(first%values > -1.0_dp .and. first%values < 3.0_dp), "between the ends")
+        call assertEqual(1.0_dp, sum(first%values)/1000, 4.0_dp*4.0_dp/sqrt(12.0e3_dp), &
+                         "the mean, within four standard errors")
+    end subroutine an_axis_is_drawn_by_its_seed
+
+    subroutine bad_axes_are_refused()
+        !! In one line that says what is wrong.
+        character(*), parameter :: bad(2, 11) = reshape([character(40) :: &
+            "theta1", "has no '='", &
+            "theta=0:1:5", "did you mean 'theta1'?", &
+            "theta1=0:1", "needs FROM:TO:COUNT", &
+            "theta1=0:1:x", "a whole number of values", &
+            "theta1=0:1:0", "a whole number of values", &
+            "theta1=0:1:2.5", "a whole number of values", &
+            "theta1=0:1:5:lin", "neither 'log' nor 'random'", &
+            "theta1=0:1:5:log", "both ends must be above 0", &
+            "theta1=0:1:1", "one value but two ends", &
+            "theta1=0:y:5", "y", &
+            "theta1=0:1/0:5", "is no number"], [2, 11])
+        type(sweep_axis_t) :: axis
+        type(error_t), allocatable :: error
+        integer :: i
+
+        do i = 1, size(bad, 2)
+            call read_axis(trim(bad(1, i)), axis, error)
+            call assertTrue(allocated(error), "refused: "//bad(1, i))
+            if (.not. allocated(error)) cycle
+            call assertTrue(index(error%message, trim(bad(2, i))) > 0, &
+                            trim(bad(1, i))//": "//error%message)
+        end do
+    end subroutine bad_axes_are_refused
+
+    subroutine bad_sweeps_are_refused()
+        !! What is kept, too, with the key to blame.
+        character(*), parameter :: bad(3, 9) = reshape([character(40) :: &
+            "q=0:1:3", "thta", "did you mean 'theta'?", &
+            "q=0:1:3", "max thta", "did you mean 'theta'?", &
+            "q=0:1:3", "period thta", "a coordinate is needed", &
+            "q=0:1:3", "flip x", "a coordinate is needed", &
+            "q=0:1:3", "error", "no closed form", &
+            "q=0:1:3", "", "what is to be kept?", &
+            "q=0:1:3", "max", "unknown column ''", &
+            "q=0:1:", "theta", "a whole number of values", &
+            "q=-inf:1:3", "theta", "inf"], [3, 9])
+        type(sweep_t) :: sweep
+        type(error_t), allocatable :: error
+        integer :: i
+
+        do i = 1, size(bad, 2)
+            call make(pendulum, [bad(1, i)], [bad(2, i)], sweep, error)
+            call assertTrue(allocated(error), "refused: "//trim(bad(1, i))//" "//bad(2, i))
+            if (.not. allocated(error)) cycle
+            call assertTrue(index(error%message, trim(bad(3, i))) > 0, &
+                            trim(bad(1, i))//" "//trim(bad(2, i))//": "//error%message)
+        end do
+        call make(pendulum, ["q=0:1:3", "q=1:2:3"], ["theta"], sweep, error)
+        call assertTrue(allocated(error), "both axes the same")
+        call make(pendulum, [character(8) ::], ["theta"], sweep, error)
+        call assertTrue(allocated(error), "no axis")
+        call make(pendulum, ["q=0:1:3"], ["theta", "theta"], sweep, error)
+        call assertTrue(allocated(error), "kept twice")
+        if (allocated(error)) call assertEqual("keep", error%key, "the key to blame")
+        call make(pendulum//" &sweep after = 31 /", ["q=0:1:3"], ["max theta"], sweep, error)
+        call assertTrue(allocated(error), "nothing after the end")
+        if (allocated(error)) call assertEqual("after", error%key, "the key to blame")
+    end subroutine bad_sweeps_are_refused
+
+    subroutine periods_are_those_of_closed_form()
+        !! T(amplitude) of the pendulum: measured, and by the elliptic integral.
+        type(sweep_result_t) :: result
+        type(sweep_t) :: sweep
+        type(error_t), allocatable :: error
+
+        call compute(pendulum, ["theta=0.1:3:15"], ["period      ", "exact period"], 1, result, &
+                     error, sweep)
+        call assertFalse(allocated(error), "all can be computed")
+        call assertEqual(0.0_dp, maxval(abs(result%values(1, :)/result%values(2, :) - 1)), &
+                         1e-10_dp, "measured and exact")
+        call assertTrue(all(result%values(2, 2:) > result%values(2, :14)), "it grows")
+        call assertEqual(2*acos(-1.0_dp)/sqrt(9.81_dp)*(1 + 0.01_dp/16), result%values(2, 1), &
+                         1e-5_dp, "the first term of the series")
+    end subroutine periods_are_those_of_closed_form
+
+    subroutine resonance_is_that_of_the_closed_form()
+        !! The settled amplitude \(F_0/\sqrt{m^2(\omega_0^2 - W^2)^2 + b^2W^2}\), between samples
+        !! of which the largest may be missed by \((W\,dt)^2/8\).
+        character(*), parameter :: text = "&scene system = 'oscillator', method = 'gauss16', "// &
+            "tolerance = 1e-10, duration = 120, samples = 12000, q = 0 / "// &
+            "&oscillator m = 2, k = 3, b = 0.5, drive_force = 0.7 / &sweep after = 90 /"
+        type(sweep_result_t) :: result
+        type(sweep_t) :: sweep
+        type(error_t), allocatable :: error
+        real(dp) :: amplitude(9), w(9)
+
+        call compute(text, ["drive_frequency=0.4:2:9"], ["max x"], 1, result, error, sweep)
+        call assertFalse(allocated(error), "all can be computed")
+        w = sweep%axes(1)%values
+        amplitude = 0.7_dp/sqrt((3 - 2*w**2)**2 + (0.5_dp*w)**2)
+        call assertEqual(0.0_dp, maxval(abs(result%values(1, :)/amplitude - 1)), 2e-4_dp, &
+                         "but for samples and the rest of the transient, e^(-90/8)")
+    end subroutine resonance_is_that_of_the_closed_form
+
+    subroutine lanes_are_single_trajectories()
+        !! All of both, for a number of trajectories and steps that fill no block.
+        type(sweep_t) :: sweep
+        type(error_t), allocatable :: error
+        real(dp) :: alone(4), together(4, 33)
+        integer(i8) :: failures, i
+        integer :: flips
+
+        call make(double, ["theta1=-2:3:11", "theta2=-3:3:3 "], &
+                  ["flip theta2 ", "theta1      ", "energy_drift", "x_bob2      "], sweep, error)
+        call assertFalse(allocated(error), "the sweep")
+        call assertTrue(fits_lanes(sweep), "it can be computed in lanes")
+        call compute_lanes(sweep, 1_i8, 33_i8, together, failures)
+        call assertEqual(0, int(failures), "none fails")
+        flips = 0
+        do i = 1, 33
+            call compute_one(sweep, i, alone, error)
+            call assertFalse(allocated(error), "one by one")
+            call assertTrue(ieee_is_nan(alone(1)) .eqv. ieee_is_nan(together(1, i)), &
+                            "flips in both: "//to_text(i))
+            if (ieee_is_nan(alone(1))) then
+                alone(1) = 0.0_dp
+                together(1, i) = 0.0_dp
+            else
+                flips = flips + 1
+            end if
+            call assertEqual(alone, together(:, i), 1e-9_dp, "trajectory "//to_text(i))
+        end do
+        call assertTrue(flips > 5 .and. flips < 28, "some go over the top: "//to_text(flips))
+        call make(double, ["m1=1:3:11"], ["theta1"], sweep, error)
+        call assertFalse(fits_lanes(sweep), "not with different systems")
+    end subroutine lanes_are_single_trajectories
+
+    subroutine threads_change_no_byte()
+        !! In lanes and alone, with more blocks than threads.
+        type(sweep_result_t) :: one, three
+        type(sweep_t) :: sweep
+        type(error_t), allocatable :: error
+
+        call compute(double, ["theta1=0:1:300"], ["theta2"], 1, one, error, sweep)
+        call compute(double, ["theta1=0:1:300"], ["theta2"], 3, three, error, sweep)
+        call assertTrue(one%in_lanes, "in lanes")
+        call assertEqual(one%values(1, :), three%values(1, :), 0.0_dp, "in lanes")
+        call compute(double, ["m1=0.5:1:200"], ["theta2"], 1, one, error, sweep)
+        call compute(double, ["m1=0.5:1:200"], ["theta2"], 3, three, error, sweep)
+        call assertFalse(one%in_lanes, "alone")
+        call assertEqual(one%values(1, :), three%values(1, :), 0.0_dp, "alone")
+    end subroutine threads_change_no_byte
+
+    subroutine a_failure_is_nan_and_counted()
+        !! Rods of no length are refused, the others go on; where all fail that is an error.
+        type(sweep_result_t) :: result
+        type(sweep_t) :: sweep
+        type(error_t), allocatable :: error
+
+        call compute(pendulum, ["l=-1:2:4"], ["theta"], 2, result, error, sweep)
+        call assertFalse(allocated(error), "two of four are good")
+        call assertEqual(2, int(result%failures), "two fail")
+        call assertTrue(all(ieee_is_nan(result%values(1, :2))), "they are NaN")
+        call assertFalse(any(ieee_is_nan(result%values(1, 3:))), "the others are not")
+        call assertTrue(index(result%reason, "l") > 0, result%reason)
+        call compute(pendulum, ["l=-2:-1:4"], ["theta"], 2, result, error, sweep)
+        call assertTrue(allocated(error), "all fail")
+        call compute("&scene system='oscillator', dt=3, duration=3e3, q=1 / &oscillator k=1e4 /", &
+                     ["q=1:2:9"], ["x"], 2, result, error, sweep)
+        call assertTrue(allocated(error), "all diverge")
+        if (allocated(error)) call assertEqual(status_numbers, error%status, error%message)
+    end subroutine a_failure_is_nan_and_counted
+
+    subroutine least_and_largest_after_a_time()
+        !! A damped pendulum: the later, the smaller; and events from the start on.
+        character(*), parameter :: text = "&scene system='pendulum', method='gauss16', "// &
+            "tolerance=1e-10, duration=20, samples=2000, q=1 / &pendulum b=0.3 / &sweep after = "
+        type(sweep_result_t) :: all, late
+        type(sweep_t) :: sweep
+        type(error_t), allocatable :: error
+
+        call compute(text//"0 /", ["q=0.5:1:2"], [character(20) :: "max theta", "min theta", &
+                     "first theta = 0"], 1, all, error, sweep)
+        call assertFalse(allocated(error), "from the start")
+        call compute(text//"10 /", ["q=0.5:1:2"], [character(20) :: "max theta", "min theta", &
+                     "first theta = 0"], 1, late, error, sweep)
+        call assertFalse(allocated(error), "late")
+        call assertEqual([0.5_dp, 1.0_dp], all%values(1, :), 0.0_dp, "largest at the start")
+        call assertTrue(maxval(late%values(1, :)) < 0.3_dp, "it has become smaller")
+        call assertTrue(minval(late%values(1, :)) > 0.0_dp, "but still swings")
+        call assertTrue(maxval(late%values(2, :)) < 0.0_dp, "to both sides")
+        call assertTrue(minval(all%values(2, :)) > -1.0_dp, "less far than at first")
+        call assertEqual(all%values(3, :), late%values(3, :), 0.0_dp, "an event counts at once")
+        call assertTrue(minval(all%values(3, :)) > 0.5_dp .and. maxval(all%values(3, :)) < 0.7_dp, &
+                        "a quarter of a period and a little")
+    end subroutine least_and_largest_after_a_time
+
+    subroutine a_grid_is_written_line_by_line()
+        !! Two axes, the second the faster; the script draws a map.
+        type(sweep_result_t) :: result
+        type(sweep_t) :: sweep
+        type(error_t), allocatable :: error
+        character(:), allocatable :: path, script, text
+        integer :: at
+
+        call compute(double, ["theta1=0:1:2", "m1=1:3:3    "], ["theta1_dot"], 1, result, error, &
+                     sweep)
+        path = new_folder("sweep")//"/grid.dat"
+        call write_sweep(sweep, result, path, "text", ["a line"], error)
+        call assertFalse(allocated(error), "written")
+        call read_whole_file(path, text, error)
+        at = index(text, "# theta1[rad] m1[kg] theta1_dot[rad/s]"//line)
+        call assertTrue(at > 0, "the columns")
+        call assertTrue(index(text, "# a line"//line) > 0, "the header")
+        call assertTrue(index(text, "# trajectories: 6, failed: 0 ") > 0, "the counts")
+        text = text(at:)
+        call assertEqual(8, count([(text(at:at) == line, at=1, len(text))]), "lines of data")
+        call assertEqual(1, count([(text(at:at + 1) == line//line, at=1, len(text) - 1)]), &
+                         "one empty line")
+        call read_whole_file(path(:len(path) - 3)//"gp", script, error)
+        call assertTrue(index(script, "plot [0.0:1.0] [1.0:3.0] data using 1:2:3 with image"// &
+                              line) > 0, script)
+        call assertTrue(index(script, "set xlabel ""theta1 (rad)""") > 0, "the first axis")
+    end subroutine a_grid_is_written_line_by_line
+end module test_sweep
