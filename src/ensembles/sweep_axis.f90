@@ -95,8 +95,8 @@ contains
             call fail(error, "the axis "//trim(axis%name)//": "//quoted(spacing)//" is neither "// &
                       "'log' nor 'random'")
         else if (axis%logarithmic .and. .not. minval(ends) > 0.0_dp) then
-            call fail(error, "the axis "//trim(axis%name)//" is spaced by factors, so both ends "// &
-                      "must be above 0")
+            call fail(error, "the axis "//trim(axis%name)//" is spaced by factors, so both "// &
+                      "ends must be above 0")
         else if (count == 1 .and. abs(ends(2) - ends(1)) > 0.0_dp) then
             call fail(error, "the axis "//trim(axis%name)//" has one value but two ends")
         end if

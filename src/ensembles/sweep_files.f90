@@ -198,8 +198,8 @@ contains
         logical, intent(in) :: wide
         character(*), intent(in) :: reading
         type(lines_t), intent(inout) :: script
-        character(*), parameter :: colours = "set palette defined (0 '#440154', 0.25 '#3b528b', "// &
-                                             "0.5 '#21908c', 0.75 '#5dc863', 1 '#fde725')"
+        character(*), parameter :: colours = "set palette defined (0 '#440154', "// &
+            "0.25 '#3b528b', 0.5 '#21908c', 0.75 '#5dc863', 1 '#fde725')"
         character(:), allocatable :: range
         integer :: i
 
