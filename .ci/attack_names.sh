@@ -37,7 +37,7 @@ scene s/e.nml "output='c_events.dat'"
 scene s/f.nml "output='c' event='theta'"
 refused "an event file called as another's data" run s/e.nml s/f.nml --output o
 refused "the other way round" run s/f.nml s/e.nml --output o
-for ending in png svg gp nml partial dat.partial; do
+for ending in png svg pdf gp nml partial dat.partial; do
     refused "output='x.$ending'" run s/f.nml --set "scene%output='x.$ending'" --output o
 done
 refused "one scene twice" run pendulum data/scenes/pendulum.nml --output o
@@ -47,7 +47,7 @@ ln -s g.nml i.nml
 refused "one scene by two hard links" run g.nml h.nml --output o
 refused "one scene by a symbolic link" run g.nml ./i.nml --output o
 for kind in "" -s; do
-    for name in g.dat g.gp g.png g.svg g.dat.partial; do
+    for name in g.dat g.gp g.png g.svg g.pdf g.dat.partial; do
         ln $kind "$work/g.nml" "o/$name"
         refused "the scene is linked (ln $kind) as $name" run g.nml --output o
         rm "o/$name"

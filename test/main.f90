@@ -63,6 +63,7 @@ module suites
     use test_gauss_tables, only: gauss_tables_suite
     use test_generalised_forces, only: generalised_forces_suite
     use test_gnuplot, only: gnuplot_suite
+    use test_gnuplot_scales, only: gnuplot_scales_suite
     use test_graded_responses, only: graded_responses_suite
     use test_grading, only: grading_suite
     use test_gsl, only: gsl_suite
@@ -108,6 +109,7 @@ module suites
     use test_pendulum, only: pendulum_suite
     use test_period, only: period_suite
     use test_places, only: places_suite
+    use test_plot_label, only: plot_label_suite
     use test_precision_curve, only: precision_curve_suite
     use test_principles, only: principles_suite
     use test_printed_formulae, only: printed_formulae_suite
@@ -148,6 +150,7 @@ module suites
     use test_text, only: text_suite
     use test_time_grid, only: time_grid_suite
     use test_unfinished, only: unfinished_suite
+    use test_value_range, only: value_range_suite
     use test_virtual_work, only: virtual_work_suite
     use test_walls, only: walls_suite
     use test_whole_file, only: whole_file_suite
@@ -227,6 +230,7 @@ contains
         call suite%addTest(gauss_tables_suite())
         call suite%addTest(generalised_forces_suite())
         call suite%addTest(gnuplot_suite())
+        call suite%addTest(gnuplot_scales_suite())
         call suite%addTest(graded_responses_suite())
         call suite%addTest(grading_suite())
         call suite%addTest(gsl_suite())
@@ -268,6 +272,7 @@ contains
         call suite%addTest(pendulum_suite())
         call suite%addTest(period_suite())
         call suite%addTest(places_suite())
+        call suite%addTest(plot_label_suite())
         call suite%addTest(time_grid_suite())
         call suite%addTest(precision_curve_suite())
         call suite%addTest(principles_suite())
@@ -309,6 +314,7 @@ contains
         call suite%addTest(term_sizes_suite())
         call suite%addTest(text_suite())
         call suite%addTest(unfinished_suite())
+        call suite%addTest(value_range_suite())
         call suite%addTest(virtual_work_suite())
         call suite%addTest(walls_suite())
         call suite%addTest(whole_file_suite())

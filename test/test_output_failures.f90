@@ -91,6 +91,9 @@ contains
                         "c_chmod(path, int(o'444', c_int)) == 0")
         if (c_access(path//c_null_char, 2_c_int) /= 0) call refused(path, "Permission denied")
         call assertEqual("old", contents(path))
+        call write_file(path, "trailer, startxref 17, %%EOF"//new_line("a"))
+        call assertTrue(ends_well(path, "pdf"), "pdf")
+        call assertFalse(ends_well(path, "svg"), "pdf is no svg")
         call assertTrue(remove_file(path), "it was there: "//path)
     end subroutine a_protected_file_is_refused
 
@@ -213,6 +216,9 @@ contains
         call assertTrue(ends_well(path, "png"), "its first in the last 20")
         call write_file(path, "IEND01234567890123456")
         call assertFalse(ends_well(path, "png"), "its first is the 21st from the end")
+        call write_file(path, "trailer, startxref 17, %%EOF"//new_line("a"))
+        call assertTrue(ends_well(path, "pdf"), "pdf")
+        call assertFalse(ends_well(path, "svg"), "pdf is no svg")
         call assertTrue(remove_file(path), "it was there: "//path)
     end subroutine a_picture_ends_as_its_kind_does
 

@@ -131,8 +131,8 @@ contains
         character(*), parameter :: scene = "&scene system='bouncing_ball' q=1 v=0 duration=1 "// &
             "dt=0.1 output='s.dat' /"
         character(16), parameter :: names(*) = [character(16) :: "s.dat", "s.gp", "s.png", &
-            "s.svg", "s.dat.partial", "s_events.dat", "s_events.gp", "s_events.png", &
-            "s_events.svg"]
+            "s.svg", "s.pdf", "s.dat.partial", "s_events.dat", "s_events.gp", "s_events.png", &
+            "s_events.svg", "s_events.pdf"]
         type(outcome_t) :: outcome
         type(error_t), allocatable :: error
         character(:), allocatable :: folder, path

@@ -149,11 +149,12 @@ contains
         legend = 24*((size(methods) + 4)/5) + 16
         height = top + panel*down + legend
         call begin_script(script, file_name, width, height, 30*down)
+        call script%add("data = folder."//gnuplot_string(file_name))
         do i = 1, size(methods)
             call script%add(style(i, methods(i)))
         end do
         call script%add("set grid lc rgb '#cccccc' lw 0.6 lt 1")
-        call script%add("set termoption enhanced; set logscale xyx2; set format '10^{%L}'")
+        call script%add("set logscale xyx2; set format '10^{%L}'")
         call script%add("set xlabel 'time of a run [us] (of closed_form: above)' noenhanced")
         call script%add("set ylabel 'largest error of q and v'")
         call script%add("set multiplot title 'Run time against error at the end'")

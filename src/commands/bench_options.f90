@@ -4,6 +4,7 @@ module lagrangia_bench_options
     use lagrangia_catalogue, only: system_names
     use lagrangia_command_line, only: command_line_t
     use lagrangia_contestants, only: contestant_names
+    use lagrangia_data_files, only: check_picture
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
@@ -42,12 +43,9 @@ contains
         options%folder = line%value_of("output", "data/output")
         options%picture = line%value_of("plot", "png")
         if (options%picture == "") options%picture = "png"
-        if (options%picture /= "png" .and. options%picture /= "svg") then
-            call fail(error, "unknown picture format "//quoted(options%picture)// &
-                      "; there are png, svg")
-        else if (options%folder == "") then
-            call fail(error, "option '--output' needs the name of a folder")
-        end if
+        call check_picture(options%picture, error)
+        if (allocated(error)) return
+        if (options%folder == "") call fail(error, "option '--output' needs the name of a folder")
         if (allocated(error)) return
         allocate (words(size(line%arguments)))
         do i = 1, size(words)

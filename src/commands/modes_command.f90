@@ -4,11 +4,13 @@ module lagrangia_modes_command
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: note, put, put_line
     use lagrangia_damped_rates, only: damped_rates
+    use lagrangia_data_files, only: check_picture, draw
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_json, only: json_list, json_number, json_string
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_mode_picture, only: has_positions, mode_picture_path, write_mode_picture
     use lagrangia_modes_files, only: prepare_modes, write_mode
     use lagrangia_number_list, only: read_numbers
     use lagrangia_number_text, only: scientific
@@ -30,7 +32,8 @@ module lagrangia_modes_command
 contains
 
     subroutine modes_command(line, error)
-        !! Find, print, and with `--output` write one data file a mode. Without `--at` another
+        !! Find, print, and with `--output` write one data file a mode and their picture as the
+        !! mechanism, which `--plot` lets gnuplot draw. Without `--at` another
         !! equilibrium that the page knows is shown as well.
         type(command_line_t), intent(in) :: line  !! what was typed
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
@@ -39,7 +42,7 @@ contains
         type(modes_t) :: modes, others
         type(progress_t) :: progress
         real(dp), allocatable :: at(:)
-        character(:), allocatable :: warning
+        character(:), allocatable :: folder, kind, warning
         logical :: elsewhere
         integer :: j
 
@@ -47,8 +50,12 @@ contains
             call fail(error, "modes of what? 'lagrangia list systems' shows the names")
             return
         end if
-        if (line%value_of("output", "data/output") == "") call fail(error, &
-            "option '--output' needs the name of a folder")
+        folder = line%value_of("output", "data/output")
+        if (folder == "") call fail(error, "option '--output' needs the name of a folder")
+        if (allocated(error)) return
+        kind = line%value_of("plot", "png")
+        if (kind == "") kind = "png"
+        call check_picture(kind, error)
         if (allocated(error)) return
         call read_named_system(line%arguments(1)%text, line%values_of("set"), system, error)
         if (allocated(error)) return
@@ -56,8 +63,11 @@ contains
         allocate (at, source=likely_equilibrium(system))
         if (line%has("at")) call read_numbers("--at", line%value_of("at", ""), at, error)
         if (allocated(error)) return
-        if (line%has("output")) then
-            call prepare_modes(system, line%value_of("output", ""), warning, error)
+        if (line%has("plot") .and. .not. has_positions(system)) call fail(error, "no picture "// &
+            "of the modes of "//trim(d%name)//": it does not say where its masses are (positions)")
+        if (allocated(error)) return
+        if (line%has("output") .or. line%has("plot")) then
+            call prepare_modes(system, folder, warning, error)
             if (allocated(error)) return
             if (warning /= "" .and. .not. line%has("quiet")) call note(warning)
         end if
@@ -76,14 +86,18 @@ contains
             if (elsewhere) call put_line("")
             if (elsewhere) call print_modes(system, others)
         end if
-        if (.not. line%has("output")) return
+        if (.not. (line%has("output") .or. line%has("plot"))) return
         call progress%restart(line%arguments(1)%text, line%has("quiet"))
         do j = 1, size(modes%omega2)
-            call write_mode(system, modes, j, line%value_of("output", ""), error)
+            call write_mode(system, modes, j, folder, error)
             if (allocated(error) .or. interrupt_status() /= 0) exit
             call progress%tick(int(j, i8), size(modes%omega2, kind=i8))
         end do
         call progress%clear()
+        if (allocated(error) .or. interrupt_status() /= 0 .or. .not. has_positions(system)) return
+        call write_mode_picture(system, modes, folder, error)
+        if (allocated(error) .or. .not. line%has("plot")) return
+        call draw(mode_picture_path(system, folder), kind, error)
     end subroutine modes_command
 
     subroutine print_modes(system, modes)

@@ -6,10 +6,11 @@ module lagrangia_principle
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_constraints, only: constraints_principle
-    use lagrangia_data_files, only: data_path, draw, script_path
+    use lagrangia_data_files, only: check_picture, data_path, draw, script_path
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_gauge, only: gauge_principle
-    use lagrangia_gnuplot, only: gnuplot_script, new_panels, panel_t
+    use lagrangia_gnuplot, only: gnuplot_script, new_panels, new_series, panel_t, &
+                                 series_t
     use lagrangia_least_time, only: least_time_principle
     use lagrangia_ledger, only: group_length
     use lagrangia_ledger_text, only: statement_head, statement_json, statement_line
@@ -19,8 +20,9 @@ module lagrangia_principle
     use lagrangia_report, only: picture_t, report_t
     use lagrangia_scene_claims, only: claim_table
     use lagrangia_system, only: system_box_t
-    use lagrangia_text, only: quoted, to_text
+    use lagrangia_text, only: to_text
     use lagrangia_text_table, only: text_table_t
+    use lagrangia_value_range, only: range_of, value_range_t
     use lagrangia_version, only: build_text, version
     use lagrangia_virtual_work, only: virtual_work_principle
     implicit none (type, external)
@@ -59,11 +61,10 @@ contains
         if (allocated(error)) return
         kind = line%value_of("plot", "png")
         if (kind == "") kind = "png"
-        if (kind /= "png" .and. kind /= "svg") call fail(error, "unknown picture format "// &
-            quoted(kind)//"; there are png, svg")
+        call check_picture(kind, error)
         if (allocated(error)) return
         if (any(principles%name == line%arguments(1)%text .and. principles%drawn)) then
-            call check_picture(picture_name(line%arguments(1)%text), folder, error)
+            call check_files(picture_name(line%arguments(1)%text), folder, error)
             if (allocated(error)) return
         end if
         call principle_report(line%arguments(1)%text, report, error)
@@ -188,7 +189,7 @@ contains
         call put_line("]")
     end subroutine put_json
 
-    subroutine check_picture(name, folder, error)
+    subroutine check_files(name, folder, error)
         !! Fails where `write_picture` could not write now: to be asked before a long computation.
         character(*), intent(in) :: name  !! of the files, without ending
         character(*), intent(in) :: folder
@@ -200,7 +201,7 @@ contains
         call claim_table(path, "data", "", places, error)
         if (.not. allocated(error)) call refuse_unwritable(path, error)
         if (.not. allocated(error)) call refuse_unwritable(script_path(path), error)
-    end subroutine check_picture
+    end subroutine check_files
 
     subroutine write_picture(picture, folder, path, error)
         !! Write `folder/NAME.dat` and `folder/NAME.gp`; `path` is the data file, "" without one.
@@ -211,11 +212,14 @@ contains
         type(text_table_t) :: table
         type(output_file_t) :: script
         type(panel_t), allocatable :: panels(:)
+        type(series_t), allocatable :: series(:)
+        type(value_range_t) :: ranges(size(picture%values, 1))
         character(2*group_length) :: header(2)
         integer :: i
 
         path = ""
         if (picture%file == "") return
+        allocate (series(1))
         call new_panels(picture%panels, picture%names, picture%units, panels, error)
         if (allocated(error)) return
         path = data_path(folder, trim(picture%file), "text")
@@ -233,10 +237,12 @@ contains
         call script%open(script_path(path), error)
         if (allocated(error)) call table%file%abandon()
         if (allocated(error)) return
-        call script%write(gnuplot_script(trim(picture%file)//".dat", table%reading(), &
-                                         trim(picture%title), picture%names, picture%units, &
-                                         minval(picture%values, 2), maxval(picture%values, 2), &
-                                         panels))
+        do i = 1, size(ranges)
+            ranges(i) = range_of(picture%values(i, :))
+        end do
+        call new_series(series(1), trim(picture%file)//".dat", table%reading(), picture%names, &
+                        picture%units, ranges)
+        call script%write(gnuplot_script(series(1)%file, series, trim(picture%title), "", panels))
         call commit_both(table%file, script, error)
     end subroutine write_picture
 end module lagrangia_principle

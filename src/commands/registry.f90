@@ -26,7 +26,7 @@ module lagrangia_registry
         option_t("output", needs_value, "DIR", "where data files go (default data/output)", &
                  any_text=.true.), &
         option_t("format", needs_value, "text|csv|npy", "of the data files"), &
-        option_t("plot", may_have_value, "svg|png", "draw the data files by gnuplot"), &
+        option_t("plot", may_have_value, "png|svg|pdf", "draw the data files by gnuplot"), &
         option_t("animate", no_value, "", "a film of each scene, one HTML page, beside its data"), &
         option_t("error-estimate", no_value, "", "state the final state to the digits that hold"), &
         option_t("quick", no_value, "", "measure less, in under 20 s"), &
@@ -55,7 +55,7 @@ module lagrangia_registry
         command_t("run", "SCENE...", "the same for .nml files, or shipped scenes by name", -1, &
                   "set output format plot animate error-estimate json quiet"), &
         command_t("modes", "SYSTEM", "or a scene's: small oscillations, frequencies, shapes", 1, &
-                  "set at output json quiet"), &
+                  "set at output plot json quiet"), &
         command_t("check", "[SYSTEM...]", "the audit: equations, invariants, structure, Gauss, "// &
                   "orders", -1, "set json"), &
         command_t("errata", "[ID]", "the slips in the lecture notes, and what each would do", 1, &

@@ -4,7 +4,7 @@ module lagrangia_run_command
     use lagrangia_changed_scene, only: make_own_scene
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: note, put, put_line
-    use lagrangia_data_files, only: check_format, data_path, draw, film_path
+    use lagrangia_data_files, only: check_format, check_picture, data_path, draw, film_path
     use lagrangia_errors, only: error_t, fail, is_signal, status_not_held
     use lagrangia_final_values, only: final_values_legend, final_values_line
     use lagrangia_observer, only: observer_t
@@ -21,7 +21,7 @@ module lagrangia_run_command
     use lagrangia_shipped, only: find_scene, shipped_scenes
     use lagrangia_step_warning, only: step_warning
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: quoted, to_text
+    use lagrangia_text, only: to_text
     use lagrangia_version, only: is_optimised
     implicit none (type, external)
     private
@@ -61,8 +61,7 @@ contains
         if (allocated(error)) return
         kind = line%value_of("plot", "png")
         if (kind == "") kind = "png"
-        if (kind /= "png" .and. kind /= "svg") call fail(error, "unknown picture format "// &
-            quoted(kind)//"; there are png, svg")
+        call check_picture(kind, error)
         if (allocated(error)) return
         allocate (chosen(0))  ! gfortran 12 would warn of its bounds
         call choose_scenes(line, folder, format, chosen, error)

@@ -11,6 +11,7 @@ module lagrangia_record
     use lagrangia_system, only: system_t
     use lagrangia_table, only: table_t
     use lagrangia_text, only: to_text
+    use lagrangia_value_range, only: value_range_t
     implicit none (type, external)
     private
     public :: event_record_t, record_t, sample_record_t
@@ -18,7 +19,7 @@ module lagrangia_record
     type, abstract, extends(observer_t) :: record_t
         type(columns_t) :: columns
         class(table_t), allocatable :: table              !! absent: nothing is written
-        real(dp), allocatable :: low(:), high(:)          !! range of each column so far
+        type(value_range_t), allocatable :: ranges(:)     !! of each column so far
         integer(i8) :: rows = 0
     contains
         procedure, private :: keep
@@ -50,12 +51,8 @@ contains
         integer, intent(in) :: shown                      !! numbers that are written
         type(error_t), allocatable, intent(out) :: error  !! the row could not be written
 
-        if (.not. allocated(self%low)) then
-            allocate (self%low(size(row)), source=huge(row))
-            allocate (self%high(size(row)), source=-huge(row))
-        end if
-        self%low(:) = min(self%low, row)
-        self%high(:) = max(self%high, row)
+        if (.not. allocated(self%ranges)) allocate (self%ranges(size(row)))
+        call self%ranges%see(row)
         if (allocated(self%table)) call self%table%add_row(row(:shown), error)
         if (.not. allocated(error)) self%rows = self%rows + 1
     end subroutine keep
@@ -73,7 +70,7 @@ contains
         integer, intent(in) :: i  !! number of the column
         real(dp) :: value
 
-        value = max(abs(self%low(i)), abs(self%high(i)))
+        value = self%ranges(i)%largest()
     end function worst
 
     subroutine observe(self, system, t, q, v, error)

@@ -9,14 +9,15 @@ module lagrangia_data_files
     use lagrangia_output_file, only: output_file_t
     use lagrangia_processes, only: run_program
     use lagrangia_table, only: table_t
-    use lagrangia_text, only: lower, quoted, to_text, word_t
+    use lagrangia_text, only: join, lower, quoted, to_text, word_t
     use lagrangia_text_table, only: text_table_t
     implicit none (type, external)
     private
-    public :: check_format, data_path, draw, ends_well, event_path, film_path, new_table, &
-              script_path
+    public :: check_format, check_picture, data_path, draw, ends_well, event_path, film_path
+    public :: new_table, pictures, script_path
 
     character(4), parameter :: formats(3) = ["text", "csv ", "npy "]
+    character(3), parameter :: pictures(3) = ["png", "svg", "pdf"]  !! what `draw` makes
     character(4), parameter :: endings(3) = [".dat", ".csv", ".npy"]
 
 contains
@@ -29,6 +30,16 @@ contains
         if (any(formats == format)) return
         call fail(error, "unknown format "//quoted(format)//"; there are text, csv, npy")
     end subroutine check_format
+
+    pure subroutine check_picture(kind, error)
+        !! Refuse a picture format that does not exist.
+        character(*), intent(in) :: kind  !! a word of the command line
+        type(error_t), allocatable, intent(out) :: error  !! names those that exist
+
+        if (any(pictures == kind)) return
+        call fail(error, "unknown picture format "//quoted(kind)//"; there are "// &
+                  join(pictures, ", "))
+    end subroutine check_picture
 
     subroutine new_table(format, table)
         !! A table of that format, not yet opened.
@@ -90,9 +101,9 @@ contains
     end function film_path
 
     subroutine draw(path, kind, error)
-        !! Let gnuplot draw the data file at `path`, as `kind` (png or svg); no shell is involved.
+        !! Let gnuplot draw the data file at `path`, as one of `pictures`; no shell is involved.
         !! It says nothing of a full disk, so its picture gets its name only if its end is there.
-        character(*), intent(in) :: path, kind  !! its script lies beside it; png or svg
+        character(*), intent(in) :: path, kind  !! its script lies beside it; of `pictures`
         type(error_t), allocatable, intent(out) :: error  !! gnuplot is missing or failed
         type(output_file_t) :: picture
         character(:), allocatable :: script
@@ -127,8 +138,9 @@ contains
     function ends_well(path, kind)
         !! Whether a picture is there to its last byte, as far as its last bytes tell.
         character(*), intent(in) :: path  !! of the picture
-        character(*), intent(in) :: kind  !! png or svg
+        character(*), intent(in) :: kind  !! of `pictures`
         logical :: ends_well
+        character(6), parameter :: ends(3) = ["IEND  ", "</svg>", "%%EOF "]
         character(20) :: last
         integer :: unit, length, status
 
@@ -141,6 +153,6 @@ contains
         if (length > 0) read (unit, pos=max(1, length - len(last) + 1), iostat=status) &
             last(:min(len(last), length))
         close (unit)
-        if (status == 0) ends_well = index(last, trim(merge("IEND  ", "</svg>", kind == "png"))) > 0
+        if (status == 0) ends_well = index(last, trim(ends(findloc(pictures == kind, .true., 1)))) > 0
     end function ends_well
 end module lagrangia_data_files

@@ -4,8 +4,10 @@ module lagrangia_modes_files
     use lagrangia_description, only: description_t, name_length
     use lagrangia_disk_space, only: space_warning
     use lagrangia_errors, only: error_t
-    use lagrangia_gnuplot, only: gnuplot_script, new_panels, panel_t
+    use lagrangia_gnuplot, only: gnuplot_script, new_panels, new_series, panel_t, &
+                                 series_t
     use lagrangia_kinds, only: dp
+    use lagrangia_mode_picture, only: has_positions, mode_picture_path
     use lagrangia_number_text, only: field_width
     use lagrangia_output_file, only: commit_both, output_file_t, refuse_unwritable
     use lagrangia_places, only: places_t
@@ -14,6 +16,7 @@ module lagrangia_modes_files
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     use lagrangia_text_table, only: text_table_t
+    use lagrangia_value_range, only: value_range_t
     implicit none (type, external)
     private
     public :: prepare_modes, write_mode
@@ -37,6 +40,10 @@ contains
             call claim_table(mode_path(system, j, folder), "data", "", places, error)
             if (allocated(error)) return
         end do
+        if (has_positions(system)) then
+            call claim_table(mode_picture_path(system, folder), "data", "", places, error)
+            if (allocated(error)) return
+        end if
         call refuse_unwritable(mode_path(system, 1, folder), error)
     end subroutine prepare_modes
 
@@ -77,7 +84,9 @@ contains
         character(name_length) :: names(1 + system%ndof)
         character(16) :: units(1 + system%ndof)
         character(120) :: header(1)
-        real(dp), dimension(1 + system%ndof) :: row, low, high
+        type(value_range_t) :: ranges(1 + system%ndof)
+        type(series_t), allocatable :: series(:)
+        real(dp) :: row(1 + system%ndof)
         real(dp) :: shape(system%ndof)
         real(dp) :: t, rate, factor, duration
         character(:), allocatable :: path
@@ -99,8 +108,6 @@ contains
         duration = 1.0_dp
         if (modes%label(j) == is_oscillation) duration = 2.0_dp*acos(-1.0_dp)/rate
         if (modes%label(j) == is_unstable) duration = 2.0_dp/rate
-        low = huge(t)
-        high = -huge(t)
         do k = 0, samples
             t = duration*k/samples
             factor = t
@@ -112,8 +119,7 @@ contains
                 shape = shape - sin(rate*t)*modes%quadrature(:, j)
             end if
             row(2:) = modes%at + 0.1_dp/maxval(abs(modes%shapes(:, j)))*shape
-            low = min(low, row)
-            high = max(high, row)
+            call ranges%see(row)
             call table%row(row)
         end do
         call new_panels([character(1) ::], names, units, panels, error)
@@ -123,8 +129,10 @@ contains
         call script%open(script_path(path), error)
         if (allocated(error)) call table%file%abandon()
         if (allocated(error)) return
-        call script%write(gnuplot_script(trim(d%name)//"_mode_"//to_text(j)//".dat", "", &
-                                         trim(header(1)), names, units, low, high, panels))
+        allocate (series(1))
+        call new_series(series(1), trim(d%name)//"_mode_"//to_text(j)//".dat", "", names, units, &
+                        ranges)
+        call script%write(gnuplot_script(series(1)%file, series, trim(header(1)), "", panels))
         call commit_both(table%file, script, error)
     end subroutine write_mode
 end module lagrangia_modes_files

@@ -4,17 +4,20 @@ module lagrangia_run_files
     use lagrangia_data_files, only: data_path, event_path, new_table, script_path
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, message_length
-    use lagrangia_gnuplot, only: dots, gnuplot_script, panel_t
+    use lagrangia_gnuplot, only: dots, gnuplot_script, new_series, panel_t, series_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_methods, only: exact
     use lagrangia_outcome, only: outcome_t
     use lagrangia_output_file, only: output_file_t, remove_partial
+    use lagrangia_plot_label, only: is_small
     use lagrangia_record, only: record_t
     use lagrangia_run_plan, only: run_plan_t
-    use lagrangia_scene, only: scene_line_length, scene_lines
+    use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
     use lagrangia_text, only: shortened, to_text
     use lagrangia_version, only: build_text, version
     implicit none (type, external)
     private
-    public :: abandon_files, finish_files, keep_parts, open_files
+    public :: abandon_files, finish_files, keep_parts, method_text, open_files
 
 contains
 
@@ -102,8 +105,8 @@ contains
                 if (allocated(error)) return
                 n = size(events%columns%items)
                 if (events%rows > 1 .and. size(plan%event_panels) > 0) then
-                    call write_script(events, n, trim(title)//": events", plan%event_panels, &
-                                      scripts(1), error, dots)
+                    call write_script(events, n, trim(title)//": events", "", &
+                                      plan%event_panels, scripts(1), error, dots)
                     if (allocated(error)) return
                     outcome%events = events%table%file%name()
                 end if
@@ -118,28 +121,63 @@ contains
                 ", energy evaluations: "//to_text(outcome%energy_evaluations)// &
                 ", rows: "//to_text(outcome%rows), error)
             if (allocated(error)) return
-            call write_script(record, record%shown, trim(title), plan%panels, scripts(2), error)
+            call write_script(record, record%shown, trim(title), method_remark(plan), &
+                              plan%panels, scripts(2), error)
         end associate
     end subroutine complete_files
 
-    subroutine write_script(record, shown, title, panels, script, error, style)
+    pure function method_remark(plan) result(text)
+        !! The method and its step or tolerance, where a picture shows a drift or an error: they
+        !! are the method's, not the system's.
+        type(run_plan_t), intent(in) :: plan
+        character(:), allocatable :: text
+        integer :: i
+
+        text = ""
+        associate (scene => plan%settled, panels => plan%panels)
+            do i = 1, size(panels)
+                if (any(is_small(scene%columns(panels(i)%y(:panels(i)%curves))))) then
+                    text = method_text(scene)
+                end if
+            end do
+        end associate
+    end function method_remark
+
+    pure function method_text(scene) result(text)
+        !! `rk4, dt = 0.001 s`, `dop853, tolerance 1e-12`.
+        type(scene_t), intent(in) :: scene  !! with its method, not `auto`
+        character(:), allocatable :: text
+
+        text = trim(scene%method)
+        if (scene%compensated) text = text//", compensated"
+        if (scene%method == exact) return
+        if (scene%tolerance > 0.0_dp) then
+            text = text//", tolerance "//to_text(scene%tolerance)
+        else
+            text = text//", dt = "//to_text(scene%dt)//" s"
+        end if
+    end function method_text
+
+    subroutine write_script(record, shown, title, remark, panels, script, error, style)
         !! The gnuplot script beside a table, complete but for its name.
         class(record_t), intent(in) :: record
         integer, intent(in) :: shown  !! columns
-        character(*), intent(in) :: title
+        character(*), intent(in) :: title, remark
         type(panel_t), intent(in) :: panels(:)
         type(output_file_t), intent(inout) :: script
         type(error_t), allocatable, intent(out) :: error
         character(*), intent(in), optional :: style
+        type(series_t), allocatable :: series(:)
         character(:), allocatable :: path
 
         path = record%table%file%name()
         call script%open(script_path(path), error)
         if (allocated(error)) return
-        call script%write(gnuplot_script( &
-            path(index(path, "/", back=.true.) + 1:), record%table%reading(), title, &
-            record%columns%names(shown), record%columns%units(shown), record%low, record%high, &
-            panels, style))
+        allocate (series(1))
+        call new_series(series(1), path(index(path, "/", back=.true.) + 1:), &
+                        record%table%reading(), record%columns%names(shown), &
+                        record%columns%units(shown), record%ranges)
+        call script%write(gnuplot_script(series(1)%file, series, title, remark, panels, style))
         call script%complete(error)
     end subroutine write_script
 

@@ -1,6 +1,6 @@
 module lagrangia_scene_claims
     !! All files of a scene, so that those of a run can be compared before any of them is written.
-    use lagrangia_data_files, only: data_path, event_path, script_path
+    use lagrangia_data_files, only: data_path, event_path, pictures, script_path
     use lagrangia_disk_space, only: space_warning
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
@@ -61,13 +61,16 @@ contains
         type(places_t), intent(inout) :: places  !! claimed so far; gets these
         type(error_t), allocatable, intent(out) :: error  !! names both owners
         character(:), allocatable :: stem
+        integer :: i
 
         stem = script_path(path)
         stem = stem(:len(stem) - 2)
         call places%add(path, kind//" file", owner, error)
         if (.not. allocated(error)) call places%add(stem//"gp", kind//" script", owner, error)
-        if (.not. allocated(error)) call places%add(stem//"png", kind//" picture", owner, error)
-        if (.not. allocated(error)) call places%add(stem//"svg", kind//" picture", owner, error)
+        do i = 1, size(pictures)
+            if (.not. allocated(error)) call places%add(stem//pictures(i), kind//" picture", &
+                                                        owner, error)
+        end do
         if (.not. allocated(error)) call places%add(stem//"html", kind//" animation", owner, error)
         if (.not. allocated(error)) call places%add(path//partial_ending, "partial "//kind// &
                                                     " file", owner, error)

@@ -1,30 +1,34 @@
 module lagrangia_gnuplot
-    !! A gnuplot script that draws a data file: one panel below the other.
+    !! A gnuplot script that draws data files: panels below each other, one time axis below all of
+    !! them; what is drawn to scale has a place beside, or as much height as it needs.
     !!
     !! No text of the user is ever more than a string.
-    use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_gnuplot_axes, only: frame_t
+    use lagrangia_gnuplot_panel, only: add_envelopes, curves, dots, draw_panel, variable
     use lagrangia_gnuplot_script, only: begin_script, gnuplot_string, lines_t
     use lagrangia_kinds, only: dp
     use lagrangia_names, only: advice
+    use lagrangia_plot_label, only: is_small, plain_label
+    use lagrangia_plot_panel, only: aspect, has_legend, is_space, most_curves, panel_t, series_t
     use lagrangia_text, only: quoted, to_text
+    use lagrangia_value_range, only: value_range_t
     implicit none (type, external)
     private
-    public :: panel_t, gnuplot_script, new_panels
+    public :: panel_t, series_t, gnuplot_script, new_panels, new_series
     public :: curves, dots
 
-    character(*), parameter :: curves = "lines lw 1.5"
-    character(*), parameter :: dots = "points pt 7 ps 0.5"
-
-    integer, parameter :: most_curves = 8
-    real(dp), parameter :: told_apart = 1e-5_dp  !! by the six digits of a tick, relative
-
-    type :: panel_t
-        !! One picture: columns `y` over column `x`.
-        integer :: x = 1
-        integer :: curves = 0
-        integer :: y(most_curves) = 0
-    end type panel_t
+    integer, parameter :: text_width = 95        !! characters of a title in its largest type
+    real(dp), parameter :: left = 135.0_dp       !! pixels beside the axes, for labels
+    real(dp), parameter :: right = 25.0_dp
+    real(dp), parameter :: below = 76.0_dp       !! below an axis with a label
+    real(dp), parameter :: gap = 22.0_dp         !! between panels on one time axis
+    real(dp), parameter :: legend = 26.0_dp      !! above a panel
+    real(dp), parameter :: column = 1000.0_dp    !! width of panels below each other
+    real(dp), parameter :: narrow = 740.0_dp     !! of those that have others beside them
+    real(dp), parameter :: side = 560.0_dp       !! width of those drawn to scale, beside them
+    real(dp), parameter :: wide = 0.45_dp        !! aspect of what is drawn across the picture
+    real(dp), parameter :: tallest = 760.0_dp    !! pixels of one panel
 
 contains
 
@@ -58,14 +62,6 @@ contains
             panels(k)%y(panels(k)%curves) = i
         end do
     end subroutine new_panels
-
-    pure function is_small(name) result(small)
-        !! A drift or an error: to be drawn on a scale of its own.
-        character(*), intent(in) :: name
-        logical :: small
-
-        small = index(name, "_drift") > 0 .or. name == "error"
-    end function is_small
 
     subroutine read_panel(spec, names, panel, error)
         !! `[X:]Y1[+Y2...]`, all of them names of columns.
@@ -101,97 +97,153 @@ contains
         end subroutine find
     end subroutine read_panel
 
-    function gnuplot_script(file, reading, title, names, units, low, high, panels, style) &
-        result(text)
-        !! The script for `file`, a bare name beside the script; its pictures are `NAME.png`, ...
-        character(*), intent(in) :: file       !! data file
-        character(*), intent(in) :: reading    !! how gnuplot reads it: words behind the file name
-        character(*), intent(in) :: title, names(:), units(:)  !! of the picture; of the columns
-        real(dp), intent(in) :: low(:), high(:)  !! range of each column
-        type(panel_t), intent(in) :: panels(:)  !! from `new_panels`
+    pure subroutine new_series(series, file, reading, names, units, ranges, name)
+        !! A data file as a picture needs it.
+        type(series_t), intent(out) :: series  !! with all that
+        character(*), intent(in) :: file     !! beside the script, or below
+        character(*), intent(in) :: reading  !! how gnuplot reads it: words behind the file name
+        character(*), intent(in) :: names(:), units(:)  !! of its columns
+        type(value_range_t), intent(in) :: ranges(:)    !! of at least those columns
+        character(*), intent(in), optional :: name      !! in a legend; default: the file's name
+
+        series%file = file
+        series%reading = reading
+        series%name = file
+        if (present(name)) series%name = name
+        allocate (series%names(size(names)), series%units(size(names)))
+        series%names(:) = names
+        series%units(:) = units
+        allocate (series%ranges(size(names)))
+        series%ranges(:) = ranges(:size(names))
+    end subroutine new_series
+
+    function gnuplot_script(file, series, title, remark, panels, style) result(text)
+        !! The script beside `file`; its pictures are `NAME.png`, ...
+        character(*), intent(in) :: file        !! a bare name
+        type(series_t), intent(in) :: series(:)  !! data files; the first has all columns
+        character(*), intent(in) :: title       !! of the picture
+        character(*), intent(in) :: remark      !! a line below it, or ""
+        type(panel_t), intent(in) :: panels(:)  !! from `new_panels`, of the first data file
         character(*), intent(in), optional :: style  !! `curves`, which is the default, or `dots`
         character(:), allocatable :: text, how
+        type(frame_t) :: frames(size(panels))
         type(lines_t) :: script
-        integer :: height, i
+        integer :: height, i, width
 
         how = curves
         if (present(style)) how = style
-        height = 60 + 300*size(panels)
-        if (size(panels) == 1) height = 560
-        call begin_script(script, file, 1000, height, 30*size(panels))
-        if (index(reading, "skip") == 1) call script%add("set datafile separator comma")
-        call script%add("set grid lc rgb '#bbbbbb' lw 0.8 lt 1")
-        call script%add("set key above right")
-        call script%add("set format y '%g'")
-        call script%add("set lmargin 14; set rmargin 4")
-        call script%add("set multiplot layout "//to_text(size(panels))//",1 title "// &
-                        gnuplot_string(trim(title))//" noenhanced")
+        call lay_out(series, panels, merge(74.0_dp, 50.0_dp, remark /= ""), frames, width, height)
+        call begin_script(script, file, width, height, 30*size(panels))
+        call script%add("data = folder."//gnuplot_string(series(1)%file))
+        do i = 2, size(series)
+            call script%add(variable(i)//" = folder."//gnuplot_string(series(i)%file))
+        end do
+        if (index(series(1)%reading, "skip") == 1) call script%add("set datafile separator comma")
+        call script%add("set grid lc rgb '#cccccc' lw 0.8 lt 1; set border lw 1.2; "// &
+                        "set tics font ',12'")
         do i = 1, size(panels)
-            call draw(panels(i))
+            if (how == curves) call add_envelopes(script, series, panels(i), i)
+        end do
+        call script%add("set multiplot")
+        call script%add("set label 1 "//plain_label(trim(title))//" at screen 0.5, "// &
+                        "screen "//fraction(height - 24, height)//" center font ',"// &
+                        to_text(max(7, min(16, 16*text_width*width/1000/ &
+                                           max(1, len_trim(title)))))//"'")
+        if (remark /= "") call script%add("set label 2 "//plain_label(trim(remark))// &
+            " at screen 0.5, screen "//fraction(height - 52, height)//" center font ',12'")
+        do i = 1, size(panels)
+            call draw_panel(script, series, panels(i), i, frames(i), width, height, how)
+            if (i == 1) call script%add("unset label")
         end do
         call script%add("unset multiplot")
         text = script%text
-    contains
-        subroutine draw(panel)
-            type(panel_t), intent(in) :: panel
-            character(:), allocatable :: line
-            real(dp) :: width, rise
-            integer :: k, y
-
-            y = panel%y(1)
-            width = high(panel%x) - low(panel%x)
-            rise = high(y) - low(y)
-            line = "set size noratio; set xtics autofreq; set ytics autofreq"
-            if (units(panel%x) == "m" .and. units(y) == "m" .and. panel%x > 1) then
-                if (width < 5.0_dp*rise .and. rise < 5.0_dp*width) line = "set size ratio -1; "// &
-                    "set xtics "//tick(max(width, rise))//"; set ytics "//tick(max(width, rise))
-            end if
-            call script%add(line)
-            line = "set autoscale y"
-            if (all(high(panel%y(:panel%curves)) - low(panel%y(:panel%curves)) <= &
-                    told_apart*abs(low(panel%y(:panel%curves))))) then
-                width = max(0.1_dp*abs(low(y)), tiny(width))
-                if (abs(low(y)) <= 0.0_dp) width = 1.0_dp
-                if (panel%curves == 1) line = "set yrange ["//to_text(low(y) - width)//":"// &
-                                              to_text(high(y) + width)//"]"
-            end if
-            call script%add(line)
-            call script%add("set xlabel "//label(names(panel%x), units(panel%x)))
-            if (panel%curves == 1) then
-                call script%add("set ylabel "//label(names(y), units(y))//"; unset key")
-            else
-                line = gnuplot_string("["//trim(units(y))//"]")
-                if (any(units(panel%y(:panel%curves)) /= units(y))) line = gnuplot_string("")
-                call script%add("set ylabel "//line//"; set key above right")
-            end if
-            line = "plot data "
-            do k = 1, panel%curves
-                if (k > 1) line = line//", data "
-                line = line//reading//"using "//to_text(panel%x)//":"//to_text(panel%y(k))// &
-                       " with "//how//" title "//label(names(panel%y(k)), units(panel%y(k)))
-            end do
-            call script%add(line)
-        end subroutine draw
     end function gnuplot_script
 
-    pure function tick(range) result(text)
-        !! A step of 1, 2 or 5 times a power of ten that makes three to seven ticks in `range`.
-        real(dp), intent(in) :: range
+    pure function fraction(part, whole) result(text)
+        !! Three digits behind the point.
+        integer, intent(in) :: part, whole
         character(:), allocatable :: text
-        real(dp) :: power, step
+        character(8) :: digits
 
-        power = 10.0_dp**floor(log10(range/3.0_dp))
-        step = power
-        if (range/3.0_dp >= 2.0_dp*power) step = 2.0_dp*power
-        if (range/3.0_dp >= 5.0_dp*power) step = 5.0_dp*power
-        text = to_text(step)
-    end function tick
+        write (digits, "(ss, f6.4)") real(part, dp)/whole
+        text = trim(digits)
+    end function fraction
 
-    pure function label(name, unit) result(text)
-        !! `"theta [rad]"`.
-        character(*), intent(in) :: name, unit
-        character(:), allocatable :: text
+    pure subroutine lay_out(series, panels, top, frames, width, height)
+        !! The place of each panel and the size of the whole.
+        type(series_t), intent(in) :: series(:)
+        type(panel_t), intent(in) :: panels(:)
+        real(dp), intent(in) :: top  !! for the title
+        type(frame_t), intent(out) :: frames(size(panels))
+        integer, intent(out) :: width, height
+        logical :: beside(size(panels))
+        real(dp) :: bodies(size(panels)), edge, more, y(2)
+        integer :: i, k, plain
 
-        text = gnuplot_string(trim(name)//" ["//trim(unit)//"]")
-    end function label
+        beside = .false.
+        do i = 1, size(panels)
+            if (is_space(series, panels(i))) beside(i) = aspect(series, panels(i)) > wide
+        end do
+        if (all(beside)) beside = .false.
+        plain = count(.not. beside)
+        edge = 0.0_dp
+        if (any(beside)) edge = side
+        width = nint(merge(edge + narrow, column, any(beside)))
+        if (plain == size(panels)) then
+            do i = 1, size(panels)
+                if (is_space(series, panels(i)) .and. aspect(series, panels(i)) > 1.0_dp) then
+                    width = 800
+                end if
+            end do
+        end if
+        do i = 1, size(panels)
+            bodies(i) = 200.0_dp
+            if (plain == 2) bodies(i) = 260.0_dp
+            if (plain == 1) bodies(i) = 430.0_dp
+            more = merge(side, width - edge, beside(i)) - left - right
+            if (is_space(series, panels(i))) bodies(i) = min(tallest, max(130.0_dp, 1.12_dp* &
+                more*aspect(series, panels(i))))
+            frames(i)%below = beside(i) .or. i == size(panels)
+            do k = i + 1, size(panels)
+                if (beside(k)) cycle
+                if (.not. beside(i)) frames(i)%below = panels(k)%x /= panels(i)%x
+                exit
+            end do
+            if (k > size(panels)) frames(i)%below = .true.
+        end do
+        ! What is beside and what is not end at the same height.
+        y = 0.0_dp
+        do i = 1, size(panels)
+            k = merge(1, 2, beside(i))
+            y(k) = y(k) + bodies(i) + around(i)
+        end do
+        if (any(beside)) then
+            more = y(1) - y(2)
+            do i = 1, size(panels)
+                if (more > 0.0_dp .and. .not. beside(i)) bodies(i) = bodies(i) + more/plain
+                if (more < 0.0_dp .and. beside(i)) bodies(i) = bodies(i) - &
+                    more/(size(panels) - plain)
+            end do
+        end if
+        height = nint(top + maxval(y))
+        y = height - top
+        do i = 1, size(panels)
+            k = merge(1, 2, beside(i))
+            if (has_legend(series, panels(i), i)) y(k) = y(k) - legend
+            frames(i)%left = merge(0.0_dp, edge, beside(i)) + left
+            frames(i)%right = merge(side, real(width, dp), beside(i)) - right
+            frames(i)%top = y(k)
+            frames(i)%bottom = y(k) - bodies(i)
+            y(k) = frames(i)%bottom - merge(below, gap, frames(i)%below)
+        end do
+    contains
+        pure function around(which) result(pixels)
+            !! A legend above, labels below.
+            integer, intent(in) :: which
+            real(dp) :: pixels
+
+            pixels = merge(below, gap, frames(which)%below)
+            if (has_legend(series, panels(which), which)) pixels = pixels + legend
+        end function around
+    end subroutine lay_out
 end module lagrangia_gnuplot

@@ -16,9 +16,11 @@ module lagrangia_gnuplot_script
 contains
 
     pure subroutine begin_script(script, file, width, height, rows)
-        !! The first lines of the script for `file`, a bare name beside it: `data` is its path,
-        !! `kind` the terminal, and the picture is `NAME.png` or `NAME.svg`; with two arguments
+        !! The first lines of the script for `file`, a bare name beside it: `folder` is where it is,
+        !! `kind` the terminal, and the picture is `NAME.png`, .svg or .pdf; with two arguments
         !! (`gnuplot -c NAME.gp KIND PICTURE`) it is of the kind, and has the name, that they say.
+        !!
+        !! Text is enhanced: a string that is not made for that is followed by `noenhanced`.
         type(lines_t), intent(out) :: script  !! its first lines
         character(*), intent(in) :: file  !! the data file's name
         integer, intent(in) :: width, height  !! pixels
@@ -36,24 +38,37 @@ contains
                         "if (ARG0[i:i] eq '/') { folder = ARG0[1:i] } } }")
         call script%add("if (folder[1:1] ne '/') { folder = './'.folder }")
         call script%add("set encoding utf8")
-        call script%add("data = folder."//gnuplot_string(file))
         call script%add("picture = folder."//gnuplot_string(file(:dot - 1)))
         call script%add("if (!exists('wanted')) { wanted = 'png' }")
-        call script%add("png = picture.'.png'; svg = picture.'.svg'")
+        call script%add("png = picture.'.png'; svg = picture.'.svg'; pdf = picture.'.pdf'")
         call script%add("if (exists('ARGC') && ARGC == 2) { "// &
-                        "wanted = ARG1; png = ARG2; svg = ARG2 }")
+                        "wanted = ARG1; png = ARG2; svg = ARG2; pdf = ARG2 }")
         call script%add("can(name) = strstrt(GPVAL_TERMINALS, ' '.name.' ')")
-        call script%add("kind = wanted eq 'svg' && can('svg') ? 'svg' : can('pngcairo') ? "// &
-                        "'pngcairo' : can('png') ? 'png' : can('svg') ? 'svg' : 'dumb'")
-        call script%add("if (kind eq 'pngcairo') { set terminal pngcairo noenhanced size "// &
-                        pixels//" font ',11'; set output png }")
-        call script%add("if (kind eq 'png') { set terminal png noenhanced size "//pixels// &
-                        "; set output png }")
-        call script%add("if (kind eq 'svg') { set terminal svg noenhanced size "//pixels// &
-                        " background 'white'; set output svg }")
-        call script%add("if (kind eq 'dumb') { set terminal dumb noenhanced size 100,"// &
+        call script%add("kind = wanted eq 'svg' && can('svg') ? 'svg' : "// &
+                        "wanted eq 'pdf' && can('pdfcairo') ? 'pdfcairo' : "// &
+                        "can('pngcairo') ? 'pngcairo' : can('png') ? 'png' : "// &
+                        "can('svg') ? 'svg' : 'dumb'")
+        call script%add("if (kind eq 'pngcairo') { set terminal pngcairo enhanced size "// &
+                        pixels//" font ',14'; set output png }")
+        call script%add("if (kind eq 'png') { set terminal png enhanced size "//pixels// &
+                        " medium; set output png }")
+        call script%add("if (kind eq 'svg') { set terminal svg enhanced size "//pixels// &
+                        " font ',14' fontscale 1.33 background 'white'; set output svg }")
+        call script%add("if (kind eq 'pdfcairo') { set terminal pdfcairo enhanced size "// &
+                        inches(width)//","//inches(height)//" font ',14' fontscale 0.75 "// &
+                        "linewidth 1.5; set output pdf }")
+        call script%add("if (kind eq 'dumb') { set terminal dumb enhanced size 100,"// &
                         to_text(rows)//" }")
     end subroutine begin_script
+
+    pure function inches(pixels) result(text)
+        !! A hundred pixels are an inch.
+        integer, intent(in) :: pixels
+        character(:), allocatable :: text
+
+        text = to_text(pixels/100)//"."//to_text(modulo(pixels/10, 10))// &
+               to_text(modulo(pixels, 10))//"in"
+    end function inches
 
     pure function gnuplot_string(text) result(string)
         !! `text` as a string of gnuplot, quotes included: the only way for a text into a script.

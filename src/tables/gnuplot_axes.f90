@@ -1,0 +1,177 @@
+module lagrangia_gnuplot_axes
+    !! Scales, ranges and labels of a panel's axes, as lines of a gnuplot script.
+    use lagrangia_gnuplot_script, only: lines_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_plot_label, only: label, labels
+    use lagrangia_plot_panel, only: panel_t, series_t, told_apart
+    use lagrangia_text, only: to_text
+    use lagrangia_value_range, only: value_range_t
+    implicit none (type, external)
+    private
+    public :: frame_t
+    public :: add_decades, add_equal_scale, add_labels, add_margins, add_range
+
+    integer, parameter :: lowest = -18       !! decade; nothing below it is told from zero
+    character(3), parameter :: nearly = char(226)//char(137)//char(136)  !! "almost equal to"
+    integer, parameter :: most_decades = 6   !! with a tick each
+    real(dp), parameter :: margin = 0.06_dp  !! around what is drawn to scale
+
+    type :: frame_t
+        !! Where a panel's axes are, in pixels from the lower left corner.
+        real(dp) :: left = 0.0_dp, right = 0.0_dp, bottom = 0.0_dp, top = 0.0_dp
+        logical :: below = .true.  !! the label and the numbers of the x axis are shown
+    end type frame_t
+
+contains
+
+    pure subroutine add_margins(script, frame, width, height)
+        !! Where the axes are.
+        type(lines_t), intent(inout) :: script  !! gets the lines
+        type(frame_t), intent(in) :: frame  !! the panel's place
+        integer, intent(in) :: width, height  !! of the picture, pixels
+        character(200) :: line
+
+        write (line, "(ss, 4(a, f6.4))") "set lmargin at screen ", frame%left/width, &
+            "; set rmargin at screen ", frame%right/width, "; set bmargin at screen ", &
+            frame%bottom/height, "; set tmargin at screen ", frame%top/height
+        call script%add(trim(line))
+    end subroutine add_margins
+
+    pure subroutine add_decades(script, y, first, edge)
+        !! A logarithmic axis for magnitudes: whole decades, from that of the smallest. A zero has
+        !! no place on it, nor has what is below `10^lowest`: they are drawn one decade below all
+        !! others, where a tick says 0, or nearly 0.
+        type(lines_t), intent(inout) :: script  !! gets the lines
+        type(value_range_t), intent(in) :: y(:)  !! of each curve
+        integer, intent(out) :: first  !! decade where the axis begins
+        integer, intent(out) :: edge   !! decade of the lower edge
+        character(:), allocatable :: line
+        integer :: decade, last, step
+
+        last = -15
+        if (maxval(y%largest()) > 10.0_dp**(lowest + 1)) last = ceiling(log10(maxval(y%largest())))
+        first = lowest
+        if (minval(y%least) < huge(1.0_dp)) first = max(floor(log10(minval(y%least))), lowest)
+        first = min(first, last - 1)
+        edge = first
+        if (any(y%zeros > 0 .or. y%least < 10.0_dp**first)) edge = first - 1
+        ! Ticks go down from the top, and none is nearer to the edge than the others to each other.
+        step = (last - first + most_decades - 1)/most_decades
+        line = "set logscale y; set yrange [0.6e"//to_text(edge)//":1e"//to_text(last)// &
+               "]; set ytics ("
+        if (edge < first) then
+            if (any(y%least < 10.0_dp**first)) then
+                line = line//""""//nearly//"0"" 1e"//to_text(edge)//", "
+            else
+                line = line//"""0"" 1e"//to_text(edge)//", "
+            end if
+        end if
+        do decade = last, edge + step, -step
+            line = line//"""10^{"//to_text(decade)//"}"" 1e"//to_text(decade)
+            if (decade - step >= edge + step) line = line//", "
+        end do
+        call script%add(line//")")
+    end subroutine add_decades
+
+    pure subroutine add_equal_scale(script, x, y, frame)
+        !! A metre is as long on both axes, whatever shape the panel has.
+        type(lines_t), intent(inout) :: script  !! gets the lines
+        type(value_range_t), intent(in) :: x(:), y(:)  !! of each curve
+        type(frame_t), intent(in) :: frame  !! the panel's place
+        real(dp) :: across, middle(2), scale, up
+
+        across = maxval(x%high) - minval(x%low)
+        up = maxval(y%high) - minval(y%low)
+        middle = [0.5_dp*(maxval(x%high) + minval(x%low)), 0.5_dp*(maxval(y%high) + minval(y%low))]
+        scale = (1.0_dp + 2.0_dp*margin)*max(across/(frame%right - frame%left), &
+                                             up/(frame%top - frame%bottom))  ! m per pixel
+        call script%add("set size ratio -1; set xtics "//tick(max(across, up))//"; set ytics "// &
+                        tick(max(across, up)))
+        across = 0.5_dp*scale*(frame%right - frame%left)
+        up = 0.5_dp*scale*(frame%top - frame%bottom)
+        call script%add("set xrange ["//short(middle(1) - across)//":"// &
+                        short(middle(1) + across)//"]; set yrange ["//short(middle(2) - up)// &
+                        ":"//short(middle(2) + up)//"]")
+    end subroutine add_equal_scale
+
+    pure subroutine add_range(script, y)
+        !! gnuplot draws nothing between two equal numbers, and ticks that differ by less than their
+        !! digits are no ticks: a constant gets a range. Zero is a line worth seeing.
+        type(lines_t), intent(inout) :: script  !! gets the lines
+        type(value_range_t), intent(in) :: y(:)  !! of each curve
+        real(dp) :: high, low, width
+
+        low = minval(y%low)
+        high = maxval(y%high)
+        if (high - low > told_apart*max(abs(low), abs(high))) return
+        width = max(0.1_dp*max(abs(low), abs(high)), tiny(width))
+        if (max(abs(low), abs(high)) <= 0.0_dp) width = 1.0_dp
+        call script%add("set yrange ["//to_text(low - width)//":"//to_text(high + width)//"]")
+    end subroutine add_range
+
+    pure subroutine add_labels(script, series, panel, frame, logarithmic)
+        !! Of both axes.
+        type(lines_t), intent(inout) :: script  !! gets the lines
+        type(series_t), intent(in) :: series  !! data files
+        type(panel_t), intent(in) :: panel  !! of columns of the first data file
+        type(frame_t), intent(in) :: frame  !! the panel's place
+        logical, intent(in) :: logarithmic  !! is the y axis
+        character(:), allocatable :: text
+        logical :: errors(panel%curves)
+
+        associate (names => series%names, units => series%units, y => panel%y(:panel%curves))
+            if (frame%below) then
+                call script%add("set format x '%g'; set xlabel "// &
+                                label(names(panel%x), units(panel%x)))
+            else
+                call script%add("set format x ''; unset xlabel")
+            end if
+            text = labels(names(y), units(y))
+            if (logarithmic) then
+                errors = names(y) == "error"
+                text = """|relative drift|, error"""
+                if (.not. any(errors)) text = """|relative drift|"""
+                if (all(errors)) text = """error"""
+                if (panel%curves == 1 .and. .not. any(errors)) then
+                    text = absolute(label(names(y(1)), units(y(1))))
+                end if
+            end if
+            call script%add("set ylabel "//text)
+        end associate
+    end subroutine add_labels
+
+    pure function absolute(string) result(text)
+        !! The string of a label between bars.
+        character(*), intent(in) :: string
+        character(:), allocatable :: text
+        integer :: last
+
+        last = index(string, """", back=.true.)
+        text = """|"//string(2:last - 1)//"|"//string(last:)
+    end function absolute
+
+    pure function tick(range) result(text)
+        !! A step of 1, 2 or 5 times a power of ten that makes three to seven ticks in `range`.
+        real(dp), intent(in) :: range
+        character(:), allocatable :: text
+        real(dp) :: power, step
+
+        power = 10.0_dp**floor(log10(range/3.0_dp))
+        step = power
+        if (range/3.0_dp >= 2.0_dp*power) step = 2.0_dp*power
+        if (range/3.0_dp >= 5.0_dp*power) step = 5.0_dp*power
+        text = to_text(step)
+    end function tick
+
+    pure function short(value) result(text)
+        !! Five digits are enough for the end of an axis.
+        real(dp), intent(in) :: value
+        character(:), allocatable :: text
+        character(16) :: digits
+        real(dp) :: rounded
+
+        write (digits, "(ss, es12.4e3)") value
+        read (digits, *) rounded
+        text = to_text(rounded)
+    end function short
+end module lagrangia_gnuplot_axes

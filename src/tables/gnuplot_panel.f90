@@ -1,0 +1,236 @@
+module lagrangia_gnuplot_panel
+    !! One panel of a picture, and the envelopes of its curves, as lines of a gnuplot script.
+    use lagrangia_gnuplot_axes, only: add_decades, add_equal_scale, add_labels, add_margins, &
+                                      add_range, frame_t
+    use lagrangia_gnuplot_script, only: lines_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_plot_label, only: is_small, label, plain_label
+    use lagrangia_plot_panel, only: find_traces, has_envelope, has_legend, is_space, panel_t, &
+                                    ranges_of, series_t, trace_t
+    use lagrangia_text, only: to_text
+    use lagrangia_value_range, only: value_range_t
+    implicit none (type, external)
+    private
+    public :: add_envelopes, draw_panel, variable
+    public :: curves, dots
+
+    character(*), parameter :: curves = "lines"
+    character(*), parameter :: dots = "points pt 7 ps 1"
+
+    integer, parameter :: most_bins = 200    !! of an envelope
+    !! Okabe and Ito's colours, which the colour-blind tell apart, too.
+    character(7), parameter :: colours(*) = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", &
+                                             "#e69f00", "#56b4e9", "#000000", "#8c6d31"]
+
+contains
+
+    subroutine draw_panel(script, series, panel, number, frame, width, height, style)
+        !! All lines of one panel.
+        type(lines_t), intent(inout) :: script  !! gets the lines
+        type(series_t), intent(in) :: series(:)  !! data files; the first has all columns
+        type(panel_t), intent(in) :: panel  !! of columns of the first data file
+        integer, intent(in) :: number  !! of the panel
+        type(frame_t), intent(in) :: frame  !! the panel's place
+        integer, intent(in) :: width, height  !! of the picture, pixels
+        character(*), intent(in) :: style  !! `curves` or `dots`
+        type(trace_t), allocatable :: traces(:)
+        type(value_range_t), allocatable :: x(:), y(:)
+        integer :: edge, first
+        logical :: logarithmic
+
+        call find_traces(series, panel, traces)
+        call ranges_of(series, traces, x, y)
+        call add_margins(script, frame, width, height)
+        call script%add("unset logscale; set autoscale xy; set size noratio; "// &
+                        "set xtics autofreq; set ytics autofreq; set format y '%g'")
+        if (panel%x == 1 .and. maxval(x%high) > minval(x%low) .and. style == curves) then
+            call script%add("set xrange ["//to_text(minval(x%low))//":"// &
+                            to_text(maxval(x%high))//"]")
+        end if
+        if (style /= curves) call script%add("set offsets graph 0.03, 0.03, 0.05, 0.05")
+        logarithmic = all(is_small(series(1)%names(panel%y(:panel%curves))))
+        first = 0
+        edge = 0
+        if (logarithmic) then
+            call add_decades(script, y, first, edge)
+        else if (is_space(series, panel)) then
+            call add_equal_scale(script, x, y, frame)
+        else
+            call add_range(script, y)
+        end if
+        call add_labels(script, series(1), panel, frame, logarithmic)
+        call add_legend(script, has_legend(series, panel, number))
+        call add_curves(script, series, panel, traces, number, style, logarithmic, first, edge)
+    end subroutine draw_panel
+
+    pure subroutine add_legend(script, shown)
+        !! Above the panel, clear of its curves and of the title.
+        type(lines_t), intent(inout) :: script  !! gets the lines
+        logical, intent(in) :: shown
+
+        if (shown) then
+            call script%add("set key at graph 1, graph 1.02 right bottom horizontal Left "// &
+                            "reverse samplen 2 font ',12'")
+        else
+            call script%add("unset key")
+        end if
+    end subroutine add_legend
+
+    subroutine add_curves(script, series, panel, traces, number, style, logarithmic, first, edge)
+        !! The command that draws. An envelope is a band with its edges, of magnitudes the upper
+        !! one. Where curves of several files lie on each other all are seen: the first is widest.
+        type(lines_t), intent(inout) :: script  !! gets the lines
+        type(series_t), intent(in) :: series(:)  !! data files
+        type(panel_t), intent(in) :: panel  !! of columns of the first data file
+        type(trace_t), intent(in) :: traces(:)  !! its curves
+        integer, intent(in) :: number
+        character(*), intent(in) :: style
+        logical, intent(in) :: logarithmic  !! is the y axis
+        integer, intent(in) :: first, edge
+        character(:), allocatable :: band, colour, line, title, using, width
+        integer :: i, k
+
+        line = ""
+        do i = 1, size(traces)
+            associate (trace => traces(i), from => series(traces(i)%series))
+                k = i
+                if (size(series) > 1 .and. panel%curves == 1) k = trace%series
+                colour = " lc rgb '"//colours(modulo(k - 1, size(colours)) + 1)//"'"
+                width = " lw 2"
+                if (size(series) > 1 .and. .not. logarithmic) then
+                    width = " lw "//to_text(2*(size(traces) - i + 1))
+                end if
+                title = curve_title(series, panel, trace, number, logarithmic)
+                if (has_envelope(from, trace) .and. style == curves) then
+                    band = id(number, i)
+                    using = " using (middle"//band//"($1)):(low"//band//"[int($1)])"
+                    call add("low"//band//using//":(high"//band//"[int($1)]) with filledcurves"// &
+                             colour//" fs transparent solid 0.25 noborder notitle")
+                    if (.not. logarithmic) call add("low"//band//using//" with lines lw 1.5"// &
+                                                    colour//" notitle")
+                    using = " using (middle"//band//"($1)):(high"//band//"[int($1)])"
+                    call add("high"//band//using//" with lines lw 1.5"//colour//title)
+                    cycle
+                end if
+                using = to_text(trace%y)
+                if (logarithmic) using = magnitude("$"//using, first, edge)
+                if (style == dots) width = ""
+                call add(variable(trace%series)//" "//from%reading//"using "//to_text(trace%x)// &
+                         ":"//using//" with "//style//width//colour//title)
+            end associate
+        end do
+        call script%add("plot "//line)
+    contains
+        subroutine add(curve)
+            character(*), intent(in) :: curve
+
+            if (line /= "") line = line//", \"//new_line("a")//"     "
+            line = line//curve
+        end subroutine add
+    end subroutine add_curves
+
+    pure function curve_title(series, panel, trace, number, logarithmic) result(text)
+        !! What the legend calls a curve: its column, or its file, or both.
+        type(series_t), intent(in) :: series(:)  !! data files
+        type(panel_t), intent(in) :: panel  !! of columns of the first data file
+        type(trace_t), intent(in) :: trace  !! one of its curves
+        integer, intent(in) :: number
+        logical, intent(in) :: logarithmic  !! is the y axis
+        character(:), allocatable :: text
+        character(:), allocatable :: name, unit
+        integer :: last
+
+        associate (from => series(trace%series))
+            name = trim(from%names(trace%y))
+            unit = trim(from%units(trace%y))
+            if (all(from%units(trace%y) == series(1)%units(panel%y(:panel%curves)))) unit = "1"
+            last = len(name) - len("_drift")
+            if (logarithmic .and. last > 0) then
+                if (name(last + 1:) == "_drift") name = name(:last)
+            end if
+            if (.not. has_legend(series, panel, number)) then
+                text = " notitle"
+            else if (size(series) == 1) then
+                text = " title "//label(name, unit)
+            else if (panel%curves == 1) then
+                text = " title "//plain_label(from%name)
+            else
+                text = " title "//plain_label(from%name//": "//name)
+            end if
+        end associate
+    end function curve_title
+
+    pure function magnitude(value, first, edge) result(expression)
+        !! Of a value, on a logarithmic axis.
+        character(*), intent(in) :: value
+        integer, intent(in) :: first, edge
+        character(:), allocatable :: expression
+
+        expression = "(abs("//value//"))"
+        if (edge < first) expression = "(abs("//value//") < 1e"//to_text(first)//" ? 1e"// &
+            to_text(edge)//" : abs("//value//"))"
+    end function magnitude
+
+    subroutine add_envelopes(script, series, panel, number)
+        !! For each curve of a panel that needs it, before anything is drawn: the least and the
+        !! largest value in each of many equal parts of the time, as arrays of gnuplot.
+        type(lines_t), intent(inout) :: script  !! gets the lines
+        type(series_t), intent(in) :: series(:)  !! data files; the first has all columns
+        type(panel_t), intent(in) :: panel  !! of columns of the first data file
+        integer, intent(in) :: number  !! of the panel
+        type(trace_t), allocatable :: traces(:)
+        type(value_range_t), allocatable :: x(:), y(:)
+        character(:), allocatable :: band, count, value
+        type(lines_t) :: ignored
+        integer :: edge, first, i
+
+        call find_traces(series, panel, traces)
+        call ranges_of(series, traces, x, y)
+        ignored%text = ""
+        call add_decades(ignored, y, first, edge)
+        do i = 1, size(traces)
+            associate (trace => traces(i), from => series(traces(i)%series))
+                if (.not. has_envelope(from, trace)) cycle
+                band = id(number, i)
+                count = to_text(int(min(int(most_bins, i8), y(i)%count/10_i8)))
+                value = "$"//to_text(trace%y)
+                if (all(is_small(series(1)%names(panel%y(:panel%curves))))) then
+                    value = magnitude(value, first, edge)
+                end if
+                call script%add("# Column "//to_text(trace%y)//" turns round "// &
+                                to_text(y(i)%turns)//" times: "// &
+                                "its envelope, in "//count//" parts.")
+                call script%add("array low"//band//"["//count//"]; array high"//band//"["// &
+                                count//"]")
+                call script%add("do for [i=1:"//count//"] { low"//band//"[i] = NaN; high"// &
+                                band//"[i] = NaN }")
+                call script%add("start"//band//" = "//to_text(x(i)%low)//"; part"//band//" = ("// &
+                                to_text(x(i)%high)//" - start"//band//")/"//count)
+                call script%add("middle"//band//"(i) = start"//band//" + (i - 0.5)*part"//band)
+                call script%add("stats "//variable(trace%series)//" "//from%reading// &
+                                "using (v = "//value//", i = int(($"//to_text(trace%x)// &
+                                " - start"//band//")/part"//band//") + 1, i = i > "//count// &
+                                " ? "//count//" : i, low"//band//"[i] = v >= low"//band// &
+                                "[i] ? low"//band//"[i] : v, high"//band//"[i] = v <= high"// &
+                                band//"[i] ? high"//band//"[i] : v, 0) nooutput")
+            end associate
+        end do
+    end subroutine add_envelopes
+
+    pure function id(number, i) result(text)
+        !! Behind the names of what belongs to one curve of one panel.
+        integer, intent(in) :: number, i
+        character(:), allocatable :: text
+
+        text = to_text(number)//"_"//to_text(i)
+    end function id
+
+    pure function variable(number) result(name)
+        !! The path of a data file in the script: `data`, `data2`, ...
+        integer, intent(in) :: number  !! of the file, from 1
+        character(:), allocatable :: name
+
+        name = "data"
+        if (number > 1) name = name//to_text(number)
+    end function variable
+end module lagrangia_gnuplot_panel

@@ -1,0 +1,260 @@
+module test_gnuplot_scales
+    !! Scales, ranges and curves in gnuplot scripts, read back.
+    use drawn_columns, only: names, occurrences, one_curve, script, units
+    use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
+    use lagrangia_errors, only: error_t
+    use lagrangia_gnuplot, only: gnuplot_script, new_panels, new_series, panel_t, series_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_value_range, only: range_of
+    implicit none (type, external)
+    private
+    public :: gnuplot_scales_suite
+
+contains
+
+    function gnuplot_scales_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("gnuplot_scales")
+        call suite%addTest(TestMethod("one_axis_of_time", one_axis_of_time))
+        call suite%addTest(TestMethod("lengths_share_a_scale", lengths_share_a_scale))
+        call suite%addTest(TestMethod("a_constant_has_a_range", a_constant_has_a_range))
+        call suite%addTest(TestMethod("magnitudes_on_decades", magnitudes_on_decades))
+        call suite%addTest(TestMethod("fast_oscillations_have_envelopes", &
+                                      fast_oscillations_have_envelopes))
+        call suite%addTest(TestMethod("several_files_in_one_picture", several_files_in_one_picture))
+        call suite%addTest(TestMethod("only_what_is_seen_is_to_scale", &
+                                      only_what_is_seen_is_to_scale))
+        call suite%addTest(TestMethod("ticks_are_round", ticks_are_round))
+        call suite%addTest(TestMethod("pictures_have_a_size", pictures_have_a_size))
+    end function gnuplot_scales_suite
+
+    function path_in_plane(width, height) result(text)
+        !! The script of a path of that size, behind a panel over the time.
+        real(dp), intent(in) :: width, height  !! m
+        character(:), allocatable :: text
+        type(panel_t), allocatable :: panels(:)
+        type(series_t), allocatable :: series(:)
+        type(error_t), allocatable :: error
+
+        call new_panels(["x  ", "x:y"], ["t", "x", "y"], ["s", "m", "m"], panels, error)
+        allocate (series(1))
+        call new_series(series(1), "it.dat", "", ["t", "x", "y"], ["s", "m", "m"], &
+                        [range_of([0.0_dp, 1.0_dp]), range_of([1.0_dp, 1.0_dp + width]), &
+                         range_of([1.0_dp, 1.0_dp + height])])
+        text = gnuplot_script("it.dat", series, "", "", panels)
+    end function path_in_plane
+
+    subroutine only_what_is_seen_is_to_scale()
+        !! One side may be twelve times the other.
+        call assertTrue(index(path_in_plane(11.9_dp, 1.0_dp), "ratio -1") > 0, "wide")
+        call assertEqual(0, index(path_in_plane(12.1_dp, 1.0_dp), "ratio -1"), "too wide")
+        call assertTrue(index(path_in_plane(1.0_dp, 11.9_dp), "ratio -1") > 0, "high")
+        call assertEqual(0, index(path_in_plane(1.0_dp, 12.1_dp), "ratio -1"), "too high")
+        call assertEqual(0, index(path_in_plane(0.0_dp, 1.0_dp), "ratio -1"), "a line")
+        call assertEqual(0, index(path_in_plane(0.0_dp, 0.0_dp), "ratio -1"), "a point")
+    end subroutine only_what_is_seen_is_to_scale
+
+    subroutine ticks_are_round()
+        !! 1, 2 or 5 times a power of ten, three to seven of them, up to each of the ranges; of the
+        !! wider side of a path that is drawn to scale.
+        real(dp), parameter :: ranges(7) = [0.29_dp, 0.31_dp, 0.59_dp, 0.61_dp, 1.49_dp, 1.51_dp, &
+                                            2.9_dp]
+        character(4), parameter :: steps(7) = ["0.05", "0.1 ", "0.1 ", "0.2 ", "0.2 ", "0.5 ", &
+                                               "0.5 "]
+        character(:), allocatable :: text
+        integer :: i, k
+
+        do i = 1, size(ranges)
+            do k = 1, 2
+                text = path_in_plane(ranges(i)/k, ranges(i)/(3 - k))
+                call assertTrue(index(text, "set xtics "//trim(steps(i))//"; set ytics "// &
+                                      trim(steps(i))//new_line("a")) > 0, steps(i)//text)
+            end do
+        end do
+    end subroutine ticks_are_round
+
+    subroutine pictures_have_a_size()
+        !! A panel over the time has 430 pixels alone, 260 of two, 200 of more; with 50 for the
+        !! title, 76 below the lowest and 22 below each other one. Lines of text alike. What is as
+        !! high as wide stands beside, and makes the picture wider.
+        call assertTrue(index(script("", ["x"]), "size 1000,556 ") > 0, "one")
+        call assertTrue(index(script("", ["x"]), "size 100,30 ") > 0, "one, in letters")
+        call assertTrue(index(script("", ["x", "y"]), "size 1000,668 ") > 0, "two")
+        call assertTrue(index(script("", ["x", "y", "x"]), "size 1000,770 ") > 0, "three")
+        call assertTrue(index(script("", ["x", "y", "x"]), "size 100,90 ") > 0, "three, in letters")
+        call assertTrue(index(path_in_plane(1.0_dp, 1.0_dp), "size 1300,") > 0, "beside")
+        call assertTrue(index(path_in_plane(3.0_dp, 1.0_dp), "size 1000,") > 0, "below")
+    end subroutine pictures_have_a_size
+
+    subroutine one_axis_of_time()
+        !! Only the lowest of panels over the time has its numbers and its label, and that above
+        !! one of another axis; the range is that of the run.
+        character(:), allocatable :: text
+
+        text = script("", [character(12) :: "x", "y", "theta"])
+        call assertEqual(1, occurrences(text, "; set xlabel"), text)
+        call assertEqual(2, occurrences(text, "set format x ''; unset xlabel"), text)
+        call assertEqual(3, occurrences(text, "set xrange [0.0:9.0]"), text)
+        call assertTrue(index(text, "; set xlabel") > index(text, "plot data using 1:5"), text)
+        text = script("", [character(12) :: "x", "theta:x_dot", "y"])
+        call assertEqual(3, occurrences(text, "; set xlabel"), text)
+    end subroutine one_axis_of_time
+
+    subroutine lengths_share_a_scale()
+        !! A path in the plane is drawn to scale, its axes being as long as the panel wants; time
+        !! series and other units are not.
+        character(:), allocatable :: text
+        real(dp) :: x(2), y(2), sides(4)
+
+        text = script("", [character(4) :: "x:y", "x"])
+        call assertTrue(index(text, "set size ratio -1; set xtics 1.0; set ytics 1.0") > 0, text)
+        call read_range(text, "set xrange [", x)
+        call read_range(text, "; set yrange [", y)
+        call read_margins(text, sides)
+        ! Five digits of each end of an axis, four of each margin.
+        call assertEqual((x(2) - x(1))/(sides(2) - sides(1)), &
+                         (y(2) - y(1))/(sides(4) - sides(3)), tolerance=0.02_dp)
+        call assertTrue(x(1) < -2.0_dp .and. x(2) > 2.0_dp, "all of x: "//text)
+        call assertTrue(y(1) < -1.0_dp .and. y(2) > 1.0_dp, "all of y: "//text)
+        call assertEqual(0, index(script("", ["y"]), "ratio -1"), "over the time")
+        call assertEqual(0, index(script("", [character(7) :: "x:theta"]), "ratio -1"), "an angle")
+    end subroutine lengths_share_a_scale
+
+    subroutine a_constant_has_a_range()
+        !! gnuplot draws nothing between two equal numbers.
+        character(:), allocatable :: text
+
+        text = constant([4.0_dp, 4.0_dp])
+        call assertTrue(index(text, "set yrange [3.6:4.4]") > 0, text)
+        text = constant([0.0_dp, 0.0_dp])
+        call assertTrue(index(text, "set yrange [-1.0:1.0]") > 0, text)
+        text = constant([2.0_dp, 2.000001_dp])
+        call assertTrue(index(text, "set yrange [1.7999999:2.2") > 0, "ticks alike: "//text)
+        text = constant([0.0_dp, 1.0_dp])
+        call assertEqual(0, index(text, "yrange"), "a curve that is not constant")
+    contains
+        function constant(values) result(text)
+            real(dp), intent(in) :: values(2)
+            character(:), allocatable :: text
+
+            text = one_curve("it.dat", "", ["t", "x"], ["s", "m"], values)
+        end function constant
+    end subroutine a_constant_has_a_range
+
+    subroutine magnitudes_on_decades()
+        !! Drifts and errors: a logarithmic axis of whole decades; a zero and what is nearly zero is
+        !! drawn below all others, where a tick says so.
+        character(:), allocatable :: text
+        character(*), parameter :: nearly = char(226)//char(137)//char(136)
+
+        text = script("", ["error"])
+        call assertTrue(index(text, "set logscale y; set yrange [0.6e-13:1e-9]; set ytics ("// &
+            """10^{-9}"" 1e-9, ""10^{-10}"" 1e-10, ""10^{-11}"" 1e-11, ""10^{-12}"" 1e-12)") > 0, &
+                        text)
+        call assertTrue(index(text, "using 1:(abs($6)) with") > 0, text)
+        call assertTrue(index(text, "set ylabel ""error""") > 0, text)
+        text = script("", [character(20) :: "energy_drift"])
+        call assertTrue(index(text, "yrange [0.6e-11:1e-9]; set ytics (""0"" 1e-11, "// &
+                              """10^{-9}"" 1e-9, ""10^{-10}"" 1e-10)") > 0, text)
+        call assertTrue(index(text, "using 1:(abs($7) < 1e-10 ? 1e-11 : abs($7)) with") > 0, text)
+        call assertTrue(index(text, "set ylabel ""|energy drift|""") > 0, text)
+        text = script("", [character(20) :: "energy_drift+error"])
+        call assertTrue(index(text, "set ylabel ""|relative drift|, error""") > 0, text)
+        call assertTrue(index(text, "title ""energy""") > 0, text)
+        call assertTrue(index(text, "using 1:(abs($6) < 1e-13 ? 1e-14 : abs($6)) with") > 0, text)
+        text = script("", [character(20) :: "energy_drift+x"])
+        call assertEqual(0, index(text, "set logscale y"), "beside a length")
+        text = one_curve("it.dat", "", [character(5) :: "t", "error"], ["s", "1"], &
+                         [-2e-22_dp, 3e-4_dp, -7e-2_dp])
+        call assertTrue(index(text, "set yrange [0.6e-19:1e-1]; set ytics ("""//nearly// &
+                              "0"" 1e-19, ""10^{-1}"" 1e-1, ""10^{-4}"" 1e-4, ") > 0, text)
+        call assertTrue(index(text, "using 1:(abs($2) < 1e-18 ? 1e-19 : abs($2)) with") > 0, text)
+        text = one_curve("it.dat", "", [character(5) :: "t", "error"], ["s", "1"], &
+                         [0.0_dp, 0.0_dp])
+        call assertTrue(index(text, "yrange [0.6e-19:1e-15]; set ytics (""0"" 1e-19, ") > 0, text)
+    end subroutine magnitudes_on_decades
+
+    subroutine fast_oscillations_have_envelopes()
+        !! What would be a solid block is the band between its least and largest values.
+        character(:), allocatable :: text
+        real(dp) :: values(0:4000)
+        integer :: i
+
+        values = [(cos(3.0_dp*i), i=0, 4000)]
+        text = one_curve("it.dat", "", ["t", "x"], ["s", "m"], values)
+        call assertTrue(index(text, "array low1_1[200]; array high1_1[200]") > 0, text)
+        call assertTrue(index(text, "start1_1 = 0.0; part1_1 = (4000.0 - start1_1)/200") > 0, text)
+        call assertTrue(index(text, "stats data using (v = $2, i = int(($1 - start1_1)") > 0, text)
+        call assertTrue(index(text, "plot low1_1 using (middle1_1($1)):(low1_1[int($1)]):"// &
+                              "(high1_1[int($1)]) with filledcurves") > 0, text)
+        call assertEqual(0, index(text, "plot data"), text)
+        text = one_curve("it.dat", "", ["t", "x"], ["s", "m"], values(:400))
+        call assertEqual(0, index(text, "array"), "few turns: "//text)
+        call assertTrue(index(text, "plot data using 1:2") > 0, text)
+        text = one_curve("it.dat", "", [character(5) :: "t", "error"], ["s", "1"], values)
+        call assertTrue(index(text, "stats data using (v = (abs($2)), i") > 0, text)
+    end subroutine fast_oscillations_have_envelopes
+
+    subroutine several_files_in_one_picture()
+        !! A curve a file in each panel, those of the same name; one legend for all.
+        type(panel_t), allocatable :: panels(:)
+        type(series_t), allocatable :: series(:)
+        type(error_t), allocatable :: error
+        character(:), allocatable :: text
+        integer :: i
+
+        call new_panels([character(7) :: "x", "theta"], names, units, panels, error)
+        allocate (series(3))
+        do i = 1, 2
+            call new_series(series(i), "f"//char(96 + i), "", names, units, &
+                            spread(range_of([0.0_dp, 1.0_dp]), 1, size(names)), "it's "//char(64+i))
+        end do
+        call new_series(series(3), "c", "", ["x", "t"], ["m", "s"], &
+                        spread(range_of([-1.0_dp, 8.0_dp]), 1, 2), "C")
+        text = gnuplot_script("all.dat", series, "all", "", panels)
+        call assertTrue(index(text, "data = folder.""fa""") > 0, text)
+        call assertTrue(index(text, "data2 = folder.""fb""") > 0, text)
+        call assertTrue(index(text, "data3 = folder.""c""") > 0, text)
+        call assertTrue(index(text, "data using 1:2 with lines lw 6 lc rgb '#0072b2' title "// &
+                              """it's A"" noenhanced") > 0, text)
+        call assertTrue(index(text, "data2 using 1:2 with lines lw 4 lc rgb '#d55e00' title "// &
+                              """it's B"" noenhanced") > 0, text)
+        call assertTrue(index(text, "data3 using 2:1 with lines lw 2 lc rgb '#009e73' title "// &
+                              """C"" noenhanced") > 0, text)
+        call assertTrue(index(text, "data2 using 1:3 with lines lw 2 lc rgb '#d55e00' notitle") > &
+                        0, text)
+        call assertEqual(5, occurrences(text, " using "), "the third has no theta: "//text)
+        call assertTrue(index(text, "set xrange [-1.0:8.0]") > 0, text)
+    end subroutine several_files_in_one_picture
+
+    subroutine read_range(text, before, range)
+        !! The two numbers `[a:b]` behind the first `before`.
+        character(*), intent(in) :: text, before
+        real(dp), intent(out) :: range(2)
+        integer :: first, middle
+
+        first = index(text, before) + len(before)
+        middle = first + index(text(first:), ":") - 1
+        read (text(first:middle - 1), *) range(1)
+        read (text(middle + 1:middle + index(text(middle:), "]") - 2), *) range(2)
+    end subroutine read_range
+
+    subroutine read_margins(text, sides)
+        !! Left, right, bottom and top of the first panel, pixels.
+        character(*), intent(in) :: text
+        real(dp), intent(out) :: sides(4)
+        character(1), parameter :: names(4) = ["l", "r", "b", "t"]
+        real(dp) :: size(2)
+        integer :: first, i
+
+        do i = 1, 4
+            first = index(text, "set "//names(i)//"margin at screen ") + 22
+            read (text(first:first + 5), *) sides(i)
+        end do
+        first = index(text, "pngcairo enhanced size ") + 23
+        read (text(first:first + index(text(first:), " ") - 2), *) size
+        sides = sides*[size(1), size(1), size(2), size(2)]
+    end subroutine read_margins
+end module test_gnuplot_scales
