@@ -13,7 +13,8 @@ module biased_liars
     public :: new_biased_liar, biased_claims
 
     integer, parameter :: biased_claims = 19
-    real(dp), parameter :: amount = 1e-3_dp
+    real(dp), parameter :: amount = 1e-11_dp   !! of what is known to rounding
+    real(dp), parameter :: slope = 1e-9_dp     !! of what is known from differences
 
     type, extends(cart_pendulum_t) :: biased_cart_t
         !! Lies about the claim of number `lie`.
@@ -55,7 +56,8 @@ contains
         class(system_t), allocatable, intent(out) :: system
         character(:), allocatable, intent(out) :: claim
 
-        if (k < 17) allocate (system, source=biased_cart_t(lie=k, bias=way*amount))
+        if (k < 17) allocate (system, source=biased_cart_t(lie=k, bias=way*merge(slope, amount, &
+                                                                              any(k == [4, 5]))))
         select case (k)
         case (1); claim = "accelerations as from L"
         case (2); claim = "accelerations in lanes"
@@ -81,7 +83,7 @@ contains
             allocate (system, source=biased_disk_t(rate=way*amount))
             claim = "accelerations keep the constraints"
         case default
-            allocate (system, source=biased_oscillator_t(bias=way*amount))
+            allocate (system, source=biased_oscillator_t(bias=way*slope))
             claim = "energy changes by Q v - dL/dt"
         end select
     end subroutine new_biased_liar

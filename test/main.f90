@@ -87,6 +87,7 @@ module suites
     use test_method_structure, only: method_structure_suite
     use test_methods, only: methods_suite
     use test_mirror, only: mirror_suite
+    use test_modes_files, only: modes_files_suite
     use test_namelist, only: namelist_suite
     use test_namelist_limits, only: namelist_limits_suite
     use test_namelist_mistakes, only: namelist_mistakes_suite
@@ -251,6 +252,7 @@ contains
         call suite%addTest(method_structure_suite())
         call suite%addTest(methods_suite())
         call suite%addTest(mirror_suite())
+        call suite%addTest(modes_files_suite())
         call suite%addTest(namelist_suite())
         call suite%addTest(namelist_limits_suite())
         call suite%addTest(namelist_mistakes_suite())

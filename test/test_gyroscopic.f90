@@ -1,6 +1,7 @@
 module test_gyroscopic
     !! Small oscillations that velocities bend: fast and slow modes keep the same digits.
-    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertLessThan
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertLessThan, &
+                     assertTrue
     use lagrangia_errors, only: error_t
     use lagrangia_gyroscopic, only: gyroscopic_modes
     use lagrangia_kinds, only: dp
@@ -47,6 +48,12 @@ contains
         end do
         call gyroscopic_modes(k, both, m, lambda, u, error)
         call assertFalse(allocated(error), "modes")
+        do i = 1, size(u, 2)
+            call assertTrue(any(abs(aimag(u(:, i))) <= 0.0_dp .and. &
+                                real(u(:, i)) >= (1.0_dp - 2e-8_dp)*maxval(abs(u(:, i)))), &
+                            "one of the largest is real and positive")
+            call assertEqual(1.0_dp, sum(inertia*abs(u(:, i))**2), 1e-13_dp, "u^+ M u = 1")
+        end do
         if (present(modes)) call move_alloc(u, modes)
     end subroutine solve
 

@@ -1,0 +1,222 @@
+module test_modes_files
+    !! One period of each kind of mode as a file: the numbers, the header, the script, and what is
+    !! left where it cannot be written.
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
+    use lagrangia_catalogue, only: new_system
+    use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t, status_file
+    use lagrangia_interrupt, only: catch_interrupts
+    use lagrangia_kinds, only: dp
+    use lagrangia_modes_files, only: prepare_modes, write_mode
+    use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, is_zero_mode, &
+                                            modes_t
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
+    use test_scratch, only: contents, exit_status, limit_file_size, new_folder, remove_file, &
+                            write_file
+    implicit none (type, external)
+    private
+    public :: modes_files_suite
+
+    character(1), parameter :: newline = new_line("a")
+    real(dp), parameter :: pi = acos(-1.0_dp)
+
+contains
+
+    function modes_files_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("modes_files")
+        call suite%addTest(TestMethod("a_swing_is_drawn_over_its_period", swings))
+        call suite%addTest(TestMethod("modes_that_do_not_swing", others))
+        call suite%addTest(TestMethod("a_shape_that_turns", a_shape_that_turns))
+        call suite%addTest(TestMethod("what_cannot_be_written_leaves_nothing", &
+                                      what_cannot_be_written_leaves_nothing))
+    end function modes_files_suite
+
+    subroutine swings()
+        !! \(\omega^2 = g/\ell\), a tenth of the shape; in the two modes of the double pendulum with
+        !! equal rods and bobs \(\theta_2/\theta_1 = \pm\sqrt 2\).
+        real(dp), parameter :: root = sqrt(2.0_dp)
+        real(dp), allocatable :: rows(:, :)
+        real(dp) :: w
+        integer :: j, k
+
+        call read_mode("pendulum", [0.0_dp], 1, is_oscillation, rows)
+        if (anyExceptions()) return
+        w = sqrt(9.81_dp)
+        do k = 0, 200
+            call assertEqual([2.0_dp*pi/w*k/200, 0.1_dp*cos(2.0_dp*pi*k/200)], abs_first(rows, k), &
+                             1e-14_dp, "pendulum")
+        end do
+        do j = 1, 2
+            call read_mode("double_pendulum", [0.0_dp, 0.0_dp], j, is_oscillation, rows)
+            if (anyExceptions()) return
+            w = sqrt(9.81_dp*(2.0_dp + merge(-root, root, j == 1)))
+            do k = 0, 200
+                call assertEqual([2.0_dp*pi/w*k/200, 0.1_dp/root*cos(2.0_dp*pi*k/200), &
+                                  merge(0.1_dp, -0.1_dp, j == 1)*cos(2.0_dp*pi*k/200)], &
+                                 abs_first(rows, k), 1e-14_dp, "double pendulum")
+            end do
+        end do
+    end subroutine swings
+
+    subroutine others()
+        !! The pendulum upside down over two growth times; the cart over one second.
+        real(dp), allocatable :: rows(:, :)
+        real(dp) :: s
+        integer :: k
+
+        call read_mode("pendulum", [pi], 1, is_unstable, rows)
+        if (anyExceptions()) return
+        do k = 0, 200
+            s = 2.0_dp*k/200
+            call assertEqual([s/sqrt(9.81_dp), pi + 0.1_dp*cosh(s)], rows(:, k + 1), 1e-13_dp, &
+                             "upside down")
+        end do
+        call read_mode("cart_pendulum", [0.0_dp, 0.0_dp], 1, is_zero_mode, rows)
+        if (anyExceptions()) return
+        do k = 0, 200
+            call assertEqual([k/200.0_dp, 0.1_dp*k/200.0_dp, 0.0_dp], rows(:, k + 1), 1e-14_dp, &
+                             "the cart")
+        end do
+    end subroutine others
+
+    subroutine a_shape_that_turns()
+        !! A charge in a trap and a field along z: circles in the plane, of 0.1 m, either way.
+        real(dp), allocatable :: rows(:, :)
+        real(dp) :: s
+        integer :: j, k
+
+        do j = 1, 3, 2
+            call read_mode("charged_particle", [0.0_dp, 0.0_dp, 0.0_dp], j, is_oscillation, rows, &
+                           [1.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, 2.0_dp])
+            if (anyExceptions()) return
+            s = rows(3, 51)  ! a quarter of a turn from (0.1, 0)
+            call assertEqual(0.1_dp, abs(s), 1e-13_dp, "a circle")
+            do k = 0, 200
+                call assertEqual([0.1_dp*cos(2.0_dp*pi*k/200), s*sin(2.0_dp*pi*k/200), 0.0_dp], &
+                                 rows(2:, k + 1), 1e-13_dp, "it turns")
+            end do
+            call assertEqual(merge(1.0_dp, -1.0_dp, j == 1), sign(1.0_dp, s), 0.0_dp, &
+                             "slow with, fast against the field: "//to_text(j))
+        end do
+    end subroutine a_shape_that_turns
+
+    pure function abs_first(rows, k) result(row)
+        !! Row `k`, of the sign that the first coordinate begins with.
+        real(dp), intent(in) :: rows(:, :)
+        integer, intent(in) :: k
+        real(dp) :: row(size(rows, 1))
+
+        row = rows(:, k + 1)
+        if (rows(2, 1) < 0.0_dp) row(2:) = -row(2:)
+    end function abs_first
+
+    subroutine read_mode(name, start, j, label, rows, parameters)
+        !! Write mode `j` and read it back; header, number of rows and script are judged here.
+        character(*), intent(in) :: name
+        real(dp), intent(in) :: start(:)
+        integer, intent(in) :: j, label
+        real(dp), allocatable, intent(out) :: rows(:, :)
+        real(dp), intent(in), optional :: parameters(:)
+        class(system_t), allocatable :: system
+        type(description_t) :: d
+        type(modes_t) :: modes
+        type(error_t), allocatable :: error
+        character(:), allocatable :: folder, stem, text, warning
+        integer :: i, n, status
+
+        call new_system(name, system, error)
+        if (present(parameters)) call system%configure(parameters, error)
+        call find_modes(system, start, .true., modes, error)
+        call assertFalse(allocated(error), "modes of "//name)
+        if (anyExceptions()) return
+        call assertEqual(label, modes%label(j), "label")
+        folder = new_folder("modes_files")
+        call prepare_modes(system, folder, warning, error)
+        call write_mode(system, modes, j, folder, error)
+        call assertFalse(allocated(error), "written")
+        stem = name//"_mode_"//to_text(j)
+        text = contents(folder//"/"//stem//".gp")
+        call assertTrue(index(text, "data = folder."""//stem//".dat""") > 0, "data of the script")
+        text = contents(folder//"/"//stem//".dat")
+        call assertTrue(remove_file(folder//"/"//stem//".dat") .and. &
+                        remove_file(folder//"/"//stem//".gp") .and. remove_file(folder), "2 files")
+        call system%describe(d)
+        call assertEqual("# "//name//", mode "//to_text(j)//": omega^2 = "// &
+                         to_text(modes%omega2(j) + 0.0_dp), text(:index(text, newline) - 1))
+        call assertTrue(index(text, newline//"# rows: 201") > 0, "rows are counted")
+        n = index(text, newline//"# t[s] "//trim(d%coordinates(1)%name)//"["// &
+                  trim(d%coordinates(1)%unit)//"]")
+        call assertTrue(n > 0, "columns")
+        if (anyExceptions()) return
+        text = text(n + 1:)
+        text = text(index(text, newline) + 1:)
+        allocate (rows(1 + system%ndof, 201))
+        do i = 1, 201
+            read (text(:index(text, newline)), *, iostat=status) rows(:, i)
+            call assertEqual(0, status, "row "//to_text(i))
+            text = text(index(text, newline) + 1:)
+        end do
+        call assertEqual("", text, "behind the last row")
+    end subroutine read_mode
+
+    subroutine what_cannot_be_written_leaves_nothing()
+        !! No room for the data, or a folder where the script is to be.
+        character(:), allocatable :: folder
+
+        folder = new_folder("modes_full")
+        call assertEqual(status_file, exit_status(in_no_room), "no room")
+        call assertEqual(status_file, exit_status(in_little_room), "room for half of it")
+        call assertTrue(remove_file(folder), "nothing is left")
+        folder = new_folder("modes_full/pendulum_mode_1.gp")
+        call assertEqual(status_file, exit_status(in_much_room), "a folder")
+        call assertTrue(remove_file(folder), "as it was")
+        call write_file(new_folder("modes_full")//"/pendulum_mode_1.gp", "old")
+        call assertEqual(0, exit_status(in_much_room), "room enough")
+        folder = new_folder("modes_full")
+        call assertTrue(remove_file(folder//"/pendulum_mode_1.dat"), "data")
+        call assertTrue(remove_file(folder//"/pendulum_mode_1.gp"), "script")
+        call assertTrue(remove_file(folder), "nothing else")
+    end subroutine what_cannot_be_written_leaves_nothing
+
+    function in_no_room() result(status)
+        !! See `write_in`.
+        integer :: status
+
+        status = write_in(10)
+    end function in_no_room
+
+    function in_little_room() result(status)
+        !! See `write_in`.
+        integer :: status
+
+        status = write_in(5000)
+    end function in_little_room
+
+    function in_much_room() result(status)
+        !! See `write_in`.
+        integer :: status
+
+        status = write_in(1000000)
+    end function in_much_room
+
+    function write_in(room) result(status)
+        !! The status of the error of a mode where a file has so many bytes; 0 if there is none.
+        integer, intent(in) :: room
+        integer :: status
+        class(system_t), allocatable :: system
+        type(modes_t) :: modes
+        type(error_t), allocatable :: error
+
+        call catch_interrupts()
+        call new_system("pendulum", system, error)
+        call find_modes(system, [0.0_dp], .true., modes, error)
+        call limit_file_size(room)
+        call write_mode(system, modes, 1, new_folder("modes_full"), error)
+        status = 0
+        if (allocated(error)) status = error%status
+    end function write_in
+end module test_modes_files
