@@ -1,5 +1,5 @@
 module lagrangia_show
-    !! `lagrangia show [FILE...]`: the scenes and sheets that come with the program, as they are.
+    !! `lagrangia show [FILE...]`: the scenes, sweeps and sheets that come with the program, as they are.
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put, put_line
     use lagrangia_errors, only: error_t, fail
@@ -23,7 +23,7 @@ contains
         integer :: i, k
 
         call shipped_files("data/", paths)
-        allocate (names(2*size(paths)))
+        allocate (names(2*size(paths)), chosen(size(line%arguments)))
         do i = 1, size(paths)
             names(i) = scene_name(paths(i)%text)
             names(size(paths) + i) = paths(i)%text(index(paths(i)%text, "/", back=.true.) + 1:)
@@ -34,7 +34,6 @@ contains
             end do
             return
         end if
-        allocate (chosen(size(line%arguments)))
         do i = 1, size(chosen)
             associate (word => line%arguments(i)%text)
                 do k = 1, size(paths)
@@ -64,7 +63,8 @@ contains
         character(*), intent(in) :: word, path
         logical :: yes
 
-        yes = ends(path, "/"//word) .or. ends(path, "/scenes/"//word//".nml")
+        yes = ends(path, "/"//word) .or. ends(path, "/scenes/"//word//".nml") .or. &
+              ends(path, "/sweeps/"//word//".nml")
     end function is_meant
 
     pure function ends(text, ending) result(yes)
