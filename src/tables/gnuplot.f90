@@ -146,11 +146,11 @@ contains
         end do
         call script%add("set multiplot")
         call script%add("set label 1 "//plain_label(trim(title))//" at screen 0.5, "// &
-                        "screen "//fraction(height - 24, height)//" center font ',"// &
+                        "screen "//part_of(height - 24, height)//" center font ',"// &
                         to_text(max(7, min(16, 16*text_width*width/1000/ &
                                            max(1, len_trim(title)))))//"'")
         if (remark /= "") call script%add("set label 2 "//plain_label(trim(remark))// &
-            " at screen 0.5, screen "//fraction(height - 52, height)//" center font ',12'")
+            " at screen 0.5, screen "//part_of(height - 52, height)//" center font ',12'")
         do i = 1, size(panels)
             call draw_panel(script, series, panels(i), i, frames(i), width, height, how)
             if (i == 1) call script%add("unset label")
@@ -159,7 +159,7 @@ contains
         text = script%text
     end function gnuplot_script
 
-    pure function fraction(part, whole) result(text)
+    pure function part_of(part, whole) result(text)
         !! Three digits behind the point.
         integer, intent(in) :: part, whole
         character(:), allocatable :: text
@@ -167,7 +167,7 @@ contains
 
         write (digits, "(ss, f6.4)") real(part, dp)/whole
         text = trim(digits)
-    end function fraction
+    end function part_of
 
     pure subroutine lay_out(series, panels, top, frames, width, height)
         !! The place of each panel and the size of the whole.
