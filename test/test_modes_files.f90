@@ -142,8 +142,9 @@ contains
         text = contents(folder//"/"//stem//".gp")
         call assertTrue(index(text, "data = folder."""//stem//".dat""") > 0, "data of the script")
         text = contents(folder//"/"//stem//".dat")
-        call assertTrue(remove_file(folder//"/"//stem//".dat") .and. &
-                        remove_file(folder//"/"//stem//".gp") .and. remove_file(folder), "2 files")
+        call assertTrue(remove_file(folder//"/"//stem//".dat"), "data")
+        call assertTrue(remove_file(folder//"/"//stem//".gp"), "script")
+        call assertTrue(remove_file(folder), "nothing else")
         call system%describe(d)
         call assertEqual("# "//name//", mode "//to_text(j)//": omega^2 = "// &
                          to_text(modes%omega2(j) + 0.0_dp), text(:index(text, newline) - 1))
