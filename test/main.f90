@@ -37,6 +37,7 @@ module suites
     use test_derivation, only: derivation_suite
     use test_derivation_algebra, only: derivation_algebra_suite
     use test_derivative, only: derivative_suite
+    use test_docs_formulae, only: docs_formulae_suite
     use test_dop853, only: dop853_suite
     use test_dop853_coefficients, only: dop853_coefficients_suite
     use test_dop853_steps, only: dop853_steps_suite
@@ -73,6 +74,7 @@ module suites
     use test_harness, only: harness_suite
     use test_harness_fixtures, only: harness_fixtures_suite
     use test_harness_order, only: harness_order_suite
+    use test_helmholtz, only: helmholtz_suite
     use test_hyperdual, only: hyperdual_suite
     use test_integrator_orders, only: integrator_orders_suite
     use test_lanes, only: lanes_suite
@@ -155,6 +157,7 @@ module suites
     use test_virtual_work, only: virtual_work_suite
     use test_walls, only: walls_suite
     use test_whole_file, only: whole_file_suite
+    use test_work, only: work_suite
     use test_written_refusals, only: written_refusals_suite
     use test_written_system, only: written_system_suite
     implicit none (type, external)
@@ -204,6 +207,7 @@ contains
         call suite%addTest(dense_run_suite())
         call suite%addTest(derivation_suite())
         call suite%addTest(derivation_algebra_suite())
+        call suite%addTest(docs_formulae_suite())
         call suite%addTest(dop853_suite())
         call suite%addTest(dop853_coefficients_suite())
         call suite%addTest(dop853_steps_suite())
@@ -238,6 +242,7 @@ contains
         call suite%addTest(gsl_odeiv_suite())
         call suite%addTest(gyroscopic_suite())
         call suite%addTest(hanging_chain_suite())
+        call suite%addTest(helmholtz_suite())
         call suite%addTest(hyperdual_suite())
         call suite%addTest(integrator_orders_suite())
         call suite%addTest(lanes_suite())
@@ -320,6 +325,7 @@ contains
         call suite%addTest(virtual_work_suite())
         call suite%addTest(walls_suite())
         call suite%addTest(whole_file_suite())
+        call suite%addTest(work_suite())
         call suite%addTest(written_refusals_suite())
         call suite%addTest(written_system_suite())
         call suite%addTest(own_closed_form_suite())  ! the last two: their systems stay in the

@@ -196,7 +196,8 @@ contains
                      "expect_error it is estimated")
         call driven%configure([1.0_dp, 2.0_dp, 9.81_dp, 0.1_dp, 30.0_dp], error)
         call refused(driven, [character(16) :: "energy_drift"], 1, "column 'energy_drift': the "// &
-                     "energy of this driven_pendulum is not conserved, for L contains the time")
+                     "energy of this driven_pendulum is not conserved, for L contains the "// &
+                     "time; there is 'energy_balance_drift'")
     end subroutine wrong_columns_are_refused
 
     subroutine refused(system, names, element, message)

@@ -29,6 +29,8 @@ contains
         suite = TestSuite("integrator_orders")
         call suite%addTest(TestMethod("orders_hold_where_the_time_enters", &
                                       orders_hold_where_the_time_enters))
+        call suite%addTest(TestMethod("orders_hold_with_forces_beside_l", &
+                                      orders_hold_with_forces_beside_l))
         call suite%addTest(TestMethod("orders_hold_on_a_rolling_disk", &
                                       orders_hold_on_a_rolling_disk))
         call suite%addTest(TestMethod("cuts_change_no_byte_where_the_time_enters", &
@@ -53,6 +55,29 @@ contains
         call go(method, system, [1.0_dp], [0.4_dp], 100_i8, q, v)
         call check_orders(system, [1.0_dp], [0.4_dp], q, v, 12)
     end subroutine orders_hold_where_the_time_enters
+
+    subroutine orders_hold_with_forces_beside_l()
+        !! The oscillator, damped and driven, against its closed form: who takes velocities. Driven
+        !! only: all others as well.
+        call hold([0.7_dp, 9.0_dp, 0.5_dp, 1.3_dp, 2.0_dp], 3)
+        call hold([0.7_dp, 6.0_dp, 0.0_dp, 1.3_dp, 4.0_dp], 12)
+    contains
+        subroutine hold(p, methods)
+            real(dp), intent(in) :: p(:)
+            integer, intent(in) :: methods
+            type(oscillator_t) :: system
+            class(reference_t), allocatable :: reference
+            type(error_t), allocatable :: error
+            real(dp) :: q(1), v(1)
+
+            call system%configure(p, error)
+            call system%closed_form(start, [1.0_dp], [0.4_dp], reference)
+            call assertTrue(allocated(reference), "a closed form")
+            if (.not. allocated(reference)) return
+            call reference%state_at(start + duration, q, v)
+            call check_orders(system, [1.0_dp], [0.4_dp], q, v, methods)
+        end subroutine hold
+    end subroutine orders_hold_with_forces_beside_l
 
     subroutine orders_hold_on_a_rolling_disk()
         !! On an incline, against the closed form: accelerations that keep the constraints.

@@ -119,7 +119,7 @@ contains
         call stated("error_estimate", ".false.", .not. scene%error_estimate)
         call stated("output", "the file's name", scene%output == "x")
         call stated("period_of", "none", scene%period_of == "")
-        call stated("columns", "t, the coordinates, energy_drift if there is one", &
+        call stated("columns", "t, the coordinates, energy_drift or energy_balance_drift", &
                     all(scene%columns == [character(12) :: "t", "theta", "energy_drift"]))
         call parse_scene("&scene system = 'pendulum' method = 'gauss16' duration = 10 q = 1 /", &
                          "x.nml", [word_t ::], scene, system, error)

@@ -187,7 +187,8 @@ contains
         call refused("&scene system='driven_pendulum' dt=1e-2 duration=1 q=1 "// &
                      "columns='energy_drift' /", "s.nml:1:64: &scene: columns = "// &
                      "'energy_drift': column 'energy_drift': the energy of this "// &
-                     "driven_pendulum is not conserved, for L contains the time")
+                     "driven_pendulum is not conserved, for L contains the time; there is "// &
+                     "'energy_balance_drift'")
         call refused("&scene system='driven_pendulum' dt=1e-2 duration=1 q=1 "// &
                      "expect_energy_drift=1 /", "s.nml:1:76: &scene: expect_energy_drift = 1: "// &
                      "the energy of this driven_pendulum is not conserved, for L contains the time")
@@ -266,7 +267,7 @@ contains
         call assertEqual([character(12) :: "t", "x", "theta", "energy_drift"], scene%columns)
         call assertEqual(0, size(scene%expectations))
         call read("&scene system='driven_pendulum' dt=1e-2 duration=1 q=1 /", [word_t ::], scene)
-        call assertEqual([character(12) :: "t", "theta"], scene%columns)
+        call assertEqual([character(20) :: "t", "theta", "energy_balance_drift"], scene%columns)
         call assertEqual(1, int(scene%every))
         call read("&scene system='pendulum' dt=1e-2 duration=1 samples=5 q=1 /", [word_t ::], scene)
         call assertEqual(20, int(scene%every))

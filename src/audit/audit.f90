@@ -11,7 +11,7 @@ module lagrangia_audit
                                          claim_accelerations
     use lagrangia_audit_formulas, only: audit_formulas
     use lagrangia_audit_newton, only: audit_gauss, audit_inertia, say_reactions
-    use lagrangia_audit_structure, only: audit_cyclic, audit_flags, audit_mass
+    use lagrangia_audit_structure, only: audit_cyclic, audit_flags, audit_mass, say_potential
     use lagrangia_description, only: description_t
     use lagrangia_diagnosis, only: diagnose
     use lagrangia_errors, only: error_t
@@ -70,6 +70,7 @@ contains
             call audit%say(claim_accelerations, remark)
         end if
         call show_reactions(system, values, d, audit, given)
+        call say_potential(audit, system)
     end subroutine audit_system
 
     subroutine audit_parameters(audit, system, values)

@@ -2,6 +2,7 @@ module lagrangia_audit_structure
     !! What a system says of its structure: integrators and small oscillations rely on it.
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_helmholtz, only: potential_text
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
@@ -11,7 +12,7 @@ module lagrangia_audit_structure
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: audit_flags, audit_cyclic, audit_mass
+    public :: audit_flags, audit_cyclic, audit_mass, say_potential
 
     real(dp), parameter :: yes = 0.0_dp, no = 1.0_dp
 
@@ -73,6 +74,15 @@ contains
             if (.not. good) call audit%say(flag//" says what is true", remark)
         end subroutine verdict
     end subroutine audit_flags
+
+    subroutine say_potential(audit, system)
+        !! Whether the generalised forces could as well be in L.
+        type(ledger_t), intent(inout) :: audit    !! gets the remark
+        class(system_t), intent(in) :: system     !! with its parameters
+
+        if (.not. system%nonconservative) return
+        call audit%say("nonconservative says what is true", potential_text(system))
+    end subroutine say_potential
 
     function change(system, t, q, v, other_t, other_v) result(difference)
         !! Of the accelerations between two times and velocities.

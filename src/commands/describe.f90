@@ -6,6 +6,7 @@ module lagrangia_describe
     use lagrangia_console, only: put_line
     use lagrangia_description, only: constraint_text, description_t, parameter_t, quantity_t
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_helmholtz, only: potential_text
     use lagrangia_kinds, only: dp
     use lagrangia_methods, only: auto, workhorse
     use lagrangia_printed_table, only: left
@@ -72,6 +73,7 @@ contains
         call put_wrapped(constraint_text(d))
         call put_line("structure")
         call put_line("  "//structure(system))
+        if (system%nonconservative) call put_line("  "//potential_text(system))
         call put_line("method = '"//auto//"'")
         if (has_closed_form(system)) then
             call put_line("  a closed form where one is known from the start, otherwise "// &

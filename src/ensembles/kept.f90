@@ -12,7 +12,7 @@ module lagrangia_kept
     !!
     !! What does not happen, or is not known, is NaN.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
-    use lagrangia_columns, only: columns_t, new_columns
+    use lagrangia_columns, only: columns_t, new_columns, refuse_work
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
@@ -78,6 +78,7 @@ contains
             end if
         end do
         call new_columns(columns, names, system, .false., error)
+        call refuse_work(columns, error)
         if (allocated(error)) return
         do i = 1, size(kept)
             if (kept(i)%column > 0) kept(i)%unit = columns%items(kept(i)%column)%unit

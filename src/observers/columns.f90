@@ -10,11 +10,13 @@ module lagrangia_columns
     implicit none (type, external)
     private
     public :: columns_t, new_columns, column_names
-    public :: is_error, why_energy_changes
+    public :: refuse_work, why_energy_changes
+    public :: is_error
 
     integer, parameter :: is_time = 1, is_coordinate = 2, is_velocity = 3, is_acceleration = 4
     integer, parameter :: is_energy = 5, is_quantity = 6, is_position = 7
     integer, parameter :: is_error = 8  !! distance from the truth: not a function of the state
+    integer, parameter :: is_work = 9, is_balance = 10  !! nor are these: the whole motion counts
 
     type :: column_t
         character(name_length) :: name = ""
@@ -34,6 +36,7 @@ module lagrangia_columns
         logical :: started = .false.
         integer :: points = 0
         logical :: needs_accelerations = .false.
+        logical :: needs_work = .false.
     contains
         procedure :: evaluate
         procedure :: names
@@ -73,6 +76,7 @@ contains
             self%items(i) = all(j)
         end do
         self%needs_accelerations = any(self%items%kind == is_acceleration)
+        self%needs_work = any(self%items%kind == is_work .or. self%items%kind == is_balance)
         if (any(self%items%kind == is_position)) self%points = size(d%points)
     end subroutine new_columns
 
@@ -98,7 +102,7 @@ contains
         type(column_t) :: c
         integer :: i, k, count
 
-        allocate (all(4 + 3*size(d%coordinates) + 2*size(d%quantities) &
+        allocate (all(6 + 3*size(d%coordinates) + 2*size(d%quantities) &
                       + d%dimensions*size(d%points)))
         count = 0
         call append(all, count, column_t(name="t", unit="s", kind=is_time))
@@ -113,7 +117,14 @@ contains
         end do
         c = column_t("energy", "J", is_energy, scale=d%energy_scale)
         call append(all, count, c)
-        if (conserves_energy) call append(all, count, drift_of(c))
+        if (conserves_energy) then
+            call append(all, count, drift_of(c))
+        else
+            call append(all, count, column_t("work", "J", is_work))
+            c = column_t("energy_balance", "J", is_balance, scale=d%energy_scale)
+            call append(all, count, c)
+            call append(all, count, drift_of(c))
+        end if
         do i = 1, size(d%quantities)
             associate (f => d%quantities(i))
                 c = column_t(f%name, f%unit, is_quantity, i, scale=f%scale)
@@ -152,6 +163,16 @@ contains
         list(count) = item
     end subroutine append
 
+    pure subroutine refuse_work(self, error)
+        !! Where only one state is known.
+        class(columns_t), intent(in) :: self                        !! the columns
+        type(error_t), allocatable, intent(inout) :: error          !! allocated if one needs more
+
+        if (allocated(error) .or. .not. self%needs_work) return
+        call fail(error, "the work is summed along the samples, and is no function of one "// &
+                  "state; it can stand in columns only")
+    end subroutine refuse_work
+
     pure function why_energy_changes(system) result(text)
         !! Of a system that does not conserve its energy.
         class(system_t), intent(in) :: system  !! with its parameters
@@ -178,7 +199,13 @@ contains
                       "start; with expect_error it is estimated")
         else if (name == "energy_drift") then
             call fail(error, "column 'energy_drift': the energy of this "//trim(d%name)// &
-                      " is not conserved, for "//why_energy_changes(system))
+                      " is not conserved, for "//why_energy_changes(system)// &
+                      "; there is 'energy_balance_drift'")
+        else if (system%conserves_energy() .and. &
+                 any(name == [character(20) :: "work", "energy_balance", &
+                              "energy_balance_drift"])) then
+            call fail(error, "column "//quoted(name)//": the energy of this "//trim(d%name)// &
+                      " is conserved; 'energy_drift' says how well")
         else if (index(name, ",") > 0) then
             call fail(error, "is one text; each column has its own quotes, as in 't', 'x'")
         else if (near /= "") then
@@ -207,19 +234,22 @@ contains
         list = self%items(:count)%unit
     end function units
 
-    subroutine evaluate(self, system, t, q, v, deviation, row)
+    subroutine evaluate(self, system, t, q, v, deviation, row, work)
         !! One number a column. The first call sets where drifts start.
         class(columns_t), intent(inout) :: self
         class(system_t), intent(in) :: system  !! the one that the columns were made for
         real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)  !! s; coordinates, velocities
         real(dp), intent(in) :: deviation  !! what the column `error` shows
         real(dp), intent(out) :: row(size(self%items))  !! in the units of the columns
-        real(dp) :: a(system%ndof), energy
+        real(dp), intent(in), optional :: work  !! since the start, J; zero if it is not known
+        real(dp) :: a(system%ndof), energy, done
         type(hyperdual_t) :: r(3, self%points), tt, qq(system%ndof)
         integer :: i
         logical :: known
 
         known = .false.
+        done = 0.0_dp
+        if (present(work)) done = work
         if (self%needs_accelerations) call system%accelerations(t, q, v, a)
         if (self%points > 0) then
             tt%re = t
@@ -237,13 +267,16 @@ contains
                     row(i) = v(c%index)
                 case (is_acceleration)
                     row(i) = a(c%index)
-                case (is_energy)
+                case (is_work)
+                    row(i) = done
+                case (is_energy, is_balance)
                     if (.not. known) then
                         energy = system%energy(t, q, v)
                         self%energy_evaluations = self%energy_evaluations + 1
                         known = .true.
                     end if
                     row(i) = energy
+                    if (c%kind == is_balance) row(i) = energy - done
                 case (is_quantity)
                     row(i) = system%quantity(c%index, t, q, v)
                 case (is_position)

@@ -6,7 +6,7 @@ module lagrangia_events
     !! nor are two crossings within an eighth of a step (a graze); no change of sign is no error.
     !! A zero at the very start counts by how the function leaves it: not, for where it came from
     !! is not known. Only a gap that closes at once is an impact at once.
-    use lagrangia_columns, only: columns_t, new_columns
+    use lagrangia_columns, only: columns_t, new_columns, refuse_work
     use lagrangia_description, only: line_length, name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
@@ -99,6 +99,7 @@ contains
         end if
         name(1) = words(1)(:name_length)
         call new_columns(self%column, name, system, .false., error)
+        call refuse_work(self%column, error)
         if (allocated(error)) return
         i = 2
         if (words(i) == "=") then

@@ -14,6 +14,7 @@ module lagrangia_observer
         procedure(observe_i), deferred :: observe
         procedure :: tick => no_tick
         procedure :: follows => no
+        procedure :: follows_samples => no
         procedure :: meet => no_meet
         procedure :: follow => no_follow
         procedure :: follow_inside => no_follow_inside
@@ -59,7 +60,8 @@ contains
     end subroutine no_tick
 
     pure function no(self)
-        !! Whether it wants to see every step, not only the samples: most don't.
+        !! Whether it wants to see every step, not only the samples, and inside a step the motion
+        !! up to a sample before that sample: most don't.
         class(observer_t), intent(in) :: self
         logical :: no
 

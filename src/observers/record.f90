@@ -4,6 +4,7 @@ module lagrangia_record
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_columns, only: columns_t
     use lagrangia_errors, only: error_t, fail, status_numbers
+    use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_t
     use lagrangia_reference, only: reference_t
@@ -12,6 +13,7 @@ module lagrangia_record
     use lagrangia_table, only: table_t
     use lagrangia_text, only: to_text
     use lagrangia_value_range, only: value_range_t
+    use lagrangia_work, only: work_t
     implicit none (type, external)
     private
     public :: event_record_t, record_t, sample_record_t
@@ -31,9 +33,15 @@ module lagrangia_record
         integer :: shown = 0                              !! so many columns go into the table
         class(reference_t), allocatable :: reference      !! a closed form,
         type(second_run_t), allocatable :: second_run     !! or the run at half the step
+        type(work_t), private :: work                     !! if a column needs it
         real(dp), allocatable, private :: row(:)          !! the latest sample
     contains
         procedure :: observe
+        procedure :: follows
+        procedure :: follows_samples => follows
+        procedure :: meet => go_on
+        procedure :: follow
+        procedure :: follow_inside
     end type sample_record_t
 
     type, extends(record_t) :: event_record_t
@@ -91,7 +99,10 @@ contains
             if (allocated(error)) return
         end if
         if (.not. allocated(self%row)) allocate (self%row(size(self%columns%items)))
-        call self%columns%evaluate(system, t, q, v, deviation, self%row)
+        if (self%columns%needs_work .and. .not. allocated(self%work%system)) then
+            call self%work%begin(system, t, q, v)
+        end if
+        call self%columns%evaluate(system, t, q, v, deviation, self%row, self%work%done())
         odd = findloc(ieee_is_finite(self%row), .false., 1)
         if (odd > 0) then
             call fail(error, "column '"//trim(self%columns%items(odd)%name)//"' is not finite "// &
@@ -100,6 +111,43 @@ contains
         end if
         call self%keep(self%row, self%shown, error)
     end subroutine observe
+
+    pure function follows(self)
+        !! See `observer_t`: for the work along the motion.
+        class(sample_record_t), intent(in) :: self
+        logical :: follows
+
+        follows = self%columns%needs_work
+    end function follows
+
+    subroutine go_on(self, system, event, t, q, v, error)
+        !! See `observer_t`: from the state after an impact.
+        class(sample_record_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: event
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        type(error_t), allocatable, intent(out) :: error
+
+        if (self%columns%needs_work) call self%work%stand(t, q, v)
+    end subroutine go_on
+
+    subroutine follow(self, system, t, q, v)
+        !! See `observer_t`.
+        class(sample_record_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+
+        if (self%columns%needs_work) call self%work%follow(t, q, v)
+    end subroutine follow
+
+    subroutine follow_inside(self, method, t)
+        !! See `observer_t`.
+        class(sample_record_t), intent(inout) :: self
+        class(dense_integrator_t), intent(in) :: method
+        real(dp), intent(in) :: t
+
+        if (self%columns%needs_work) call self%work%follow_inside(method, t)
+    end subroutine follow_inside
 
     pure function distance_to(reference, t, q) result(deviation)
         !! Of the coordinates `q` at `t` to those of a closed form.

@@ -101,8 +101,8 @@ contains
             end do
             if (allocated(error)) exit
             if (.not. (stopped .or. restarted)) then
-                call follow(method%t_new)
                 call show_samples(method%t_new)
+                if (.not. allocated(error)) call follow(method%t_new)
             end if
             if (.not. allocated(error)) call look_around()
         end do
@@ -155,11 +155,16 @@ contains
             !! All that are due up to `t`.
             real(dp), intent(in) :: t
             real(dp) :: now, q_now(system%ndof), v_now(system%ndof)
+            integer :: i
 
             do while (shown <= last .and. .not. allocated(error))
                 now = grid%sample_time(shown)
                 if (now > t) exit
                 call method%state_at(now, q_now, v_now)
+                do i = 1, size(observers)
+                    if (.not. observers(i)%item%follows_samples()) cycle
+                    call observers(i)%item%follow_inside(method, now)
+                end do
                 call show(now, q_now, v_now)
             end do
         end subroutine show_samples

@@ -2,7 +2,7 @@ module lagrangia_run_plan
     !! Everything that one run of a scene needs. What can be refused before anything is computed or
     !! any file is touched, is refused here, with its place in the scene's file.
     use lagrangia_accuracy, only: plan_finer
-    use lagrangia_columns, only: new_columns
+    use lagrangia_columns, only: new_columns, refuse_work
     use lagrangia_command_line, only: word_t
     use lagrangia_cross_check, only: new_other_method
     use lagrangia_description, only: description_t, name_length
@@ -133,6 +133,7 @@ contains
         if (size(plan%trajectory%events) == 0) return
         associate (columns => plan%event_record%columns, names => plan%scene%event_columns)
             call new_columns(columns, names, system, .false., error)
+            call refuse_work(columns, error)
             if (allocated(error)) error%key = "event_columns"
             if (allocated(error)) return
             call new_panels(plan%scene%event_plots, names, columns%units(size(names)), &

@@ -141,6 +141,9 @@ contains
             type is (reduced_motion_t)
                 outcome%remark = outcome%remark//" (the cyclic coordinate from its momentum)"
             end select
+            if (integrator%symplectic .and. plan%system%nonconservative) outcome%remark = &
+                outcome%remark//" (with generalised forces beside L they are not symplectic: "// &
+                "the order holds, and energy_balance_drift says the rest)"
             outcome%seconds = real(finish - start, dp)/real(rate, dp)
             outcome%evaluations = integrator%evaluations
         end associate

@@ -140,8 +140,11 @@ contains
 
         call system%describe(d)
         scene%columns = [character(name_length) :: "t", d%coordinates%name]
-        if (system%conserves_energy()) scene%columns = &
-            [character(name_length) :: scene%columns, "energy_drift"]
+        if (system%conserves_energy()) then
+            scene%columns = [character(name_length) :: scene%columns, "energy_drift"]
+        else
+            scene%columns = [character(name_length) :: scene%columns, "energy_balance_drift"]
+        end if
         call get_strings(tree, "scene", "columns", 1, most, scene%columns, error)
         if (allocated(error)) return
         allocate (scene%plots(0))

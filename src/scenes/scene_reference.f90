@@ -50,9 +50,11 @@ module lagrangia_scene_reference
                 "'lagrangia describe SYSTEM'; angles in rad", "q = 1.0471975511965976"), &
         entry_t("scene", "v", "per s", "zeros", "velocities at the start, in the same order", &
                 "v = 0.5"), &
-        entry_t("scene", "columns", "", "t, the coordinates, energy_drift if there is one", &
+        entry_t("scene", "columns", "", "t, the coordinates, energy_drift or "// &
+                "energy_balance_drift", &
                 "of the data file: t, each coordinate q with q_dot and q_ddot, energy, "// &
-                "quantities, places x_bob, momenta; with _drift what is conserved; error", &
+                "quantities, places x_bob, momenta; with _drift what is conserved; work and "// &
+                "energy_balance if energy is not; error", &
                 "columns = 't', 'theta', 'theta_dot', 'energy_drift'"), &
         entry_t("scene", "plot", "", "one panel for all columns", &
                 "panels of the picture, up to "// &

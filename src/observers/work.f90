@@ -1,0 +1,129 @@
+module lagrangia_work
+    !! The work along a run that changes the energy function,
+    !! \(W = \int(\sum_j Q_j\dot q_j - \partial L/\partial t)\,dt\): \(E - W\) is conserved.
+    !!
+    !! A method with dense output is asked inside its step, at eight Gauss-Legendre nodes of each
+    !! part of it. Between two steps of another a coordinate is the quintic that has both ends'
+    !! coordinate, velocity and acceleration, so that W is right to \(O(\Delta t^6)\).
+    use lagrangia_errors, only: error_t
+    use lagrangia_gauss_tables, only: nodes, stages, weights
+    use lagrangia_generalised_forces, only: energy_rate
+    use lagrangia_hermite, only: quintic
+    use lagrangia_integrator, only: dense_integrator_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_system, only: system_t
+    implicit none (type, external)
+    private
+    public :: work_t
+
+    type :: work_t
+        !! The sum so far, of parts that nearly cancel: with what rounding took from it.
+        class(system_t), allocatable :: system
+        real(dp), private :: sum = 0.0_dp, rest = 0.0_dp   !! J
+        real(dp), private :: t = 0.0_dp
+        real(dp), allocatable, private :: q(:), v(:)
+    contains
+        procedure :: begin
+        procedure :: done
+        procedure :: follow
+        procedure :: follow_inside
+        procedure :: stand
+        procedure, private :: add
+    end type work_t
+
+contains
+
+    subroutine begin(self, system, t, q, v)
+        !! The run starts here.
+        class(work_t), intent(inout) :: self
+        class(system_t), intent(in) :: system         !! whose motion it is
+        real(dp), intent(in) :: t, q(:), v(:)         !! s; coordinates, velocities, (ndof)
+
+        allocate (self%system, source=system)
+        call self%stand(t, q, v)
+    end subroutine begin
+
+    subroutine stand(self, t, q, v)
+        !! All up to this state has been seen; after an impact it goes on from another one.
+        class(work_t), intent(inout) :: self
+        real(dp), intent(in) :: t, q(:), v(:)         !! s; coordinates, velocities, (ndof)
+
+        self%t = t
+        self%q = q
+        self%v = v
+    end subroutine stand
+
+    pure function done(self) result(work)
+        !! So much since the run began.
+        class(work_t), intent(in) :: self
+        real(dp) :: work                              !! J
+
+        work = self%sum + self%rest
+    end function done
+
+    subroutine add(self, part)
+        !! Neumaier's sum.
+        class(work_t), intent(inout) :: self
+        real(dp), intent(in) :: part
+        real(dp) :: new
+
+        new = self%sum + part
+        if (abs(self%sum) >= abs(part)) then
+            self%rest = self%rest + ((self%sum - new) + part)
+        else
+            self%rest = self%rest + ((part - new) + self%sum)
+        end if
+        self%sum = new
+    end subroutine add
+
+    subroutine follow(self, t, q, v)
+        !! The state after a step.
+        class(work_t), intent(inout) :: self
+        real(dp), intent(in) :: t, q(:), v(:)         !! s; coordinates, velocities, (ndof)
+        real(dp), dimension(size(q)) :: a_old, a, q_now, v_now
+        real(dp) :: c(0:5, size(q)), h, s, part
+        integer :: i, k
+
+        h = t - self%t
+        call self%system%accelerations(self%t, self%q, self%v, a_old)
+        call self%system%accelerations(t, q, v, a)
+        do i = 1, size(q)
+            c(:, i) = quintic(h, [self%q(i), self%v(i), a_old(i)], [q(i), v(i), a(i)])
+        end do
+        part = 0.0_dp
+        do k = 1, stages
+            s = nodes(k)
+            q_now = c(0, :) + s*(c(1, :) + s*(c(2, :) + s*(c(3, :) + s*(c(4, :) + s*c(5, :)))))
+            v_now = (c(1, :) + s*(2.0_dp*c(2, :) + s*(3.0_dp*c(3, :) + s*(4.0_dp*c(4, :) &
+                                                                          + s*5.0_dp*c(5, :)))))/h
+            part = part + weights(k)*energy_rate(self%system, self%t + s*h, q_now, v_now)
+        end do
+        call self%add(h*part)
+        call self%stand(t, q, v)
+    end subroutine follow
+
+    subroutine follow_inside(self, method, t)
+        !! The motion up to `t` inside the latest step of a method.
+        class(work_t), intent(inout) :: self
+        class(dense_integrator_t), intent(in) :: method   !! has dense output of its latest step
+        real(dp), intent(in) :: t                         !! s
+        real(dp) :: q(size(self%q)), v(size(self%q)), start, h, now, part
+        integer :: i, k, parts
+
+        if (t <= self%t) return
+        start = self%t
+        parts = max(1, ceiling(method%looks*(t - start)/(method%t_new - method%t_old)))
+        h = (t - start)/parts
+        do i = 1, parts
+            part = 0.0_dp
+            do k = 1, stages
+                now = start + (i - 1 + nodes(k))*h
+                call method%state_at(now, q, v)
+                part = part + weights(k)*energy_rate(self%system, now, q, v)
+            end do
+            call self%add(h*part)
+        end do
+        call method%state_at(t, q, v)
+        call self%stand(t, q, v)
+    end subroutine follow_inside
+end module lagrangia_work
