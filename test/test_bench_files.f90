@@ -121,7 +121,8 @@ contains
         call write_bench_files(folder, problems, curves, path, error)
         call assertFalse(allocated(error), "written")
         script = contents(folder//"/bench.gp")
-        call assertTrue(remove_file(path) .and. remove_file(folder//"/bench.gp"), "both files")
+        call assertTrue(remove_file(path), "table")
+        call assertTrue(remove_file(folder//"/bench.gp"), "script")
         call assertTrue(remove_file(folder), "nothing else is left")
     end function picture_of
 

@@ -294,7 +294,8 @@ contains
                 the_same = index(second, trim(first(index(first, "= ") + 2:))) > 0
                 if (the_same .and. .not. follows) cycle
                 call new_samples(system, first//second, none, samples, error)
-                if (.not. is_false(first, samples) .or. .not. is_false(second, samples)) cycle
+                if (.not. is_false(first, samples)) cycle
+                if (.not. is_false(second, samples)) cycle
                 call group%add(trim(d%name), first//line_feed//second, &
                                merge(is_consequence, is_wrong, follows))
                 if (size(group%of) == number) return

@@ -16,7 +16,7 @@ module lagrangia_sweep_lanes
     public :: compute_lanes, fits_lanes
 
     real(dp), parameter :: pi = acos(-1.0_dp)
-    integer(i8), parameter :: never = huge(1_i8)/2  !! more steps than a trajectory has
+    integer(i8), parameter :: never = 10_i8**18  !! more steps than a trajectory has
 
     type :: lane_t
         !! The trajectory of one lane.
