@@ -248,6 +248,7 @@ contains
         logical :: known
 
         known = .false.
+        energy = 0.0_dp
         done = 0.0_dp
         if (present(work)) done = work
         if (self%needs_accelerations) call system%accelerations(t, q, v, a)
