@@ -34,6 +34,7 @@ check() { # check CLAIM COMMAND...: the claim holds if the command succeeds
 run() { # run WORDS...: the program; its status, its stdout in $work/out, its stderr in $work/err
     timeout 120 "$program" "$@" >"$work/out" 2>"$work/err" </dev/null
     status=$?
+    if grep -q ' $' "$work/out" "$work/err"; then echo "$*" >>"$work/blanks"; fi
 }
 
 one_line() { # one line of at most 300 bytes on stderr, by us, and no backtrace
@@ -464,6 +465,27 @@ check "formulas: nothing refused left a file" [ ! -e "$work/none" ]
 
 run --help
 check "--help: a signal's status is what those were" eval 'formula=$(grep -o "128 . n signal n" "$work/out") && n=2 && [ $((${formula% signal n})) -eq 130 ]'
+
+# a gnuplot that does not do what it should: it gets -d -c SCRIPT KIND PICTURE
+mkdir "$work/bin" "$work/drawn"
+fake() { # fake LINE KIND: gnuplot is a shell script of this line; draw a picture of that kind
+    printf '#!/bin/sh\n%s\n' "$1" >"$work/bin/gnuplot"
+    chmod +x "$work/bin/gnuplot"
+    rm -f "$work"/drawn/*
+    PATH=$work/bin:$PATH run run pendulum "--plot=$2" --quiet --output "$work/drawn"
+}
+fake 'printf "a picture IEND....." >"$5"' png
+check "gnuplot: a whole picture gets its name" eval '[ $status -eq 0 ] && grep -q IEND "$work/drawn/pendulum.png"'
+fake 'printf "<svg></svg>" >"$5"' svg
+check "gnuplot: another whole picture" eval '[ $status -eq 0 ] && grep -q svg "$work/drawn/pendulum.svg"'
+for line in 'printf "half of it" >"$5"' 'exit 0' 'printf "<svg></svg>" >"$5"'; do
+    fake "$line" png
+    check "gnuplot: no picture from $line" eval '[ $status -eq 5 ] && one_line && grep -q "gnuplot did not finish .*pendulum.png.: no space left" "$work/err" && [ ! -e "$work/drawn/pendulum.png" ] && leftovers'
+done
+fake 'exit 3' png
+check "gnuplot: its status is told" eval '[ $status -eq 5 ] && one_line && grep -q "gnuplot ended with status 3 on " "$work/err" && [ ! -e "$work/drawn/pendulum.png" ] && leftovers'
+
+check "no line that is printed ends with a blank: $(sort -u "$work/blanks" 2>/dev/null | head -n 3 | tr '\n' ';')" [ ! -s "$work/blanks" ]
 
 echo "$count claims, $failures failed"
 exit $((failures > 0))

@@ -60,6 +60,10 @@ for system in $systems; do page plain modes "$system"; done
 for principle in action constraints gauge least-time virtual-work; do page statements principle "$principle"; done
 for slip in "" $("$program" errata | grep -oE "\bE[0-9]+\b" | sort -u); do page plain errata $slip; done
 for system in pendulum cart_pendulum rotating_hoop; do page shapes derive "$system" --json; done
+page shapes derive cart_pendulum --slip E1 --json
+for words in "modes double_pendulum" "principle constraints" "check rolling_disk" "errata E9" "grade data/homework/wedge.txt"; do
+    page shapes $words --json
+done
 page plain list systems
 page plain list methods
 page claims check
