@@ -1,5 +1,6 @@
 module lagrangia_show
-    !! `lagrangia show [FILE...]`: the scenes, sweeps and sheets that come with the program, as they are.
+    !! `lagrangia show [FILE...]`: the scenes, sweeps and sheets that come with the program, as
+    !! they are.
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put, put_line
     use lagrangia_errors, only: error_t, fail

@@ -153,6 +153,7 @@ contains
         if (length > 0) read (unit, pos=max(1, length - len(last) + 1), iostat=status) &
             last(:min(len(last), length))
         close (unit)
-        if (status == 0) ends_well = index(last, trim(ends(findloc(pictures == kind, .true., 1)))) > 0
+        if (status /= 0) return
+        ends_well = index(last, trim(ends(findloc(pictures == kind, .true., 1)))) > 0
     end function ends_well
 end module lagrangia_data_files
