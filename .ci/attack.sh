@@ -6,7 +6,7 @@ set -u
 source "$(dirname "$0")/attack_tools.sh"
 
 # Every command that writes: its words, and the files that it makes in the folder of --output
-writers=("run pendulum" "modes double_pendulum" "principle least-time"
+writers=("run pendulum" "modes double_pendulum" "compare pendulum --methods rk4,verlet" "principle least-time"
     "bench precision --quick --quiet --problems P1 --methods rk4")
 makes=()
 for writer in "${writers[@]}"; do
@@ -178,7 +178,8 @@ if command -v gnuplot >/dev/null; then
         check "a title: $text" eval '[ $status -eq 0 ] && [ -z "$(find "$work" -name owned)" ] && python3 -c "import sys, xml.dom.minidom as m
 sys.exit(sys.argv[2] not in [\"\".join(c.data for c in t.childNodes if c.data) for t in m.parse(sys.argv[1]).getElementsByTagName(\"text\") if all(c.nodeType == 3 for c in t.childNodes)])" "$work/titles/t.svg" "${text%"${text##*[! ]}"}"'
     done
-    for writer in "principle least-time" "bench precision --quick --quiet --problems P1 --methods rk4"; do
+    for writer in "modes double_pendulum" "compare pendulum --methods rk4,verlet" "run pendulum cart_pendulum --overlay" \
+        "principle least-time" "bench precision --quick --quiet --problems P1 --methods rk4"; do
         for text in '<touch owned;true ' '|touch owned;true '; do
             inside "$work" $writer --plot "--output=$text"
             check "$writer --plot --output='$text': drawn, nothing is run" eval '[ $status -eq 0 ] && [ -n "$(find "$work/$text" -name "*.png")" ] && [ -z "$(find "$work" -name owned)" ]'

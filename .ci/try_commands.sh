@@ -95,6 +95,32 @@ check "changed: the rows are the JSON's" python3 .ci/scorecard_text.py "$work/te
 run run pendulum --set pendulum%l=2 --set scene%expect_error=1e-30 --output "$work/changed"
 check "changed: judged by what is set with it" eval '[ $status -eq 1 ] && grep -q "NOT as expected: error" "$work/out"'
 
+# compare and --overlay: several runs in one picture
+run compare pendulum --methods verlet,rk4,dop853 --output "$work/cmp"
+check "compare: a row a method, one script for all files" eval '[ $status -eq 0 ] && [ "$(grep -c "^  \(verlet\|rk4\|dop853\), " "$work/out")" -eq 3 ] && grep -q "data3 = folder.\"pendulum_dop853.dat\"" "$work/cmp/pendulum_methods.gp" && grep -q "title \"rk4, dt = 0.001 s\" noenhanced" "$work/cmp/pendulum_methods.gp"'
+check "compare: motion, drift and error" eval '[ "$(tail -n 1 "$work/cmp/pendulum_rk4.dat" | wc -w)" -eq 4 ] && [ "$(grep -c "^plot " "$work/cmp/pendulum_methods.gp")" -eq 3 ] && [ "$(grep -c "set logscale y" "$work/cmp/pendulum_methods.gp")" -eq 2 ]'
+run compare pendulum --methods verlet,rk4 --json --output "$work/cmp"
+check "compare --json" json '[e["method"] for e in d] == ["verlet", "rk4"] and d[1]["error"] < 1e-9 < d[0]["error"]'
+run compare pendulum --starts "1 2 0:7" --quiet --output "$work/cmp"
+check "compare --starts: a phase portrait, angles within one turn" eval '[ $status -eq 0 ] && grep -q "set xrange \[-pi:pi\]" "$work/cmp/pendulum_starts.gp" && [ "$(grep "^[^#]" "$work/cmp/pendulum_start_3.dat" | head -n 1)" = " 0.0000000000000000E+000  0.0000000000000000E+000  7.0000000000000000E+000" ]'
+run run pendulum cart_pendulum --overlay --quiet --output "$work/cmp"
+check "run --overlay: the columns that both have" eval '[ $status -eq 0 ] && [ "$(grep -c "^plot " "$work/cmp/overlay.gp")" -eq 2 ] && grep -q "data2 = folder.\"cart_pendulum.dat\"" "$work/cmp/overlay.gp"'
+refuses 2 "compare what?" compare
+refuses 2 "compare by what? --methods rk4,verlet or --starts" compare pendulum
+refuses 2 "compare by what?" compare pendulum --methods rk4,verlet --starts "1 2"
+refuses 2 "unknown method 'rk5'" compare pendulum --methods rk4,rk5 --output "$work/none"
+refuses 2 "'boris': boris is for charges in magnetic fields" compare pendulum --methods rk4,boris --output "$work/none"
+refuses 2 "'verlet': verlet is for forces that depend on positions only" compare double_pendulum --methods rk4,verlet --output "$work/none"
+refuses 2 "--methods: 'rk4' is given twice" compare pendulum --methods rk4,rk4 --output "$work/none"
+refuses 2 "--methods: two at least are needed" compare pendulum --methods rk4 --output "$work/none"
+refuses 2 "start 'x': " compare pendulum --starts "1 x" --output "$work/none"
+refuses 2 "unknown picture format 'bmp'; there are png, svg, pdf" compare pendulum --methods rk4,verlet --plot=bmp --output "$work/none"
+refuses 2 "--overlay: two scenes at least are needed" run pendulum --overlay --output "$work/none"
+refuses 2 "are one file" run pendulum cart_pendulum --overlay --set scene%output=overlay --output "$work/none"
+check "compare, --overlay: what is refused leaves no file" [ ! -e "$work/none" ]
+run modes double_pendulum --quiet --output "$work/cmp"
+check "modes --output: the mechanism, two rods and two masses a side" eval '[ $status -eq 0 ] && [ "$(awk "!/#/ && \$1 == 2 && \$2 == 1 && \$3 == 1" "$work/cmp/double_pendulum_modes.dat" | wc -l)" -eq 2 ] && [ "$(awk "!/#/ && \$1 == 2 && \$2 == 1 && \$3 == 0" "$work/cmp/double_pendulum_modes.dat" | wc -l)" -eq 2 ] && [ "$(grep -c "^set title \"" "$work/cmp/double_pendulum_modes.gp")" -eq 2 ]'
+
 # run, its options
 run run cart_pendulum pendulum --output "$work/a b'c"
 check "run: two scenes, a folder with blank and quote" eval '[ $status -eq 0 ] && [ -s "$work/a b'"'"'c/pendulum.dat" ]'

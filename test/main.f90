@@ -89,6 +89,7 @@ module suites
     use test_method_structure, only: method_structure_suite
     use test_methods, only: methods_suite
     use test_mirror, only: mirror_suite
+    use test_mode_picture, only: mode_picture_suite
     use test_modes_files, only: modes_files_suite
     use test_namelist, only: namelist_suite
     use test_namelist_limits, only: namelist_limits_suite
@@ -102,6 +103,7 @@ module suites
     use test_outcome, only: outcome_suite
     use test_output_failures, only: output_failures_suite
     use test_output_file, only: output_file_suite
+    use test_overlay, only: overlay_suite
     use test_own_closed_form, only: own_closed_form_suite
     use test_own_system, only: own_system_suite
     use test_page_controls, only: page_controls_suite
@@ -257,6 +259,7 @@ contains
         call suite%addTest(method_structure_suite())
         call suite%addTest(methods_suite())
         call suite%addTest(mirror_suite())
+        call suite%addTest(mode_picture_suite())
         call suite%addTest(modes_files_suite())
         call suite%addTest(namelist_suite())
         call suite%addTest(namelist_limits_suite())
@@ -270,6 +273,7 @@ contains
         call suite%addTest(outcome_suite())
         call suite%addTest(output_failures_suite())
         call suite%addTest(output_file_suite())
+        call suite%addTest(overlay_suite())
         call suite%addTest(own_system_suite())
         call suite%addTest(page_controls_suite())
         call suite%addTest(page_formulae_suite())

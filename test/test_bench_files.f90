@@ -127,7 +127,8 @@ contains
     end function picture_of
 
     subroutine panels_lie_side_by_side()
-        !! Pixels: 40 for the title, rows of 390, legend below; a panel alone is as wide as two.
+        !! Pixels: 40 for the title, rows of 420, legend below; a panel alone is as wide as two,
+        !! has 640, and with a few curves names beside them in the place of the legend.
         !! Times in whole decades, the closed form's on the axis above.
         type(bench_problem_t), allocatable :: problems(:)
         type(error_t), allocatable :: error
@@ -139,25 +140,38 @@ contains
                                        curve(1, "closed_form", source_closed_form, &
                                              set_by_nothing, 1), &
                                        curve(3, "gauss16", source_ours, set_by_tolerance, 12)])
-        call follow(script, "size 1300,860 ")
+        call follow(script, "size 1300,922 ")
         call follow(script, "size 100,60 ")
         do i = 1, 3
-            associate (left => 645*modulo(i - 1, 2), upper => 820 - 390*((i - 1)/2))
-                call follow(script, margins(left + 90, left + 625, upper - 320, upper - 42, 860))
+            associate (left => 645*modulo(i - 1, 2), upper => 882 - 420*((i - 1)/2))
+                call follow(script, margins(left + 100, left + 620, upper - 344, upper - 46, 922))
             end associate
             if (i == 1) call follow(script, newline//"set xrange [1.0:10.0]; set yrange "// &
-                                    "[1e-16:2]; unset x2tics"//newline// &
+                                    "[1e-16:2]; unset x2tics; unset label"//newline// &
                                     "set x2range [1.0:1.0]; set x2tics"//newline)
             if (i == 2) call follow(script, newline//"set xrange [*:*]; set yrange")
             if (i == 3) call follow(script, newline//"set xrange [1.0:100.0]; set yrange")
         end do
-        call follow(script, margins(10, 1290, 4, 40, 860))
+        call follow(script, margins(10, 1290, 4, 42, 922))
         call follow(script, "unset multiplot"//newline)
         call assertEqual("", script, "behind the picture")
         script = picture_of(problems(:1), [curve(1, "rk4", source_ours, set_by_step, 2)])
-        call follow(script, "size 1300,470 ")
-        call follow(script, margins(90, 1270, 110, 388, 470))
-        call follow(script, margins(10, 1290, 4, 40, 470))
+        call follow(script, "size 1300,680 ")
+        call follow(script, margins(100, 1265, 76, 594, 680))
+        call follow(script, newline//"set xrange [1.0:100.0]; set yrange ")
+        call follow(script, "set label ""rk4, dt"" noenhanced at first 2.0")  ! us: its end
+        call follow(script, " left offset 0.8,0 textcolor ls 1"//newline)
+        call assertEqual(0, index(script, "set key"), script)
+        script = picture_of(problems(:1), [(curve(1, "m"//to_text(i), source_ours, set_by_step, &
+                                                  2), i=1, 6)])
+        do i = 1, 6
+            call follow(script, "set label ""m"//to_text(i)//", dt"" noenhanced at first ")
+        end do
+        call assertEqual(0, index(script, newline//"set label"), "each once: "//script)
+        script = picture_of(problems(:1), [(curve(1, "m"//to_text(i), source_ours, set_by_step, &
+                                                  2), i=1, 7)])
+        call assertEqual(0, index(script, newline//"set label"), "too many: "//script)
+        call follow(script, "set key")
     end subroutine panels_lie_side_by_side
 
     function margins(left, right, bottom, upper, height) result(line)
@@ -189,9 +203,9 @@ contains
         curves(18) = curve(1, "gsl_rk4", source_gsl, set_by_tolerance, 1)
         curves(19) = curve(1, "closed_form", source_closed_form, set_by_nothing, 1)
         script = picture_of(problems, curves)
-        call follow(script, "size 1300,542 ")  ! 40 + 390 + 4*24 + 16
+        call follow(script, "size 1300,826 ")  ! 40 + 640 + 5*26 + 16
         do i = 1, 19
-            line = "set style line "//to_text(i)//" lw 1.5 ps 0.9 pt "// &
+            line = "set style line "//to_text(i)//" lw 2 ps 1.1 pt "// &
                    to_text(modulo(i - 1, 15) + 1)//" lc rgb '"
             call follow(script, line)
             at = index(script, newline)

@@ -264,7 +264,8 @@ contains
             text = help_text(i)
             do k = 1, size(options)
                 if (options(k)%name == "help" .or. options(k)%name == "version") cycle
-                call assertTrue(index(text, "  --"//trim(options(k)%name)) > 0 .eqv. &
+                call assertTrue(index(text, "  --"//trim(options(k)%name)//" ") + &
+                                index(text, "  --"//trim(options(k)%name)//"[") > 0 .eqv. &
                                 index(" "//commands(i)%accepts, &
                                       " "//trim(options(k)%name)//" ") > 0, &
                                 trim(commands(i)%name)//" --"//trim(options(k)%name))

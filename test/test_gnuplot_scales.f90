@@ -217,9 +217,9 @@ contains
         call assertTrue(index(text, "data = folder.""fa""") > 0, text)
         call assertTrue(index(text, "data2 = folder.""fb""") > 0, text)
         call assertTrue(index(text, "data3 = folder.""c""") > 0, text)
-        call assertTrue(index(text, "data using 1:2 with lines lw 6 lc rgb '#0072b2' title "// &
+        call assertTrue(index(text, "data using 1:2 with lines lw 8 lc rgb '#0072b2' title "// &
                               """it's A"" noenhanced") > 0, text)
-        call assertTrue(index(text, "data2 using 1:2 with lines lw 4 lc rgb '#d55e00' title "// &
+        call assertTrue(index(text, "data2 using 1:2 with lines lw 5 lc rgb '#d55e00' title "// &
                               """it's B"" noenhanced") > 0, text)
         call assertTrue(index(text, "data3 using 2:1 with lines lw 2 lc rgb '#009e73' title "// &
                               """C"" noenhanced") > 0, text)

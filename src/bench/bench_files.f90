@@ -22,7 +22,8 @@ module lagrangia_bench_files
     character(*), parameter :: file_name = "bench.dat"
     integer, parameter :: header_length = 400
     character(*), parameter :: blank_lines = new_line("a")//new_line("a")
-    integer, parameter :: width = 1300, panel = 390, top = 40  !! pixels of the picture
+    integer, parameter :: width = 1300, top = 40  !! pixels of the picture
+    integer, parameter :: most_labels = 6  !! curves that have their names beside them
     character(7), parameter :: colours(16) = ["#1f77b4", "#ff7f0e", "#d62728", "#2ca02c", &
         "#9467bd", "#17becf", "#8c564b", "#e377c2", "#bcbd22", "#7f7f7f", "#393b79", "#ff9896", &
         "#6b8e23", "#00a087", "#b8860b", "#8b008b"]
@@ -136,17 +137,22 @@ contains
     end function label
 
     function bench_script(problems, methods, curves) result(text)
-        !! A panel a problem, both axes logarithmic, one legend below all.
+        !! A panel a problem, both axes logarithmic, one legend below all; of a few curves on one
+        !! problem each has its name beside it, for slides.
         type(bench_problem_t), intent(in) :: problems(:)
         character(*), intent(in) :: methods(:)
         type(curve_t), intent(in) :: curves(:)
         character(:), allocatable :: text
         type(lines_t) :: script
-        integer :: across, down, height, i, legend
+        integer :: across, down, height, i, legend, panel
+        logical :: at_line
 
         across = merge(1, 2, size(problems) == 1)
         down = (size(problems) + across - 1)/across
-        legend = 24*((size(methods) + 4)/5) + 16
+        at_line = size(problems) == 1 .and. size(curves) <= most_labels
+        legend = 26*((size(methods) + 3)/4) + 16
+        if (at_line) legend = 0
+        panel = merge(640, 420, across == 1)
         height = top + panel*down + legend
         call begin_script(script, file_name, width, height, 30*down)
         call script%add("data = folder."//gnuplot_string(file_name))
@@ -155,14 +161,15 @@ contains
         end do
         call script%add("set grid lc rgb '#cccccc' lw 0.6 lt 1")
         call script%add("set logscale xyx2; set format '10^{%L}'")
-        call script%add("set xlabel 'time of a run [us] (of closed_form: above)' noenhanced")
+        call script%add("mu = """//char(194)//char(181)//"""")
+        call script%add("set xlabel 'time of a run ('.mu.'s; of closed_form: above)' noenhanced")
         call script%add("set ylabel 'largest error of q and v'")
         call script%add("set multiplot title 'Run time against error at the end'")
         do i = 1, size(problems)
             call place(modulo(i - 1, across), (i - 1)/across)
             call draw(i)
         end do
-        call draw_legend()
+        if (.not. at_line) call draw_legend()
         call script%add("unset multiplot")
         text = script%text
     contains
@@ -170,10 +177,10 @@ contains
             integer, intent(in) :: column, row
             real(dp) :: left, upper
 
-            left = 90.0_dp + real((width - 10)*column, dp)/across
+            left = 100.0_dp + real((width - 10)*column, dp)/across
             upper = real(height - top - panel*row, dp)
-            call put_margins(left, left + real(width - 10, dp)/across - 110.0_dp, &
-                             upper - panel + 70.0_dp, upper - 42.0_dp)
+            call put_margins(left, left + real(width - 10, dp)/across - 125.0_dp, &
+                             upper - panel + 76.0_dp, upper - 46.0_dp)
         end subroutine place
 
         subroutine put_margins(left, right, bottom, upper)
@@ -194,10 +201,11 @@ contains
             call script%add("set title "//gnuplot_string(trim(problems(which)%name)//": "// &
                             trim(problems(which)%title)//", T = "// &
                             to_text(problems(which)%duration)//" s")//" noenhanced offset 0,-0.7")
-            call script%add("set xrange ["//time_range(curves, which, .false.)// &
-                            "]; set yrange [1e-16:2]; unset x2tics")
+            call script%add("set xrange ["//time_range(curves, which, .false., at_line)// &
+                            "]; set yrange [1e-16:2]; unset x2tics; unset label")
+            if (at_line) call put_names(which)
             if (any(curves%problem_index == which .and. curves%source == source_closed_form)) then
-                call script%add("set x2range ["//time_range(curves, which, .true.)// &
+                call script%add("set x2range ["//time_range(curves, which, .true., at_line)// &
                                 "]; set x2tics")
             end if
             line = ""
@@ -213,6 +221,39 @@ contains
             if (line /= "") call script%add("plot "//line)
         end subroutine draw
 
+        subroutine put_names(which)
+            !! Behind the last point of each curve, moved up where two would lie on each other.
+            integer, intent(in) :: which
+            real(dp), parameter :: apart = 0.7_dp, beside = 1.2_dp  !! decades
+            real(dp) :: x(size(curves)), y(size(curves))
+            logical :: placed(size(curves)), waits(size(curves))
+            integer :: k, m, n
+
+            waits = curves%problem_index == which .and. curves%count > 0
+            do k = 1, size(curves)
+                if (.not. waits(k)) cycle
+                associate (p => curves(k)%points(curves(k)%count))
+                    x(k) = log10(1e6_dp*p%seconds)
+                    y(k) = log10(max(p%error, 1.2e-16_dp)) + 0.3_dp
+                end associate
+            end do
+            placed = .false.
+            do n = 1, count(waits)
+                k = minloc(y, 1, waits .and. .not. placed)
+                do m = 1, size(curves)
+                    if (.not. placed(m) .or. abs(x(m) - x(k)) >= beside) cycle
+                    y(k) = max(y(k), y(m) + apart)
+                end do
+                placed(k) = .true.
+                call script%add("set label "//gnuplot_string(trim(label(curves(k))))// &
+                                " noenhanced at "//trim(merge("second", "first ", &
+                                curves(k)%source == source_closed_form))//" "// &
+                                to_text(10.0_dp**x(k))//", first "//to_text(10.0_dp**y(k))// &
+                                " left offset 0.8,0 textcolor ls "// &
+                                to_text(findloc(methods, label(curves(k)), 1)))
+            end do
+        end subroutine put_names
+
         subroutine draw_legend()
             character(:), allocatable :: line
             integer :: k
@@ -220,7 +261,7 @@ contains
             call put_margins(10.0_dp, width - 10.0_dp, 4.0_dp, real(legend, dp))
             call script%add("unset logscale; unset border; unset tics; unset grid; unset title")
             call script%add("unset xlabel; unset ylabel; set xrange [0:1]; set yrange [0:1]")
-            call script%add("set key center center horizontal maxcols 5 noenhanced samplen 3")
+            call script%add("set key center center horizontal maxcols 4 noenhanced samplen 3")
             line = "plot "
             do k = 1, size(methods)
                 if (k > 1) line = line//", "
@@ -231,12 +272,13 @@ contains
         end subroutine draw_legend
     end function bench_script
 
-    pure function time_range(curves, which, closed) result(range)
+    pure function time_range(curves, which, closed, named) result(range)
         !! Whole decades around the times of one problem, us: of its closed form, which has an axis
         !! of its own above the panel, or of all others.
         type(curve_t), intent(in) :: curves(:)
         integer, intent(in) :: which
         logical, intent(in) :: closed  !! of the closed form
+        logical, intent(in) :: named   !! there are names beside the curves, which need a decade
         character(:), allocatable :: range
         real(dp) :: low, high
         integer :: k
@@ -254,7 +296,7 @@ contains
         range = "*:*"
         if (high <= 0.0_dp) return
         range = to_text(10.0_dp**floor(log10(1e6_dp*low)))//":"// &
-                to_text(10.0_dp**ceiling(log10(1e6_dp*high)))
+                to_text(10.0_dp**(ceiling(log10(1e6_dp*high)) + merge(1, 0, named)))
     end function time_range
 
     pure function style(i, method) result(line)
@@ -265,7 +307,7 @@ contains
         integer :: k
 
         k = modulo(i - 1, size(colours)) + 1
-        line = "set style line "//to_text(i)//" lw 1.5 ps 0.9 pt "//to_text(modulo(i - 1, 15) + 1)
+        line = "set style line "//to_text(i)//" lw 2 ps 1.1 pt "//to_text(modulo(i - 1, 15) + 1)
         if (index(method, "gsl_") == 1) then
             line = line//" lc rgb '#000000' dt 2"
         else if (method == "closed_form") then

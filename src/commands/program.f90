@@ -6,6 +6,7 @@ module lagrangia_program
     use lagrangia_c_library, only: c_alarm, c_exit
     use lagrangia_check, only: check_command
     use lagrangia_command_line, only: command_line_t, command_words, parse_words, word_t
+    use lagrangia_compare, only: compare_command
     use lagrangia_console, only: finish_console, note, put, put_line, say_at_once
     use lagrangia_derive, only: derive_command
     use lagrangia_describe, only: describe_command
@@ -88,6 +89,7 @@ contains
             case ("errata"); call errata_command(line, error)
             case ("grade"); call grade_command(line, error)
             case ("list"); call list_command(line, error)
+            case ("compare"); call compare_command(line, error)
             case ("derive"); call derive_command(line, error)
             case ("describe"); call describe_command(line, error)
             case ("bench"); call bench_command(line, error)

@@ -32,7 +32,9 @@ module lagrangia_registry
         option_t("quick", no_value, "", "measure less, in under 20 s"), &
         option_t("long", no_value, "", "up to 10^8 steps of every method"), &
         option_t("problems", needs_value, "P1,P3,...", "of the benchmark's work-precision part"), &
-        option_t("methods", needs_value, "rk4,gsl_rk8pd,...", "that are measured"), &
+        option_t("methods", needs_value, "rk4,gsl_rk8pd,...", "that are measured or compared"), &
+        option_t("starts", needs_value, """Q1,Q2:V1,V2 ...""", "coordinates, perhaps velocities"), &
+        option_t("overlay", no_value, "", "draw all runs in one picture as well"), &
         option_t("systems", needs_value, "pendulum,...", "or scenes, whose steps are measured"), &
         option_t("tolerances", needs_value, "1e-6,1e-9,...", "of the methods that take one"), &
         option_t("over", needs_value, "NAME=FROM:TO:COUNT", "an axis of a sweep; repeatable", &
@@ -53,7 +55,9 @@ module lagrangia_registry
         command_t("", "", "run every scene in data/scenes and print the scorecard", 0, &
                   "set output format plot animate error-estimate json quiet"), &
         command_t("run", "SCENE...", "the same for .nml files, or shipped scenes by name", -1, &
-                  "set output format plot animate error-estimate json quiet"), &
+                  "set output format plot overlay animate error-estimate json quiet"), &
+        command_t("compare", "SCENE", "by --methods, or from many --starts: one table, one "// &
+                  "picture", 1, "set methods starts output format plot json quiet"), &
         command_t("modes", "SYSTEM", "or a scene's: small oscillations, frequencies, shapes", 1, &
                   "set at output plot json quiet"), &
         command_t("check", "[SYSTEM...]", "the audit: equations, invariants, structure, Gauss, "// &

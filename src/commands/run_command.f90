@@ -4,17 +4,20 @@ module lagrangia_run_command
     use lagrangia_changed_scene, only: make_own_scene
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: note, put, put_line
-    use lagrangia_data_files, only: check_format, check_picture, data_path, draw, film_path
+    use lagrangia_data_files, only: check_format, check_picture, data_path, draw, film_path, &
+                                    script_path
     use lagrangia_errors, only: error_t, fail, is_signal, status_not_held
     use lagrangia_final_values, only: final_values_legend, final_values_line
+    use lagrangia_gnuplot, only: panel_t, series_t
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_json, outcome_t
     use lagrangia_output_file, only: refuse_unwritable
+    use lagrangia_overlay, only: add_to_overlay, common_panels, overlay_path, write_overlay
     use lagrangia_places, only: places_t
     use lagrangia_progress, only: progress_t
     use lagrangia_run_plan, only: new_run_plan, run_plan_t
     use lagrangia_scene, only: scene_t
-    use lagrangia_scene_claims, only: claim_files, claim_scene, size_warning
+    use lagrangia_scene_claims, only: claim_files, claim_scene, claim_table, size_warning
     use lagrangia_scene_reader, only: read_scene
     use lagrangia_scene_run, only: run_scene
     use lagrangia_scorecard, only: scorecard_head, scorecard_legend, scorecard_lines, scorecard_row
@@ -32,6 +35,8 @@ module lagrangia_run_command
         type(word_t) :: path
         type(run_plan_t) :: plan
     end type chosen_t
+
+    character(*), parameter :: overlay = "overlay"  !! the picture of `--overlay`
 
 contains
 
@@ -65,6 +70,8 @@ contains
         if (allocated(error)) return
         allocate (chosen(0))  ! gfortran 12 would warn of its bounds
         call choose_scenes(line, folder, format, chosen, error)
+        if (allocated(error)) return
+        call check_overlay(line, folder, chosen, error)
         if (allocated(error)) return
         if (.not. (is_optimised() .or. quiet)) call note("this build is not optimised; "// &
             "'fpm run --profile release' is several times faster")
@@ -114,6 +121,8 @@ contains
             if (.not. allocated(remarks(i)%text) .or. quiet) cycle
             call note(chosen((i + 1)/2)%path%text//": "//remarks(i)%text)
         end do
+        if (line%has("overlay") .and. .not. allocated(error)) call overlay_runs(chosen, folder, &
+            kind, line%has("plot"), error)
         if (json) then
             call put_line("]")
         else if (.not. quiet) then
@@ -154,6 +163,59 @@ contains
             call draw(outcome%events, kind, error)
         end subroutine run_one
     end subroutine run_command
+
+    subroutine check_overlay(line, folder, chosen, error)
+        !! Fails where `--overlay` has too little to draw, or nowhere to write.
+        type(command_line_t), intent(in) :: line
+        character(*), intent(in) :: folder
+        type(chosen_t), intent(in) :: chosen(:)
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: path
+        type(places_t) :: places
+        integer :: i
+
+        if (.not. line%has("overlay")) return
+        if (size(chosen) < 2) call fail(error, "--overlay: two scenes at least are needed, to "// &
+                                        "be drawn in one picture")
+        if (allocated(error)) return
+        path = overlay_path(folder, overlay)
+        do i = 1, size(chosen)
+            call claim_scene(chosen(i)%plan%scene, places, error)
+            if (.not. allocated(error)) call claim_files(chosen(i)%plan%scene, &
+                chosen(i)%plan%system, folder, line%value_of("format", "text"), places, error)
+            if (allocated(error)) return
+        end do
+        call claim_table(path, "overlay", "", places, error)
+        if (.not. allocated(error)) call refuse_unwritable(script_path(path), error)
+    end subroutine check_overlay
+
+    subroutine overlay_runs(chosen, folder, kind, drawn, error)
+        !! The picture of all runs, `overlay.gp` in the folder.
+        type(chosen_t), intent(in) :: chosen(:)
+        character(*), intent(in) :: folder, kind
+        logical, intent(in) :: drawn
+        type(error_t), allocatable, intent(out) :: error
+        type(series_t), allocatable :: series(:)
+        type(panel_t), allocatable :: panels(:)
+        character(:), allocatable :: title
+        integer :: i
+
+        allocate (series(size(chosen)))
+        title = ""
+        do i = 1, size(chosen)
+            associate (plan => chosen(i)%plan)
+                call add_to_overlay(series(i), plan%record%table%file%name(), folder, plan%record, &
+                                    trim(plan%scene%name)//" ("//trim(plan%settled%method)//")")
+                if (i > 1) title = title//", "
+                title = title//trim(plan%scene%name)
+            end associate
+        end do
+        call common_panels(series, panels, "time", error)
+        if (allocated(error)) return
+        call write_overlay(folder, overlay, series, panels, title, "", error)
+        if (allocated(error) .or. .not. drawn) return
+        call draw(overlay_path(folder, overlay), kind, error)
+    end subroutine overlay_runs
 
     subroutine choose_scenes(line, folder, format, chosen, error)
         !! The named scenes or all; every one is read and planned, once, and all files of the run

@@ -6,7 +6,7 @@ module lagrangia_gnuplot_panel
     use lagrangia_kinds, only: dp, i8
     use lagrangia_plot_label, only: is_small, label, plain_label
     use lagrangia_plot_panel, only: find_traces, has_envelope, has_legend, is_space, panel_t, &
-                                    ranges_of, series_t, trace_t
+                                    ranges_of, series_t, told_apart, trace_t
     use lagrangia_text, only: to_text
     use lagrangia_value_range, only: value_range_t
     implicit none (type, external)
@@ -18,9 +18,12 @@ module lagrangia_gnuplot_panel
     character(*), parameter :: dots = "points pt 7 ps 1"
 
     integer, parameter :: most_bins = 200    !! of an envelope
+    integer, parameter :: most_widths = 5    !! of curves that may lie on each other
     !! Okabe and Ito's colours, which the colour-blind tell apart, too.
     character(7), parameter :: colours(*) = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", &
                                              "#e69f00", "#56b4e9", "#000000", "#8c6d31"]
+
+    character(3), parameter :: minus = char(226)//char(136)//char(146)
 
 contains
 
@@ -36,7 +39,7 @@ contains
         type(trace_t), allocatable :: traces(:)
         type(value_range_t), allocatable :: x(:), y(:)
         integer :: edge, first
-        logical :: logarithmic
+        logical :: logarithmic, turned
 
         call find_traces(series, panel, traces)
         call ranges_of(series, traces, x, y)
@@ -58,9 +61,12 @@ contains
         else
             call add_range(script, y)
         end if
+        turned = turns_over(series(1), panel, x)
+        if (turned) call add_turn(script)
         call add_labels(script, series(1), panel, frame, logarithmic)
         call add_legend(script, has_legend(series, panel, number))
-        call add_curves(script, series, panel, traces, number, style, logarithmic, first, edge)
+        call add_curves(script, series, panel, traces, number, style, logarithmic, first, edge, &
+                        turned)
     end subroutine draw_panel
 
     pure subroutine add_legend(script, shown)
@@ -76,7 +82,8 @@ contains
         end if
     end subroutine add_legend
 
-    subroutine add_curves(script, series, panel, traces, number, style, logarithmic, first, edge)
+    subroutine add_curves(script, series, panel, traces, number, style, logarithmic, first, &
+                          edge, turned)
         !! The command that draws. An envelope is a band with its edges, of magnitudes the upper
         !! one. Where curves of several files lie on each other all are seen: the first is widest.
         type(lines_t), intent(inout) :: script  !! gets the lines
@@ -87,7 +94,8 @@ contains
         character(*), intent(in) :: style
         logical, intent(in) :: logarithmic  !! is the y axis
         integer, intent(in) :: first, edge
-        character(:), allocatable :: band, colour, line, title, using, width
+        logical, intent(in) :: turned  !! an angle is shown within one turn
+        character(:), allocatable :: across, band, colour, line, title, using, width
         integer :: i, k
 
         line = ""
@@ -97,8 +105,8 @@ contains
                 if (size(series) > 1 .and. panel%curves == 1) k = trace%series
                 colour = " lc rgb '"//colours(modulo(k - 1, size(colours)) + 1)//"'"
                 width = " lw 2"
-                if (size(series) > 1 .and. .not. logarithmic) then
-                    width = " lw "//to_text(2*(size(traces) - i + 1))
+                if (size(series) > 1 .and. panel%x == 1 .and. .not. logarithmic) then
+                    width = " lw "//to_text(2 + 3*max(0, min(size(traces), most_widths) - i))
                 end if
                 title = curve_title(series, panel, trace, number, logarithmic)
                 if (has_envelope(from, trace) .and. style == curves) then
@@ -115,8 +123,11 @@ contains
                 using = to_text(trace%y)
                 if (logarithmic) using = magnitude("$"//using, first, edge)
                 if (style == dots) width = ""
-                call add(variable(trace%series)//" "//from%reading//"using "//to_text(trace%x)// &
-                         ":"//using//" with "//style//width//colour//title)
+                across = to_text(trace%x)
+                if (turned) across = "(angle = within($"//across//"), jump = abs(angle - last) "// &
+                    "> pi, last = angle, jump ? NaN : angle)"
+                call add(variable(trace%series)//" "//from%reading//"using "//across//":"//using// &
+                         " with "//style//width//colour//title)
             end associate
         end do
         call script%add("plot "//line)
@@ -170,6 +181,28 @@ contains
         if (edge < first) expression = "(abs("//value//") < 1e"//to_text(first)//" ? 1e"// &
             to_text(edge)//" : abs("//value//"))"
     end function magnitude
+
+    pure function turns_over(series, panel, x) result(yes)
+        !! Something over an angle that goes further than once round.
+        type(series_t), intent(in) :: series
+        type(panel_t), intent(in) :: panel
+        type(value_range_t), intent(in) :: x(:)
+        logical :: yes
+
+        yes = panel%x > 1 .and. series%units(panel%x) == "rad" .and. &
+              maxval(x%high) - minval(x%low) > 2.0_dp*acos(-1.0_dp)*(1.0_dp + told_apart)
+    end function turns_over
+
+    pure subroutine add_turn(script)
+        !! Angles between -pi and pi; a curve is cut where it leaves at one side.
+        type(lines_t), intent(inout) :: script
+        character(2), parameter :: letter = char(207)//char(128)
+
+        call script%add("within(x) = x - 2*pi*floor((x + pi)/(2*pi)); last = 0")
+        call script%add("set xrange [-pi:pi]; set xtics ("""//minus//letter//""" -pi, """// &
+                        minus//letter//"/2"" -pi/2, ""0"" 0, """//letter//"/2"" pi/2, """// &
+                        letter//""" pi)")
+    end subroutine add_turn
 
     subroutine add_envelopes(script, series, panel, number)
         !! For each curve of a panel that needs it, before anything is drawn: the least and the

@@ -127,6 +127,7 @@ contains
         integer, intent(in) :: number  !! of the panel
         logical :: yes
 
-        yes = panel%curves > 1 .or. (size(series) > 1 .and. number == 1)
+        yes = panel%curves > 1 .and. size(series) == 1
+        if (size(series) > 1) yes = number == 1 .and. size(series) <= most_curves
     end function has_legend
 end module lagrangia_plot_panel

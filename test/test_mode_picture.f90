@@ -1,0 +1,149 @@
+module test_mode_picture
+    !! Modes drawn as the mechanism: rods are found, keep their lengths, and move as far as they
+    !! may; each panel says its omega.
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
+    use lagrangia_catalogue, only: new_system
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_mode_picture, only: has_positions, mode_picture_path, write_mode_picture
+    use lagrangia_mode_script, only: is_mass, is_rod, is_way
+    use lagrangia_small_oscillations, only: find_modes, modes_t
+    use lagrangia_system, only: system_t
+    use test_scratch, only: contents, new_folder, remove_file
+    implicit none (type, external)
+    private
+    public :: mode_picture_suite
+
+contains
+
+    function mode_picture_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("mode_picture")
+        call suite%addTest(TestMethod("rods_stay_rods", rods_stay_rods))
+        call suite%addTest(TestMethod("what_has_no_rods", what_has_no_rods))
+        call suite%addTest(TestMethod("a_panel_a_mode", a_panel_a_mode))
+    end function mode_picture_suite
+
+    subroutine draw(name, at, rows, script)
+        !! The rows of the picture of a system's modes, and its script.
+        character(*), intent(in) :: name
+        real(dp), intent(in) :: at(:)
+        real(dp), allocatable, intent(out) :: rows(:, :)
+        character(:), allocatable, intent(out) :: script
+        class(system_t), allocatable :: system
+        type(modes_t) :: modes
+        type(error_t), allocatable :: error
+        character(:), allocatable :: folder, path, text
+        real(dp) :: row(9)
+        integer :: last, status
+
+        allocate (rows(9, 0))
+        script = ""
+        call new_system(name, system, error)
+        call assertTrue(has_positions(system), name)
+        call find_modes(system, at, .true., modes, error)
+        call assertFalse(allocated(error), name)
+        if (anyExceptions()) return
+        folder = new_folder("mode_picture")
+        path = mode_picture_path(system, folder)
+        call assertEqual(folder//"/"//name//"_modes.dat", path)
+        call write_mode_picture(system, modes, folder, error)
+        call assertFalse(allocated(error), "written: "//name)
+        if (anyExceptions()) return
+        text = contents(path)
+        script = contents(folder//"/"//name//"_modes.gp")
+        do while (len(text) > 0)
+            last = index(text, new_line("a"))
+            read (text(:last), *, iostat=status) row
+            if (status == 0) rows = reshape([rows, row], [9, size(rows, 2) + 1])
+            text = text(last + 1:)
+        end do
+        call assertTrue(remove_file(path), "the data")
+        call assertTrue(remove_file(folder//"/"//name//"_modes.gp"), "the script")
+        call assertTrue(remove_file(folder), "nothing else is left")
+    end subroutine draw
+
+    pure function chosen(rows, mode, side, kind) result(which)
+        !! The rows of that mode, side and kind.
+        real(dp), intent(in) :: rows(:, :)
+        integer, intent(in) :: mode, side, kind
+        real(dp), allocatable :: which(:, :)
+        integer :: i
+
+        which = rows(:, pack([(i, i=1, size(rows, 2))], nint(rows(1, :)) == mode .and. &
+                             nint(rows(2, :)) == side .and. nint(rows(3, :)) == kind))
+    end function chosen
+
+    subroutine rods_stay_rods()
+        !! Of a double pendulum with equal rods of 1 m: from the origin to the first bob and on to
+        !! the second, in every position; the bob that moves most moves by a quarter of 2 m, or an
+        !! angle is 0.7 rad.
+        real(dp), allocatable :: masses(:, :), rods(:, :), rows(:, :), rest(:, :)
+        character(:), allocatable :: script
+        real(dp) :: angles(2), moved
+        integer :: mode, side
+
+        call draw("double_pendulum", [0.0_dp, 0.0_dp], rows, script)
+        if (anyExceptions()) return
+        do mode = 1, 2
+            rest = chosen(rows, mode, 0, is_mass)
+            do side = -1, 1
+                rods = chosen(rows, mode, side, is_rod)
+                call assertEqual(2, size(rods, 2), message="rods")
+                call assertEqual([1.0_dp, 1.0_dp], norm2(rods(7:9, :), 1), 1e-14_dp, "lengths")
+                call assertEqual([0.0_dp, 0.0_dp, 0.0_dp], rods(4:6, 1), 1e-14_dp, "the pivot")
+                call assertEqual(rods(4:6, 2), rods(4:6, 1) + rods(7:9, 1), 1e-14_dp, "joined")
+                masses = chosen(rows, mode, side, is_mass)
+                call assertEqual(masses(4:6, 2), rods(4:6, 2) + rods(7:9, 2), 1e-14_dp, "its bob")
+                if (side == 0) cycle
+                angles = asin(rods(7, :))
+                moved = maxval(norm2(masses(4:6, :) - rest(4:6, :), 1))
+                ! Linear in the amplitude: the way of a bob is an arc, an eighth of its square less.
+                call assertTrue(abs(moved - 0.5_dp) < 0.5_dp**3 .or. &
+                                abs(maxval(abs(angles)) - 0.7_dp) < 1e-12_dp, "far enough")
+            end do
+        end do
+    end subroutine rods_stay_rods
+
+    subroutine what_has_no_rods()
+        !! A mass on a spring, and a cart that is nowhere tied to the origin.
+        real(dp), allocatable :: masses(:, :), rods(:, :), rows(:, :)
+        character(:), allocatable :: script
+
+        call draw("oscillator", [0.0_dp], rows, script)
+        if (anyExceptions()) return
+        call assertEqual(0, count(nint(rows(3, :)) == is_rod))
+        masses = chosen(rows, 1, 1, is_mass)
+        call assertEqual(1, size(masses, 2))
+        call assertEqual([0.25_dp, 0.0_dp, 0.0_dp], masses(4:6, 1), 1e-12_dp, "of 1 m")
+        call draw("cart_pendulum", [0.0_dp, 0.0_dp], rows, script)
+        if (anyExceptions()) return
+        rods = chosen(rows, 2, 1, is_rod)
+        call assertEqual(1, size(rods, 2), message="from the cart to the bob")
+        call assertEqual(1.0_dp, norm2(rods(7:9, 1)), 1e-14_dp, "its length")
+        call assertTrue(abs(rods(4, 1)) > 0.01_dp, "the cart moves")
+    end subroutine what_has_no_rods
+
+    subroutine a_panel_a_mode()
+        !! omega with four digits; what does not swing says so; the way of each mass is there.
+        real(dp), allocatable :: rows(:, :)
+        character(:), allocatable :: script
+        character(2), parameter :: omega = char(207)//char(137)
+
+        call draw("cart_pendulum", [0.0_dp, 0.0_dp], rows, script)
+        if (anyExceptions()) return
+        call assertTrue(index(script, "set title """//omega//"_{1} = 0""") > 0, script)
+        call assertTrue(index(script, "set title """//omega//"_{2} = 4.429 rad/s""") > 0, script)
+        call assertTrue(index(script, "set xlabel 'x (m)'; set ylabel 'y (m)'") > 0, script)
+        call assertTrue(index(script, "set size ratio -1") > 0, "to scale")
+        call assertEqual(48, count(nint(rows(1, :)) == 2 .and. nint(rows(3, :)) == is_way), &
+                         message="24 pieces of two ways")
+        call draw("pendulum", [acos(-1.0_dp)], rows, script)
+        if (anyExceptions()) return
+        call assertTrue(index(script, "set title ""grows by e in 0.3193 s""") > 0, script)
+        call draw("pendulum", [0.0_dp], rows, script)
+        call assertTrue(index(script, "set title """//omega//" = 3.132 rad/s""") > 0, script)
+    end subroutine a_panel_a_mode
+end module test_mode_picture
