@@ -203,6 +203,9 @@ for name in $("$program" list systems 2>/dev/null | awk '{print $1}'); do
         *) check "describe $name: a closed form" grep -q '^  a closed form where one is known' "$work/out" ;;
     esac
 done
+run modes oscillator --set oscillator%m=1 --set oscillator%k=25 --set oscillator%b=6 --json
+check "modes --json: a damped oscillator decays at 3 and turns at 4" json 'abs(d["damped"]["decay_rate"][0] - 3) < 1e-12 and abs(d["damped"]["omega"][0] - 4) < 1e-12'
+
 modes_are() { # modes_are WORDS...: the text of `modes` against its --json
     run modes "$@"
     cp "$work/out" "$work/text"

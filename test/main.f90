@@ -27,6 +27,7 @@ module suites
     use test_concise, only: concise_suite
     use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
+    use test_constrained_system, only: constrained_system_suite
     use test_constraints, only: constraints_suite
     use test_coupled_orders, only: coupled_orders_suite
     use test_cross_check, only: cross_check_suite
@@ -201,6 +202,7 @@ contains
         call suite%addTest(concise_suite())
         call suite%addTest(console_suite())
         call suite%addTest(constant_accelerations_suite())
+        call suite%addTest(constrained_system_suite())
         call suite%addTest(constraints_suite())
         call suite%addTest(coupled_orders_suite())
         call suite%addTest(decimal_suite())

@@ -99,7 +99,7 @@ contains
         call blamed(names//energies//"Q_theta = '-b theta_dot'", "b theta", "Q_theta: column "// &
                     "2: unknown name 'b'"//there)
         call blamed(names//energies//"Q_phi = '1'", "Q_phi", "unknown key 'q_phi'; allowed: "// &
-                    "l, definitions, positions, equilibrium, q_r, q_theta")
+                    "l, definitions, positions, equilibrium, constraint, q_r, q_theta")
     end subroutine formulas_that_cannot_be_read
 
     subroutine names_that_cannot_be()
@@ -141,7 +141,7 @@ contains
         call blamed(names//energies//"L = 'm r_dot^2'", "'m r_dot", "L = "// &
                     "'m r_dot^2': give either L, or T and V: L is T - V")
         call refused(names//"V = 'r'", "a.nml:2:1: &lagrangian: t: is missing; write T = "// &
-                     "'m/2 x_dot^2', or L, which is T - V")
+                     "'m/2 x_dot^2', or L, which is T - V, or positions with their masses")
         call refused(names//"T = 'm/2 r_dot^2'", "a.nml:2:32: &lagrangian: coordinates = "// &
                      "'theta': L has no theta_dot in it, so that the mass matrix is singular "// &
                      "and nothing says how theta moves; give T a term with theta_dot^2, or "// &

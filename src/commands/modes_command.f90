@@ -77,9 +77,9 @@ contains
         if (elsewhere) call find_modes(system, modes%analytic%elsewhere, .true., others, error)
         if (allocated(error)) return
         if (line%has("json")) then
-            call put_json(trim(d%name), modes)
+            call put_json(trim(d%name), system, modes)
             if (elsewhere) call put(', "elsewhere": ')
-            if (elsewhere) call put_json(trim(d%name), others)
+            if (elsewhere) call put_json(trim(d%name), system, others)
             call put_line(repeat("}", merge(2, 1, elsewhere)))
         else if (.not. line%has("quiet")) then
             call print_modes(system, modes)
@@ -281,12 +281,16 @@ contains
         if (abs(value) <= 0.0_dp) text = "0"
     end function short
 
-    subroutine put_json(name, modes)
+    subroutine put_json(name, system, modes)
         !! One object, but for its closing brace; shapes are rows, one a mode. An unstable mode has
         !! no omega: `null`. Where velocities bend the motion there are `G` and the shapes'
-        !! imaginary parts besides.
+        !! imaginary parts besides; with generalised forces beside L, `damped`: the exponents of
+        !! \(e^{\lambda t}\), their decay rates and frequencies.
         character(*), intent(in) :: name
+        class(system_t), intent(in) :: system
         type(modes_t), intent(in) :: modes
+        complex(dp), allocatable :: lambda(:)
+        type(error_t), allocatable :: error
         integer :: j
 
         call put('{"system": '//json_string(name)//', "at": '//json_list(modes%at)//', "M": ')
@@ -308,6 +312,11 @@ contains
             call put("null")
         end if
         call put(', "residual_ratio": '//json_number(modes%ratio))
+        if (system%nonconservative .and. size(modes%at) <= widest) then
+            call damped_rates(system, modes, lambda, error)
+            if (.not. allocated(error)) call put(', "damped": {"decay_rate": '// &
+                json_list(-real(lambda))//', "omega": '//json_list(aimag(lambda))//"}")
+        end if
         if (.not. allocated(modes%quadrature)) return
         call put(', "G": ')
         call put_rows(modes%gyroscopic)

@@ -578,6 +578,28 @@ static const char *const files[][2] = {
         "/\n"
         "&driven_pendulum m = 1.0, l = 1.0, amplitude = 0.1, drive_frequency = 80.0 /\n"
     },
+    {"data/scenes/dry_friction.nml",
+        "! Q_x = - mu m g tanh(x_dot/v0), a smooth sign: each half swing loses 2 mu m g/k = 0.0981 m.\n"
+        "&scene\n"
+        "  title = 'Dry friction, smoothed: the amplitude falls along a straight line'\n"
+        "  system = 'dry_friction'\n"
+        "  method = 'gauss16'\n"
+        "  tolerance = 1e-10\n"
+        "  duration = 8.0, samples = 801\n"
+        "  q = 1.0\n"
+        "  columns = 't', 'x', 'x_dot', 'work', 'energy_balance_drift'\n"
+        "  plot = 'x', 'x:x_dot', 'work'\n"
+        "  expect_energy_balance_drift = 1e-8\n"
+        "/\n"
+        "&lagrangian\n"
+        "  coordinates = 'x [m] stretch of the spring'\n"
+        "  parameters = 'm [kg] mass', 'k [N/m] of the spring', 'mu [1] friction', 'g [m/s^2] gravity', 'v0 [m/s] where friction is full'\n"
+        "  T = 'm/2 x_dot^2'\n"
+        "  V = 'k/2 x^2'\n"
+        "  Q_x = '-mu m g tanh(x_dot/v0)'\n"
+        "/\n"
+        "&dry_friction m = 1.0, k = 10.0, mu = 0.05, g = 9.81, v0 = 0.02 /\n"
+    },
     {"data/scenes/hanging_chain.nml",
         "! Ten bobs released as one stiff line: all ten modes at once; omega is the slowest of them.\n"
         "&scene\n"

@@ -19,7 +19,8 @@ module lagrangia_lagrangian_group
     integer, parameter :: piece = 80   !! characters of a formula on one line of the echo,
     integer, parameter :: longest_piece = 500  !! if there is a place to break it; else at most
     character(name_length), parameter :: keys(*) = [character(name_length) :: &
-        "coordinates", "parameters", "t", "v", "l", "definitions", "positions", "equilibrium"]
+        "coordinates", "parameters", "t", "v", "l", "definitions", "positions", "equilibrium", &
+        "constraint"]
     character(*), parameter :: syntax = "a name, its unit and a few words are written "// &
                                         "'r [m] length of the spring'"
 
@@ -55,6 +56,8 @@ contains
         call read_list("positions", formulas%positions)
         if (allocated(error)) return
         call read_list("equilibrium", formulas%equilibrium)
+        if (allocated(error)) return
+        call read_list("constraint", formulas%constraints)
         if (allocated(error)) return
         call refuse_unknown_keys(tree, group, [character(len(keys)) :: keys, &
                                                (force_key(formulas%coordinates(i)), i=1, &
@@ -311,6 +314,7 @@ contains
         end do
         call add_list("positions")
         call add_list("equilibrium")
+        call add_list("constraint")
         lines = [character(scene_line_length) :: lines, "/"]
     contains
         subroutine add_list(key)

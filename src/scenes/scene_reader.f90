@@ -4,6 +4,7 @@ module lagrangia_scene_reader
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_catalogue, only: new_system, system_names
     use lagrangia_command_line, only: word_t
+    use lagrangia_constrained_system, only: constrained_system_t, new_constrained_system
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_formula_start, only: check_formulas_at_start
@@ -232,8 +233,10 @@ contains
         type(written_formulas_t) :: formulas
         type(written_expressions_t) :: expressions
         type(written_system_t), allocatable :: written
+        type(constrained_system_t), allocatable :: bound
         type(error_t), allocatable :: found
         character(:), allocatable :: unused
+        integer :: i
 
         if (any(system_names() == scene%system)) then
             call refuse_value(tree, "scene", "system", "is a system of the lectures; give that "// &
@@ -255,10 +258,17 @@ contains
         if (.not. allocated(found)) then
             call read_values(tree, formulas, error)
             if (allocated(error)) return
-            allocate (written)
-            call new_written_system(formulas, expressions, written, found)
+            if (size(formulas%constraints) > 0) then
+                allocate (bound)
+                call new_constrained_system(formulas, expressions, bound, found)
+                call move_alloc(bound, system)
+            else
+                allocate (written)
+                call new_written_system(formulas, expressions, written, found)
+                call move_alloc(written, system)
+            end if
         end if
-        if (.not. allocated(found)) call refuse_columns(written, found)
+        if (.not. allocated(found)) call refuse_columns(system, size(formulas%positions), found)
         if (allocated(found)) then
             call refuse_formula(tree, found, error)
             return
@@ -266,8 +276,7 @@ contains
         unused = unused_parameters(expressions, formulas)
         if (unused /= "") scene%warning = "no formula contains "//unused
         call formula_lines(tree, formulas, scene%formulas)
-        scene%parameters = written%p
-        call move_alloc(written, system)
+        scene%parameters = [(formulas%parameters(i)%value(1), i=1, size(formulas%parameters))]
     end subroutine read_formula_system
 
     pure function is_group_name(name) result(yes)
@@ -279,9 +288,10 @@ contains
         yes = verify(name, letters//"0123456789_") == 0 .and. scan(name//" ", letters) == 1
     end function is_group_name
 
-    subroutine refuse_columns(system, error)
+    subroutine refuse_columns(system, points, error)
         !! Refuse names that would make two columns, or two keys `expect_`, one.
-        type(written_system_t), intent(in) :: system
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: points  !! that the scene gives
         type(error_t), allocatable, intent(out) :: error
         character(key_length), allocatable :: names(:)
         character(:), allocatable :: key
@@ -292,7 +302,7 @@ contains
             if (all(names(:i - 1) /= names(i))) cycle
             associate (name => names(i)(len("expect_") + 1:))
                 key = "coordinates"
-                if (size(system%stated%points) > 0 .and. &
+                if (points > 0 .and. &
                     any(["x_", "y_", "z_"] == name(:2))) key = "positions"
                 call fail(error, "two columns would be called "//quoted(trim(name))// &
                           ", capital letters aside; take other names", key=key)

@@ -87,7 +87,7 @@ module lagrangia_scene_reference
                 "stand in the group that has the system's name", &
                 "parameters = 'm [kg] mass', 'k [N/m]', 'l0 [m]', 'g [m/s^2]'"), &
         entry_t("lagrangian", "T", "", "", "kinetic energy, a formula of t, coordinates q, "// &
-                "velocities q_dot, parameters and definitions; or L", &
+                "velocities q_dot, parameters and definitions; or L, or masses in positions", &
                 "T = 'm/2 (r_dot^2 + r^2 theta_dot^2)'"), &
         entry_t("lagrangian", "V", "", "0", "potential energy, which may depend on velocities", &
                 "V = 'k/2 (r - l0)^2 - m g r cos(theta)'"), &
@@ -103,6 +103,9 @@ module lagrangia_scene_reference
                 "positions = 'bob, m: r sin(theta), -r cos(theta)'"), &
         entry_t("lagrangian", "equilibrium", "", "near zeros", "where small oscillations are "// &
                 "looked at, a formula for each coordinate", "equilibrium = 'l0 + m g/k', '0'"), &
+        entry_t("lagrangian", "constraint", "", absent, "up to one less than coordinates: in "// &
+                "coordinates, or linear in velocities; each has a multiplier, column lambda1", &
+                "constraint = 'r = l0'"), &
         entry_t("NAME", "PARAMETER", "as is", "as 'lagrangia describe SYSTEM' says", &
                 "the group of "// &
                 "the system's name has its parameters", "l = 2.0"), &

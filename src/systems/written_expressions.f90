@@ -1,12 +1,16 @@
 module lagrangia_written_expressions
     !! From what a scene's group `&lagrangian` says to expressions: its names become symbols, its
     !! formulas are parsed, and refused where they make no system.
+    use lagrangia_canonical_form, only: simplified
+    use lagrangia_derivative, only: time_derivative
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_expression, only: expression_t, operator(-), whole
+    use lagrangia_expression, only: expression_t, operator(*), operator(**), operator(+), &
+                                    operator(-), operator(/), whole
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_symbols, only: check_name, symbols_t
     use lagrangia_text, only: lower, quoted, to_text
+    use lagrangia_written_constraints, only: is_zero, read_constraints
     use lagrangia_written_formulas, only: written_formulas_t
     implicit none (type, external)
     private
@@ -24,6 +28,7 @@ module lagrangia_written_expressions
         type(expression_t), allocatable :: equilibrium(:)   !! of each coordinate; or none
         character(name_length), allocatable :: points(:)    !! their names
         integer :: dimensions = 2                           !! of the points' space
+        type(expression_t), allocatable :: constraints(:)   !! zero along the motion
     end type written_expressions_t
 
 contains
@@ -39,10 +44,13 @@ contains
         allocate (expressions%kinetic, expressions%potential, expressions%lagrangian)
         call add_symbols(formulas, expressions%symbols, error)
         if (.not. allocated(error)) call add_definitions(formulas, expressions%symbols, error)
+        if (.not. allocated(error)) call read_points(formulas, expressions, error)
         if (.not. allocated(error)) call read_lagrangian(formulas, expressions, error)
         if (.not. allocated(error)) call read_forces(formulas, expressions, error)
-        if (.not. allocated(error)) call read_points(formulas, expressions, error)
         if (.not. allocated(error)) call read_equilibrium(formulas, expressions, error)
+        if (.not. allocated(error)) call read_constraints( &
+            formulas%constraints, size(formulas%coordinates), expressions%symbols, &
+            expressions%constraints, error)
     end subroutine read_expressions
 
     function unused_parameters(expressions, formulas) result(text)
@@ -60,6 +68,7 @@ contains
             if (any_depends_on(expressions%places, first + i)) cycle
             if (any_depends_on(expressions%masses, first + i)) cycle
             if (any_depends_on(expressions%equilibrium, first + i)) cycle
+            if (any_depends_on(expressions%constraints, first + i)) cycle
             if (text /= "") text = text//", "
             text = text//trim(formulas%parameters(i)%name)
         end do
@@ -163,7 +172,7 @@ contains
     end subroutine add_definitions
 
     subroutine read_lagrangian(formulas, expressions, error)
-        !! L, or T and V.
+        !! L, or T and V; T of the points with their masses, if it is not given.
         type(written_formulas_t), intent(in) :: formulas
         type(written_expressions_t), intent(inout) :: expressions
         type(error_t), allocatable, intent(out) :: error
@@ -173,9 +182,9 @@ contains
         associate (t => formulas%kinetic, v => formulas%potential, l => formulas%lagrangian)
             if (l /= "" .and. t//v /= "") then
                 call fail(error, "give either L, or T and V: L is T - V", key="l")
-            else if (l == "" .and. t == "") then
-                call fail(error, "is missing; write T = 'm/2 x_dot^2', or L, which is T - V", &
-                          key="t")
+            else if (l == "" .and. t == "" .and. .not. any_mass(expressions%masses)) then
+                call fail(error, "is missing; write T = 'm/2 x_dot^2', or L, which is T - V, "// &
+                          "or positions with their masses", key="t")
             end if
             if (allocated(error)) return
             expressions%kinetic = whole(0)
@@ -183,7 +192,11 @@ contains
             if (l /= "") then
                 call parse("l", l, expressions%lagrangian)
             else
-                call parse("t", t, expressions%kinetic)
+                if (t == "") then
+                    call add_points(size(formulas%coordinates), expressions)
+                else
+                    call parse("t", t, expressions%kinetic)
+                end if
                 if (allocated(error)) return
                 if (v /= "") call parse("v", v, expressions%potential)
                 if (allocated(error)) return
@@ -208,6 +221,37 @@ contains
             if (allocated(error)) error%key = key
         end subroutine parse
     end subroutine read_lagrangian
+
+    pure function any_mass(masses) result(yes)
+        !! Has one of the points a mass?
+        type(expression_t), intent(in) :: masses(:)
+        logical :: yes
+        integer :: i
+
+        yes = .false.
+        do i = 1, size(masses)
+            yes = yes .or. .not. is_zero(masses(i))
+        end do
+    end function any_mass
+
+    subroutine add_points(n, expressions)
+        !! \(T = \sum\frac m2(\dot x^2 + \dot y^2 + \dot z^2)\) of all points.
+        integer, intent(in) :: n  !! coordinates
+        type(written_expressions_t), intent(inout) :: expressions
+        type(expression_t) :: square
+        integer :: i, k, rates(size(expressions%symbols%names))
+
+        rates = 0
+        rates(2:1 + n) = [(1 + n + i, i=1, n)]
+        do i = 1, size(expressions%masses)
+            square = whole(0)
+            do k = 3*i - 2, 3*i
+                square = square + time_derivative(expressions%places(k), rates, 1)**2
+            end do
+            expressions%kinetic = expressions%kinetic + expressions%masses(i)/whole(2)*square
+        end do
+        expressions%kinetic = simplified(expressions%kinetic, expressions%symbols)
+    end subroutine add_points
 
     subroutine read_forces(formulas, expressions, error)
         !! Generalised forces; 0 where none was given.

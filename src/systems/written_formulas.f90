@@ -21,5 +21,6 @@ module lagrangia_written_formulas
         character(longest_formula), allocatable :: definitions(:)  !! `D = theta1 - theta2`
         character(longest_formula), allocatable :: positions(:)    !! `bob, m: x, y` or with z
         character(longest_formula), allocatable :: equilibrium(:)  !! one of each coordinate
+        character(longest_formula), allocatable :: constraints(:)  !! `x^2 + y^2 = l^2`
     end type written_formulas_t
 end module lagrangia_written_formulas

@@ -162,7 +162,7 @@ contains
             type(expression_t), intent(in) :: expression
             character(:), allocatable :: text
 
-            if (as_typed) then
+            if (as_typed .and. typed /= "") then
                 text = trim(adjustl(typed))
             else
                 text = formula_text(expression, expressions%symbols)

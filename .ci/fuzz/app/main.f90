@@ -80,7 +80,8 @@ contains
         character(*), parameter :: sets(*) = [character(36) :: "scene%dt=1e-3", "scene%q=0,1", &
             "scene%columns=t,energy", "wedge%alpha=0.5", "scene%method=rk4", "scene%q(2)=1", &
             "lagrangian%V=k/2 (r - l0)^2", "lagrangian%Q_r=-r_dot", &
-            "lagrangian%T=(r_dot^2 + theta_dot^2)", "two_rods%m1=3"]
+            "lagrangian%T=(r_dot^2 + theta_dot^2)", "two_rods%m1=3", &
+            "lagrangian%constraint=r^2 = l0^2"]
         character(:), allocatable :: text, set
         integer :: number
         type(word_t), allocatable :: overrides(:)

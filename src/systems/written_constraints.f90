@@ -1,0 +1,118 @@
+module lagrangia_written_constraints
+    !! The constraints of a scene's group `&lagrangian`: holonomic, \(f(q) = 0\), or in the
+    !! velocities, \(A(q)\,\dot q = 0\).
+    use lagrangia_canonical_form, only: simplified
+    use lagrangia_derivative, only: derivative
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_expression, only: expression_t, kind_number, operator(*), operator(-), symbol, &
+                                    whole
+    use lagrangia_formula_parser, only: parse_equation, parse_formula
+    use lagrangia_kinds, only: dp
+    use lagrangia_symbols, only: symbols_t
+    use lagrangia_written_formulas, only: longest_formula
+    implicit none (type, external)
+    private
+    public :: constraint_row, is_in_velocities, is_zero, read_constraints
+
+contains
+
+    subroutine read_constraints(texts, n, symbols, constraints, error)
+        !! `x^2 + y^2 = l^2`, or with velocities `x_dot = r sin(theta) phi_dot`; a formula without
+        !! '=' is zero.
+        character(longest_formula), intent(in) :: texts(:)             !! one each
+        integer, intent(in) :: n                                       !! coordinates
+        type(symbols_t), intent(in) :: symbols                         !! t, q, q_dot, parameters
+        type(expression_t), allocatable, intent(out) :: constraints(:) !! left less right sides
+        type(error_t), allocatable, intent(out) :: error
+        !! blames `constraint` and the element; `column N: ` before a message about one place
+        type(expression_t) :: left, right
+        integer :: i
+
+        allocate (constraints(size(texts)))
+        do i = 1, size(texts)
+            if (index(texts(i), "=") > 0) then
+                call parse_equation(trim(texts(i)), symbols, left, right, error)
+            else
+                call parse_formula(trim(texts(i)), symbols, left, error)
+                right = whole(0)
+            end if
+            if (.not. allocated(error)) then
+                constraints(i) = left - right
+                call check(constraints(i), n, symbols, error)
+            end if
+            if (.not. allocated(error) .and. i == n) call fail(error, "as many constraints as "// &
+                "coordinates leave nothing that moves")
+            if (.not. allocated(error)) cycle
+            error%key = "constraint"
+            error%element = i
+            return
+        end do
+    end subroutine read_constraints
+
+    subroutine check(constraint, n, symbols, error)
+        !! Refuse the time, velocities in other ways than \(A\,\dot q\), and what binds nothing.
+        type(expression_t), intent(in) :: constraint
+        integer, intent(in) :: n
+        type(symbols_t), intent(in) :: symbols
+        type(error_t), allocatable, intent(out) :: error
+        type(expression_t) :: rest, row
+        integer :: i, k
+
+        if (constraint%depends_on(1)) then
+            call fail(error, "contains the time, which a constraint cannot here; choose "// &
+                      "coordinates that obey it, so that the time is in T and V")
+            return
+        end if
+        if (.not. any([(constraint%depends_on(1 + i), i=1, 2*n)])) then
+            call fail(error, "contains no coordinate and no velocity, and so binds nothing")
+            return
+        end if
+        if (.not. is_in_velocities(constraint, n)) return
+        rest = constraint
+        do i = 1, n
+            row = simplified(derivative(constraint, 1 + n + i), symbols)
+            do k = 2 + n, 1 + 2*n
+                if (.not. row%depends_on(k)) cycle
+                call fail(error, "is not linear in "//trim(symbols%names(k))//"; a constraint "// &
+                          "on velocities is a sum of terms with one velocity each")
+                return
+            end do
+            rest = rest - row*symbol(1 + n + i)
+        end do
+        rest = simplified(rest, symbols)
+        if (is_zero(rest)) return
+        call fail(error, "has a term without a velocity beside terms with one, which is not "// &
+                  "possible here")
+    end subroutine check
+
+    pure function is_in_velocities(constraint, n) result(yes)
+        !! Rather than in coordinates alone.
+        type(expression_t), intent(in) :: constraint  !! of t, q, q_dot, parameters
+        integer, intent(in) :: n                      !! coordinates
+        logical :: yes
+        integer :: i
+
+        yes = any([(constraint%depends_on(1 + n + i), i=1, n)])
+    end function is_in_velocities
+
+    pure function constraint_row(constraint, i, n, symbols) result(row)
+        !! \(A_i\): the derivative by the velocity, or, of a holonomic one, by the coordinate.
+        type(expression_t), intent(in) :: constraint  !! of t, q, q_dot, parameters
+        integer, intent(in) :: i, n                   !! which coordinate, of how many
+        type(symbols_t), intent(in) :: symbols        !! their names
+        type(expression_t) :: row
+
+        row = simplified(derivative(constraint, merge(n, 0, is_in_velocities(constraint, n)) &
+                                    + 1 + i), symbols)
+    end function constraint_row
+
+    pure function is_zero(expression) result(yes)
+        !! By its form.
+        type(expression_t), intent(in) :: expression  !! of any symbols
+        logical :: yes
+
+        yes = expression%count == 1
+        if (yes) yes = expression%nodes(1)%kind == kind_number
+        if (yes) yes = abs(expression%nodes(1)%number%value) <= 0.0_dp
+    end function is_zero
+end module lagrangia_written_constraints
