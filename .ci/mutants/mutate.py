@@ -231,7 +231,9 @@ class Build:
         self.unit = self.newest("unit")
         self.objects = os.path.dirname(self.newest("app_main.f90.o"))
         self.library = self.newest("liblagrangia.a")
-        macros = tomllib.load(open(os.path.join(root, "fpm.toml"), "rb"))["preprocess"]["cpp"]["macros"]
+        manifest = tomllib.load(open(os.path.join(root, "fpm.toml"), "rb"))
+        self.libraries = ["-l" + name for name in manifest["build"]["link"]]
+        macros = manifest["preprocess"]["cpp"]["macros"]
         self.flags = subprocess.check_output(["sh", "-c", "echo " + " ".join("-D" + m for m in macros)], text=True).split()
         self.sources = Sources(root)
         self.order = self.sources.in_order()
@@ -306,8 +308,9 @@ class Build:
         own = {source: place(source) for source in self.sources.uses if source.startswith(first)}
         own.update({s: o for s, o in objects.items() if s.startswith((first, "src/"))})
         output = os.path.join(self.work, name)
-        status, _ = run(["gfortran", *own.values(), self.library, "-llapack", "-lblas", "-lgsl", "-lgslcblas",
-                         "-o", output], self.root, GENEROUS)
+        status, text = run(["gfortran", *own.values(), self.library, *self.libraries, "-o", output], self.root, GENEROUS)
+        if status != 0 and not objects:
+            sys.exit(text[-2000:])
         return output if status == 0 else None
 
 
@@ -409,6 +412,7 @@ def main():
     os.mkdir(os.environ["TMPDIR"])
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     build = Build(root, work)
+    build.link("unit", {})  # ends the program where it cannot link
     times = suite_times(build)
     limits = Limits(300)
     if not words.quick:
