@@ -52,6 +52,9 @@ contains
                                       least_and_largest_after_a_time))
         call suite%addTest(TestMethod("a_grid_is_written_line_by_line", &
                                       a_grid_is_written_line_by_line))
+        call suite%addTest(TestMethod("lyapunov_exponents_that_are_known", &
+                                      lyapunov_exponents_that_are_known))
+        call suite%addTest(TestMethod("lyapunov_exponent_of_ueda", lyapunov_exponent_of_ueda))
     end function sweep_suite
 
     subroutine make(text, over, keep, sweep, error)
@@ -338,6 +341,56 @@ contains
         call assertTrue(minval(all%values(3, :)) > 0.5_dp .and. maxval(all%values(3, :)) < 0.7_dp, &
                         "a quarter of a period and a little")
     end subroutine least_and_largest_after_a_time
+
+    subroutine lyapunov_exponents_that_are_known()
+        !! Upright at rest a pendulum falls as \(e^{t\sqrt{g/l}}\), within the 5 s in which the
+        !! rounding of pi stays below 1e-8; a damped oscillator forgets as \(e^{-bt/2m}\); a free
+        !! one neither forgets nor falls, nor does the pendulum far from the top.
+        type(sweep_result_t) :: result
+        type(sweep_t) :: sweep
+        type(error_t), allocatable :: error
+        character(*), parameter :: both(2) = [character(14) :: "lyapunov", "lyapunov error"]
+        character(*), parameter :: times = "method='gauss16', tolerance=1e-11, "
+
+        call compute("&scene system='pendulum', "//times//"duration=5, q=1 / &sweep after=1 /", &
+                     ["theta=pi:pi:1"], both, 1, result, error, sweep)
+        call assertFalse(allocated(error), "upright")
+        call assertEqual(sqrt(9.81_dp), result%values(1, 1), 1e-5_dp, "upright")
+        call assertTrue(result%values(2, 1) < 1e-4_dp, "the same in all windows")
+        call compute("&scene system='oscillator', "//times//"duration=200, q=1 / &oscillator "// &
+                     "b=0.3 /", ["m=1:2:2"], both, 1, result, error, sweep)
+        call assertFalse(allocated(error), "damped")
+        call assertEqual([-0.15_dp, -0.075_dp], result%values(1, :), 5e-3_dp, "damped")
+        call assertTrue(all(abs(result%values(1, :) - [-0.15_dp, -0.075_dp]) < &
+                            4*result%values(2, :) + 1e-4_dp), "within four errors")
+        call compute("&scene system='pendulum', "//times//"duration=400, q=1 /", &
+                     ["theta=0.5:2:2"], ["lyapunov"], 1, result, error, sweep)
+        call assertEqual(0.0_dp, maxval(abs(result%values)), 0.03_dp, "ln(t)/t of a shear")
+        call compute("&scene system='bouncing_ball', "//times//"duration=1, q=1 /", &
+                     ["y=1:2:2"], ["lyapunov"], 1, result, error, sweep)
+        call assertTrue(allocated(error), "across impacts there is none")
+    end subroutine lyapunov_exponents_that_are_known
+
+    subroutine lyapunov_exponent_of_ueda()
+        !! 0.1034 /s for b = 0.05, f = 7.5. Source: Sprott, Chaos and Time-Series Analysis (2003),
+        !! appendix A. Only so well as the window allows.
+        character(*), parameter :: text = "&scene system='ueda', method='gauss16', "// &
+            "tolerance=1e-7, duration=900, q=2.5 / &lagrangian coordinates='x', "// &
+            "parameters='b', L='x_dot^2/2 - x^4/4 + 7.5 x cos(t)', Q_x='-b x_dot' / "// &
+            "&ueda b=0.05 / &sweep after=100 /"
+        type(sweep_result_t) :: result
+        type(sweep_t) :: sweep
+        type(error_t), allocatable :: error
+
+        call compute(text, ["x=2:3:4"], [character(14) :: "lyapunov", "lyapunov error"], 2, &
+                     result, error, sweep)
+        call assertFalse(allocated(error), "four starts")
+        call assertTrue(all(result%values(2, :) > 1e-4_dp .and. result%values(2, :) < 0.02_dp), &
+                        "the stated errors")
+        call assertTrue(all(abs(result%values(1, :) - 0.1034_dp) < 4*result%values(2, :)), &
+                        "each within four errors of the book's")
+        call assertEqual(0.1034_dp, sum(result%values(1, :))/4, 0.01_dp, "their mean")
+    end subroutine lyapunov_exponent_of_ueda
 
     subroutine a_grid_is_written_line_by_line()
         !! Two axes, the second the faster; the script draws a map.

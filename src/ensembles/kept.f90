@@ -9,6 +9,8 @@ module lagrangia_kept
     !! | `exact period` | by the closed form of the start |
     !! | `first theta = 0.5 rising` | the time of the first event |
     !! | `flip theta2` | the time at which the angle first goes over the top: plus or minus pi |
+    !! | `lyapunov` | the largest Lyapunov exponent, from the time `after` to the end |
+    !! | `lyapunov error` | its standard error |
     !!
     !! What does not happen, or is not known, is NaN.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
@@ -23,11 +25,12 @@ module lagrangia_kept
     implicit none (type, external)
     private
     public :: keeper_t, kept_t, kept_text_length, read_kept
-    public :: keeps_end, keeps_event, keeps_exact_period, keeps_flip, keeps_largest, keeps_period, &
-              keeps_smallest
+    public :: keeps_end, keeps_event, keeps_exact_period, keeps_flip, keeps_largest, keeps_lyapunov, &
+              keeps_lyapunov_error, keeps_period, keeps_smallest
 
     integer, parameter :: keeps_end = 1, keeps_largest = 2, keeps_smallest = 3, keeps_period = 4
     integer, parameter :: keeps_exact_period = 5, keeps_event = 6, keeps_flip = 7
+    integer, parameter :: keeps_lyapunov = 8, keeps_lyapunov_error = 9
     integer, parameter :: kept_text_length = 120
 
     type :: kept_t
@@ -99,10 +102,13 @@ contains
                           " characters is needed")
             else if (text == "") then
                 call fail(error, "what is to be kept? a column, 'max COLUMN', 'min COLUMN', "// &
-                          "'period', 'exact period', 'first EVENT', 'flip ANGLE'")
+                          "'period', 'exact period', 'first EVENT', 'flip ANGLE', 'lyapunov'")
             else if (text == "exact period") then
                 this%kind = keeps_exact_period
                 this%unit = "s"
+            else if (text == "lyapunov" .or. text == "lyapunov error") then
+                this%kind = merge(keeps_lyapunov, keeps_lyapunov_error, text == "lyapunov")
+                this%unit = "1/s"
             else if (first == "period") then
                 this%kind = keeps_period
                 this%unit = "s"

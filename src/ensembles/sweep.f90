@@ -5,11 +5,13 @@ module lagrangia_sweep
     use lagrangia_columns, only: columns_t
     use lagrangia_dense_run, only: drive
     use lagrangia_errors, only: error_t, fail, status_numbers
+    use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kept, only: keeper_t, keeps_end, keeps_event, keeps_exact_period, keeps_flip, &
-                              keeps_largest, keeps_period, keeps_smallest, kept_t, &
-                              kept_text_length, read_kept
+                              keeps_largest, keeps_lyapunov, keeps_lyapunov_error, keeps_period, &
+                              keeps_smallest, kept_t, kept_text_length, read_kept
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_methods, only: auto, exact, workhorse
+    use lagrangia_lyapunov, only: lyapunov_exponent
+    use lagrangia_methods, only: auto, exact, new_adaptive, workhorse
     use lagrangia_observer, only: observer_box_t
     use lagrangia_period, only: period_t
     use lagrangia_random_draws, only: random_t
@@ -230,6 +232,10 @@ contains
         real(dp) :: t_end
         integer :: i, n
 
+        if (any(is_lyapunov(sweep%kept%kind))) then
+            call keep_lyapunov(sweep, scene, system, values, error)
+            if (allocated(error) .or. all(is_lyapunov(sweep%kept%kind))) return
+        end if
         call plan_steps(scene, system, plan, error, closed_form)
         if (.not. allocated(error)) call plan_events(scene, system, plan%events, error)
         if (allocated(error)) return
@@ -250,6 +256,7 @@ contains
         do i = 1, size(values)
             associate (kept => sweep%kept(i))
                 select case (kept%kind)
+                case (keeps_lyapunov, keeps_lyapunov_error); cycle
                 case (keeps_end); values(i) = keeper%row(kept%column)
                 case (keeps_largest); values(i) = keeper%high(kept%column)
                 case (keeps_smallest); values(i) = keeper%low(kept%column)
@@ -266,6 +273,38 @@ contains
             end associate
         end do
     end subroutine follow
+
+    elemental function is_lyapunov(kind) result(yes)
+        !! It is measured by a run of its own.
+        integer, intent(in) :: kind
+        logical :: yes
+
+        yes = kind == keeps_lyapunov .or. kind == keeps_lyapunov_error
+    end function is_lyapunov
+
+    subroutine keep_lyapunov(sweep, scene, system, values, error)
+        !! The Lyapunov exponent and its error, by the scene's method and tolerance; where it takes
+        !! steps of `dt`, by the workhorse and its own.
+        type(sweep_t), intent(in) :: sweep
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        real(dp), intent(inout) :: values(:)
+        type(error_t), allocatable, intent(out) :: error
+        class(dense_integrator_t), allocatable :: method
+        real(dp) :: exponent, uncertainty
+
+        if (scene%tolerance > 0.0_dp .and. scene%method /= exact) then
+            call new_adaptive(trim(scene%method), method)
+            method%tolerance = scene%tolerance
+        else
+            call new_adaptive(workhorse, method)
+        end if
+        call lyapunov_exponent(system, method, scene%t0, sweep%after, scene%t0 + scene%duration, &
+                               scene%q, scene%v, exponent, uncertainty, error)
+        if (allocated(error)) return
+        where (sweep%kept%kind == keeps_lyapunov) values = exponent
+        where (sweep%kept%kind == keeps_lyapunov_error) values = uncertainty
+    end subroutine keep_lyapunov
 
     elemental function earlier(a, b) result(t)
         !! The earlier of two times, of which either may be NaN.

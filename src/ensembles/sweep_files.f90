@@ -105,8 +105,7 @@ contains
         character(*), intent(in) :: file, reading  !! its words for gnuplot, behind the name
         character(:), allocatable :: text
         type(lines_t) :: script
-        integer, allocatable :: groups(:)
-        integer :: i, k, n
+        integer :: groups(size(sweep%kept)), i, k, n
 
         groups = panels(sweep)
         n = maxval(groups)

@@ -900,6 +900,27 @@ static const char *const files[][2] = {
         "  after = 150.0\n"
         "/\n"
     },
+    {"data/sweeps/ueda.nml",
+        "&scene\n"
+        "  title = 'Ueda''s oscillator: order and chaos as the drive grows'\n"
+        "  system = 'ueda'\n"
+        "  method = 'gauss16'\n"
+        "  tolerance = 1e-8, duration = 1200.0, samples = 100\n"
+        "  q = 2.5\n"
+        "/\n"
+        "&lagrangian\n"
+        "  coordinates = 'x [m] displacement'\n"
+        "  parameters = 'b [kg/s] damping', 'c [N/m^3] stiffness', 'f [N] drive'\n"
+        "  L = 'x_dot^2/2 - c x^4/4 + f x cos(t)'\n"
+        "  Q_x = '-b x_dot'\n"
+        "/\n"
+        "&ueda b = 0.05, c = 1.0, f = 7.5 /\n"
+        "&sweep\n"
+        "  over = 'f = 5.5:13.5:81'\n"
+        "  keep = 'lyapunov', 'lyapunov error'\n"
+        "  after = 200.0\n"
+        "/\n"
+    },
     {"data/templates/animation.html",
         "<!DOCTYPE html>\n"
         "<html lang=\"en\">\n"

@@ -113,10 +113,11 @@ module lagrangia_scene_reference
                 "perhaps with ':log' or ':random'; NAME is a coordinate, its _dot, or a "// &
                 "parameter", "over = 'theta = -pi:pi:100', 'm = 0.1:10:50:log'"), &
         entry_t("sweep", "keep", "", absent, "of each trajectory: a column at the end, 'max "// &
-                "COLUMN', 'min COLUMN', 'period', 'exact period', 'first EVENT', 'flip ANGLE'", &
+                "COLUMN', 'min COLUMN', 'period', 'exact period', 'first EVENT', "// &
+                "'flip ANGLE', 'lyapunov'", &
                 "keep = 'period', 'max theta_dot'"), &
-        entry_t("sweep", "after", "s", "t0", "samples before this time don't count for max and "// &
-                "min", "after = 0.5"), &
+        entry_t("sweep", "after", "s", "t0", "samples before this time don't count for max, "// &
+                "min and lyapunov", "after = 0.5"), &
         entry_t("sweep", "seed", "", "1", "of values drawn at random", "seed = 7"), &
         entry_t("sweep", "threads", "", "one a processor", "that compute at a time, a number "// &
                 "up to 10000", "threads = 2")]

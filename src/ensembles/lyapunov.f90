@@ -1,0 +1,190 @@
+module lagrangia_lyapunov
+    !! The largest Lyapunov exponent of a motion: the rate at which a small displacement grows,
+    !! \(\lambda = \langle\ln|\delta(t)|\rangle/t\), with its uncertainty.
+    !!
+    !! The displacement obeys the linear equations along the motion,
+    !! \(\ddot{\delta q} = \partial a/\partial q\,\delta q + \partial a/\partial v\,\delta v\), and
+    !! has length 1 again after each interval. Source: Benettin, Galgani, Giorgilli & Strelcyn,
+    !! Meccanica 15, 9 (1980).
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t, fail, status_numbers
+    use lagrangia_hyperdual, only: hyperdual_t
+    use lagrangia_integrator, only: dense_integrator_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_system, only: system_t
+    implicit none (type, external)
+    private
+    public :: lyapunov_exponent
+
+    integer, parameter :: windows = 16  !! whose scatter gives the uncertainty
+    integer, parameter :: intervals = 8 !! in each window
+
+    type, extends(system_t) :: displaced_t
+        !! A motion and a displacement of it, as one system of twice as many coordinates: first
+        !! those of the motion, then their displacements.
+        class(system_t), allocatable :: of
+        real(dp) :: size = 1.0_dp  !! of the coordinates: how far is far
+    contains
+        procedure :: describe
+        procedure :: configure
+        procedure :: accelerations
+        procedure :: lagrangian
+        procedure :: energy
+    end type displaced_t
+
+contains
+
+    subroutine lyapunov_exponent(system, method, t0, after, t_end, q0, v0, exponent, uncertainty, &
+                                 error)
+        !! The exponent of the motion through a state, measured from `after` to `t_end`. Its
+        !! uncertainty is the standard error of the mean over 16 windows: what the window would
+        !! change, not what is left of a motion that has not settled.
+        class(system_t), intent(in) :: system                !! of any kind, without contacts
+        class(dense_integrator_t), intent(inout) :: method   !! an adaptive one, with its tolerance
+        real(dp), intent(in) :: t0, after, t_end             !! s, in this order
+        real(dp), intent(in) :: q0(:), v0(:)                 !! the state at `t0`, (ndof)
+        real(dp), intent(out) :: exponent, uncertainty       !! 1/s
+        type(error_t), allocatable, intent(out) :: error     !! the method refuses, or diverges
+        type(displaced_t) :: displaced
+        real(dp) :: q(2*size(q0)), v(2*size(v0)), growth, length, rates(windows), start, finish
+        integer :: i, k, n
+
+        exponent = 0.0_dp
+        uncertainty = 0.0_dp
+        if (system%contacts > 0) then
+            call fail(error, "no Lyapunov exponent is measured across impacts")
+            return
+        end if
+        n = size(q0)
+        call new_displaced(displaced, system, q0)
+        q = [q0, [(1.0_dp/(i + 1), i=1, n)]]
+        v = [v0, [((-1.0_dp)**i/(i + 2), i=1, n)]]
+        call method%prepare(displaced, error)
+        if (allocated(error)) return
+        start = t0
+        do k = 0, windows
+            growth = 0.0_dp
+            do i = 1, intervals
+                if (k == 0) then
+                    finish = t0 + i*(after - t0)/intervals
+                else
+                    finish = after + (t_end - after)*((k - 1)*intervals + i)/(windows*intervals)
+                end if
+                if (.not. finish > start) cycle
+                call go_on(displaced, method, start, finish, q, v, error)
+                if (allocated(error)) return
+                length = norm2([q(n + 1:), v(n + 1:)])
+                if (.not. (ieee_is_finite(length) .and. length > 0.0_dp)) then
+                    call fail(error, "the displacement is lost: the motion diverges", &
+                              status_numbers)
+                    return
+                end if
+                growth = growth + log(length)
+                q(n + 1:) = q(n + 1:)/length
+                v(n + 1:) = v(n + 1:)/length
+                start = finish
+            end do
+            if (k > 0) rates(k) = growth*windows/(t_end - after)
+        end do
+        exponent = sum(rates)/windows
+        uncertainty = sqrt(sum((rates - exponent)**2)/(windows*(windows - 1.0_dp)))
+    end subroutine lyapunov_exponent
+
+    subroutine go_on(displaced, method, t0, t_end, q, v, error)
+        !! From `t0` to `t_end`, in steps of the method's own.
+        type(displaced_t), intent(in) :: displaced
+        class(dense_integrator_t), intent(inout) :: method
+        real(dp), intent(in) :: t0, t_end
+        real(dp), intent(inout) :: q(:), v(:)
+        type(error_t), allocatable, intent(out) :: error
+
+        call method%start(displaced, t0, q, v, t_end)
+        do while (method%t_new < t_end)
+            call method%step(displaced, error)
+            if (allocated(error)) return
+        end do
+        call method%state_at(t_end, q, v)
+    end subroutine go_on
+
+    subroutine new_displaced(self, system, q0)
+        !! The motion of `system` and a displacement. How far is far is told by the coordinates of
+        !! the start; from 0, and for angles, it is 1.
+        type(displaced_t), intent(out) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: q0(:)
+        type(description_t) :: d
+
+        allocate (self%of, source=system)
+        self%ndof = 2*system%ndof
+        self%velocity_forces = .true.
+        self%time_dependent = system%time_dependent
+        self%nonconservative = .true.
+        call system%describe(d)
+        if (any(d%coordinates%unit == "rad") .or. maxval(abs(q0)) <= 0.0_dp) return
+        self%size = min(1.0_dp, maxval(abs(q0)))
+    end subroutine new_displaced
+
+    pure subroutine describe(self, d)
+        !! See `system_t`.
+        class(displaced_t), intent(in) :: self
+        type(description_t), intent(out) :: d
+        type(description_t) :: of
+
+        call self%of%describe(of)
+        d%name = of%name
+        d%title = of%title
+        d%coordinates = [of%coordinates, of%coordinates]
+    end subroutine describe
+
+    pure subroutine configure(self, values, error)
+        !! See `system_t`.
+        class(displaced_t), intent(inout) :: self
+        real(dp), intent(in) :: values(:)
+        type(error_t), allocatable, intent(out) :: error
+
+        call self%of%configure(values, error)
+    end subroutine configure
+
+    pure subroutine accelerations(self, t, q, v, a)
+        !! Those of the motion, and their derivative along the displacement \(\delta\) by central
+        !! differences at \(\pm h\delta\), \(h|\delta| = \epsilon^{1/3}\) of the coordinates' size:
+        !! right to about \(\epsilon^{2/3}\), 4e-11.
+        class(displaced_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: a(self%ndof)
+        real(dp), dimension(self%ndof/2) :: q0, v0, dq, dv, forward, backward
+        real(dp) :: h
+        integer :: n
+
+        n = self%ndof/2
+        q0 = q(:n)
+        v0 = v(:n)
+        dq = q(n + 1:)
+        dv = v(n + 1:)
+        h = self%size*epsilon(h)**(1.0_dp/3.0_dp)/max(norm2([dq, dv]), tiny(h))
+        call self%of%accelerations(t, q0, v0, forward)
+        a(:n) = forward
+        call self%of%accelerations(t, q0 + h*dq, v0 + h*dv, forward)
+        call self%of%accelerations(t, q0 - h*dq, v0 - h*dv, backward)
+        a(n + 1:) = (forward - backward)/(2.0_dp*h)
+    end subroutine accelerations
+
+    pure function lagrangian(self, t, q, v) result(l)
+        !! See `system_t`: the displacement has none that is needed.
+        class(displaced_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t) :: l
+
+        l = self%of%lagrangian(t, q(:self%of%ndof), v(:self%of%ndof))
+    end function lagrangian
+
+    pure function energy(self, t, q, v) result(e)
+        !! See `system_t`: of the motion.
+        class(displaced_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: e
+
+        e = self%of%energy(t, q(:self%of%ndof), v(:self%of%ndof))
+    end function energy
+end module lagrangia_lyapunov
