@@ -47,7 +47,8 @@ contains
         real(dp), intent(out) :: exponent, uncertainty       !! 1/s
         type(error_t), allocatable, intent(out) :: error     !! the method refuses, or diverges
         type(displaced_t) :: displaced
-        real(dp) :: q(2*size(q0)), v(2*size(v0)), growth, length, rates(windows), start, finish
+        real(dp) :: q(2*size(q0)), v(2*size(v0)), growth, length, start, finish
+        real(dp) :: rates(0:windows)  ! of each window; number 0 is before `after`
         integer :: i, k, n
 
         exponent = 0.0_dp
@@ -85,10 +86,10 @@ contains
                 v(n + 1:) = v(n + 1:)/length
                 start = finish
             end do
-            if (k > 0) rates(k) = growth*windows/(t_end - after)
+            rates(k) = growth*windows/(t_end - after)
         end do
-        exponent = sum(rates)/windows
-        uncertainty = sqrt(sum((rates - exponent)**2)/(windows*(windows - 1.0_dp)))
+        exponent = sum(rates(1:))/windows
+        uncertainty = sqrt(sum((rates(1:) - exponent)**2)/(windows*(windows - 1.0_dp)))
     end subroutine lyapunov_exponent
 
     subroutine go_on(displaced, method, t0, t_end, q, v, error)

@@ -61,8 +61,11 @@ contains
         character(name_length), allocatable :: adaptive(:), names(:)
         type(description_t) :: d
         integer :: i
+        logical :: known
 
-        if (.not. any(method_names() == method) .and. .not. any(adaptive_names() == method)) then
+        known = any(method_names() == method)
+        if (.not. known) known = any(adaptive_names() == method)
+        if (.not. known) then
             names = method_names()
             adaptive = adaptive_names()
             do i = 1, size(adaptive)
