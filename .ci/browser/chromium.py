@@ -96,7 +96,7 @@ class Page:
             {"name": "prefers-reduced-motion", "value": "reduce" if calm else "no-preference"}])
         self.call("Page.navigate", url="file://" + os.path.abspath(path))
         for _ in range(200):
-            if self.value("document.readyState") == "complete":
+            if self.value("location.protocol + document.readyState") == "file:complete":
                 break
             time.sleep(0.05)
 

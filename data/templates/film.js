@@ -42,11 +42,14 @@
     const raised = [...String(+exponent)].map(c => c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c]).join("");
     return mantissa.replace("-", "−") + "·10" + raised;
   }
-  function number(x, n = 4) {
+  const unsigned = text => /^-[0.]*$/.test(text) ? text.slice(1) : text;  // no sign of a zero
+  const exponent = x => Math.floor(Math.log10(x) + 1e-12);
+  function number(x, n = 4, scale = Math.abs(x)) {  // n digits of the largest that stands in this place
     if (!Number.isFinite(x)) return "–";
-    if (x === 0) return "0";
-    const size = Math.abs(x);
-    return power(size >= 1e5 || size < 1e-3 ? x.toExponential(n - 2) : x.toFixed(Math.max(0, n - 1 - Math.floor(Math.log10(Math.max(size, 1))))));
+    if (!(scale > 0)) return "0";
+    const k = exponent(scale);
+    if (k < 5 && k > -3) return unsigned(x.toFixed(Math.max(0, n - 1 - k))).replace("-", "−");
+    return power(`${unsigned((x / 10 ** k).toFixed(n - 1))}e${k}`);
   }
 
   function make(tag, attributes = {}, ...children) {
@@ -61,6 +64,7 @@
     return unit * ([1, 2, 5].find(m => m * unit >= rough) ?? 10);
   }
 
+  const sized = new Set(["box", "cart"]);                 // their second place is a size
   const endless = new Set(["line", "ground"]);            // only their first place bounds the picture
   const fixed = new Set(["ground", "plane", "field", "axis", "trail", "line", "pivot", "frame"]);  // no ghost
 
@@ -78,7 +82,9 @@
       this.kinetic = series(data.kinetic);
       this.distance = data.distance === undefined ? undefined : this.channels[data.distance];
       this.duration = this.end - this.start;
-      this.solid = this.places.some(place => place[2] !== 0);
+      const spaces = this.parts.flatMap(({ kind, at: list }) => kind === "field" ? [] : sized.has(kind) ? list.slice(0, 1) : list);
+      this.solid = spaces.some(k => this.places[k][2] !== 0);
+      this.scroll();
       this.bound();
     }
     frame(t) {  // the last interval may be shorter
@@ -89,33 +95,67 @@
       return this.count - 2 + Math.min(1, (t - this.start - before) / Math.max(this.duration - before, 1e-300));
     }
     time(i) { return Math.min(this.start + i * this.interval, this.end); }
-    bound() {
+    scroll() {  // how much of the time the graph of the energies shows: some 60 turns of T
+      const [lo, hi] = range([this.kinetic]), still = !(hi - lo > 1e-6 * Math.max(Math.abs(lo), Math.abs(hi)));
+      let turns = 0, from = at(this.kinetic, 0), way = 0;
+      for (let i = 1; i < this.count && !still; i++) {  // what is smaller than a twentieth of its range is none
+        const x = at(this.kinetic, i);
+        if (way * (x - from) > 0) from = x;
+        else if (Math.abs(x - from) > (hi - lo) / 20) { way = Math.sign(x - from); from = x; turns++; }
+      }
+      this.span = this.duration * Math.min(1, 60 / Math.max(turns, 1));
+    }
+    box(i) {  // around all that is drawn at frame i
       const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
       const take = (r, rho = 0) => r.forEach((x, k) => {
         low[k] = Math.min(low[k], x - rho);
         high[k] = Math.max(high[k], x + rho);
       });
-      const stride = Math.max(1, Math.floor(this.count / 600));
-      for (let i = 0; i < this.count; i += stride) {
-        for (const places of [this.places, this.ghost]) {
-          if (!places) continue;
-          const r = k => places[k].map(series => at(series, i));
-          for (const { kind, at: list } of this.parts) {
-            if (kind === "field") continue;
-            if (kind === "box" || kind === "cart") take(r(list[0]), Math.max(...r(list[1]).slice(0, 2)) / 2);
-            else if (endless.has(kind)) take(r(list[0]));
-            else if (kind === "circle" || kind === "wheel" || kind === "round") {
-              const c = r(list[0]), a = r(list[1]);
-              take(c, Math.hypot(...a.map((x, k) => x - c[k])));
-            } else list.forEach(k => take(r(k)));
-          }
+      for (const places of [this.places, this.ghost]) {
+        if (!places) continue;
+        const r = k => places[k].map(series => at(series, i));
+        for (const { kind, at: list } of this.parts) {
+          if (kind === "field") continue;
+          if (sized.has(kind)) take(r(list[0]), Math.max(...r(list[1]).slice(0, 2)) / 2);
+          else if (endless.has(kind)) take(r(list[0]));
+          else if (kind === "circle" || kind === "wheel" || kind === "round") {
+            const c = r(list[0]), a = r(list[1]);
+            take(c, Math.hypot(...a.map((x, k) => x - c[k])));
+          } else list.forEach(k => take(r(k)));
         }
       }
       if (!Number.isFinite(low[0])) take([0, 0, 0], 1);
       if (!this.solid) low[2] = high[2] = 0;
-      this.extent = Math.hypot(...high.map((x, k) => x - low[k])) || 1;
+      return [low, high];
+    }
+    bound() {
+      const width = ([low, high]) => Math.hypot(...high.map((x, k) => x - low[k]));
+      const stride = Math.max(1, Math.floor(this.count / 600));
+      let [low, high] = this.box(0);
+      this.widest = 0;
+      for (let i = 0; i < this.count; i += stride) {
+        const box = this.box(i);
+        this.widest = Math.max(this.widest, width(this.moving(box, i)));
+        low = low.map((x, k) => Math.min(x, box[0][k]));
+        high = high.map((x, k) => Math.max(x, box[1][k]));
+      }
       this.low = low;
       this.high = high;
+      this.extent = width([low, high]) || 1;
+      this.far = !this.solid && this.widest > 0 && this.widest < 0.15 * (high[0] - low[0]);  // the camera goes along
+    }
+    moving(box, i) {  // the same without what stands still
+      const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+      for (const { kind, at: list } of this.parts) {
+        if (kind === "field" || kind === "trail") continue;
+        const place = this.places[list[0]];
+        if (endless.has(kind) && place.every(series => typeof series === "number")) continue;
+        for (const k of sized.has(kind) ? list.slice(0, 1) : list) this.places[k].forEach((series, axis) => {
+          low[axis] = Math.min(low[axis], at(series, i));
+          high[axis] = Math.max(high[axis], at(series, i));
+        });
+      }
+      return Number.isFinite(low[0]) ? [low, high] : box;
     }
   }
 
@@ -144,17 +184,25 @@
       super(label, parent);
       this.azimuth = -1.05;
       this.elevation = 0.45;
-      this.box = parent;
+      this.element = parent;
     }
-    look(film, w, h) {  // from places, m, to pixels
+    look(film, s, w, h) {  // from places, m, to pixels
       const [sa, ca, se, ce] = [Math.sin(this.azimuth), Math.cos(this.azimuth), Math.sin(this.elevation), Math.cos(this.elevation)];
       const flat = film.solid ? r => [-sa * r[0] + ca * r[1], -se * ca * r[0] - se * sa * r[1] + ce * r[2]] : r => [r[0], r[1]];
       let x0 = Infinity, x1 = -Infinity, y0 = Infinity, y1 = -Infinity;
+      let { low, high } = film;
+      if (film.far) {
+        const [from, to] = film.moving(undefined, s), middle = from.map((x, k) => (x + to[k]) / 2);
+        const reach = 0.7 * Math.max(film.widest, high[1] - low[1]);
+        low = [middle[0] - reach, low[1], low[2]];
+        high = [middle[0] + reach, high[1], high[2]];
+      }
       for (let corner = 0; corner < 8; corner++) {
-        const [x, y] = flat([0, 1, 2].map(k => corner >> k & 1 ? film.high[k] : film.low[k]));
+        const [x, y] = flat([0, 1, 2].map(k => corner >> k & 1 ? high[k] : low[k]));
         x0 = Math.min(x0, x); x1 = Math.max(x1, x); y0 = Math.min(y0, y); y1 = Math.max(y1, y);
       }
-      const margin = 7 * this.unit + 4, width = Math.max(x1 - x0, 0.25 * film.extent), height = Math.max(y1 - y0, 0.25 * film.extent);
+      const margin = 7 * this.unit + 4, least = film.far ? 0 : 0.25 * film.extent;
+      const width = Math.max(x1 - x0, least), height = Math.max(y1 - y0, least);
       this.scale = Math.max(1e-300, Math.min((w - 2 * margin) / width, (h - 2 * margin) / height));
       this.flat = flat;
       this.project = r => {
@@ -167,7 +215,7 @@
       this.unit = Math.max(1.3, Math.min(w, h) / 170);
       this.size = [w, h];
       this.colors = colors;
-      this.look(film, w, h);
+      this.look(film, s, w, h);
       pen.lineCap = pen.lineJoin = "round";
       pen.font = `${Math.max(13, 4.5 * this.unit)}px system-ui, "DejaVu Sans", sans-serif`;
       if (film.parts.length === 0) return this.dials(film, s);
@@ -343,7 +391,7 @@
       if (typeof series === "number") { lo = Math.min(lo, series); hi = Math.max(hi, series); continue; }
       for (const x of series) { if (x < lo) lo = x; if (x > hi) hi = x; }
     }
-    const pad = hi > lo ? 0.06 * (hi - lo) : Math.max(Math.abs(hi) * 1e-3, 1e-3);
+    const pad = hi - lo > 1e-6 * Math.abs(hi) ? 0.06 * (hi - lo) : 1e-3 * Math.abs(hi) || 1;
     return [lo - pad, hi + pad];
   }
 
@@ -356,7 +404,11 @@
       this.x = x => this.left + (x - xs[0]) / (xs[1] - xs[0]) * (this.right - this.left);
       this.y = y => this.bottom - (y - ys[0]) / (ys[1] - ys[0]) * (this.bottom - this.top);
       pen.lineWidth = 1;
-      const label = (v, step) => power(Math.abs(v) >= 1e5 || step < 1e-3 ? v.toExponential(1) : v.toFixed(Math.max(0, -Math.floor(Math.log10(step) + 1e-9))));
+      const label = (v, step) => {
+        const places = Math.max(0, -Math.floor(Math.log10(step) + 1e-9)), digits = Math.max(0, Math.floor(Math.log10(Math.abs(v) / step) + 1e-9));
+        if (Math.abs(v) < step / 2) return "0";
+        return power(places > 5 || Math.abs(v) >= 1e5 ? v.toExponential(Math.min(digits, 8)) : v.toFixed(places));
+      };
       const ticks = ([lo, hi], count, draw) => {
         const step = niceStep(hi - lo, count);
         for (let k = Math.ceil(lo / step); k * step <= hi; k++) draw(k * step, label(k * step, step));
@@ -374,7 +426,7 @@
       pen.fillText(yLabel, 0.4 * size, 1.2 * size);
       this.legendAt = this.right;
     }
-    curve(xs, ys, count, color, { width = 1.6, dash = [], alpha = 1, to = count - 1 } = {}) {
+    curve(xs, ys, count, color, { width = 1.6, dash = [], alpha = 1, first = 0, to = count - 1 } = {}) {
       const pen = this.context;
       pen.save();
       pen.globalAlpha = alpha;
@@ -384,7 +436,7 @@
       pen.lineJoin = "round";
       pen.beginPath();
       const stride = Math.max(1, Math.floor(count / 3000));
-      for (let i = 0; i <= to; i += stride) pen.lineTo(this.x(xs(i)), this.y(ys(i)));
+      for (let i = first; i <= Math.min(to, count - 1); i += stride) pen.lineTo(this.x(xs(i)), this.y(ys(i)));
       pen.stroke();
       pen.restore();
     }
@@ -424,7 +476,7 @@
     build() {
       const { page, section } = this;
       const facts = [page.system, ...page.facts.map(written)].filter(text => text).join(" · ");
-      const head = make("div", { class: "head" }, make(this.alone ? "h1" : "h2", {}, page.title), make("p", { class: "facts" }, facts));
+      const head = make("div", { class: "head" }, ...this.alone ? [make("h1", {}, page.title)] : [], make("p", { class: "facts" }, facts));
       this.pace = make("p", { class: "facts" });
       head.append(this.pace);
       const stage = make("div", { class: "stage" });
@@ -437,7 +489,7 @@
       this.tempo.value = "1";
       controls.append(this.button, this.scrub, this.tempo);
       if (this.films.length > 1) {
-        this.chooser = make("select", { "aria-label": "which film" }, ...this.films.map((film, i) => make("option", { value: i }, film.name)));
+        this.chooser = make("select", { "aria-label": "which film" }, ...this.films.map((film, i) => make("option", { value: i }, film.name + (film.omega === undefined ? "" : `, ω = ${number(film.omega)} rad/s`))));
         controls.append(this.chooser);
       }
       const box = (text, on) => {
@@ -464,7 +516,7 @@
       const { film } = this;
       this.time = film.start;
       this.stage.film = film;
-      this.stage.box.classList.toggle("solid", film.solid);
+      this.stage.element.classList.toggle("solid", film.solid);
       this.coordinate = Math.min(this.coordinate, film.states.length - 1);
       this.selector.replaceChildren(...film.coordinates.map(({ name }, i) => make("option", { value: i }, `${letter(name)}, ${dotted(name)}`)));
       this.selector.value = String(this.coordinate);
@@ -472,13 +524,25 @@
       this.trail.label.hidden = !film.parts.some(part => part.kind === "trail");
       this.ghost.label.hidden = !film.ghost;
       this.ghostName.textContent = film.reference ?? "";
+      const rate = film.omega !== undefined ? `ω = ${number(film.omega)} rad/s` : film.growth !== undefined ? `grows as exp(${number(film.growth)} t/s)` : "";
       const base = film.factor === 1 ? "real time" : film.factor < 1 ? `slow motion, 1 s of film is ${number(film.factor, 2)} s` : `time lapse, 1 s of film is ${number(film.factor, 2)} s`;
-      this.pace.textContent = [film.note, base].filter(text => text).join(" · ");
-      const rows = [["t", "s"]];
-      film.coordinates.forEach(({ name, unit }) => rows.push([letter(name), unit], [dotted(name), `${unit}/s`]));
-      rows.push(["E", "J"], [film.conserved ? "E − E(0)" : "T", "J"]);
-      if (film.distance) rows.push([`from ${film.reference}`, film.parts.length ? "m" : ""]);
-      this.values.replaceChildren(...rows.map(([name, unit]) => make("tr", {}, make("th", { scope: "row" }, name), make("td"), make("td", { class: "unit" }, written(unit)))));
+      this.pace.textContent = [rate, film.note, base].filter(text => text).join(" · ");
+      const largest = series => typeof series === "number" ? Math.abs(series) : series.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
+      const cells = [], rows = [];
+      const value = (name, unit, get, scale) => {
+        const cell = make("td");
+        cells.push([cell, get, scale]);
+        return [make("th", { scope: "row" }, name), cell, make("td", { class: "unit" }, written(unit))];
+      };
+      const series = (name, unit, list) => value(name, unit, s => at(list, s), largest(list));
+      rows.push([...value("t", "s", () => this.time, Math.max(Math.abs(film.start), Math.abs(film.end))),
+        ...film.distance ? value(`off ${film.reference}`, film.parts.length ? "m" : "", s => { const x = 10 ** at(film.distance, s); return x < 2e-18 ? 0 : x; }) : []]);
+      film.coordinates.forEach(({ name, unit }, i) => rows.push([...series(letter(name), unit, film.states[i][0]),
+        ...series(dotted(name), unit === "1" ? "1/s" : `${unit}/s`, film.states[i][1])]));
+      const e = at(film.energy, 0), change = typeof film.energy === "number" ? 0 : film.energy.map(x => x - e);
+      rows.push([...series("E", "J", film.energy), ...film.conserved ? series("E − E(0)", "J", change) : series("T", "J", film.kinetic)]);
+      this.cells = cells;
+      this.values.replaceChildren(...rows.map(row => make("tr", {}, ...row)));
       this.draw();
     }
     listen() {
@@ -509,7 +573,7 @@
       for (const kind of ["pointerup", "pointercancel"]) canvas.addEventListener(kind, () => { this.grip = undefined; });
       this.energies.canvas.addEventListener("pointerdown", event => {
         const { left, right } = this.energies, x = event.offsetX;
-        this.seek(this.film.start + Math.max(0, Math.min(1, (x - left) / (right - left))) * this.film.duration);
+        this.seek(this.from + Math.max(0, Math.min(1, (x - left) / (right - left))) * this.film.span);
       });
     }
     key(event) {
@@ -561,19 +625,19 @@
       this.stage.draw(film, s, colors, { trail: this.trail.checked, ghost, recent });
       this.drawPhase(film, s, colors, ghost);
       this.drawEnergies(film, s, colors);
-      const values = [time];
-      film.states.forEach(pair => pair.forEach(series => values.push(at(series, s))));
-      values.push(at(film.energy, s), film.conserved ? at(film.energy, s) - at(film.energy, 0) : at(film.kinetic, s));
-      if (film.distance) values.push(10 ** at(film.distance, s));
-      values.forEach((value, i) => { this.values.rows[i].cells[1].textContent = i === 0 ? time.toFixed(Math.max(0, Math.min(9, 3 - Math.floor(Math.log10(film.duration || 1))))) : number(value); });
-      if (film.distance && values.at(-1) < 2e-18) this.values.rows[values.length - 1].cells[1].textContent = "0";
+      for (const [cell, get, scale] of this.cells) {
+        const x = get(s);
+        cell.textContent = number(x, 4, scale ?? Math.abs(x));
+      }
       this.scrub.value = film.duration > 0 ? 1000 * (time - film.start) / film.duration : 0;
       this.scrub.setAttribute("aria-valuetext", `t = ${number(time)} s`);
     }
     drawPhase(film, s, colors, ghost) {
       const [q, v] = film.states[this.coordinate], { name, unit } = film.coordinates[this.coordinate], other = ghost && film.ghostStates?.[this.coordinate];
       const get = series => i => at(series, i), graph = this.phase;
-      graph.axes(range(other ? [q, other[0]] : [q]), range(other ? [v, other[1]] : [v]), `${letter(name)} [${unit}]`, `${dotted(name)} [${unit}/s]`, colors);
+      const bounds = film.phaseRange ??= new Map(), key = `${this.coordinate} ${Boolean(other)}`;
+      if (!bounds.has(key)) bounds.set(key, [range(other ? [q, other[0]] : [q]), range(other ? [v, other[1]] : [v])]);
+      graph.axes(...bounds.get(key), `${letter(name)} [${unit}]`, `${dotted(name)} [${unit}/s]`, colors);
       if (other) graph.curve(get(other[0]), get(other[1]), film.count, colors.ghost, { alpha: 0.5, dash: [5, 4] });
       graph.curve(get(q), get(v), film.count, colors.body, { alpha: 0.35 });
       graph.curve(get(q), get(v), film.count, colors.body, { to: Math.floor(s) });
@@ -582,12 +646,14 @@
     }
     drawEnergies(film, s, colors) {
       const graph = this.energies, { energy, kinetic } = film, rest = i => at(energy, i) - at(kinetic, i), t = i => film.time(i);
-      const low = [], all = typeof kinetic === "number" && typeof energy === "number" ? 1 : film.count;
-      for (let i = 0; i < all; i++) low.push(rest(i));
-      graph.axes([film.start, film.end > film.start ? film.end : film.start + 1], range([energy, kinetic, low]), "t [s]", "energy [J]", colors);
-      graph.curve(t, rest, film.count, colors.ghost);
-      graph.curve(t, i => at(kinetic, i), film.count, colors.second);
-      graph.curve(t, i => at(energy, i), film.count, colors.body, { width: 2.4 });
+      if (!film.energyRange) film.energyRange = range([energy, kinetic, Float64Array.from({ length: film.count }, (_, i) => rest(i))]);
+      const from = Math.max(film.start, Math.min(film.end - film.span, this.time - film.span / 2));
+      graph.axes([from, film.span > 0 ? from + film.span : from + 1], film.energyRange, "t [s]", "energy [J]", colors);
+      this.from = from;
+      const limits = { first: Math.floor(film.frame(from)), to: Math.ceil(film.frame(from + film.span)) };
+      graph.curve(t, rest, film.count, colors.ghost, limits);
+      graph.curve(t, i => at(kinetic, i), film.count, colors.second, limits);
+      graph.curve(t, i => at(energy, i), film.count, colors.body, { ...limits, width: 2.4 });
       graph.legend("E − T", colors.ghost);
       graph.legend("T", colors.second);
       graph.legend("E", colors.body);

@@ -4,7 +4,7 @@ module lagrangia_modes_command
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: note, put, put_line
     use lagrangia_damped_rates, only: damped_rates
-    use lagrangia_data_files, only: check_picture, draw
+    use lagrangia_data_files, only: check_picture, data_path, draw
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_interrupt, only: interrupt_status
@@ -12,8 +12,10 @@ module lagrangia_modes_command
     use lagrangia_kinds, only: dp, i8
     use lagrangia_mode_picture, only: has_positions, mode_picture_path, write_mode_picture
     use lagrangia_modes_files, only: prepare_modes, write_mode
+    use lagrangia_modes_film, only: animate_modes
     use lagrangia_number_list, only: read_numbers
     use lagrangia_number_text, only: scientific
+    use lagrangia_output_file, only: refuse_unwritable
     use lagrangia_progress, only: progress_t
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, &
@@ -42,7 +44,7 @@ contains
         type(modes_t) :: modes, others
         type(progress_t) :: progress
         real(dp), allocatable :: at(:)
-        character(:), allocatable :: folder, kind, warning
+        character(:), allocatable :: folder, kind, page, warning
         logical :: elsewhere
         integer :: j
 
@@ -71,6 +73,10 @@ contains
             if (allocated(error)) return
             if (warning /= "" .and. .not. line%has("quiet")) call note(warning)
         end if
+        page = data_path(line%value_of("output", "data/output"), trim(d%name)//"_modes.html", &
+                         "text")
+        if (line%has("animate")) call refuse_unwritable(page, error)
+        if (allocated(error)) return
         call find_modes(system, at, line%has("at"), modes, error)
         if (allocated(error)) return
         elsewhere = allocated(modes%analytic%elsewhere) .and. .not. line%has("at")
@@ -86,7 +92,8 @@ contains
             if (elsewhere) call put_line("")
             if (elsewhere) call print_modes(system, others)
         end if
-        if (.not. (line%has("output") .or. line%has("plot"))) return
+        if (line%has("animate")) call animate_modes(system, modes, page, error)
+        if (allocated(error) .or. .not. (line%has("output") .or. line%has("plot"))) return
         call progress%restart(line%arguments(1)%text, line%has("quiet"))
         do j = 1, size(modes%omega2)
             call write_mode(system, modes, j, folder, error)

@@ -19,6 +19,7 @@ module lagrangia_program
     use lagrangia_modes_command, only: modes_command
     use lagrangia_principle, only: principle_command
     use lagrangia_registry, only: check_line, commands, help_text, options
+    use lagrangia_report_command, only: report_command
     use lagrangia_resources, only: check_memory, check_stack
     use lagrangia_run_command, only: run_command
     use lagrangia_show, only: show_command
@@ -98,6 +99,7 @@ contains
             case ("show"); call show_command(line, error)
             case ("modes"); call modes_command(line, error)
             case ("principle"); call principle_command(line, error)
+            case ("report"); call report_command(line, error)
             case default; call run_command(line, error)
             end select
         end if

@@ -27,7 +27,7 @@ module lagrangia_registry
                  any_text=.true.), &
         option_t("format", needs_value, "text|csv|npy", "of the data files"), &
         option_t("plot", may_have_value, "png|svg|pdf", "draw the data files by gnuplot"), &
-        option_t("animate", no_value, "", "a film of each scene, one HTML page, beside its data"), &
+        option_t("animate", no_value, "", "a film of each scene, or of the modes: one HTML page"), &
         option_t("error-estimate", no_value, "", "state the final state to the digits that hold"), &
         option_t("quick", no_value, "", "measure less, in under 20 s"), &
         option_t("long", no_value, "", "up to 10^8 steps of every method"), &
@@ -58,8 +58,10 @@ module lagrangia_registry
                   "set output format plot overlay animate error-estimate json quiet"), &
         command_t("compare", "SCENE", "by --methods, or from many --starts: one table, one "// &
                   "picture", 1, "set methods starts output format plot json quiet"), &
+        command_t("report", "[SCENE...]", "one HTML page: scorecard, pictures, films, "// &
+                  "derivations, errata", -1, "set output quiet"), &
         command_t("modes", "SYSTEM", "or a scene's: small oscillations, frequencies, shapes", 1, &
-                  "set at output plot json quiet"), &
+                  "set at output plot animate json quiet"), &
         command_t("check", "[SYSTEM...]", "the audit: equations, invariants, structure, Gauss, "// &
                   "orders", -1, "set json"), &
         command_t("errata", "[ID]", "the slips in the lecture notes, and what each would do", 1, &

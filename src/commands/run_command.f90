@@ -28,7 +28,7 @@ module lagrangia_run_command
     use lagrangia_version, only: is_optimised
     implicit none (type, external)
     private
-    public :: run_command
+    public :: choose_scenes, chosen_t, run_command
 
     type :: chosen_t
         !! One scene of the run, read, planned and found good.
@@ -217,20 +217,21 @@ contains
         call draw(overlay_path(folder, overlay), kind, error)
     end subroutine overlay_runs
 
-    subroutine choose_scenes(line, folder, format, chosen, error)
+    subroutine choose_scenes(line, folder, format, chosen, error, page)
         !! The named scenes or all; every one is read and planned, once, and all files of the run
         !! are compared, so that nothing runs if one is wrong or a file would be lost.
-        type(command_line_t), intent(in) :: line
-        character(*), intent(in) :: folder, format
-        type(chosen_t), allocatable, intent(out) :: chosen(:)
-        type(error_t), allocatable, intent(out) :: error
+        type(command_line_t), intent(in) :: line  !! what was typed
+        character(*), intent(in) :: folder, format  !! of the data files
+        type(chosen_t), allocatable, intent(out) :: chosen(:)  !! ready to run
+        type(error_t), allocatable, intent(out) :: error  !! names the scene
+        character(*), intent(in), optional :: page  !! a file beside theirs
         type(places_t) :: places
         type(word_t), allocatable :: paths(:)
         type(scene_t) :: scene
         class(system_t), allocatable :: system
         integer :: i, turn
 
-        if (line%command == "") then
+        if (line%command == "" .or. (present(page) .and. size(line%arguments) == 0)) then
             call shipped_scenes(paths)
         else if (size(line%arguments) == 0) then
             call fail(error, "run what? 'lagrangia list scenes' shows the names; a path ends "// &
@@ -242,6 +243,8 @@ contains
                 if (allocated(error)) return
             end do
         end if
+        if (allocated(error)) return
+        if (present(page)) call places%add(page, "report", "", error)
         if (allocated(error)) return
         allocate (chosen(size(paths)))
         do turn = 1, 2  ! what is read comes before what is written

@@ -1,11 +1,12 @@
 module lagrangia_animation
     !! A scene as a film: one HTML page that needs nothing else, no network and no server.
+    use lagrangia_channels, only: bytes_beside, bytes_of_number
     use lagrangia_data_files, only: film_path
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_film, only: count_channels, film_json
-    use lagrangia_frames, only: add_reference, film_speed, find_pace, frames_t, record_frames, &
-                                window_of
+    use lagrangia_frames, only: add_reference, film_speed, find_pace, finer_run, finer_words, &
+                                frames_t, record_frames, window_of
     use lagrangia_html, only: fill_template, html_text, script_json
     use lagrangia_json, only: json_item, json_object, json_pair, json_string
     use lagrangia_kinds, only: dp
@@ -20,7 +21,6 @@ module lagrangia_animation
     public :: animate_scene, page_of_film, page_of_films, scene_film, write_page
 
     integer, parameter :: most_bytes = 215000      !! of the series of a page, of 300 kB
-    integer, parameter :: bytes_of_channel = 160   !! besides its numbers
     integer, parameter :: least_frames = 120
     integer, parameter :: most_frames = 4000
     integer, parameter :: frames_for_two = 400     !! where there are fewer, one motion is shown
@@ -70,6 +70,8 @@ contains
             note = ""
             if (window < scene%duration) note = "the first "//to_text(window)// &
                 " s of "//to_text(scene%duration)//" s"
+            if (title == finer_run .and. note /= "") note = note//"; "
+            if (title == finer_run) note = note//finer_run//": "//finer_words()
             film = json_object(json_pair("name", trim(scene%name))//json_pair("note", note)// &
                                json_pair("factor", film_speed(window, omega))// &
                                json_pair("loop", .false.)//json_pair("reference", title)//members)
@@ -80,7 +82,8 @@ contains
         !! Frames of so many series.
         integer, intent(in) :: channels
 
-        room_for = min(most_frames, (most_bytes - bytes_of_channel*channels)/(3*channels))
+        room_for = min(most_frames, (most_bytes - bytes_beside*channels)/ &
+                       (bytes_of_number*channels))
     end function room_for
 
     function page_of_film(plan, film) result(json)
@@ -116,6 +119,7 @@ contains
         facts = json_string(method)
         do i = 1, size(d%parameters)
             associate (p => d%parameters(i))
+                if (all(abs(p%value(:p%count)) <= 0.0_dp)) cycle
                 values = ""
                 do k = 1, p%count
                     values = values//" "//to_text(p%value(k))

@@ -6,11 +6,13 @@ module lagrangia_channels
     implicit none (type, external)
     private
     public :: channels_t
-    public :: unpacked
+    public :: bytes_beside, bytes_of_number, unpacked
 
     character(64), parameter :: digits = &
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_"
     integer, parameter :: steps = 64**3 - 1
+    integer, parameter :: bytes_of_number = 3
+    integer, parameter :: bytes_beside = 160  !! of a series, besides its numbers, and of its use
 
     type :: channels_t
         !! Series of one length, as JSON.

@@ -13,22 +13,24 @@ module lagrangia_film
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: count_channels, film_json
+    public :: count_channels, film_json, furthest
 
     integer, parameter :: most_coordinates = 6  !! whose values and phase portrait are shown
 
 contains
 
-    subroutine film_json(system, frames, reference, film, error)
+    subroutine film_json(system, frames, reference, film, error, kinetic, potential)
         !! Members of a JSON object: `count`, `interval`, `t`, `parts`, `places`, ...
         class(system_t), intent(in) :: system       !! whose motion it is
         type(frames_t), intent(in) :: frames        !! the motion, one state at least
         type(frames_t), intent(in) :: reference     !! of the same times; `count` 0: none
         character(:), allocatable, intent(out) :: film    !! for `json_object`
         type(error_t), allocatable, intent(out) :: error  !! a figure that cannot be read
+        real(dp), intent(in), optional :: kinetic(:), potential(:)
+        !! energies, J, `(count)`, where they are not those of the states
         type(channels_t) :: channels
         type(figure_t) :: figure
-        real(dp), allocatable :: r(:, :, :), other(:, :, :), distance(:)
+        real(dp), allocatable :: r(:, :, :), other(:, :, :), distance(:), own(:), rest(:)
         real(dp) :: extent
         integer :: i, n, which
 
@@ -42,7 +44,17 @@ contains
                json_pair("start", frames%t(1))//json_pair("end", frames%t(n))// &
                json_item("parts", parts_json(figure))// &
                json_item("places", places_json(r, channels))
-        call add_series(system, frames, n, film, channels)
+        call add_states(system, frames, n, film, channels)
+        if (present(kinetic) .and. present(potential)) then
+            call add_energies(kinetic, potential, .true., film, channels)
+        else
+            allocate (own(n), rest(n))
+            do i = 1, n
+                own(i) = kinetic_energy(system, frames%t(i), frames%q(:, i), frames%v(:, i))
+                rest(i) = system%energy(frames%t(i), frames%q(:, i), frames%v(:, i)) - own(i)
+            end do
+            call add_energies(own, rest, system%conserves_energy(), film, channels)
+        end if
         if (reference%count == n) then
             call place_all(figure, system, reference, n, other)
             allocate (distance(n))
@@ -170,9 +182,8 @@ contains
         json = json//"]"
     end function places_json
 
-    subroutine add_series(system, frames, n, film, channels)
-        !! Coordinates with their velocities, energy, and the part of it that is quadratic in the
-        !! velocities.
+    subroutine add_states(system, frames, n, film, channels)
+        !! Coordinates and their velocities.
         class(system_t), intent(in) :: system
         type(frames_t), intent(in) :: frames
         integer, intent(in) :: n
@@ -180,7 +191,6 @@ contains
         type(channels_t), intent(inout) :: channels
         type(description_t) :: d
         character(:), allocatable :: json
-        real(dp) :: energy(n), kinetic(n)
         integer :: i
 
         call system%describe(d)
@@ -193,15 +203,47 @@ contains
         end do
         film = film//json_item("coordinates", "["//json//"]")// &
                json_item("states", states_json(system, frames, n, channels))
-        do i = 1, n
-            energy(i) = system%energy(frames%t(i), frames%q(:, i), frames%v(:, i))
-            kinetic(i) = kinetic_energy(system, frames%t(i), frames%q(:, i), frames%v(:, i))
-        end do
-        call channels%number(energy, json)
+    end subroutine add_states
+
+    subroutine add_energies(kinetic, rest, conserved, film, channels)
+        !! The part that is quadratic in the velocities, and with the rest the energy function.
+        real(dp), intent(in) :: kinetic(:), rest(:)
+        logical, intent(in) :: conserved
+        character(:), allocatable, intent(inout) :: film
+        type(channels_t), intent(inout) :: channels
+        character(:), allocatable :: json
+
+        call channels%number(kinetic + rest, json)
         film = film//json_item("energy", json)
         call channels%number(kinetic, json)
-        film = film//json_item("kinetic", json)//json_pair("conserved", system%conserves_energy())
-    end subroutine add_series
+        film = film//json_item("kinetic", json)//json_pair("conserved", conserved)
+    end subroutine add_energies
+
+    function furthest(system, at, shape, share) result(amplitude)
+        !! How many `shape`s away from `at` a place of the figure has moved by `share` of the
+        !! figure's size, to first order; without a figure, a coordinate by `share`.
+        class(system_t), intent(in) :: system       !! with its parameters
+        real(dp), intent(in) :: at(:), shape(:)     !! coordinates; a direction, (ndof)
+        real(dp), intent(in) :: share               !! of the size
+        real(dp) :: amplitude
+        real(dp), parameter :: step = 1e-6_dp
+        type(figure_t) :: figure
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: here(:, :), there(:, :)
+        real(dp) :: moved, still(size(at))
+
+        amplitude = share/maxval(abs(shape))
+        call new_figure(system, 1.0_dp, at, at, figure, error)
+        if (allocated(error)) return
+        allocate (here(3, figure%places), there(3, figure%places))
+        still = 0.0_dp
+        call figure%place(system, 0.0_dp, at, still, here)
+        call figure%place(system, 0.0_dp, at + step*amplitude*shape, still, there)
+        if (figure%places == 0) return
+        moved = sqrt(maxval(sum((there - here)**2, 1)))/step
+        if (moved > 0.0_dp) amplitude = amplitude*share/moved* &
+            max(norm2(maxval(here, 2) - minval(here, 2)), epsilon(moved))
+    end function furthest
 
     function states_json(system, frames, n, channels) result(json)
         !! `[[q, v], ...]`, a pair a coordinate.

@@ -20,8 +20,10 @@ module lagrangia_frames
     private
     public :: frames_t
     public :: add_reference, film_speed, find_pace, record_frames, window_of
+    public :: finer_run, finer_words
 
     real(dp), parameter :: pi = acos(-1.0_dp)
+    character(*), parameter :: finer_run = "finer run"  !! what stands beside, if no closed form
     real(dp), parameter :: fine_tolerance = 1e-13_dp  !! of the finer run
     integer, parameter :: probes = 256                !! states from which the pace is found
     integer, parameter :: enough_periods = 20         !! to know the pace of a motion
@@ -97,12 +99,19 @@ contains
         finer%method = workhorse
         finer%compensated = .false.
         finer%tolerance = fine_tolerance
-        title = workhorse//", tolerance "//to_text(fine_tolerance)
+        title = finer_run
         call record_frames(finer, system, closed_form, frames%interval*(frames%count - 1), &
                            frames%count - 1, reference, error)
         if (allocated(error)) reference%count = 0
         reference%count = min(reference%count, frames%count)
     end subroutine add_reference
+
+    function finer_words() result(text)
+        !! The method of the finer run.
+        character(:), allocatable :: text
+
+        text = workhorse//", tolerance "//to_text(fine_tolerance)
+    end function finer_words
 
     subroutine find_pace(scene, system, closed_form, probe, omega, error)
         !! How fast the motion is: \(\omega^2 = \overline{|a|^2}/\overline{|v|^2}\) over all points,
@@ -126,31 +135,26 @@ contains
     end subroutine find_pace
 
     function pace(system, frames) result(omega)
-        !! See `find_pace`. A body that turns counts as well, by its rate.
+        !! See `find_pace`.
         class(system_t), intent(in) :: system
         type(frames_t), intent(in) :: frames
         real(dp) :: omega
         type(description_t) :: d
-        type(hyperdual_t), allocatable :: r(:, :), phi(:)
+        type(hyperdual_t), allocatable :: r(:, :)
         type(hyperdual_t) :: q(system%ndof), t
         type(motion_state_t) :: state
-        real(dp) :: speed, bend, turn
+        real(dp) :: speed, bend
         integer :: i
 
         call system%describe(d)
-        allocate (r(3, 0), phi(0))
+        allocate (r(3, 0))
         if (allocated(d%points)) then
             deallocate (r)
             allocate (r(3, size(d%points)))
         end if
-        if (allocated(d%rotors)) then
-            deallocate (phi)
-            allocate (phi(size(d%rotors)))
-        end if
         allocate (state%a(system%ndof))
         speed = 0.0_dp
         bend = 0.0_dp
-        turn = 0.0_dp
         do i = 1, frames%count
             state%t = frames%t(i)
             state%q = frames%q(:, i)
@@ -166,12 +170,9 @@ contains
                 speed = speed + sum(state%v**2)
                 bend = bend + sum(state%a**2)
             end if
-            if (size(phi) == 0) cycle
-            call system%angles(t, q, phi)
-            turn = max(turn, maxval(abs(phi%d1)))
         end do
-        omega = turn
-        if (speed > 0.0_dp) omega = max(omega, sqrt(bend/speed))
+        omega = 0.0_dp
+        if (speed > 0.0_dp) omega = sqrt(bend/speed)
         if (.not. omega < huge(omega)) omega = 0.0_dp
     end function pace
 

@@ -4,7 +4,7 @@ module lagrangia_html
     use lagrangia_text, only: word_t
     implicit none (type, external)
     private
-    public :: fill_template, html_text, script_json
+    public :: fill_template, html_text, replaced, script_json
 
 contains
 
@@ -43,18 +43,27 @@ contains
         !! JSON that may stand in a `script` element: no `<` in it begins or ends anything.
         character(*), intent(in) :: json  !! with `<` in strings only
         character(:), allocatable :: text
+
+        text = replaced(json, "<", "\u003c")
+    end function script_json
+
+    pure function replaced(text, old, new) result(other)
+        !! `text` with `new` in each place of `old`.
+        character(*), intent(in) :: text      !! any bytes
+        character(*), intent(in) :: old, new  !! `old` not empty; every blank counts
+        character(:), allocatable :: other
         integer :: at, from
 
-        text = ""
+        other = ""
         from = 1
         do
-            at = index(json(from:), "<")
+            at = index(text(from:), old)
             if (at == 0) exit
-            text = text//json(from:from + at - 2)//"\u003c"
-            from = from + at
+            other = other//text(from:from + at - 2)//new
+            from = from + at - 1 + len(old)
         end do
-        text = text//json(from:)
-    end function script_json
+        other = other//text(from:)
+    end function replaced
 
     pure subroutine fill_template(template, names, texts, page)
         !! The template with each `@NAME@` replaced; what is filled in is not looked at.

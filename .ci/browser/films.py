@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+"""Opens the films of all shipped scenes in Chromium, without a window and without a network.
+
+    films.py PROGRAM [SCENE...]     exit status: 0 all holds, 1 something does not, 3 there is no chromium
+
+Of each page: less than 300 kB, nothing on the console, no request, a canvas that changes while it plays, a slider
+and keys that move the time, names for everything that can be used, calm and dark where the reader wants that.
+"""
+import glob
+import os
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import chromium  # noqa: E402
+
+NASTY = "</script><script>hacked = 1</script><img src=x onerror=hacked=1> \"q\" <!-- & ''q'' \\u003c"
+WAIT = "new Promise(done => setTimeout(done, 250))"
+failed = 0
+
+
+def check(what, good, more=""):
+    global failed
+    if not good:
+        failed += 1
+        print(f"FAILED  {what} {more}".rstrip())
+
+
+def make(program, folder, words):
+    done = subprocess.run([program, *words, "--animate", "--quiet", "--output", folder], capture_output=True, text=True)
+    check(" ".join(words), done.returncode in (0, 1), done.stderr.strip())
+
+
+def examine(browser, path, title=None):
+    name = os.path.basename(path)
+    size = os.path.getsize(path)
+    check(f"{name}: less than 300 kB", size < 300000, str(size))
+    text = open(path, encoding="utf-8").read()
+    check(f"{name}: is complete", text.rstrip().endswith("</html>"))
+    check(f"{name}: no address of a network", "http://" not in text and "https://" not in text)
+
+    page = browser.open(path)
+    value = page.value
+    check(f"{name}: plays by itself", value("films[0].playing && document.querySelector('button').textContent") == "Pause")
+    picture = "document.querySelector('canvas').toDataURL()"
+    first = value(picture)
+    value(WAIT)
+    check(f"{name}: the picture moves", value(picture) != first)
+    value("films[0].play(false)")
+    times = []
+    for place in (0, 250, 500, 1000):
+        value(f"(slider => {{ slider.value = {place}; slider.dispatchEvent(new Event('input')); }})"
+              "(document.querySelector('input[type=range]'))")
+        times.append((value("films[0].time"), value("films[0].cells[0][0].textContent"), value(picture)))
+    check(f"{name}: the slider moves the time", times[0][0] < times[1][0] < times[2][0] < times[3][0])
+    check(f"{name}: the slider goes from the start to the end",
+          times[0][0] == value("films[0].film.start") and times[3][0] == value("films[0].film.end"))
+    check(f"{name}: the table says the time", len({text for _, text, _ in times}) == 4, str([t[1] for t in times]))
+    check(f"{name}: the slider changes the picture", len({shot for _, _, shot in times}) > 2)
+    value("document.activeElement.blur()")
+    page.key("Home")
+    check(f"{name}: Home", value("films[0].time == films[0].film.start"))
+    page.key("ArrowRight")
+    check(f"{name}: an arrow", value("films[0].time > films[0].film.start"))
+    page.key("ArrowLeft")
+    check(f"{name}: the other arrow", value("films[0].time - films[0].film.start < 1e-9 * films[0].film.duration"))
+    page.key("ArrowUp")
+    check(f"{name}: faster", value("films[0].speed") > 1)
+    page.key("End")
+    check(f"{name}: End", value("films[0].time == films[0].film.end"))
+    page.key(" ", " ")
+    check(f"{name}: the space bar plays", value("films[0].playing"))
+    page.key(" ", " ")
+    check(f"{name}: the space bar stops", not value("films[0].playing"))
+    check(f"{name}: numbers in the table", not value("/NaN|undefined|–/.test(document.querySelector('table').textContent)"),
+          value("document.querySelector('table').textContent"))
+    check(f"{name}: pictures have names",
+          value("[...document.querySelectorAll('canvas')].every(c => c.getAttribute('role') == 'img' && c.ariaLabel)"))
+    check(f"{name}: controls have names", value(
+        "[...document.querySelectorAll('button, input, select')].every(c => c.ariaLabel || c.textContent.trim() || c.closest('label'))"))
+    check(f"{name}: nothing is drawn outside", value("document.documentElement.scrollWidth <= innerWidth"))
+    if title is not None:
+        check(f"{name}: the title as it is", value("document.querySelector('h1').textContent") == title,
+              value("document.querySelector('h1').textContent"))
+        check(f"{name}: and in the head", value("document.title") == title, value("document.title"))
+    check(f"{name}: a text is only a text", value("typeof hacked") == "undefined" and value("document.images.length") == 0)
+    for complaint in page.complaints():
+        check(f"{name}: quiet", False, complaint)
+    light = value("getComputedStyle(document.body).backgroundColor")
+    page.close()
+
+    page = browser.open(path, 390, 844, dark=True, calm=True)
+    check(f"{name}: calm where that is wanted", not page.value("films[0].playing"))
+    check(f"{name}: dark where that is wanted", page.value("getComputedStyle(document.body).backgroundColor") != light)
+    check(f"{name}: fits a phone", page.value("document.documentElement.scrollWidth <= innerWidth"))
+    for complaint in page.complaints():
+        check(f"{name}: quiet on a phone", False, complaint)
+    page.close()
+
+
+def main():
+    program = os.path.abspath(sys.argv[1])
+    if not chromium.find():
+        print("not run: no chromium")
+        return 3
+    scenes = sys.argv[2:] or sorted(os.path.basename(f)[:-4] for f in glob.glob("data/scenes/*.nml"))
+    with tempfile.TemporaryDirectory() as folder:
+        for scene in scenes:
+            make(program, folder, ["run", scene])
+        if not sys.argv[2:]:
+            for system in ("cart_pendulum", "double_pendulum", "hanging_chain", "charged_trap", "rotating_hoop"):
+                make(program, folder, ["modes", system])
+            nasty = os.path.join(folder, "nasty.nml")
+            text = open("data/scenes/pendulum.nml", encoding="utf-8").read()
+            lines = ["  title = '" + NASTY.replace("'", "''").replace("''''", "''") + "'" if "title =" in line else line
+                     for line in text.split("\n")]
+            with open(nasty, "w", encoding="utf-8") as file:
+                file.write("\n".join(lines))
+            make(program, folder, ["run", nasty])
+        browser = chromium.Browser()
+        try:
+            pages = sorted(glob.glob(os.path.join(folder, "*.html")))
+            check("every scene has its page", len(pages) >= len(scenes))
+            for path in pages:
+                examine(browser, path, NASTY.replace("''", "'") if path.endswith("nasty.html") else None)
+        finally:
+            browser.close()
+    print(f"{len(pages)} pages, {failed} failed")
+    return 1 if failed else 0
+
+
+sys.exit(main())
