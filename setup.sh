@@ -3,7 +3,7 @@
 #
 #   ./setup.sh          compiler, LAPACK, BLAS, GSL, gnuplot and fpm
 #   ./setup.sh --dev    the same, and what .ci/run needs: two tools for lint, FORD
-#                       for the API pages, valgrind, the reference BLAS and LAPACK
+#                       for the API pages, valgrind, the reference BLAS and LAPACK, Chromium
 #
 # Debian and its relatives: missing libraries come from apt-get (as root, or through sudo), fpm and
 # the lint tools from pip into a virtual environment of their own. Elsewhere it says what to install.
@@ -88,6 +88,7 @@ find_missing() {
         tool_is_fine findent || missing_tools+=(findent)
         tool_is_fine ford || missing_tools+=(ford)
         has valgrind || missing_packages+=(valgrind)
+        has chromium || has chromium-browser || has google-chrome || missing_packages+=(chromium)
         compgen -G '/usr/lib/*/blas/libblas.so.3' >/dev/null || missing_packages+=(libblas3)
         compgen -G '/usr/lib/*/lapack/liblapack.so.3' >/dev/null || missing_packages+=(liblapack3)
     fi

@@ -145,6 +145,34 @@ check "--json: null for what is not known" json 'd[0]["period"] is None and d[0]
 printf '%s\n' "&scene title='it''s \`touch $work/owned\` \$(touch $work/owned) \"; \\' system='pendulum' dt=1e-2 duration=1 q=1 /" >"$work/it's a swing.nml"
 run run "$work/it's a swing.nml" --set scene%output=swing --output "$work/o"
 check "a scene with blanks and a quote in its name" [ "$status" -eq 0 ]
+run run pendulum sphere --animate --output "$work/film"
+check "--animate: a page a scene, less than 300 kB, whole" eval '[ $status -eq 0 ] && for f in pendulum sphere; do [ "$(tail -n 1 "$work/film/$f.html")" = "</html>" ] && [ "$(wc -c <"$work/film/$f.html")" -lt 300000 ] || exit 1; done'
+check "--animate: the data as without" eval 'cmp "$work/film/pendulum.dat" "$work/all/pendulum.dat"'
+cp "$work/film/pendulum.html" "$work/first.html"
+run run pendulum --animate --quiet --output "$work/film"
+check "--animate: the same bytes again" cmp "$work/film/pendulum.html" "$work/first.html"
+run modes hanging_chain --animate --quiet --output "$work/film"
+check "modes --animate: one page" eval '[ $status -eq 0 ] && grep -q "mode 3" "$work/film/hanging_chain_modes.html"'
+sed "s/output = .*//; s/title = .*/title = '<\/script><b>', output = 'pendulum.html'/" data/scenes/pendulum.nml >"$work/page.nml"
+refuses 2 "pendulum.html" run pendulum "$work/page.nml" --animate --output "$work/film"
+run run "$work/page.nml" --set scene%output=page --animate --quiet --output "$work/film"
+check "--animate: a title ends no script" eval '[ $status -eq 0 ] && ! grep -q "</script><b>" "$work/film/page.html" && grep -q "&lt;/script&gt;&lt;b&gt;" "$work/film/page.html"'
+run run hanging_chain --set "hanging_chain%n=1000" --set "scene%q=1000*0.1" --set scene%columns=t --set scene%plot=t --set scene%duration=1e-3 --animate --quiet --output "$work/film"
+check "--animate: too many parts for a page" eval '[ $status -eq 2 ] && one_line && grep -q "no film of so many moving parts" "$work/err"'
+mkdir -p "$work/film/taken/pendulum.html"
+refuses 5 "it is a folder" run pendulum --animate --output "$work/film/taken"
+check "--animate: that is known before the run" [ ! -e "$work/film/taken/pendulum.dat" ]
+run report pendulum cart_pendulum sphere --output "$work/film"
+check "report: a page" eval '[ $status -eq 0 ] && grep -q "report: $work/film/report.html" "$work/out" && [ "$(tail -n 1 "$work/film/report.html")" = "</html>" ]'
+check "report: scorecard, films, derivation, errata" eval 'for text in "<h2>Scorecard</h2>" "<h3>Derivation</h3>" "<h3>Slips in the notes</h3>" "E1, lecture: cart-pendulum" "x_bob = x + l sin(theta)" "as of <a href="; do grep -qF "$text" "$work/film/report.html" || exit 1; done; [ "$(grep -c "class=.film-data" "$work/film/report.html")" -ge 3 ]'
+if command -v gnuplot >/dev/null; then
+    check "report: pictures" [ "$(grep -c '<svg role=.img' "$work/film/report.html")" -ge 3 ]
+fi
+(PATH=$work; exec "$program" report pendulum --quiet --output "$work/film") >"$work/out" 2>"$work/err"
+status=$?
+check "report: without gnuplot it says so" eval '[ $status -eq 0 ] && grep -q "no picture: .*gnuplot" "$work/film/report.html"'
+sed "s/output = .*//; s/title = .*/title = 'x', output = 'report.html'/" data/scenes/pendulum.nml >"$work/page.nml"
+refuses 2 "report" report "$work/page.nml" --output "$work/film"
 if command -v gnuplot >/dev/null; then
     run run "$work/it's a swing.nml" --set scene%output=swing --output "$work/o" --plot=svg
     check "--plot: a picture" eval '[ $status -eq 0 ] && grep -q "</svg>" "$work/o/swing.svg"'

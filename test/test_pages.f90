@@ -52,7 +52,7 @@ contains
             call new_system(trim(names(i)), system, error)
             call draw_parameters(system, .false.)
             allocate (q(system%ndof), v(system%ndof))
-            call new_figure(system, 1.5_dp, spread(-1.0_dp, 1, size(q)), &
+            call new_figure(system, [character(1) ::], 1.5_dp, spread(-1.0_dp, 1, size(q)), &
                             spread(2.0_dp, 1, size(q)), figure, error)
             call assertFalse(allocated(error), trim(names(i))//": its figure can be read")
             if (allocated(error)) return

@@ -99,6 +99,37 @@ def examine(browser, path, title=None):
     page.close()
 
 
+def examine_report(browser, path):
+    page = browser.open(path)
+    value = page.value
+    scenes = value("document.querySelectorAll('main > section').length")
+    check("report: a section a scene", scenes == 3, str(scenes))
+    check("report: a film each", value("films.length") == scenes)
+    check("report: nothing plays by itself", not value("films.some(film => film.playing)"))
+    value("document.querySelectorAll('.film')[1].scrollIntoView()")
+    value(WAIT)
+    picture = "document.querySelectorAll('.film')[1].querySelector('canvas').toDataURL()"
+    first = value(picture)
+    value("document.querySelectorAll('.film')[1].querySelector('button').click()")
+    value(WAIT)
+    value(WAIT)
+    check("report: a film plays", value(picture) != first)
+    check("report: links lead somewhere",
+          value("[...document.querySelectorAll('a')].every(a => document.querySelector(a.getAttribute('href')))"))
+    check("report: names in it differ",
+          value("(ids => new Set(ids).size == ids.length)([...document.querySelectorAll('[id]')].map(e => e.id))"))
+    check("report: a text is only a text", value("typeof hacked") == "undefined" and value("document.images.length") == 0)
+    check("report: nothing is drawn outside", value("document.documentElement.scrollWidth <= innerWidth"))
+    pdf = page.call("Page.printToPDF", preferCSSPageSize=True)["data"]
+    check("report: prints", len(pdf) > 10000)
+    for complaint in page.complaints():
+        check("report: quiet", False, complaint)
+    page.close()
+    page = browser.open(path, 390, 844, dark=True)
+    check("report: fits a phone", page.value("document.documentElement.scrollWidth <= innerWidth"))
+    page.close()
+
+
 def main():
     program = os.path.abspath(sys.argv[1])
     if not chromium.find():
@@ -118,12 +149,17 @@ def main():
             with open(nasty, "w", encoding="utf-8") as file:
                 file.write("\n".join(lines))
             make(program, folder, ["run", nasty])
+            done = subprocess.run([program, "report", "pendulum", nasty, "sphere", "--quiet", "--output",
+                                   os.path.join(folder, "report")], capture_output=True, text=True)
+            check("report", done.returncode == 0, done.stderr.strip())
         browser = chromium.Browser()
         try:
             pages = sorted(glob.glob(os.path.join(folder, "*.html")))
             check("every scene has its page", len(pages) >= len(scenes))
             for path in pages:
                 examine(browser, path, NASTY.replace("''", "'") if path.endswith("nasty.html") else None)
+            if not sys.argv[2:]:
+                examine_report(browser, os.path.join(folder, "report", "report.html"))
         finally:
             browser.close()
     print(f"{len(pages)} pages, {failed} failed")

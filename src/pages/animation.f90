@@ -2,7 +2,7 @@ module lagrangia_animation
     !! A scene as a film: one HTML page that needs nothing else, no network and no server.
     use lagrangia_channels, only: bytes_beside, bytes_of_number
     use lagrangia_data_files, only: film_path
-    use lagrangia_description, only: description_t
+    use lagrangia_description, only: description_t, figure_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_film, only: count_channels, film_json
     use lagrangia_frames, only: add_reference, film_speed, find_pace, finer_run, finer_words, &
@@ -47,11 +47,14 @@ contains
         type(frames_t) :: probe, frames, reference
         character(:), allocatable :: members, title, note
         real(dp) :: omega, window
+        character(figure_length), allocatable :: own(:)
         integer :: channels, count
 
+        allocate (own(0))
+        if (allocated(plan%scene%figure)) own = plan%scene%figure
         associate (scene => plan%settled, system => plan%system)
             call find_pace(scene, system, plan%closed_form, probe, omega, error)
-            if (.not. allocated(error)) call count_channels(system, probe, channels, error)
+            if (.not. allocated(error)) call count_channels(system, own, probe, channels, error)
             if (allocated(error)) return
             count = room_for(2*channels)
             if (count < frames_for_two) count = room_for(channels)
@@ -65,7 +68,7 @@ contains
             title = ""
             if (count == room_for(2*channels)) call add_reference(scene, system, &
                 plan%closed_form, frames, reference, title)
-            call film_json(system, frames, reference, members, error)
+            call film_json(system, own, frames, reference, members, error)
             if (allocated(error)) return
             note = ""
             if (window < scene%duration) note = "the first "//to_text(window)// &

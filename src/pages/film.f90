@@ -19,9 +19,10 @@ module lagrangia_film
 
 contains
 
-    subroutine film_json(system, frames, reference, film, error, kinetic, potential)
+    subroutine film_json(system, own, frames, reference, film, error, kinetic, potential)
         !! Members of a JSON object: `count`, `interval`, `t`, `parts`, `places`, ...
         class(system_t), intent(in) :: system       !! whose motion it is
+        character(*), intent(in) :: own(:)          !! parts of its figure; none: the system's
         type(frames_t), intent(in) :: frames        !! the motion, one state at least
         type(frames_t), intent(in) :: reference     !! of the same times; `count` 0: none
         character(:), allocatable, intent(out) :: film    !! for `json_object`
@@ -36,7 +37,7 @@ contains
 
         n = frames%count
         extent = extent_of(system, frames)
-        call new_figure(system, extent, minval(frames%q(:, :n), 2), maxval(frames%q(:, :n), 2), &
+        call new_figure(system, own, extent, minval(frames%q(:, :n), 2), maxval(frames%q(:, :n), 2), &
                         figure, error)
         if (allocated(error)) return
         call place_all(figure, system, frames, n, r)
@@ -74,9 +75,10 @@ contains
         film = film//json_item("channels", "["//channels%json//"]")
     end subroutine film_json
 
-    subroutine count_channels(system, frames, count, error)
+    subroutine count_channels(system, own, frames, count, error)
         !! How many series a film of this motion has at most.
         class(system_t), intent(in) :: system    !! whose motion it is
+        character(*), intent(in) :: own(:)       !! parts of its figure; none: the system's
         type(frames_t), intent(in) :: frames     !! some of it
         integer, intent(out) :: count            !! of `channels`
         type(error_t), allocatable, intent(out) :: error  !! a figure that cannot be read
@@ -86,7 +88,7 @@ contains
         character(:), allocatable :: places
 
         count = 0
-        call new_figure(system, extent_of(system, frames), minval(frames%q, 2), &
+        call new_figure(system, own, extent_of(system, frames), minval(frames%q, 2), &
                         maxval(frames%q, 2), figure, error)
         if (allocated(error)) return
         call place_all(figure, system, frames, frames%count, r)
@@ -219,10 +221,11 @@ contains
         film = film//json_item("kinetic", json)//json_pair("conserved", conserved)
     end subroutine add_energies
 
-    function furthest(system, at, shape, share) result(amplitude)
+    function furthest(system, own, at, shape, share) result(amplitude)
         !! How many `shape`s away from `at` a place of the figure has moved by `share` of the
         !! figure's size, to first order; without a figure, a coordinate by `share`.
         class(system_t), intent(in) :: system       !! with its parameters
+        character(*), intent(in) :: own(:)          !! parts of its figure; none: the system's
         real(dp), intent(in) :: at(:), shape(:)     !! coordinates; a direction, (ndof)
         real(dp), intent(in) :: share               !! of the size
         real(dp) :: amplitude
@@ -233,7 +236,7 @@ contains
         real(dp) :: moved, still(size(at))
 
         amplitude = share/maxval(abs(shape))
-        call new_figure(system, 1.0_dp, at, at, figure, error)
+        call new_figure(system, own, 1.0_dp, at, at, figure, error)
         if (allocated(error)) return
         allocate (here(3, figure%places), there(3, figure%places))
         still = 0.0_dp

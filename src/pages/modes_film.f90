@@ -2,7 +2,7 @@ module lagrangia_modes_film
     !! Small oscillations as films: each mode drawn as the mechanism, on one page.
     use lagrangia_animation, only: page_of_films, write_page
     use lagrangia_channels, only: bytes_beside, bytes_of_number
-    use lagrangia_description, only: description_t
+    use lagrangia_description, only: description_t, figure_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_film, only: count_channels, film_json, furthest
     use lagrangia_frames, only: film_speed, frames_t
@@ -19,6 +19,7 @@ module lagrangia_modes_film
     integer, parameter :: most_bytes = 215000  !! of the series of a page, of 300 kB
     real(dp), parameter :: share = 0.15_dp     !! of the figure's size, that a point moves at most
     real(dp), parameter :: pi = acos(-1.0_dp)
+    character(figure_length), parameter :: own(0) = ""  !! the figure is the system's
 
 contains
 
@@ -44,7 +45,7 @@ contains
             if (j > shown) exit
             call move_in_mode(system, modes, j, frames, kinetic, potential)
             if (j == 1) then
-                call count_channels(system, frames, channels, error)
+                call count_channels(system, own, frames, channels, error)
                 if (allocated(error)) return
                 shown = min(shown, most_bytes/(channels*(bytes_beside + bytes_of_number* &
                                                          frames%count)))
@@ -53,7 +54,7 @@ contains
                 call fail(error, "no film of so many moving parts fits into a page of 300 kB")
                 return
             end if
-            call film_json(system, frames, nothing, members, error, kinetic, potential)
+            call film_json(system, own, frames, nothing, members, error, kinetic, potential)
             if (allocated(error)) return
             rate = sqrt(abs(modes%omega2(j)))
             name = "mode "//to_text(j)
@@ -102,7 +103,7 @@ contains
         if (modes%label(j) == is_oscillation) duration = 2.0_dp*pi/rate
         if (modes%label(j) == is_unstable) duration = 2.0_dp/rate
         frames%interval = duration/frames_of_mode
-        amplitude = furthest(system, modes%at, even, share)
+        amplitude = furthest(system, own, modes%at, even, share)
         do i = 1, n
             t = frames%interval*(i - 1)
             if (modes%label(j) == is_oscillation) then

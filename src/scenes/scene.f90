@@ -1,6 +1,6 @@
 module lagrangia_scene
     !! A scene as plain, validated data, and as the text that would make it again.
-    use lagrangia_description, only: description_t, name_length
+    use lagrangia_description, only: description_t, figure_length, name_length
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_namelist, only: namelist_t, refuse_value
@@ -49,6 +49,7 @@ module lagrangia_scene
         character(120), allocatable :: events(:)   !! `'theta = 0.5 rising'`
         character(name_length), allocatable :: event_columns(:)
         character(200), allocatable :: event_plots(:)
+        character(figure_length), allocatable :: figure(:)  !! parts of its own; empty: the system's
         logical :: error_estimate = .false.        !! state the error of the final state
         logical :: modes = .false.                 !! show omega of the small oscillations
         character(name_length) :: period_of = ""   !! a coordinate whose period is measured
@@ -105,6 +106,7 @@ contains
         call add("  v = "//numbers(scene%v))
         call add_texts(lines, "columns", scene%columns)
         call add_texts(lines, "plot", scene%plots)
+        if (allocated(scene%figure)) call add_texts(lines, "figure", scene%figure)
         if (allocated(scene%events)) then
             call add_texts(lines, "event", scene%events)
             call add_texts(lines, "event_columns", scene%event_columns)

@@ -3,6 +3,7 @@ module lagrangia_scene_keys
     use lagrangia_columns, only: column_names, why_energy_changes
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
+    use lagrangia_figure, only: figure_t, new_figure
     use lagrangia_kinds, only: dp, i8
     use lagrangia_namelist, only: get_integer, get_logical, get_real, get_reals, get_string, &
                                   get_strings, has_key, namelist_t, point_advice, refuse_value
@@ -18,7 +19,7 @@ module lagrangia_scene_keys
     character(name_length), parameter :: keys(*) = [character(name_length) :: &
         "title", "system", "method", "compensated", "t0", "dt", "tolerance", "duration", "every", &
         "samples", "q", "v", "columns", "plot", "event", "event_columns", "event_plot", &
-        "period_of", "modes", "error_estimate", "output"]
+        "figure", "period_of", "modes", "error_estimate", "output"]
     integer, parameter :: key_length = name_length + len("expect_")
     integer, parameter :: most = 10000  !! values of one key
 
@@ -150,6 +151,8 @@ contains
         allocate (scene%plots(0))
         call get_strings(tree, "scene", "plot", 1, 8, scene%plots, error)
         if (allocated(error)) return
+        call read_figure(tree, system, scene, error)
+        if (allocated(error)) return
         call read_events(tree, system, scene, error)
         if (allocated(error)) return
         call get_logical(tree, "scene", "modes", scene%modes, error)
@@ -192,6 +195,23 @@ contains
             "blanks, not absolute, without '..', not ending in .gp, .nml, .pdf, .png, .svg or "// &
             ".partial", error)
     end subroutine read_columns
+
+    subroutine read_figure(tree, system, scene, error)
+        !! How the scene is drawn, if it says so.
+        type(namelist_t), intent(inout) :: tree
+        class(system_t), intent(in) :: system
+        type(scene_t), intent(inout) :: scene
+        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable :: found
+        type(figure_t) :: figure
+
+        allocate (scene%figure(0))
+        call get_strings(tree, "scene", "figure", 1, 200, scene%figure, error)
+        if (allocated(error) .or. size(scene%figure) == 0) return
+        call new_figure(system, scene%figure, 1.0_dp, scene%q, scene%q, figure, found)
+        if (allocated(found)) call refuse_value(tree, "scene", "figure", found%message, error, &
+                                                found%element)
+    end subroutine read_figure
 
     subroutine read_events(tree, system, scene, error)
         !! What is looked for, and what is written down there; nothing if there is no event.

@@ -60,6 +60,8 @@ module lagrangia_scene_reference
                 "panels of the picture, up to "// &
                 "8: 'y' or 'y1+y2' against the time, 'x:y' one column against another", &
                 "plot = 'theta', 'theta:theta_dot'"), &
+        entry_t("scene", "figure", "", "the system's own", "how --animate draws it, part by "// &
+                "part: docs/animation.md", "figure = 'spring origin bob', 'ball bob'"), &
         entry_t("scene", "event", "", absent, "up to 8: 'COLUMN = LEVEL', with 'rising', "// &
                 "'falling' or 'stop' behind it", &
                 "event = 'theta = 0 rising'"), &

@@ -14,15 +14,15 @@ module lagrangia_figure
     !! A place is `origin`, a point of the description, or `(x, y)` or `(x, y, z)`, formulas in the
     !! letters of the description. Besides there are `size`, how far the motion spreads, and the
     !! bounds of each coordinate, `theta_min` and `theta_max`. Without a figure each point is a ball
-    !! with its trail.
-    use lagrangia_description, only: description_t, figure_length, letter_t
+    !! with its trail. A scene may have a figure of its own, in the same words.
+    use lagrangia_description, only: description_t, figure_length, letter_t, value_names
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_named_values, only: motion_state_t
     use lagrangia_statements, only: statements_t
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: quoted, to_text
+    use lagrangia_text, only: join, quoted, to_text
     implicit none (type, external)
     private
     public :: figure_t, part_t
@@ -66,9 +66,10 @@ module lagrangia_figure
 
 contains
 
-    subroutine new_figure(system, size, low, high, figure, error)
+    subroutine new_figure(system, own, size, low, high, figure, error)
         !! Read the figure of a system for a motion.
         class(system_t), intent(in) :: system  !! with its parameters
+        character(*), intent(in) :: own(:)     !! a scene's parts; none: the system's
         real(dp), intent(in) :: size               !! how far the motion spreads, m
         real(dp), intent(in) :: low(:), high(:)    !! bounds of the coordinates, (ndof)
         type(figure_t), intent(out) :: figure  !! parts and places
@@ -77,16 +78,24 @@ contains
         integer :: i
 
         call system%describe(figure%d)
-        call choose_lines(figure%d, lines)
-        call add_letters(figure%d, lines, size, low, high)
+        if (ubound(own, 1) > 0) then
+            lines = own
+        else
+            call choose_lines(figure%d, lines)
+        end if
+        call add_letters(figure%d, lines, size, low, high, error)
+        if (allocated(error)) return
         allocate (keys(0))
         allocate (figure%parts(0), figure%point(0), figure%formula(0))
         call figure%statements%begin(system, figure%d, any_state(system), error)
+        if (allocated(error)) error%element = 1
         do i = 1, ubound(lines, 1)
             if (allocated(error)) exit
             if (lines(i)(:4) == "let ") cycle
             call read_part(figure, trim(lines(i)), keys, error)
-            if (allocated(error)) call error%add_context("figure, "//quoted(trim(lines(i))))
+            if (.not. allocated(error)) cycle
+            call error%add_context(quoted(trim(lines(i))))
+            error%element = i
         end do
         if (.not. allocated(error)) call figure%statements%finish()
     end subroutine new_figure
@@ -109,11 +118,12 @@ contains
         end do
     end subroutine choose_lines
 
-    subroutine add_letters(d, lines, extent, low, high)
+    subroutine add_letters(d, lines, extent, low, high, error)
         !! Those that a figure may use besides, and its own. T and V are not needed.
         type(description_t), intent(inout) :: d
         character(*), intent(in) :: lines(:)
         real(dp), intent(in) :: extent, low(:), high(:)
+        type(error_t), allocatable, intent(out) :: error
         integer :: i, equals
 
         if (allocated(d%kinetic_energy)) deallocate (d%kinetic_energy)
@@ -127,15 +137,22 @@ contains
         do i = 1, size(lines)
             if (lines(i)(:4) /= "let ") cycle
             equals = index(lines(i), "=")
+            if (equals == 0) then
+                call fail(error, quoted(trim(lines(i)))//": a letter is written 'let D = R + 1'")
+                error%element = i
+                return
+            end if
             d%letters = [d%letters, letter_t(adjustl(lines(i)(5:equals - 1)), &
                                              adjustl(lines(i)(equals + 1:)))]
         end do
     contains
         subroutine add(name, formula)
-            !! Only where a part has it: the name may be another's otherwise.
+            !! Only where a part has it, and no other has the name.
             character(*), intent(in) :: name, formula
             integer :: k
 
+            if (any(d%coordinates%name == name) .or. any(value_names(d) == name) .or. &
+                any(d%letters%name == name)) return
             do k = 1, size(lines)
                 if (index(lines(k), name) > 0) then
                     d%letters = [d%letters, letter_t(name, formula)]
@@ -169,7 +186,8 @@ contains
         part%kind = word
         which = findloc(kinds%name == word, .true., 1)
         if (which == 0) then
-            call fail(error, "unknown part "//quoted(word))
+            call fail(error, "unknown part "//quoted(word)//"; there are "// &
+                      join(kinds%name, ", ")//" and let")
             return
         end if
         if (word == "field") then
@@ -184,7 +202,7 @@ contains
         end do
         if (part%count < kinds(which)%least .or. part%count > kinds(which)%most .or. &
             rest /= "") then
-            call fail(error, "it takes "//to_text(kinds(which)%least)//" to "// &
+            call fail(error, "takes "//to_text(kinds(which)%least)//" to "// &
                       to_text(kinds(which)%most)//" places")
             return
         end if
@@ -221,13 +239,18 @@ contains
         point = 0
         formula = 0
         if (word(:1) == "(") then
+            if (word(len(word):) /= ")") then
+                call fail(error, "a bracket is not closed in "//quoted(word))
+                return
+            end if
             formula = figure%statements%count + 1
             call add_formulas(figure%statements, word(2:len(word) - 1), error)
             if (allocated(error)) return
         else if (word /= "origin") then
             if (allocated(figure%d%points)) point = findloc(figure%d%points%name == word, .true., 1)
             if (point == 0) then
-                call fail(error, "there is no point "//quoted(word))
+                call fail(error, "there is no point "//quoted(word)//"; a place is origin, a "// &
+                          "point's name, or (x, y)")
                 return
             end if
         end if
