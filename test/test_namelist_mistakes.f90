@@ -222,10 +222,10 @@ contains
                       "text; each column has its own quotes, as in 't', 'x'")
         call no_scene("method = 'exact'", "method = 'exact': is what 'auto' takes where there "// &
                       "is a closed form; write 'auto'")
-        call no_scene(rest//"duration = 1 output = './.'", "without '..', not ending in .gp, .html, "// &
-                      ".nml, .pdf, .png, .svg or .partial")
-        call no_scene(rest//"duration = 1 output = ' x'", "without '..', not ending in .gp, .html, "// &
-                      ".nml, .pdf, .png, .svg or .partial")
+        call no_scene(rest//"duration = 1 output = './.'", "without '..', not ending in .gp, "// &
+                      ".html, .nml, .pdf, .png, .svg or .partial")
+        call no_scene(rest//"duration = 1 output = ' x'", "without '..', not ending in .gp, "// &
+                      ".html, .nml, .pdf, .png, .svg or .partial")
         call no_scene(rest//"duration = 1e10 every = 10", "every = 10: 100000000000 samples "// &
                       "are too many; make the run shorter, or every longer")
         override(1)%text = "scene%system=wedge"

@@ -160,14 +160,14 @@ contains
         character(*), parameter :: names(*) = [character(12) :: "/etc/passwd", "../a", "a/../b", &
             "a/..", "..", "a;b", "a''", "a$(b)", "a`b`", "a|b", "-a", "a/", "a//b", "a.gp", "", &
             " ", "a*", "a\b", "~a", "a""", "a:b", "#a", &
-            "c.nml", "a/x.png", "a.b.svg", "x.pdf", "a.partial", ".gp"]
+            "c.nml", "d.html", "a/x.png", "a.b.svg", "x.pdf", "a.partial", ".gp"]
         integer :: i
 
         do i = 1, size(names)
             call after("output='"//trim(names(i))//"'", 7, "output = '"//trim(names(i))//"': a "// &
                        "file name below the output folder is needed: letters, digits, . _ - / "// &
-                       "and blanks, not absolute, without '..', not ending in .gp, .nml, .pdf, "// &
-                       ".png, .svg or .partial")
+                       "and blanks, not absolute, without '..', not ending in .gp, .html, "// &
+                       ".nml, .pdf, .png, .svg or .partial")
         end do
     end subroutine wrong_outputs_are_refused
 

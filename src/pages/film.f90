@@ -31,14 +31,14 @@ contains
         !! energies, J, `(count)`, where they are not those of the states
         type(channels_t) :: channels
         type(figure_t) :: figure
-        real(dp), allocatable :: r(:, :, :), other(:, :, :), distance(:), own(:), rest(:)
+        real(dp), allocatable :: r(:, :, :), other(:, :, :), distance(:), moving(:), rest(:)
         real(dp) :: extent
         integer :: i, n, which
 
         n = frames%count
         extent = extent_of(system, frames)
-        call new_figure(system, own, extent, minval(frames%q(:, :n), 2), maxval(frames%q(:, :n), 2), &
-                        figure, error)
+        call new_figure(system, own, extent, minval(frames%q(:, :n), 2), &
+                        maxval(frames%q(:, :n), 2), figure, error)
         if (allocated(error)) return
         call place_all(figure, system, frames, n, r)
         film = json_pair("count", n)//json_pair("interval", frames%interval)// &
@@ -49,12 +49,12 @@ contains
         if (present(kinetic) .and. present(potential)) then
             call add_energies(kinetic, potential, .true., film, channels)
         else
-            allocate (own(n), rest(n))
+            allocate (moving(n), rest(n))
             do i = 1, n
-                own(i) = kinetic_energy(system, frames%t(i), frames%q(:, i), frames%v(:, i))
-                rest(i) = system%energy(frames%t(i), frames%q(:, i), frames%v(:, i)) - own(i)
+                moving(i) = kinetic_energy(system, frames%t(i), frames%q(:, i), frames%v(:, i))
+                rest(i) = system%energy(frames%t(i), frames%q(:, i), frames%v(:, i)) - moving(i)
             end do
-            call add_energies(own, rest, system%conserves_energy(), film, channels)
+            call add_energies(moving, rest, system%conserves_energy(), film, channels)
         end if
         if (reference%count == n) then
             call place_all(figure, system, reference, n, other)

@@ -157,8 +157,8 @@ contains
         texts(4)%text = "<h1>"//title//"</h1>"//newline//"<p>lagrangia "//html_text(version)// &
             ", "//html_text(build_text())//"</p>"//newline//"<ol>"//newline//self%contents// &
             "</ol>"//newline//"<h2>Scorecard</h2>"//newline//'<pre tabindex="0">'// &
-            html_text(scorecard_head())//newline//self%scores//newline//html_text(scorecard_legend)// &
-            "</pre>"//newline//self%sections//"</section>"
+            html_text(scorecard_head())//newline//self%scores//newline// &
+            html_text(scorecard_legend)//"</pre>"//newline//self%sections//"</section>"
         call fill_template(template, [character(6) :: "TITLE", "STYLE", "SCRIPT", "BODY"], texts, &
                            page)
         call file%open(path, error)

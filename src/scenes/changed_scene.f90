@@ -8,7 +8,8 @@ module lagrangia_changed_scene
     public :: make_own_scene
 
     character(*), parameter :: same_motion(*) = [character(14) :: "title", "output", "columns", &
-        "plot", "event_columns", "event_plot", "error_estimate", "modes", "every", "samples", "figure"]
+        "plot", "event_columns", "event_plot", "error_estimate", "modes", "every", "samples", &
+        "figure"]
     !! keys of `&scene` that leave the motion as it is, and so does `expect_...`
     integer, parameter :: longest = 120  !! bytes of what a file's name gets
 

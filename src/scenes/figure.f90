@@ -94,7 +94,7 @@ contains
             if (lines(i)(:4) == "let ") cycle
             call read_part(figure, trim(lines(i)), keys, error)
             if (.not. allocated(error)) cycle
-            call error%add_context(quoted(trim(lines(i))))
+            if (ubound(own, 1) == 0) call error%add_context(quoted(trim(lines(i))))
             error%element = i
         end do
         if (.not. allocated(error)) call figure%statements%finish()
@@ -202,8 +202,11 @@ contains
         end do
         if (part%count < kinds(which)%least .or. part%count > kinds(which)%most .or. &
             rest /= "") then
-            call fail(error, "takes "//to_text(kinds(which)%least)//" to "// &
-                      to_text(kinds(which)%most)//" places")
+            word = to_text(kinds(which)%least)
+            if (kinds(which)%most > kinds(which)%least) word = word//" to "// &
+                to_text(kinds(which)%most)
+            call fail(error, trim(part%kind)//" takes "//word//" place"// &
+                      trim(merge(" ", "s", word == "1")))
             return
         end if
         figure%parts = [figure%parts, part]

@@ -192,8 +192,8 @@ contains
         if (allocated(error)) return
         if (bad_output(trim(scene%output))) call refuse_value(tree, "scene", "output", &
             "a file name below the output folder is needed: letters, digits, . _ - / and "// &
-            "blanks, not absolute, without '..', not ending in .gp, .nml, .pdf, .png, .svg or "// &
-            ".partial", error)
+            "blanks, not absolute, without '..', not ending in .gp, .html, .nml, .pdf, .png, "// &
+            ".svg or .partial", error)
     end subroutine read_columns
 
     subroutine read_figure(tree, system, scene, error)
@@ -292,8 +292,8 @@ contains
         character(*), intent(in) :: name
         logical :: bad
 
-        character(8), parameter :: others(*) = [character(8) :: ".gp", ".nml", ".pdf", ".png", &
-                                                ".svg", ".partial"]  ! scripts, scenes, pictures
+        character(8), parameter :: others(*) = [character(8) :: ".gp", ".html", ".nml", ".pdf", &
+                                                ".png", ".svg", ".partial"]  ! beside data; scenes
         character(*), parameter :: letters = "abcdefghijklmnopqrstuvwxyz"// &
                                              "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-/ "
 
