@@ -191,12 +191,13 @@ contains
         !! both black; of each as many lines in the legend as it takes.
         type(bench_problem_t), allocatable :: problems(:)
         type(error_t), allocatable :: error
-        type(curve_t) :: curves(19)
+        type(curve_t), allocatable :: curves(:)
         character(:), allocatable :: script, line
         character(24) :: looks(19)
         integer :: i, at
 
         call read_problems(problem_names(:1), problems, error)
+        allocate (curves(19))
         do i = 1, 17
             curves(i) = curve(1, "m"//to_text(i), source_ours, set_by_step, 1)
         end do
