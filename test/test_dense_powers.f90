@@ -109,7 +109,8 @@ contains
             y = system%state(t0)
             y_new = system%state(t1)
             call inside%keep(t0, y(:1), y(2:))
-            call inside%fit(system, t1, y_new(:1), y_new(2:), modes, weight, good)
+            call inside%fit(system, t1, y_new(:1), y_new(2:), modes, [0.0_dp], [0.0_dp], weight, &
+                            good)
             miss = 0.0_dp
             do i = 1, places
                 t = t0 + 0.1_dp*i*(t1 - t0)
@@ -138,7 +139,7 @@ contains
         call inside%prepare(1)
         call inside%keep(0.2_dp, [0.2_dp], [1.0_dp])
         call inside%fit(system, 0.2_dp + h, [0.2_dp + h + off(1)], [1.0_dp + off(2)], modes, &
-                        weight, good)
+                        [0.0_dp], [0.0_dp], weight, good)
         do i = 1, places
             s = 0.1_dp*i
             t = 0.2_dp + s*h

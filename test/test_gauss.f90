@@ -1,10 +1,13 @@
 module test_gauss
     !! Gauss-Legendre collocation with a fixed step: its order, and what it preserves.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+    use, intrinsic :: iso_fortran_env, only: real128
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertGreaterThan, &
                      assertLessThan, assertTrue
     use lagrangia_errors, only: error_t
     use lagrangia_gauss, only: gauss_t, new_gauss16
+    use lagrangia_gauss_kernels, only: end_state
+    use lagrangia_gauss_tables, only: nodes, stages, weights
     use lagrangia_kinds, only: dp, i8
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_pendulum, only: pendulum_t
@@ -15,6 +18,8 @@ module test_gauss
     implicit none (type, external)
     private
     public :: gauss_suite
+
+    integer, parameter :: qp = real128
 
 contains
 
@@ -29,11 +34,48 @@ contains
         call suite%addTest(TestMethod("cuts_leave_no_trace", cuts_leave_no_trace))
         call suite%addTest(TestMethod("energy_walks_at_random", energy_walks_at_random))
         call suite%addTest(TestMethod("energy_has_no_bias", energy_has_no_bias))
+        call suite%addTest(TestMethod("ends_have_twice_the_digits", ends_have_twice_the_digits))
         call suite%addTest(TestMethod("time_and_velocities_count", time_and_velocities_count))
         call suite%addTest(TestMethod("disk_rolls", disk_rolls))
         call suite%addTest(TestMethod("rest_and_constant_forces", rest_and_constant_forces))
         call suite%addTest(TestMethod("divergence_is_not_hidden", divergence_is_not_hidden))
     end function gauss_suite
+
+    subroutine ends_have_twice_the_digits()
+        !! The sums that lead to the end of a fixed step, against quadruple precision: state and
+        !! low part lack some \(2^{-100}\) of the terms; sums in double precision lack \(2^{-53}\).
+        !! Without accelerations the velocities that add up are those at the start.
+        real(dp), parameter :: v0 = 6.3_dp, q0 = -2.9_dp, low = 1e-17_dp
+        real(dp) :: hb(stages), f(stages, 1), q(1), q_low(1), v(1), v_low(1), lost(2, 2)
+        integer :: i, k
+
+        do k = 1, 20
+            hb = (0.3_dp + 0.01_dp*k)*weights
+            do i = 1, 2
+                f(:, 1) = 9.81_dp*sin(1.0_dp*k*nodes)
+                call go(i == 1)
+                lost(1, i) = real(abs((real(v0, qp) - v(1) + sum(real(hb, qp)*f(:, 1))) &
+                                      + low - v_low(1)), dp)
+                f = 0.0_dp
+                call go(i == 1)
+                lost(2, i) = real(abs((real(q0, qp) - q(1) + sum(real(hb, qp)*v0)) &
+                                      - low - q_low(1)), dp)
+            end do
+            call assertLessThan(maxval(lost(:, 1)), 64.0_dp*2.0_dp**(-100), message="twice")
+            call assertLessThan(maxval(lost(:, 2)), 64.0_dp*epsilon(v0), message="plain")
+        end do
+        call assertGreaterThan(minval(lost(:, 2)), 0.0_dp, message="plain sums lose")
+    contains
+        subroutine go(fully)
+            logical, intent(in) :: fully
+
+            v = v0
+            q = q0
+            v_low = low
+            q_low = -low
+            call end_state(1, fully, hb, f, q, q_low, v, v_low)
+        end subroutine go
+    end subroutine ends_have_twice_the_digits
 
     subroutine order_on_the_pendulum()
         !! Against the closed form, from both sides. Amplitudes stay below 0.6 rad and steps below

@@ -10,23 +10,23 @@ module lagrangia_chebyshev_tables
     use lagrangia_system, only: lanes
     implicit none (type, external)
     private
-    public :: chebyshev_tables_t, points
+    public :: chebyshev_tables_t, points, terms
 
     integer, parameter :: points = 2*lanes
     integer, parameter :: top = points + 1  !! degree of \(q\)
+    integer, parameter :: terms = lanes + 2 !! of a first guess: \(P_0, \dots, P_7, P_8, yP_8\)
 
     type :: chebyshev_tables_t
-        !! Rows are in two groups of lanes; columns are those of `f` or of its Legendre
-        !! coefficients.
-        real(dp) :: x(lanes, 2) = 0.0_dp                   !! the points
-        real(dp) :: v(lanes, points, 2) = 0.0_dp           !! \(v\) at the points from `f`
-        real(dp) :: q(lanes, points, 2) = 0.0_dp           !! \(q\) likewise
-        real(dp) :: series(lanes, points, 2) = 0.0_dp      !! \(a_0, \dots, a_{15}\) from `f`
-        real(dp) :: v_end(lanes, 2) = 0.0_dp               !! \(v(1)\) from `f`: a row
-        real(dp) :: q_end(lanes, 2) = 0.0_dp               !! \(q(1)\) from `f`: a row
-        real(dp) :: legendre_f(lanes, lanes, 2) = 0.0_dp   !! `f` from Legendre's coefficients
-        real(dp) :: legendre_v(lanes, lanes, 2) = 0.0_dp   !! \(v\) at the points from them
-        real(dp) :: legendre_q(lanes, lanes, 2) = 0.0_dp   !! \(q\) likewise
+        !! Rows are in two groups of lanes; columns are those of `f`, of the \(a_k\), or of the
+        !! terms of a guess.
+        real(dp) :: x(lanes, 2) = 0.0_dp                 !! the points
+        real(dp) :: series(lanes, points, 2) = 0.0_dp    !! \(a_0, \dots, a_{15}\) from `f`
+        real(dp) :: v(lanes, points, 2) = 0.0_dp         !! \(v\) at the points from \(a_k\)
+        real(dp) :: q(lanes, points, 2) = 0.0_dp         !! \(q\) likewise
+        real(dp) :: guess_v(lanes, terms, 2) = 0.0_dp    !! \(v\) at the points from a guess
+        real(dp) :: guess_q(lanes, terms, 2) = 0.0_dp    !! \(q\) likewise
+        real(dp) :: v_end(points) = 0.0_dp               !! \(v(1)\) from \(a_k\)
+        real(dp) :: q_end(points) = 0.0_dp               !! \(q(1)\) from \(a_k\)
     contains
         procedure :: fill
     end type chebyshev_tables_t
@@ -38,9 +38,9 @@ contains
         class(chebyshev_tables_t), intent(inout) :: self
         real(dp), parameter :: pi = acos(-1.0_dp)
         real(dp) :: cosine(0:4*points - 1), t_at(points, 0:top), a(0:top), v(0:top), q(0:top)
-        real(dp) :: all_v(points, points), all_q(points, points), p(lanes, lanes)
-        real(dp) :: at_end(points, 2)
-        integer :: g, j, k, rows(lanes)
+        real(dp) :: all_v(points, points), all_q(points, points), series(points, points)
+        real(dp) :: guess(points, terms), y(lanes), p(lanes, lanes)
+        integer :: g, i, j, k
 
         !GCC$ novector
         do k = 0, 4*points - 1
@@ -51,33 +51,34 @@ contains
                 t_at(j, k) = cosine(mod((2*j - 1)*k, 4*points))
             end do
         end do
-        do j = 1, points
+        do k = 0, points - 1
+            series(k + 1, :) = 2.0_dp/points*t_at(:, k)
             a = 0.0_dp
-            a(:points - 1) = 2.0_dp/points*t_at(j, :points - 1)
-            a(0) = 0.5_dp*a(0)
+            a(k) = 1.0_dp
             call integrate(a, v)
             call integrate(v, q)
-            all_v(:, j) = matmul(t_at, v)
-            all_q(:, j) = matmul(t_at, q)
-            at_end(j, :) = [sum(v), sum(q)]
-            self%series(:, j, 1) = a(:lanes - 1)
-            self%series(:, j, 2) = a(lanes:points - 1)
+            all_v(:, k + 1) = matmul(t_at, v)
+            all_q(:, k + 1) = matmul(t_at, q)
+            self%v_end(k + 1) = sum(v)
+            self%q_end(k + 1) = sum(q)
         end do
+        series(1, :) = 0.5_dp*series(1, :)
         do g = 1, 2
-            rows = [(j, j=(g - 1)*lanes + 1, g*lanes)]
-            self%v_end(:, g) = at_end(rows, 1)
-            self%q_end(:, g) = at_end(rows, 2)
-            self%x(:, g) = 0.5_dp + 0.5_dp*t_at(rows, 1)
-            self%v(:, :, g) = all_v(rows, :)
-            self%q(:, :, g) = all_q(rows, :)
+            i = (g - 1)*lanes + 1
+            j = g*lanes
+            self%x(:, g) = 0.5_dp + 0.5_dp*t_at(i:j, 1)
+            self%series(:, :, g) = series(i:j, :)
+            self%v(:, :, g) = all_v(i:j, :)
+            self%q(:, :, g) = all_q(i:j, :)
             call legendre(self%x(:, g), p)
-            self%legendre_f(:, :, g) = p
+            guess(i:j, :lanes) = p
+            y = 2.0_dp*self%x(:, g) - 1.0_dp
+            guess(i:j, lanes + 1) = (15.0_dp*y*p(:, lanes) - 7.0_dp*p(:, lanes - 1))/8.0_dp
+            guess(i:j, lanes + 2) = y*guess(i:j, lanes + 1)
         end do
         do g = 1, 2
-            self%legendre_v(:, :, g) = matmul(self%v(:, :lanes, g), self%legendre_f(:, :, 1)) &
-                                       + matmul(self%v(:, lanes + 1:, g), self%legendre_f(:, :, 2))
-            self%legendre_q(:, :, g) = matmul(self%q(:, :lanes, g), self%legendre_f(:, :, 1)) &
-                                       + matmul(self%q(:, lanes + 1:, g), self%legendre_f(:, :, 2))
+            self%guess_v(:, :, g) = matmul(self%v(:, :, g), matmul(series, guess))
+            self%guess_q(:, :, g) = matmul(self%q(:, :, g), matmul(series, guess))
         end do
     end subroutine fill
 

@@ -98,7 +98,7 @@ contains
             self%unmeasured = max(0, min(sweeps - 5, sweeps/2))
             if (.not. good) self%s%room(:, f) = ieee_value(1.0_dp, ieee_quiet_nan)
             call self%s%expand()
-            call self%s%reach()
+            call self%s%reach(fully=.true.)
             call self%s%finish()
             if (.not. good) exit
         end do

@@ -160,7 +160,8 @@ contains
             if (.not. self%dense) call self%inside%keep(self%t_new, self%s%q, self%s%v)
             if (.not. self%dense) return
             call self%inside%fit(system, self%t_new, self%s%q, self%s%v, &
-                                 self%s%room(self%s%first, known), self%weight, good)
+                                 self%s%room(self%s%first, known), self%first, self%s%start, &
+                                 self%weight, good)
             self%evaluations = self%evaluations + 2*stages*self%inside%sweeps
             if (good) call self%inside%check_smooth(system, self%tolerance, self%first, &
                                                     self%s%start, self%evaluations, good)
@@ -203,7 +204,7 @@ contains
             self%evaluations = self%evaluations + stages*min(sweeps, most_sweeps)
             if (good) then
                 call self%s%expand()
-                call self%s%reach()
+                call self%s%reach(fully=.false.)
                 call self%s%look_ahead(system)
                 self%evaluations = self%evaluations + 1
                 good = seen_whole(self%s%n, self%s%room(self%s%first, modes), self%weight, &

@@ -9,8 +9,8 @@ module lagrangia_gauss_kernels
     use lagrangia_system, only: lanes
     implicit none (type, external)
     private
-    public :: apply, apply_both, distance, end_state, exact_states, fly, fly_by_modes, &
-              free_states, integrals, magnitude, quick_states
+    public :: apply, distance, end_state, exact_states, expand_both, fly, fly_by_guess, &
+              free_states, integrals, magnitude, quick_states, weighted_sum
 
 contains
 
@@ -152,9 +152,12 @@ contains
         all = total(x)/stages
     end function magnitude
 
-    pure subroutine end_state(n, hb, f, q, q_low, v, v_low)
-        !! The state at the end of the step; what rounding takes from it goes into the low parts.
+    pure subroutine end_state(n, fully, hb, f, q, q_low, v, v_low)
+        !! The state at the end of the step; what rounding takes from it goes into the low parts,
+        !! and `fully` also what it takes from the sum of the increments: a part in \(10^{16}\) of
+        !! them, which fixed steps add up a million times.
         integer, intent(in) :: n                   !! degrees of freedom
+        logical, intent(in) :: fully               !! costs 30 operations a coordinate
         real(dp), intent(in) :: hb(lanes)          !! weights times step, s
         real(dp), intent(in) :: f(lanes, n)        !! accelerations of the stages
         real(dp), intent(inout) :: q(n), q_low(n)  !! coordinates: their sum; first at the start
@@ -164,10 +167,55 @@ contains
 
         do d = 1, n
             call integrate(v(d), v_low(d), hb, f(:, d), v_stage)
-            call increase(v(d), v_low(d), total(hb*f(:, d)))
-            call increase(q(d), q_low(d), total(hb*v_stage))
+            if (fully) then
+                call add_products(hb, f(:, d), v(d), v_low(d))
+                call add_products(hb, v_stage, q(d), q_low(d))
+            else
+                call increase(v(d), v_low(d), total(hb*f(:, d)))
+                call increase(q(d), q_low(d), total(hb*v_stage))
+            end if
         end do
     end subroutine end_state
+
+    pure subroutine add_products(a, b, x, low)
+        !! Add \(\sum_i a_i b_i\) to `x + low` as if it were computed with twice the digits: the
+        !! products and sums are those of two numbers each. Where these overflow the sum is plain.
+        !!
+        !! Source: T. Ogita, S. M. Rump and S. Oishi, "Accurate sum and dot product", SIAM J. Sci.
+        !! Comput. 26 (2005) 1955, algorithms 3.1, 3.3 and 5.3, here in pairs.
+        real(dp), intent(in) :: a(lanes), b(lanes)
+        real(dp), intent(inout) :: x, low
+        real(dp), parameter :: cut = 2.0_dp**27 + 1.0_dp
+        real(dp) :: p(lanes), e(lanes), a_high, a_low, b_high, b_low, taken, rest
+        integer :: i, half
+
+        !GCC$ vector
+        do i = 1, lanes
+            p(i) = a(i)*b(i)
+            a_high = cut*a(i) - (cut*a(i) - a(i))
+            a_low = a(i) - a_high
+            b_high = cut*b(i) - (cut*b(i) - b(i))
+            b_low = b(i) - b_high
+            e(i) = a_low*b_low - (((p(i) - a_high*b_high) - a_low*b_high) - a_high*b_low)
+        end do
+        rest = total(e)
+        half = lanes/2
+        do while (half > 0)
+            do i = 1, half
+                a_high = p(i) + p(i + half)
+                taken = a_high - p(i)
+                rest = rest + ((p(i) - (a_high - taken)) + (p(i + half) - taken))
+                p(i) = a_high
+            end do
+            half = half/2
+        end do
+        if (.not. abs(rest) <= huge(rest)) rest = 0.0_dp
+        a_high = x + p(1)
+        taken = a_high - x
+        low = low + (rest + ((x - (a_high - taken)) + (p(1) - taken)))
+        x = a_high + low
+        low = low - (x - a_high)
+    end subroutine add_products
 
     pure subroutine increase(x, low, term)
         !! `add` of `lagrangia_summation`, where the compiler sees it: a call costs more.
@@ -201,15 +249,15 @@ contains
         end do
     end subroutine apply
 
-    pure subroutine fly(n, h, x, q, v, m_q, m_v, f1, f2, q_lane, v_lane)
-        !! States in a step by its accelerations, of which the matrices make \(v\) and \(q\) for a
-        !! step of 1 that begins at rest.
+    pure subroutine fly(n, h, x, q, v, m_q, m_v, a, q_lane, v_lane)
+        !! States in a step by the series of its accelerations, of which the matrices make \(v\) and
+        !! \(q\) for a step of 1 that begins at rest.
         integer, intent(in) :: n                   !! degrees of freedom
         real(dp), intent(in) :: h                  !! step, s
         real(dp), intent(in) :: x(lanes)           !! where in it
         real(dp), intent(in) :: q(n), v(n)         !! state at its start
         real(dp), intent(in) :: m_q(lanes, 2*lanes), m_v(lanes, 2*lanes)  !! tables
-        real(dp), intent(in) :: f1(lanes, n), f2(lanes, n)  !! accelerations at the points
+        real(dp), intent(in) :: a(2*lanes, n)      !! coefficients
         real(dp), intent(out) :: q_lane(lanes, n), v_lane(lanes, n)  !! coordinates, velocities
         real(dp) :: change
         integer :: d, i
@@ -217,39 +265,39 @@ contains
         do d = 1, n
             !GCC$ vector
             do i = 1, lanes
-                change = (((m_v(i, 1)*f1(1, d) + m_v(i, 2)*f1(2, d)) &
-                           + (m_v(i, 3)*f1(3, d) + m_v(i, 4)*f1(4, d))) &
-                          + ((m_v(i, 5)*f1(5, d) + m_v(i, 6)*f1(6, d)) &
-                             + (m_v(i, 7)*f1(7, d) + m_v(i, 8)*f1(8, d)))) &
-                         + (((m_v(i, 9)*f2(1, d) + m_v(i, 10)*f2(2, d)) &
-                             + (m_v(i, 11)*f2(3, d) + m_v(i, 12)*f2(4, d))) &
-                            + ((m_v(i, 13)*f2(5, d) + m_v(i, 14)*f2(6, d)) &
-                               + (m_v(i, 15)*f2(7, d) + m_v(i, 16)*f2(8, d))))
-                v_lane(i, d) = v(d) + h*change
+                change = (((m_q(i, 1)*a(1, d) + m_q(i, 2)*a(2, d)) &
+                           + (m_q(i, 3)*a(3, d) + m_q(i, 4)*a(4, d))) &
+                          + ((m_q(i, 5)*a(5, d) + m_q(i, 6)*a(6, d)) &
+                             + (m_q(i, 7)*a(7, d) + m_q(i, 8)*a(8, d)))) &
+                         + (((m_q(i, 9)*a(9, d) + m_q(i, 10)*a(10, d)) &
+                             + (m_q(i, 11)*a(11, d) + m_q(i, 12)*a(12, d))) &
+                            + ((m_q(i, 13)*a(13, d) + m_q(i, 14)*a(14, d)) &
+                               + (m_q(i, 15)*a(15, d) + m_q(i, 16)*a(16, d))))
+                q_lane(i, d) = q(d) + h*(x(i)*v(d) + h*change)
             end do
             !GCC$ vector
             do i = 1, lanes
-                change = (((m_q(i, 1)*f1(1, d) + m_q(i, 2)*f1(2, d)) &
-                           + (m_q(i, 3)*f1(3, d) + m_q(i, 4)*f1(4, d))) &
-                          + ((m_q(i, 5)*f1(5, d) + m_q(i, 6)*f1(6, d)) &
-                             + (m_q(i, 7)*f1(7, d) + m_q(i, 8)*f1(8, d)))) &
-                         + (((m_q(i, 9)*f2(1, d) + m_q(i, 10)*f2(2, d)) &
-                             + (m_q(i, 11)*f2(3, d) + m_q(i, 12)*f2(4, d))) &
-                            + ((m_q(i, 13)*f2(5, d) + m_q(i, 14)*f2(6, d)) &
-                               + (m_q(i, 15)*f2(7, d) + m_q(i, 16)*f2(8, d))))
-                q_lane(i, d) = q(d) + h*(x(i)*v(d) + h*change)
+                change = (((m_v(i, 1)*a(1, d) + m_v(i, 2)*a(2, d)) &
+                           + (m_v(i, 3)*a(3, d) + m_v(i, 4)*a(4, d))) &
+                          + ((m_v(i, 5)*a(5, d) + m_v(i, 6)*a(6, d)) &
+                             + (m_v(i, 7)*a(7, d) + m_v(i, 8)*a(8, d)))) &
+                         + (((m_v(i, 9)*a(9, d) + m_v(i, 10)*a(10, d)) &
+                             + (m_v(i, 11)*a(11, d) + m_v(i, 12)*a(12, d))) &
+                            + ((m_v(i, 13)*a(13, d) + m_v(i, 14)*a(14, d)) &
+                               + (m_v(i, 15)*a(15, d) + m_v(i, 16)*a(16, d))))
+                v_lane(i, d) = v(d) + h*change
             end do
         end do
     end subroutine fly
 
-    pure subroutine fly_by_modes(n, h, x, q, v, m_q, m_v, modes, q_lane, v_lane)
-        !! The same by the Legendre coefficients of the accelerations, degrees 0 to 7.
+    pure subroutine fly_by_guess(n, h, x, q, v, m_q, m_v, c, q_lane, v_lane)
+        !! The same by the ten terms of a first guess.
         integer, intent(in) :: n                   !! degrees of freedom
         real(dp), intent(in) :: h                  !! step, s
         real(dp), intent(in) :: x(lanes)           !! where in it
         real(dp), intent(in) :: q(n), v(n)         !! state at its start
-        real(dp), intent(in) :: m_q(lanes, lanes), m_v(lanes, lanes)  !! tables
-        real(dp), intent(in) :: modes(lanes, n)    !! coefficients
+        real(dp), intent(in) :: m_q(lanes, lanes + 2), m_v(lanes, lanes + 2)  !! tables
+        real(dp), intent(in) :: c(lanes + 2, n)    !! coefficients
         real(dp), intent(out) :: q_lane(lanes, n), v_lane(lanes, n)  !! coordinates, velocities
         real(dp) :: change
         integer :: d, i
@@ -257,45 +305,62 @@ contains
         do d = 1, n
             !GCC$ vector
             do i = 1, lanes
-                change = ((m_v(i, 1)*modes(1, d) + m_v(i, 2)*modes(2, d)) &
-                          + (m_v(i, 3)*modes(3, d) + m_v(i, 4)*modes(4, d))) &
-                         + ((m_v(i, 5)*modes(5, d) + m_v(i, 6)*modes(6, d)) &
-                            + (m_v(i, 7)*modes(7, d) + m_v(i, 8)*modes(8, d)))
-                v_lane(i, d) = v(d) + h*change
-            end do
-            !GCC$ vector
-            do i = 1, lanes
-                change = ((m_q(i, 1)*modes(1, d) + m_q(i, 2)*modes(2, d)) &
-                          + (m_q(i, 3)*modes(3, d) + m_q(i, 4)*modes(4, d))) &
-                         + ((m_q(i, 5)*modes(5, d) + m_q(i, 6)*modes(6, d)) &
-                            + (m_q(i, 7)*modes(7, d) + m_q(i, 8)*modes(8, d)))
+                change = (((m_q(i, 1)*c(1, d) + m_q(i, 2)*c(2, d)) &
+                           + (m_q(i, 3)*c(3, d) + m_q(i, 4)*c(4, d))) &
+                          + ((m_q(i, 5)*c(5, d) + m_q(i, 6)*c(6, d)) &
+                             + (m_q(i, 7)*c(7, d) + m_q(i, 8)*c(8, d)))) &
+                         + (m_q(i, 9)*c(9, d) + m_q(i, 10)*c(10, d))
                 q_lane(i, d) = q(d) + h*(x(i)*v(d) + h*change)
             end do
-        end do
-    end subroutine fly_by_modes
-
-    pure subroutine apply_both(n, m, x1, x2, y)
-        !! Multiply the matrix `m` by every column of `x1` and `x2`, one above the other.
-        integer, intent(in) :: n                     !! degrees of freedom
-        real(dp), intent(in) :: m(lanes, 2*lanes)    !! a table
-        real(dp), intent(in) :: x1(lanes, n), x2(lanes, n)  !! of the points
-        real(dp), intent(out) :: y(lanes, n)         !! `matmul(m, [x1, x2])`
-        integer :: d, i
-
-        do d = 1, n
             !GCC$ vector
             do i = 1, lanes
-                y(i, d) = (((m(i, 1)*x1(1, d) + m(i, 2)*x1(2, d)) &
-                            + (m(i, 3)*x1(3, d) + m(i, 4)*x1(4, d))) &
-                           + ((m(i, 5)*x1(5, d) + m(i, 6)*x1(6, d)) &
-                              + (m(i, 7)*x1(7, d) + m(i, 8)*x1(8, d)))) &
-                          + (((m(i, 9)*x2(1, d) + m(i, 10)*x2(2, d)) &
-                              + (m(i, 11)*x2(3, d) + m(i, 12)*x2(4, d))) &
-                             + ((m(i, 13)*x2(5, d) + m(i, 14)*x2(6, d)) &
-                                + (m(i, 15)*x2(7, d) + m(i, 16)*x2(8, d))))
+                change = (((m_v(i, 1)*c(1, d) + m_v(i, 2)*c(2, d)) &
+                           + (m_v(i, 3)*c(3, d) + m_v(i, 4)*c(4, d))) &
+                          + ((m_v(i, 5)*c(5, d) + m_v(i, 6)*c(6, d)) &
+                             + (m_v(i, 7)*c(7, d) + m_v(i, 8)*c(8, d)))) &
+                         + (m_v(i, 9)*c(9, d) + m_v(i, 10)*c(10, d))
+                v_lane(i, d) = v(d) + h*change
             end do
         end do
-    end subroutine apply_both
+    end subroutine fly_by_guess
+
+    pure subroutine expand_both(n, m, f1, f2, a)
+        !! The series of what is known at two times eight points.
+        integer, intent(in) :: n                          !! degrees of freedom
+        real(dp), intent(in) :: m(lanes, 2*lanes, 2)      !! a table
+        real(dp), intent(in) :: f1(lanes, n), f2(lanes, n)  !! at the points
+        real(dp), intent(out) :: a(lanes, 2, n)           !! coefficients
+        integer :: d, g, i
+
+        do d = 1, n
+            do g = 1, 2
+                !GCC$ vector
+                do i = 1, lanes
+                    a(i, g, d) = (((m(i, 1, g)*f1(1, d) + m(i, 2, g)*f1(2, d)) &
+                                   + (m(i, 3, g)*f1(3, d) + m(i, 4, g)*f1(4, d))) &
+                                  + ((m(i, 5, g)*f1(5, d) + m(i, 6, g)*f1(6, d)) &
+                                     + (m(i, 7, g)*f1(7, d) + m(i, 8, g)*f1(8, d)))) &
+                                 + (((m(i, 9, g)*f2(1, d) + m(i, 10, g)*f2(2, d)) &
+                                     + (m(i, 11, g)*f2(3, d) + m(i, 12, g)*f2(4, d))) &
+                                    + ((m(i, 13, g)*f2(5, d) + m(i, 14, g)*f2(6, d)) &
+                                       + (m(i, 15, g)*f2(7, d) + m(i, 16, g)*f2(8, d))))
+                end do
+            end do
+        end do
+    end subroutine expand_both
+
+    pure function weighted_sum(w, a) result(s)
+        !! \(\sum_k w_k a_k\) of a series.
+        real(dp), intent(in) :: w(2*lanes), a(2*lanes)  !! weights, coefficients
+        real(dp) :: s, x(lanes)
+        integer :: i
+
+        !GCC$ vector
+        do i = 1, lanes
+            x(i) = w(i)*a(i) + w(i + lanes)*a(i + lanes)
+        end do
+        s = total(x)
+    end function weighted_sum
 
     pure subroutine integrals(c, x, once, twice)
         !! \(\sum_j b_j a_j\) and \(\sum_j b_j(1-c_j)a_j\) of a Chebyshev series

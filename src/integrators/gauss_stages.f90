@@ -212,9 +212,10 @@ contains
         self%from = 0.0_dp
     end subroutine shorten
 
-    pure subroutine reach(self)
+    pure subroutine reach(self, fully)
         !! The state at the end of the step.
         class(gauss_stages_t), intent(inout) :: self
+        logical, intent(in) :: fully  !! to twice the digits, but for those of the accelerations
         integer :: d
 
         do d = 1, self%n
@@ -223,8 +224,8 @@ contains
             self%v_end(d) = self%v(d)
             self%v_end_low(d) = self%v_low(d)
         end do
-        call end_state(self%n, self%hb, self%room(self%first, f), self%q_end, self%q_end_low, &
-                       self%v_end, self%v_end_low)
+        call end_state(self%n, fully, self%hb, self%room(self%first, f), self%q_end, &
+                       self%q_end_low, self%v_end, self%v_end_low)
     end subroutine reach
 
     pure subroutine look_ahead(self, system)
