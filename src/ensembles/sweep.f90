@@ -23,7 +23,7 @@ module lagrangia_sweep
     use lagrangia_trajectory_plan, only: plan_events, plan_steps, trajectory_plan_t
     implicit none (type, external)
     private
-    public :: sweep_t
+    public :: sweep_t, sweep_box_t
     public :: new_sweep, compute_one
 
     integer, parameter :: most_axes = 2
@@ -42,6 +42,12 @@ module lagrangia_sweep
         procedure :: places
         procedure :: coordinates_of
     end type sweep_t
+
+    type :: sweep_box_t
+        !! gfortran 12 needs it: modules that make the dispatch table of `sweep_t` for themselves
+        !! disagree about its order.
+        class(sweep_t), allocatable :: item
+    end type sweep_box_t
 
 contains
 

@@ -19,7 +19,7 @@ module lagrangia_sweep_axis
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
     private
-    public :: sweep_axis_t, new_sweep_axis
+    public :: sweep_axis_t, sweep_axis_box_t, new_sweep_axis
 
     integer, parameter :: of_coordinate = 1, of_velocity = 2, of_parameter = 3
     integer, parameter :: most_values = 100000000
@@ -37,6 +37,12 @@ module lagrangia_sweep_axis
         procedure :: set
         procedure :: is_parameter
     end type sweep_axis_t
+
+    type :: sweep_axis_box_t
+        !! gfortran 12 needs it: modules that make the dispatch table of `sweep_axis_t` for
+        !! themselves disagree about its order.
+        class(sweep_axis_t), allocatable :: item
+    end type sweep_axis_box_t
 
     type :: target_t
         !! A number that an axis can change.
