@@ -163,6 +163,8 @@ contains
             "g sin(theta2) = 0")
         call traced("pendulum", "wffw", "V = m g l cos(theta); dL/dtheta = m g l sin(theta)"// &
             "; E = m/2 l^2 theta_dot^2 + m g l cos(theta); omega = sqrt(2 g/l)")
+        call traced("oscillator", "wffw", "T = m x_dot^2; 2 m x_ddot + b x_dot + k x = 0"// &
+            "; x_ddot = -(b x_dot + k x)/(2 m); 2 m x_ddot - b x_dot + k x = 0")
         call traced("pendulum", "wfwf", "T = m l^2 theta_dot^2; L = m l^2 theta_dot^2 - V"// &
             "; V = m g l sin(theta); l theta_ddot = -g cos(theta)/2")
     contains
