@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # Make this machine ready to build and run lagrangia; what is already there is left alone.
 #
-#   ./setup.sh          compiler, LAPACK, BLAS, GSL, gnuplot and fpm
-#   ./setup.sh --dev    the same, and what .ci/run needs: two tools for lint, FORD
-#                       for the API pages, valgrind, the reference BLAS and LAPACK, Chromium
+#   ./setup.sh                  compiler, LAPACK, BLAS, GSL, gnuplot and fpm
+#   ./setup.sh --dev            the same, and what .ci/run needs: two tools for lint, FORD for
+#                               the API pages, valgrind, the reference BLAS and LAPACK, zsh, mandoc, Chromium
+#   ./setup.sh install [DIR]    the same as the first, and then lagrangia itself below DIR (default
+#                               ~/.local): bin, lib, include, completion for bash and zsh, manual
 #
 # Debian and its relatives: missing libraries come from apt-get (as root, or through sudo), fpm and
 # the lint tools from pip into a virtual environment of their own. Elsewhere it says what to install.
@@ -23,7 +25,7 @@ say() { printf 'setup: %s\n' "$*"; }
 complain() { printf 'setup: %s\n' "$*" >&2; ready=false; }
 has() { command -v "$1" >/dev/null 2>&1; }
 
-usage() { sed -n '2,10s/^# \{0,1\}//p' "$0"; }
+usage() { sed -n '2,12s/^# \{0,1\}//p' "$0"; }
 
 at_least() { # at_least WANTED VERSION
     [ -n "$2" ] && [ "$(printf '%s\n%s\n' "$1" "$2" | sort -V | head -n 1)" = "$1" ]
@@ -89,6 +91,9 @@ find_missing() {
         tool_is_fine ford || missing_tools+=(ford)
         has valgrind || missing_packages+=(valgrind)
         has chromium || has chromium-browser || has google-chrome || missing_packages+=(chromium)
+        has zsh || missing_packages+=(zsh)
+        has groff || missing_packages+=(groff-base)
+        has mandoc || missing_packages+=(mandoc)
         compgen -G '/usr/lib/*/blas/libblas.so.3' >/dev/null || missing_packages+=(libblas3)
         compgen -G '/usr/lib/*/lapack/liblapack.so.3' >/dev/null || missing_packages+=(liblapack3)
     fi
@@ -139,19 +144,44 @@ install_packages() {
     has apt-get || return 0
     if [ "$privilege" = none ]; then
         if [ "${missing_packages[*]}" != gnuplot-nox ]; then
-            complain "this needs root once: apt-get install ${missing_packages[*]}"
+            complain "you are not root and there is no sudo: ask the administrator for" \
+                "'apt-get install --no-install-recommends ${missing_packages[*]}', then run this again"
         fi
         return
     fi
-    say "installing with apt-get: ${missing_packages[*]}"
-    local options=(-qq -o DPkg::Lock::Timeout=300)
-    as_root apt-get "${options[@]}" update </dev/null ||
+    say "missing: ${missing_packages[*]}"
+    local options=(-qq -o DPkg::Lock::Timeout=300) install=(install --yes --no-install-recommends)
+    takes "apt-get update: fetching the lists of packages" as_root apt-get "${options[@]}" update ||
         say "apt-get update failed; trying with the package lists at hand"
-    as_root env DEBIAN_FRONTEND=noninteractive apt-get "${options[@]}" -o Dpkg::Use-Pty=0 \
-        install --yes --no-install-recommends "${missing_packages[@]}" </dev/null >"$trial/apt.log" 2>&1 || {
-        tail -n 15 "$trial/apt.log" >&2
+    takes "apt-get install: $(apt_size)" as_root env DEBIAN_FRONTEND=noninteractive apt-get \
+        "${options[@]}" -o Dpkg::Use-Pty=0 "${install[@]}" "${missing_packages[@]}" || {
+        tail -n 15 "$trial/step.log" >&2
         complain "apt-get could not install ${missing_packages[*]}"
     }
+}
+
+apt_size() { # how many packages that is, and how much is fetched
+    LC_ALL=C apt-get install --simulate -o Debug::NoLocking=1 -o APT::Get::Show-User-Simulation-Note=0 \
+        --no-install-recommends "${missing_packages[@]}" 2>/dev/null | grep -c '^Inst ' | sed 's/$/ packages with what they need/'
+}
+
+takes() { # takes WHAT COMMAND...: say what is done, every 15 s that it goes on, and how long it took
+    local what=$1 start=$SECONDS job status
+    shift
+    say "$what ..."
+    "$@" </dev/null >"$trial/step.log" 2>&1 &
+    job=$!
+    while kill -0 $job 2>/dev/null; do
+        sleep 0.5
+        if [ $((SECONDS - start)) -ge 15 ] && [ $(((SECONDS - start)%15)) -eq 0 ]; then
+            say "... still at it after $((SECONDS - start)) s"
+            sleep 1
+        fi
+    done
+    wait $job
+    status=$?
+    [ $status -ne 0 ] || say "... done, $((SECONDS - start)) s"
+    return $status
 }
 
 link_tool() { # link_tool NAME: put the tool where shells look, but never over somebody else's file
@@ -171,7 +201,7 @@ pip_install() {
 }
 
 install_wheels() { # install_wheels WHEEL...: into the virtual environment, which is made if need be
-    say "installing with pip into $tools: $*"
+    say "installing with pip into $tools: $* ..."
     if ! "$tools/bin/python3" -m pip --version >/dev/null 2>&1; then
         "${as_owner[@]}" "$python" -m venv --clear "$tools" || {
             complain "$python could not make a virtual environment in $tools"
@@ -267,11 +297,37 @@ END
     return 1
 }
 
+install_program() { # build, and put everything below $prefix
+    local program=$prefix/bin/lagrangia
+    cd "$(dirname "$0")" || return 1
+    takes "fpm install --profile release --prefix $prefix: compiling takes some minutes the first time" \
+        fpm install --profile release --prefix "$prefix" || {
+        tail -n 15 "$trial/step.log" >&2
+        complain "fpm could not install lagrangia"
+        return 1
+    }
+    mkdir -p "$prefix/share/man/man1" "$prefix/share/bash-completion/completions" \
+        "$prefix/share/zsh/site-functions" &&
+        "$program" manual >"$prefix/share/man/man1/lagrangia.1" &&
+        "$program" completion bash >"$prefix/share/bash-completion/completions/lagrangia" &&
+        "$program" completion zsh >"$prefix/share/zsh/site-functions/_lagrangia" || return 1
+    say "installed: $program"
+    [ "$(command -v lagrangia)" -ef "$program" ] ||
+        say "type 'export PATH=\"$prefix/bin:\$PATH\"' so that shells find it"
+}
+
+prefix=
 for argument in "$@"; do
     case $argument in
         --dev) dev=true ;;
+        install) prefix=$HOME/.local ;;
         -h | --help) usage; exit 0 ;;
-        *) printf 'setup: unknown option %s\n' "'$argument'" >&2; usage >&2; exit 2 ;;
+        *)
+            if [ -z "$prefix" ] || [[ $argument == -* ]]; then
+                printf 'setup: unknown word %s\n' "'$argument'" >&2; usage >&2; exit 2
+            fi
+            prefix=$argument
+            ;;
     esac
 done
 
@@ -291,4 +347,6 @@ if ! nothing_missing; then
         find_missing
     fi
 fi
-report
+report || exit 1
+[ -n "$prefix" ] || exit 0
+install_program

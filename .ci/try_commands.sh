@@ -81,6 +81,33 @@ check "run: rows and the lines below them are in 80 columns, remarks behind them
 run run $names --json --output "$work/again"
 check "run: the lines below the rows are the JSON's" python3 .ci/scorecard_text.py "$work/text" "$work/out" all
 
+# The scene goes with every format, and no format writes over the files of another
+for format in csv npy text; do run run bouncing_ball --format $format --output "$work/formats"; done
+check "formats: a script each, and the scene beside csv and npy" eval '[ "$(ls "$work/formats" | grep -vc events | tr -d " ")" -eq 8 ] && grep -q "bouncing_ball.csv" "$work/formats/bouncing_ball.csv.gp" && grep -q "bouncing_ball.npy" "$work/formats/bouncing_ball.npy.gp" && grep -q "bouncing_ball.dat" "$work/formats/bouncing_ball.gp"'
+for format in csv npy; do
+    run run "$work/formats/bouncing_ball.$format.nml" --set scene%output=bouncing_ball --output "$work/formats/again"
+    check "formats: the scene beside $format gives the same bytes" cmp "$work/formats/bouncing_ball.dat" "$work/formats/again/bouncing_ball.dat"
+done
+check "formats: units, build and what auto took stand there" eval 'grep -q "^! columns: t\[s\] y\[m\] " "$work/formats/bouncing_ball.csv.nml" && grep -q "^! build: GCC" "$work/formats/bouncing_ball.npy.nml" && grep -q "^! auto took gauss16" "$work/formats/bouncing_ball.npy.nml"'
+
+# Help
+refuses 2 "no help on 'runn'; did you mean 'run'?" help runn
+refuses 2 "completion for which shell? Not 'fish'; there are bash, zsh" completion fish
+run help
+cp "$work/out" "$work/help"
+run --help
+check "help is --help" cmp "$work/out" "$work/help"
+for word in $("$program" completion bash | sed -n "s/^        '') words='\(.*\) --set.*/\1/p"); do
+    run help "$word"
+    check "help $word: usage and examples in 80 columns" eval '[ $status -eq 0 ] && grep -q "^usage: lagrangia $word" "$work/out" && grep -q "^examples:" "$work/out" && [ -z "$(awk "length(\$0) > 80" "$work/out")" ]'
+done
+for words in "run pendulum --output $work/o" "run pendlum" check list; do
+    run $words
+    sed -E 's/[0-9.]+ s$//' "$work/out" >"$work/plain"
+    NO_COLOR=1 run $words
+    check "$words: NO_COLOR or not, no colours" eval 'sed -E "s/[0-9.]+ s$//" "$work/out" | cmp - "$work/plain" && ! grep -q "$(printf "\033")" "$work/out" "$work/err"'
+done
+
 # A changed scene is another one
 run run pendulum --output "$work/changed"
 cp "$work/changed/pendulum.dat" "$work/shipped.dat"

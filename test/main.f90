@@ -76,6 +76,7 @@ module suites
     use test_harness_fixtures, only: harness_fixtures_suite
     use test_harness_order, only: harness_order_suite
     use test_helmholtz, only: helmholtz_suite
+    use test_help, only: help_suite
     use test_hyperdual, only: hyperdual_suite
     use test_integrator_orders, only: integrator_orders_suite
     use test_lanes, only: lanes_suite
@@ -309,6 +310,7 @@ contains
         call suite%addTest(scenes_suite())
         call suite%addTest(changed_scene_suite())
         call suite%addTest(scorecard_suite())
+        call suite%addTest(help_suite())
         call suite%addTest(cross_check_suite())
         call suite%addTest(second_run_suite())
         call suite%addTest(shipped_files_suite())

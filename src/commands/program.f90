@@ -7,18 +7,21 @@ module lagrangia_program
     use lagrangia_check, only: check_command
     use lagrangia_command_line, only: command_line_t, command_words, parse_words, word_t
     use lagrangia_compare, only: compare_command
+    use lagrangia_completion, only: completion_command
     use lagrangia_console, only: finish_console, note, put, put_line, say_at_once
     use lagrangia_derive, only: derive_command
     use lagrangia_describe, only: describe_command
     use lagrangia_errata_command, only: errata_command
     use lagrangia_errors, only: error_t, fail, status_ok
     use lagrangia_grade, only: grade_command
+    use lagrangia_help, only: help_command, help_text
     use lagrangia_interrupt, only: catch_interrupts, interrupt_status
     use lagrangia_kinds, only: dp
     use lagrangia_list, only: list_command
+    use lagrangia_manual, only: manual_text
     use lagrangia_modes_command, only: modes_command
     use lagrangia_principle, only: principle_command
-    use lagrangia_registry, only: check_line, commands, help_text, options
+    use lagrangia_registry, only: check_line, commands, options
     use lagrangia_report_command, only: report_command
     use lagrangia_resources, only: check_memory, check_stack
     use lagrangia_run_command, only: run_command
@@ -88,6 +91,9 @@ contains
             select case (commands(which)%name)
             case ("check"); call check_command(line, error)
             case ("errata"); call errata_command(line, error)
+            case ("completion"); call completion_command(line, error)
+            case ("help"); call help_command(line, error)
+            case ("manual"); call put(manual_text())
             case ("grade"); call grade_command(line, error)
             case ("list"); call list_command(line, error)
             case ("compare"); call compare_command(line, error)

@@ -9,7 +9,7 @@ module lagrangia_registry
     implicit none (type, external)
     private
     public :: command_t, commands, options
-    public :: check_line, help_text
+    public :: accepts, check_line, usage
 
     type :: command_t
         character(12) :: name = ""
@@ -17,6 +17,7 @@ module lagrangia_registry
         character(80) :: meaning = ""
         integer :: most = 0              !! arguments at most; -1: any number
         character(80) :: accepts = ""    !! options, beside --help and --version
+        character(32) :: takes = ""      !! what its arguments may be: see `lagrangia_vocabulary`
     end type command_t
 
     type(option_t), parameter :: options(*) = [ &
@@ -55,35 +56,45 @@ module lagrangia_registry
         command_t("", "", "run every scene in data/scenes and print the scorecard", 0, &
                   "set output format plot animate error-estimate json quiet"), &
         command_t("run", "SCENE...", "the same for .nml files, or shipped scenes by name", -1, &
-                  "set output format plot overlay animate error-estimate json quiet"), &
+                  "set output format plot overlay animate error-estimate json quiet", &
+                  takes="scenes scene_files"), &
         command_t("compare", "SCENE", "by --methods, or from many --starts: one table, one "// &
-                  "picture", 1, "set methods starts output format plot json quiet"), &
+                  "picture", 1, "set methods starts output format plot json quiet", &
+                  takes="scenes scene_files"), &
         command_t("report", "[SCENE...]", "one HTML page: scorecard, pictures, films, "// &
-                  "derivations, errata", -1, "set output quiet"), &
+                  "derivations, errata", -1, "set output quiet", takes="scenes scene_files"), &
         command_t("modes", "SYSTEM", "or a scene's: small oscillations, frequencies, shapes", 1, &
-                  "set at output plot animate json quiet"), &
+                  "set at output plot animate json quiet", takes="systems scenes"), &
         command_t("check", "[SYSTEM...]", "the audit: equations, invariants, structure, Gauss, "// &
-                  "orders", -1, "set json"), &
+                  "orders", -1, "set json", takes="systems scenes methods"), &
         command_t("errata", "[ID]", "the slips in the lecture notes, and what each would do", 1, &
-                  "json"), &
+                  "json", takes="slips"), &
         command_t("principle", "[NAME]", "both sides of Hamilton's, d'Alembert's, Fermat's", 1, &
-                  "output plot json"), &
+                  "output plot json", takes="principles"), &
         command_t("bench", "[PART...]", "run time against error, cost of a step, growth, "// &
                   "output; parts by name", -1, &
-                  "quick problems methods systems tolerances output plot json quiet"), &
+                  "quick problems methods systems tolerances output plot json quiet", &
+                  takes="parts"), &
         command_t("stress", "[ROW...]", "numerical stability: limits, long runs, hard numbers; "// &
-                  "rows by name", -1, "long json quiet"), &
+                  "rows by name", -1, "long json quiet", takes="rows"), &
         command_t("grade", "FILE...", "a student's equations: right, or which term is wrong", -1, &
-                  "json quiet"), &
+                  "json quiet", takes="sheets files"), &
         command_t("sweep", "SCENE", "many trajectories over an axis or two, numbers of each", 1, &
-                  "set over keep seed threads output format plot json quiet"), &
-        command_t("list", "[systems|methods|scenes|sweeps]", "what there is, one a line", 1, ""), &
+                  "set over keep seed threads output format plot json quiet", &
+                  takes="sweeps scenes scene_files"), &
+        command_t("list", "[systems|methods|scenes|sweeps]", "what there is, one a line", 1, "", &
+                  takes="lists"), &
         command_t("show", "[FILE...]", "a scene or sheet that comes with the program, as it is", &
-                  -1, ""), &
+                  -1, "", takes="carried"), &
         command_t("describe", "SYSTEM|SCENE|scene", "L, equations, ...; of the word scene: "// &
-                  "every key of a scene", 1, "set"), &
+                  "every key of a scene", 1, "set", takes="systems scenes scene"), &
         command_t("derive", "SYSTEM|SCENE", "from x(q) to the equations of motion, line by line", &
-                  1, "set numbers slip latex json")]
+                  1, "set numbers slip latex json", takes="systems scenes"), &
+        command_t("help", "[COMMAND]", "what a command is for, with examples", 1, "", &
+                  takes="commands"), &
+        command_t("completion", "bash|zsh", "a script by which the shell completes our words", 1, &
+                  "", takes="shells"), &
+        command_t("manual", "", "this help as a page for man", 0, "")]
 
 contains
 
@@ -165,8 +176,8 @@ contains
 
     pure function accepts(command, name) result(yes)
         !! Does the option `name` go with it?
-        type(command_t), intent(in) :: command
-        character(*), intent(in) :: name
+        type(command_t), intent(in) :: command  !! of `commands`
+        character(*), intent(in) :: name        !! without hyphens
         logical :: yes
 
         yes = index(" "//command%accepts, " "//trim(name)//" ") > 0
@@ -186,66 +197,13 @@ contains
         text = "it takes"//text(2:)
     end function taken
 
-    function help_text(which) result(text)
-        !! Help for one command (`which` > 1) or for all.
-        integer, intent(in) :: which  !! of `commands`
-        character(:), allocatable :: text
-        integer :: i
-
-        text = ""
-        if (which > 1) then
-            call add("usage: lagrangia "//trim(commands(which)%name)//" "// &
-                     trim(commands(which)%arguments)//" [options]")
-            call add("")
-            call add("  "//commands(which)%meaning)
-        else
-            call add("lagrangia: the systems of a classical-mechanics course, run and checked")
-            call add("")
-            call add("usage: lagrangia [command] [options]")
-            call add("")
-            do i = 1, size(commands)
-                call add("  "//padded(trim("lagrangia "//commands(i)%name)//" "// &
-                                      commands(i)%arguments, 36)//commands(i)%meaning)
-            end do
-        end if
-        call add("")
-        call add("options:")
-        do i = 1, size(options)
-            if (which > 1 .and. options(i)%name /= "help" .and. options(i)%name /= "version") then
-                if (.not. accepts(commands(which), options(i)%name)) cycle
-            end if
-            call add("  "//padded(usage(options(i)), 36)//options(i)%meaning)
-        end do
-        if (which > 1) return
-        call add("")
-        call add("exit status: 0 all is well, 1 a check or tolerance did not hold, 2 usage or")
-        call add("  scene error, 3 the numbers failed, 4 LAPACK or GSL refused, 5 file error, "// &
-                 "128 + n signal n")
-        call add("  (130 interrupted, 141 the reader of a pipe has gone, 143 terminated)")
-    contains
-        subroutine add(line)
-            character(*), intent(in) :: line
-
-            text = text//trim(line)//new_line("a")
-        end subroutine add
-    end function help_text
-
     pure function usage(option) result(text)
         !! `--name VALUE`.
-        type(option_t), intent(in) :: option
+        type(option_t), intent(in) :: option  !! of `options`
         character(:), allocatable :: text
 
         text = "--"//trim(option%name)
         if (option%takes == needs_value) text = text//" "//trim(option%value)
         if (option%takes == may_have_value) text = text//"[="//trim(option%value)//"]"
     end function usage
-
-    pure function padded(text, width) result(wide)
-        !! `text` followed by blanks up to `width`, two at least.
-        character(*), intent(in) :: text
-        integer, intent(in) :: width
-        character(:), allocatable :: wide
-
-        wide = trim(text)//repeat(" ", max(2, width - len_trim(text)))
-    end function padded
 end module lagrangia_registry

@@ -14,7 +14,7 @@ module lagrangia_data_files
     implicit none (type, external)
     private
     public :: check_format, check_picture, data_path, draw, ends_well, event_path, film_path
-    public :: new_table, pictures, script_path
+    public :: new_table, pictures, scene_path, script_path
 
     character(4), parameter :: formats(3) = ["text", "csv ", "npy "]
     character(3), parameter :: pictures(3) = ["png", "svg", "pdf"]  !! what `draw` makes
@@ -80,14 +80,24 @@ contains
         events = path(:dot - 1)//"_events"//path(dot:)
     end function event_path
 
+    pure function scene_path(path) result(scene)
+        !! The scene beside a data file whose format has no place for it: `a.csv.nml`.
+        character(*), intent(in) :: path  !! of the data file
+        character(:), allocatable :: scene
+
+        scene = path//".nml"
+    end function scene_path
+
     pure function script_path(path) result(script)
-        !! The gnuplot script beside a data file.
+        !! The gnuplot script beside a data file: `a.gp` of `a.dat`, `a.csv.gp` of `a.csv`, so that
+        !! no format writes over the script of another.
         character(*), intent(in) :: path  !! with or without an ending
         character(:), allocatable :: script
         integer :: dot
 
         dot = index(path, ".", back=.true.)
         if (dot <= index(path, "/", back=.true.)) dot = len(path) + 1
+        if (any(path(dot:) == endings(2:))) dot = len(path) + 1
         script = path(:dot - 1)//".gp"
     end function script_path
 

@@ -1,7 +1,9 @@
 module lagrangia_run_files
     !! The files of one run: data and events while it goes on, gnuplot scripts when it is done. All
     !! get their names together; what remains of a run that fails is called `NAME.partial`.
-    use lagrangia_data_files, only: data_path, event_path, new_table, script_path
+    use lagrangia_characters, only: printable
+    use lagrangia_data_files, only: data_path, event_path, new_table, scene_path, &
+                                    script_path
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, message_length
     use lagrangia_gnuplot, only: dots, gnuplot_script, new_series, panel_t, series_t
@@ -14,10 +16,13 @@ module lagrangia_run_files
     use lagrangia_run_plan, only: run_plan_t
     use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
     use lagrangia_text, only: shortened, to_text
+    use lagrangia_text_table, only: text_table_t
     use lagrangia_version, only: build_text, version
     implicit none (type, external)
     private
     public :: abandon_files, finish_files, keep_parts, method_text, open_files
+
+    character(*), parameter :: lf = new_line("a")
 
 contains
 
@@ -76,18 +81,58 @@ contains
         type(run_plan_t), intent(inout) :: plan  !! its run has succeeded
         type(outcome_t), intent(inout) :: outcome         !! gets the name of the file of events
         type(error_t), allocatable, intent(out) :: error  !! of a file
-        type(output_file_t) :: scripts(2)
+        type(output_file_t) :: scripts(2), scene
 
         call complete_files(plan, outcome, scripts, error)
+        if (.not. allocated(error)) call write_scene(plan, scene, error)
         if (.not. allocated(error)) call commit_files(plan%event_record, scripts(1), error)
         if (.not. allocated(error)) call commit_files(plan%record, scripts(2), error)
+        if (.not. allocated(error) .and. scene%is_open()) call scene%commit(error)
         if (.not. allocated(error)) return
         outcome%file = ""
         outcome%events = ""
         call abandon_files(plan)
         call scripts(1)%abandon()
         call scripts(2)%abandon()
+        call scene%abandon()
     end subroutine finish_files
+
+    subroutine write_scene(plan, file, error)
+        !! Beside a table whose format has no place for it: the scene as it was run, which can be
+        !! run again, what built it, and the columns with their units.
+        type(run_plan_t), intent(in) :: plan
+        type(output_file_t), intent(inout) :: file  !! complete but for its name; or not open
+        type(error_t), allocatable, intent(out) :: error
+        character(scene_line_length), allocatable :: lines(:)
+        type(description_t) :: d
+        character(:), allocatable :: text
+        integer :: i
+
+        if (.not. allocated(plan%record%table)) return
+        select type (table => plan%record%table)
+        type is (text_table_t)
+            return
+        end select
+        call plan%system%describe(d)
+        associate (scene => plan%scene, columns => plan%record%columns%items)
+            text = "! lagrangia "//version//": "//printable(trim(scene%title))//lf// &
+                   "! build: "//build_text()//lf
+            if (plan%choice /= "") text = text//"! "//plan%choice//lf
+            text = text//"! columns:"
+            do i = 1, plan%record%shown
+                text = text//" "//trim(columns(i)%name)//"["//trim(columns(i)%unit)//"]"
+            end do
+            text = text//lf
+            allocate (lines, source=scene_lines(scene, d))
+            do i = 1, size(lines)
+                text = text//trim(lines(i))//lf
+            end do
+        end associate
+        call file%open(scene_path(plan%record%table%file%name()), error)
+        if (allocated(error)) return
+        call file%write(text)
+        call file%complete(error)
+    end subroutine write_scene
 
     subroutine complete_files(plan, outcome, scripts, error)
         !! All but their names: the tables' last lines, and the scripts beside them; that of the

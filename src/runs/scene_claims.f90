@@ -1,6 +1,6 @@
 module lagrangia_scene_claims
     !! All files of a scene, so that those of a run can be compared before any of them is written.
-    use lagrangia_data_files, only: data_path, event_path, pictures, script_path
+    use lagrangia_data_files, only: data_path, event_path, pictures, scene_path, script_path
     use lagrangia_disk_space, only: space_warning
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
@@ -72,6 +72,8 @@ contains
                                                         owner, error)
         end do
         if (.not. allocated(error)) call places%add(stem//"html", kind//" animation", owner, error)
+        if (.not. allocated(error)) call places%add(scene_path(path), "scene of the "//kind// &
+                                                    " file", owner, error)
         if (.not. allocated(error)) call places%add(path//partial_ending, "partial "//kind// &
                                                     " file", owner, error)
     end subroutine claim_table
