@@ -3,7 +3,8 @@
 #
 #   ./setup.sh                  compiler, LAPACK, BLAS, GSL, gnuplot and fpm
 #   ./setup.sh --dev            the same, and what .ci/run needs: two tools for lint, FORD for
-#                               the API pages, valgrind, the reference BLAS and LAPACK, zsh, mandoc, Chromium
+#                               the API pages, valgrind, the reference BLAS and LAPACK, zsh, mandoc,
+#                               Chromium, pandas and matplotlib
 #   ./setup.sh install [DIR]    the same as the first, and then lagrangia itself below DIR (default
 #                               ~/.local): bin, lib, include, completion for bash and zsh, manual
 #
@@ -19,13 +20,14 @@ pip_settings='^(https?|no|all|ftp)_proxy=|^(HTTPS?|NO|ALL|FTP)_PROXY=|^PIP_|^SSL
 missing_packages=()
 missing_tools=()
 ready=true
+asked=false # the administrator: whatever else is missing can wait
 dev=false
 
 say() { printf 'setup: %s\n' "$*"; }
 complain() { printf 'setup: %s\n' "$*" >&2; ready=false; }
 has() { command -v "$1" >/dev/null 2>&1; }
 
-usage() { sed -n '2,12s/^# \{0,1\}//p' "$0"; }
+usage() { sed -n '2,13s/^# \{0,1\}//p' "$0"; }
 
 at_least() { # at_least WANTED VERSION
     [ -n "$2" ] && [ "$(printf '%s\n%s\n' "$1" "$2" | sort -V | head -n 1)" = "$1" ]
@@ -91,6 +93,7 @@ find_missing() {
         tool_is_fine ford || missing_tools+=(ford)
         has valgrind || missing_packages+=(valgrind)
         has chromium || has chromium-browser || has google-chrome || missing_packages+=(chromium)
+        /usr/bin/python3 -c 'import matplotlib, numpy, pandas' 2>/dev/null || missing_packages+=(python3-pandas python3-matplotlib)
         has zsh || missing_packages+=(zsh)
         has groff || missing_packages+=(groff-base)
         has mandoc || missing_packages+=(mandoc)
@@ -144,6 +147,7 @@ install_packages() {
     has apt-get || return 0
     if [ "$privilege" = none ]; then
         if [ "${missing_packages[*]}" != gnuplot-nox ]; then
+            asked=true
             complain "you are not root and there is no sudo: ask the administrator for" \
                 "'apt-get install --no-install-recommends ${missing_packages[*]}', then run this again"
         fi
@@ -342,6 +346,7 @@ if ! nothing_missing; then
         install_packages
         find_missing
     fi
+    $asked && exit 1
     if [ ${#missing_tools[@]} -gt 0 ]; then
         install_tools
         find_missing

@@ -54,6 +54,17 @@ check "the docstring of the module lagrangia is this program" eval '
     sed -n "s/^    !!     //p; s/^    !!$//p" src/lagrangia.f90 | grep -A 100 "^program cart" |
         sed "/^end program cart/q" | diff - data/examples/solve/app/main.f90'
 
+# The installed library, as it is
+fpm install --profile release --prefix "$work/prefix" >"$work/err" 2>&1 || { tail -n 20 "$work/err"; exit 1; }
+rm -rf data/examples/installed/build
+fpm build -C data/examples/installed --flag "-I$work/prefix/include" --link-flag "-L$work/prefix/lib" >"$work/err" 2>&1 || { tail -n 20 "$work/err"; exit 1; }
+run "$(ls -t data/examples/installed/build/gfortran_*/app/periods | head -n 1)"
+check "installed: omega^2 = (m1 + m2) g/(m1 l)" near 1e-8 "19.62 14.715 13.08 12.2625" "$(sed 's/.*=//; s/s^-2//' "$work/out")"
+check "installed: nothing of lagrangia is compiled again" eval '[ "$(find data/examples/installed/build -name "*.o" | wc -l)" -eq 1 ]'
+mkdir "$work/elsewhere"
+(cd "$work/elsewhere" && "$work/prefix/bin/lagrangia" run pendulum) >"$work/out" 2>"$work/err"
+check "installed: a scene by its name, from any folder" eval 'grep -q "^pendulum .* holds$" "$work/out" && [ -s "$work/elsewhere/data/output/pendulum.dat" ]'
+
 # Systems of one's own
 cd data/examples/spherical_pendulum || exit 2
 fpm build --profile release >"$work/err" 2>&1 || { cat "$work/err"; exit 1; }

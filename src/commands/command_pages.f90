@@ -23,7 +23,7 @@ module lagrangia_command_pages
                "results side by side: one table, one picture of the motion, the drift and the "// &
                "error.", &
                [character(72) :: "lagrangia compare pendulum --methods rk4,verlet --plot", &
-                "lagrangia compare pendulum --starts 10 --plot", "", ""]), &
+                "lagrangia compare pendulum --starts 0:7 --plot", "", ""]), &
         page_t("report", "Makes one HTML page of scenes, without a name of all: scorecard, "// &
                "pictures, films, derivations and the slips in the notes. It needs no network "// &
                "and prints well.", &
@@ -63,9 +63,9 @@ module lagrangia_command_pages
                "is wrong, 2 if one cannot be read.", &
                [character(72) :: "lagrangia grade homework.txt", "lagrangia grade atwood", &
                 "lagrangia show atwood.txt", ""]), &
-        page_t("sweep", "Runs many trajectories of one scene over one or two axes, initial values "// &
-               "or parameters, on all processors, and keeps of each what --keep says: its "// &
-               "period, a column's last or largest value. docs/sweeps.md tells more.", &
+        page_t("sweep", "Runs many trajectories of one scene over one or two axes, initial "// &
+               "values or parameters, on all processors, and keeps of each what --keep says: "// &
+               "its period, a column's last or largest value. docs/sweeps.md tells more.", &
                [character(72) :: "lagrangia sweep flip_map --plot", &
                 "lagrangia sweep pendulum --over q=0.1:3.1:50 --keep period", "", ""]), &
         page_t("list", "Lists what there is, one a line with a word on each: systems, methods "// &

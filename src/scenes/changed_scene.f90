@@ -9,7 +9,7 @@ module lagrangia_changed_scene
 
     character(*), parameter :: same_motion(*) = [character(14) :: "title", "output", "columns", &
         "plot", "event_columns", "event_plot", "error_estimate", "modes", "every", "samples", &
-        "figure"]
+        "period_of", "figure"]
     !! keys of `&scene` that leave the motion as it is, and so does `expect_...`
     integer, parameter :: longest = 120  !! bytes of what a file's name gets
 
