@@ -101,8 +101,8 @@ contains
         call answered("pendulum", "no help on 'pendulum'; 'lagrangia describe pendulum' tells "// &
                       "of it")
         call answered("scene", "no help on 'scene'; 'lagrangia describe scene' tells of it")
-        call answered("xyzzy", "no help on 'xyzzy'; there are run, modes, ")
-        call answered("", "no help on ''; there are run, modes, ")
+        call answered("xyzzy", "no help on 'xyzzy'; there are run, ")
+        call answered("", "no help on ''; there are run, ")
     end subroutine a_wrong_word_is_answered
 
     subroutine answered(word, message)

@@ -19,9 +19,9 @@ module lagrangia_command_pages
                 "lagrangia run pendulum --set pendulum%l=2 --set scene%dt=1e-3", &
                 "lagrangia run mine.nml --format csv --output results", &
                 "lagrangia run double_pendulum --error-estimate"]), &
-        page_t("compare", "Runs one scene by several methods, or from several starts, and sets the "// &
-               "results side by side: one table, one picture of the motion, the drift and the "// &
-               "error.", &
+        page_t("compare", "Runs one scene by several methods, or from several starts, and sets "// &
+               "the results side by side: one table, one picture of the motion, the drift and "// &
+               "the error.", &
                [character(72) :: "lagrangia compare pendulum --methods rk4,verlet --plot", &
                 "lagrangia compare pendulum --starts 0:7 --plot", "", ""]), &
         page_t("report", "Makes one HTML page of scenes, without a name of all: scorecard, "// &
