@@ -39,7 +39,7 @@ page() { # page FILTER WORDS...: what the program prints for WORDS, through the 
 claims() { # of check: claim, bound over noise, states, verdict; not how large rounding is
     awk 'substr($0, 1, 2) == "  " && $NF ~ /^(holds|FAILS)$/ {
         printf "%s bound/noise %.0f, %d states, %s\n", substr($0, 1, 42), $(NF - 2)/$(NF - 3), $(NF - 1), $NF; next }
-        { print }' | sed -E 's/(measured|,) [0-9.]+ on/\1 ~ on/g' | plain
+        { print }' | sed -E -e 's/(measured|,) [0-9.]+ on/\1 ~ on/g' -e 's/([0-9]\.[0-9]{6})[0-9]{6,}/\1/g' | plain
 }
 
 statements() { # of principle: the bounds stay, as 1.0(-13)
