@@ -273,7 +273,7 @@ modes_are hanging_chain --set hanging_chain%n=3
 modes_are rotating_hoop --set rotating_hoop%r=0.5 --set rotating_hoop%omega=7 --at 0
 modes_are charged_particle --set charged_particle%trap=3 --set charged_particle%magnetic=0,0,2
 run modes hanging_chain --set hanging_chain%n=200 --output "$work/modes"
-check "modes: a long chain, a file and a script a mode" eval '[ $status -eq 0 ] && [ "$(ls "$work/modes" | wc -l)" -eq 402 ]'
+check "modes: a long chain, a file and a script a mode, and all as the mechanism" eval '[ $status -eq 0 ] && [ "$(ls "$work/modes" | wc -l)" -eq 402 ]'
 refuses 2 "the nearest is --at 0.0" modes pendulum --at 1
 run modes pendulum --at -0
 check "modes: zero has no sign" eval '[ $status -eq 0 ] && grep -q "theta = 0.0$" "$work/out"'

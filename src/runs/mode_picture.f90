@@ -95,11 +95,12 @@ contains
         type(modes_t), intent(in) :: modes
         integer, intent(in) :: points
         type(picture_t), intent(out) :: picture
-        logical :: rods(0:points, points)
+        logical, allocatable :: rods(:, :)  ! too many for the stack
         real(dp) :: at(3, 0:points), first(3, 0:points), last(3, 0:points), q(system%ndof)
         real(dp) :: size_of_all
         integer :: i, j, k
 
+        allocate (rods(0:points, points))
         call find_rods(system, modes%at, points, rods)
         call place(system, modes%at, points, at)
         size_of_all = extent(at, rods)
