@@ -6,12 +6,12 @@ module test_pages
     use lagrangia_channels, only: channels_t, unpacked
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
-    use lagrangia_figure, only: figure_t, new_figure
     use lagrangia_frames, only: add_reference, film_speed, find_pace, frames_t, record_frames, &
                                 window_of
     use lagrangia_html, only: fill_template, html_text, script_json
     use lagrangia_kinds, only: dp
     use lagrangia_run_plan, only: read_run_plan, run_plan_t
+    use lagrangia_scene_figure, only: figure_t, new_figure
     use lagrangia_system, only: system_t
     use lagrangia_text, only: word_t
     use random_states, only: draw_parameters, draw_state, restart_random

@@ -4,11 +4,11 @@ module lagrangia_film
     use lagrangia_channels, only: channels_t
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
-    use lagrangia_figure, only: figure_t, new_figure
     use lagrangia_frames, only: frames_t
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_json, only: json_item, json_object, json_pair, json_string
     use lagrangia_kinds, only: dp
+    use lagrangia_scene_figure, only: figure_t, new_figure
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)

@@ -3,11 +3,11 @@ module lagrangia_scene_keys
     use lagrangia_columns, only: column_names, why_energy_changes
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
-    use lagrangia_figure, only: figure_t, new_figure
     use lagrangia_kinds, only: dp, i8
     use lagrangia_namelist, only: get_integer, get_logical, get_real, get_reals, get_string, &
                                   get_strings, has_key, namelist_t, point_advice, refuse_value
     use lagrangia_scene, only: expectation_t, scene_t
+    use lagrangia_scene_figure, only: figure_t, new_figure
     use lagrangia_scene_tolerance, only: most_samples, read_tolerance, too_many
     use lagrangia_system, only: system_t
     use lagrangia_text, only: join, lower, shortened, to_text

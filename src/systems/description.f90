@@ -96,7 +96,7 @@ module lagrangia_description
         character(formula_length), allocatable :: motion(:)  !! `x = x_0 + x_dot_0 t`, from t = 0
         real(dp), allocatable :: equilibrium(:)          !! at or near one; absent: try zero
         character(figure_length), allocatable :: figure(:)
-        !! how it is drawn, part by part: `rod origin bob`; see `lagrangia_figure`; absent: points
+        !! how it is drawn: `rod origin bob`; see `lagrangia_scene_figure`; absent: as its points
         character(line_length), allocatable :: notes(:)  !! slips corrected, limits, remarks
         character(line_length) :: source = ""            !! where in the lecture notes
     end type description_t

@@ -1,4 +1,4 @@
-module lagrangia_figure
+module lagrangia_scene_figure
     !! How a system is drawn: the parts that its description names, and where their places are at a
     !! state. Each part is a word and its places, with blanks between them:
     !!
@@ -325,4 +325,4 @@ contains
             end if
         end do
     end subroutine place
-end module lagrangia_figure
+end module lagrangia_scene_figure
