@@ -61,11 +61,11 @@ contains
         character(name_length), allocatable :: adaptive(:), names(:)
         type(description_t) :: d
         integer :: i
-        logical :: known
+        logical :: adapts, steps  ! it takes a tolerance, a step
 
-        known = any(method_names() == method)
-        if (.not. known) known = any(adaptive_names() == method)
-        if (.not. known) then
+        steps = any(method_names() == method)
+        adapts = any(adaptive_names() == method)
+        if (.not. (steps .or. adapts)) then
             names = method_names()
             adaptive = adaptive_names()
             do i = 1, size(adaptive)
@@ -77,10 +77,10 @@ contains
         end if
         scene%method = method
         scene%output = run_name(trim(scene%output), method)
-        if (scene%tolerance <= 0.0_dp .and. .not. any(method_names() == method)) then
+        if (scene%tolerance <= 0.0_dp .and. .not. steps) then
             scene%tolerance = usual_tolerance
             scene%samples = max(1_i8, nint(scene%duration/(scene%dt*scene%every), i8))
-        else if (scene%tolerance > 0.0_dp .and. .not. any(adaptive_names() == method)) then
+        else if (scene%tolerance > 0.0_dp .and. .not. adapts) then
             scene%tolerance = 0.0_dp
             scene%dt = scene%duration/scene%samples
             scene%every = 1
