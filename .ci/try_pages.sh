@@ -26,7 +26,7 @@ page() { # page FILTER WORDS...: what the program prints for WORDS, through the 
     local name=${*:2}
     name=${name//[^A-Za-z0-9_.-]/_}
     count=$((count + 1))
-    timeout 600 "$program" "${@:2}" </dev/null 2>/dev/null | "$1" >"$work/$name.txt"  # progress goes to stderr
+    timeout 600 "$program" "${@:2}" </dev/null 2>&1 | grep -v "^lagrangia: .* takes about " | "$1" >"$work/$name.txt"
     if [ -n "$accept" ]; then
         cp "$work/$name.txt" "$pages/$name.txt"
     elif ! diff -u "$pages/$name.txt" "$work/$name.txt" >"$work/diff"; then
