@@ -6,7 +6,7 @@ module test_gauss
                      assertLessThan, assertTrue
     use lagrangia_errors, only: error_t
     use lagrangia_gauss, only: gauss_t, new_gauss16
-    use lagrangia_gauss_kernels, only: end_state
+    use lagrangia_gauss_kernels, only: end_state, full_end_state
     use lagrangia_gauss_tables, only: nodes, stages, weights
     use lagrangia_kinds, only: dp, i8
     use lagrangia_oscillator, only: oscillator_t
@@ -73,7 +73,11 @@ contains
             q = q0
             v_low = low
             q_low = -low
-            call end_state(1, fully, hb, f, q, q_low, v, v_low)
+            if (fully) then
+                call full_end_state(1, hb, f, q, q_low, v, v_low)
+            else
+                call end_state(1, hb, f, q, q_low, v, v_low)
+            end if
         end subroutine go
     end subroutine ends_have_twice_the_digits
 

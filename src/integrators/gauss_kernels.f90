@@ -10,7 +10,7 @@ module lagrangia_gauss_kernels
     implicit none (type, external)
     private
     public :: apply, distance, end_state, exact_states, expand_both, fly, fly_by_guess, &
-              free_states, integrals, magnitude, quick_states, weighted_sum
+              free_states, full_end_state, integrals, magnitude, quick_states, weighted_sum
 
 contains
 
@@ -152,12 +152,9 @@ contains
         all = total(x)/stages
     end function magnitude
 
-    pure subroutine end_state(n, fully, hb, f, q, q_low, v, v_low)
-        !! The state at the end of the step; what rounding takes from it goes into the low parts,
-        !! and `fully` also what it takes from the sum of the increments: a part in \(10^{16}\) of
-        !! them, which fixed steps add up a million times.
+    pure subroutine end_state(n, hb, f, q, q_low, v, v_low)
+        !! The state at the end of the step; what rounding takes from it goes into the low parts.
         integer, intent(in) :: n                   !! degrees of freedom
-        logical, intent(in) :: fully               !! costs 30 operations a coordinate
         real(dp), intent(in) :: hb(lanes)          !! weights times step, s
         real(dp), intent(in) :: f(lanes, n)        !! accelerations of the stages
         real(dp), intent(inout) :: q(n), q_low(n)  !! coordinates: their sum; first at the start
@@ -167,15 +164,28 @@ contains
 
         do d = 1, n
             call integrate(v(d), v_low(d), hb, f(:, d), v_stage)
-            if (fully) then
-                call add_products(hb, f(:, d), v(d), v_low(d))
-                call add_products(hb, v_stage, q(d), q_low(d))
-            else
-                call increase(v(d), v_low(d), total(hb*f(:, d)))
-                call increase(q(d), q_low(d), total(hb*v_stage))
-            end if
+            call increase(v(d), v_low(d), total(hb*f(:, d)))
+            call increase(q(d), q_low(d), total(hb*v_stage))
         end do
     end subroutine end_state
+
+    pure subroutine full_end_state(n, hb, f, q, q_low, v, v_low)
+        !! The same with twice the digits in the sums of the increments, too, where rounding takes a
+        !! part in \(10^{16}\) of them, which fixed steps add up a million times.
+        integer, intent(in) :: n                   !! degrees of freedom
+        real(dp), intent(in) :: hb(lanes)          !! weights times step, s
+        real(dp), intent(in) :: f(lanes, n)        !! accelerations of the stages
+        real(dp), intent(inout) :: q(n), q_low(n)  !! coordinates: their sum; first at the start
+        real(dp), intent(inout) :: v(n), v_low(n)  !! velocities: their sum
+        real(dp) :: v_stage(lanes)
+        integer :: d
+
+        do d = 1, n
+            call integrate(v(d), v_low(d), hb, f(:, d), v_stage)
+            call add_products(hb, f(:, d), v(d), v_low(d))
+            call add_products(hb, v_stage, q(d), q_low(d))
+        end do
+    end subroutine full_end_state
 
     pure subroutine add_products(a, b, x, low)
         !! Add \(\sum_i a_i b_i\) to `x + low` as if it were computed with twice the digits: the

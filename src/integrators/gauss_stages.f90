@@ -13,7 +13,7 @@ module lagrangia_gauss_stages
     !! the rounding of these matrices makes the energy drift.
     use, intrinsic :: iso_c_binding, only: c_intptr_t, c_loc
     use lagrangia_gauss_kernels, only: apply, distance, end_state, exact_states, free_states, &
-                                       magnitude, quick_states
+                                       full_end_state, magnitude, quick_states
     use lagrangia_gauss_tables, only: legendre, nodes, stages, weights
     use lagrangia_kinds, only: dp
     use lagrangia_system, only: lanes, system_t
@@ -224,8 +224,13 @@ contains
             self%v_end(d) = self%v(d)
             self%v_end_low(d) = self%v_low(d)
         end do
-        call end_state(self%n, fully, self%hb, self%room(self%first, f), self%q_end, &
-                       self%q_end_low, self%v_end, self%v_end_low)
+        if (fully) then
+            call full_end_state(self%n, self%hb, self%room(self%first, f), self%q_end, &
+                                self%q_end_low, self%v_end, self%v_end_low)
+        else
+            call end_state(self%n, self%hb, self%room(self%first, f), self%q_end, &
+                           self%q_end_low, self%v_end, self%v_end_low)
+        end if
     end subroutine reach
 
     pure subroutine look_ahead(self, system)
