@@ -62,8 +62,8 @@ contains
             if (.not. allocated(error)) call fail(error, "", scene_error%status)
         end do
         call page%write(path, page_error)
-        if (allocated(page_error)) then
-            call move_alloc(page_error, error)
+        if (allocated(page_error)) then  ! what keeps the page away has perhaps been said of a scene
+            if (.not. allocated(error)) call move_alloc(page_error, error)
             return
         end if
         if (.not. line%has("quiet")) call put_line("report: "//path)

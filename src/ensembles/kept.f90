@@ -25,8 +25,8 @@ module lagrangia_kept
     implicit none (type, external)
     private
     public :: keeper_t, kept_t, kept_text_length, read_kept
-    public :: keeps_end, keeps_event, keeps_exact_period, keeps_flip, keeps_largest, keeps_lyapunov, &
-              keeps_lyapunov_error, keeps_period, keeps_smallest
+    public :: keeps_end, keeps_event, keeps_exact_period, keeps_flip, keeps_largest
+    public :: keeps_lyapunov, keeps_lyapunov_error, keeps_period, keeps_smallest
 
     integer, parameter :: keeps_end = 1, keeps_largest = 2, keeps_smallest = 3, keeps_period = 4
     integer, parameter :: keeps_exact_period = 5, keeps_event = 6, keeps_flip = 7
