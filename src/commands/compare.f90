@@ -176,6 +176,7 @@ contains
         type(word_t), allocatable :: given(:)
         integer :: colon, n
 
+        allocate (given(0))  ! gfortran 12 would warn of its bounds
         given = line%values_of("set")
         n = size(given)
         colon = index(word, ":")

@@ -57,6 +57,7 @@ contains
         integer :: i, page
 
         text = ""
+        page = 0
         if (which > 1) then
             call add("usage: lagrangia "//trim(commands(which)%name)//" "// &
                      trim(commands(which)%arguments)//" [options]")

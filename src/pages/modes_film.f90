@@ -40,6 +40,7 @@ contains
 
         call system%describe(d)
         films = ""
+        name = ""
         shown = size(modes%omega2)
         do j = 1, size(modes%omega2)
             if (j > shown) exit
