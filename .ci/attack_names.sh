@@ -28,10 +28,18 @@ scene s/a.nml "output='b.nml'"
 scene s/b.nml "output='b'"
 refused "the output of one would be the scene of another" run s/a.nml s/b.nml --output s
 refused "a shipped scene that is not of the run" run pendulum --set "scene%output='atwood.nml'" --output data/scenes
-for pair in s.dat:./s.dat s.dat:s x/s.dat:x/./s.dat s_events.dat:s s.csv:s.npy d.1:d.2; do
+for pair in s.dat:./s.dat s.dat:s x/s.dat:x/./s.dat s_events.dat:s; do
     scene s/p.nml "output='${pair%:*}'"
     scene s/q.nml "output='${pair#*:}' event='theta'"
     refused "outputs '${pair%:*}' and '${pair#*:}'" run s/p.nml s/q.nml --output o
+done
+for pair in s.csv:s.npy d.1:d.2; do # each has a script of its own
+    scene s/p.nml "output='${pair%:*}'"
+    scene s/q.nml "output='${pair#*:}' event='theta'"
+    run run s/p.nml s/q.nml --output o
+    check "outputs '${pair%:*}' and '${pair#*:}': both, with two scripts" eval \
+        '[ $status -eq 0 ] && [ "$(ls o/"${pair%:*}"*.gp o/"${pair#*:}"*.gp | wc -l)" -ge 2 ]'
+    rm -f o/*
 done
 scene s/e.nml "output='c_events.dat'"
 scene s/f.nml "output='c' event='theta'"

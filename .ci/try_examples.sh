@@ -113,7 +113,7 @@ end program twice
 END
 newest() { ls -t $(find build -name "$1") | head -n 1; }
 if gfortran -I"$(dirname "$(newest lagrangia.mod)")" -I"$(dirname "$(newest spherical_xy.mod)")" "$work/twice.f90" \
-    "$(newest libspherical_pendulum.a)" -llapack -lblas -lgsl -lgslcblas -o "$work/bin/twice" 2>"$work/err"; then
+    "$(newest libspherical_pendulum.a)" -llapack -lblas -lgsl -lgslcblas -lgomp -o "$work/bin/twice" 2>"$work/err"; then
     run twice list systems
 fi
 check "a name that is taken: one line, status 2" eval '[ $status -eq 2 ] && [ ! -s "$work/out" ] && [ "$(cat "$work/err")" = "lagrangia: system '"'spherical_xy'"': there is a system of that name: give yours another one" ]'
