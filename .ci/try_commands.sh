@@ -323,6 +323,23 @@ run bench precision --quick --json --problems P1 --methods rk4,gauss16,gsl_rk4 -
 check "bench precision: points and times of the methods asked for" json 'all({r["method"] for r in d if r["table"] == t} == {"rk4", "gauss16", "gsl_rk4"} for t in ("work_precision", "time_to_error"))'
 
 # Every key of a scene
+# Many trajectories: numbers that are known, a picture of each kind, the same file by any number of threads
+for sweep in flip_map period_of_amplitude; do
+    run sweep $sweep --over theta$([ $sweep = flip_map ] && echo 1)=0.5:3:20 --output "$work/sweep" --plot --threads 1
+    check "sweep $sweep: a table and a picture" eval '[ $status -eq 0 ] && [ ! -s "$work/err" ] && [ -s "$work/sweep/${sweep}_sweep.png" ] &&
+        [ "$(grep -vc "^#" "$work/sweep/${sweep}_sweep.dat")" -eq 20 ]'
+    cp "$work/sweep/${sweep}_sweep.dat" "$work/one"
+    run sweep $sweep --over theta$([ $sweep = flip_map ] && echo 1)=0.5:3:20 --output "$work/sweep" --threads 3 --json
+    check "sweep $sweep: the same by three threads, and JSON" eval 'cmp "$work/one" "$work/sweep/${sweep}_sweep.dat" &&
+        python3 -c "import json, sys; r = json.load(open(sys.argv[1])); assert r[\"trajectories\"] == 20 and r[\"failed\"] == 0" "$work/out"'
+done
+check "sweep: the measured period is the exact one" awk '!/^#/ { d = $2/$3 - 1; if (d*d > 1e-18) exit 1 }' "$work/sweep/period_of_amplitude_sweep.dat"
+run sweep pendulum --over l=0.1:10:4:log --over theta=0.1:3:3 --keep period --output "$work/sweep" --plot
+check "sweep over two axes: a map" eval '[ $status -eq 0 ] && [ -s "$work/sweep/pendulum_sweep.png" ] && [ "$(grep -c "^$" "$work/sweep/pendulum_sweep.dat")" -eq 3 ]'
+for words in "sweep" "sweep pendulum" "sweep pendulum --over q=0:1:3" "sweep pendulum --over q=0:1 --keep q" "sweep pendulum --over q=0:1:3 --keep nope" "sweep resonance --set sweep%after=300"; do
+    run $words --output "$work/sweep"
+    check "$words: one line, status 2" eval '[ $status -eq 2 ] && [ "$(wc -l <"$work/err")" -eq 1 ] && [ ! -s "$work/out" ]'
+done
 run describe scene
 check "docs/scenes.md: what 'describe scene' prints" python3 -c 'import re, sys
 sys.exit(re.search(r"```\n(.*?)```", open("docs/scenes.md").read(), re.S).group(1) != open(sys.argv[1]).read())' "$work/out"

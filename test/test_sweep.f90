@@ -417,6 +417,6 @@ contains
         call read_whole_file(path(:len(path) - 3)//"gp", script, error)
         call assertTrue(index(script, "plot [0.0:1.0] [1.0:3.0] data using 1:2:3 with image"// &
                               line) > 0, script)
-        call assertTrue(index(script, "set xlabel ""theta1 (rad)""") > 0, "the first axis")
+        call assertTrue(index(script, "set xlabel ""θ_{1} (rad)""") > 0, "the first axis")
     end subroutine a_grid_is_written_line_by_line
 end module test_sweep

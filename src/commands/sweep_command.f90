@@ -3,7 +3,7 @@ module lagrangia_sweep_command
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: note, put_line
-    use lagrangia_data_files, only: check_format, data_path, draw
+    use lagrangia_data_files, only: check_format, check_picture, data_path, draw
     use lagrangia_disk_space, only: space_warning
     use lagrangia_errors, only: error_t, fail
     use lagrangia_json, only: json_item, json_object, json_pair
@@ -55,8 +55,7 @@ contains
         if (allocated(error)) return
         kind = line%value_of("plot", "png")
         if (kind == "") kind = "png"
-        if (kind /= "png" .and. kind /= "svg") call fail(error, "unknown picture format "// &
-            quoted(kind)//"; there are png, svg")
+        call check_picture(kind, error)
         if (allocated(error)) return
         call find_sweep(line%arguments(1)%text, path, error)
         if (.not. allocated(error)) call read_scene(path, line%values_of("set"), scene, system, &

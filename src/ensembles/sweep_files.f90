@@ -8,6 +8,7 @@ module lagrangia_sweep_files
     use lagrangia_gnuplot_script, only: begin_script, gnuplot_string, lines_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_output_file, only: commit_both, output_file_t
+    use lagrangia_plot_label, only: label, plain_label
     use lagrangia_scene, only: scene_line_length, scene_lines
     use lagrangia_sweep, only: sweep_t
     use lagrangia_sweep_grid, only: sweep_result_t
@@ -114,6 +115,7 @@ contains
         else
             call begin_script(script, file, 1000, 60 + merge(560, 340, n == 1)*n, 30*n)
         end if
+        call script%add("data = folder."//gnuplot_string(file))
         if (index(reading, "skip") == 1) call script%add("set datafile separator comma")
         call script%add("set multiplot layout "//to_text(n)//",1 title "// &
                         gnuplot_string(trim(sweep%scene%title))//" noenhanced")
@@ -165,13 +167,13 @@ contains
                                                                 sweep%kept(which(1))%unit))
             else
                 call script%add("set key top left reverse Left; set ylabel "// &
-                                gnuplot_string("("//trim(sweep%kept(which(1))%unit)//")"))
+                                plain_label("("//trim(sweep%kept(which(1))%unit)//")"))
             end if
             line = "plot"
             do i = 1, size(which)
                 if (i > 1) style = "lines dt 2 lw 2"
                 line = line//" data "//reading//"using 1:"//to_text(which(i) + 1)//" with "// &
-                       style//" title "//gnuplot_string(trim(sweep%kept(which(i))%text))//","
+                       style//" title "//label(trim(sweep%kept(which(i))%text), "1")//","
             end do
             call script%add(line(:len(line) - 1))
         end associate
@@ -204,7 +206,6 @@ contains
 
         associate (x => sweep%axes(1), y => sweep%axes(2), kept => sweep%kept(which))
             call script%add(colours)
-            call script%add(trim(merge("set logscale cb  ", "unset logscale cb", wide)))
             call script%add("set object 1 rectangle from graph 0,0 to graph 1,1 behind "// &
                             "fc rgb '#c8c8c8' fs solid noborder")
             range = ""
@@ -216,6 +217,7 @@ contains
                 end associate
             end do
             call script%add("unset logscale; unset grid; unset key")
+            if (wide) call script%add("set logscale cb")
             if (x%logarithmic) call script%add("set logscale x")
             if (y%logarithmic) call script%add("set logscale y")
             call script%add("set xlabel "//label(x%name, x%unit))
@@ -233,13 +235,4 @@ contains
             end if
         end associate
     end subroutine add_map
-
-    pure function label(name, unit) result(text)
-        !! `"theta (rad)"`.
-        character(*), intent(in) :: name, unit
-        character(:), allocatable :: text
-
-        text = gnuplot_string(trim(name)//" ("//trim(unit)//")")
-        if (unit == "1") text = gnuplot_string(trim(name))
-    end function label
 end module lagrangia_sweep_files
