@@ -111,7 +111,8 @@ contains
         integer, intent(in) :: number                !! of the statement
         type(expression_t), intent(in) :: residual   !! left less right side
         type(samples_t), intent(in) :: truth         !! the true motion
-        type(expression_t) :: right
+        type(expression_t) :: rate, right
+        type(supposition_t) :: one(1), two(2)  ! gfortran 12 does not free what a constructor makes
         integer :: i, k, left, n
 
         if (residual%count == 0) return
@@ -142,21 +143,23 @@ contains
             do i = 1, truth%ndof
                 if (.not. any(k == [place("p_", ""), place("dL_d", "_dot")])) cycle
                 if (.not. without_known(right, truth, .false.)) cycle
-                call self%suppose_everywhere(number, &
-                    [supposition_t(residual, no_momentum, i), &
-                     supposition_t(symbol(place("d_dt_dL_d", "_dot")) - &
-                                   time_derivative(right, truth%rate, 1), no_rate, i)], truth)
+                two(1) = supposition_t(residual, no_momentum, i)
+                rate = symbol(place("d_dt_dL_d", "_dot")) - time_derivative(right, truth%rate, 1)
+                two(2) = supposition_t(rate, no_rate, i)
+                call self%suppose_everywhere(number, two, truth)
                 return
             end do
         end if
         do i = 1, truth%ndof
             do k = no_equation, no_momentum
-                call self%suppose_everywhere(number, [supposition_t(residual, k, i)], truth)
+                one(1) = supposition_t(residual, k, i)
+                call self%suppose_everywhere(number, one, truth)
             end do
         end do
         do k = 1, size(truth%role)
             if (truth%role(k) /= role_known .or. .not. residual%depends_on(k)) cycle
-            call self%suppose_everywhere(number, [supposition_t(residual, no_value, k)], truth)
+            one(1) = supposition_t(residual, no_value, k)
+            call self%suppose_everywhere(number, one, truth)
         end do
     contains
         integer function place(before, after)
@@ -172,6 +175,7 @@ contains
         integer, intent(in) :: because(:)            !! these statements
         type(expression_t), intent(in) :: residual   !! left less right side
         type(samples_t), intent(in) :: truth         !! the true motion
+        type(supposition_t) :: one(1)
         integer :: i
         logical :: moves
 
@@ -179,7 +183,8 @@ contains
         moves = any([(residual%depends_on(truth%first_acceleration + i - 1), i=1, truth%ndof)])
         if (.not. moves) return
         do i = 1, truth%ndof
-            call self%try_world(because, truth, [supposition_t(residual, no_equation, i)])
+            one(1) = supposition_t(residual, no_equation, i)
+            call self%try_world(because, truth, one)
         end do
     end subroutine add_consequence
 
