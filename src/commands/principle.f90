@@ -213,13 +213,13 @@ contains
         type(output_file_t) :: script
         type(panel_t), allocatable :: panels(:)
         type(series_t), allocatable :: series(:)
-        type(value_range_t) :: ranges(size(picture%values, 1))
+        type(value_range_t), allocatable :: ranges(:)
         character(2*group_length) :: header(2)
         integer :: i
 
         path = ""
         if (picture%file == "") return
-        allocate (series(1))
+        allocate (series(1), ranges(size(picture%values, 1)))
         call new_panels(picture%panels, picture%names, picture%units, panels, error)
         if (allocated(error)) return
         path = data_path(folder, trim(picture%file), "text")

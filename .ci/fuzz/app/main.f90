@@ -67,11 +67,11 @@ contains
         type(error_t), allocatable :: error
         integer :: k
 
-        call shipped_scenes(paths, error)
-        if (allocated(error)) error stop "fuzz: start in the project's folder"
+        call shipped_scenes(paths)
         allocate (corpus(size(paths)))
         do k = 1, size(paths)
             call read_whole_file(paths(k)%text, corpus(k)%text, error)
+            if (allocated(error)) error stop "fuzz: start in the project's folder"
         end do
     end subroutine read_corpus
 
