@@ -4,12 +4,12 @@ module lagrangia_bench_options
     use lagrangia_catalogue, only: system_names
     use lagrangia_command_line, only: command_line_t
     use lagrangia_contestants, only: contestant_names
-    use lagrangia_data_files, only: check_picture
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
     use lagrangia_names, only: refuse_name
     use lagrangia_number_list, only: read_numbers
+    use lagrangia_output_options, only: take_folder, take_picture
     use lagrangia_scene_reader, only: names_scene
     use lagrangia_stopwatch, only: effort, effort_t
     use lagrangia_text, only: quoted, to_text
@@ -40,12 +40,8 @@ contains
         integer :: i
 
         options%plan = effort(line%has("quick"))
-        options%folder = line%value_of("output", "data/output")
-        options%picture = line%value_of("plot", "png")
-        if (options%picture == "") options%picture = "png"
-        call check_picture(options%picture, error)
-        if (allocated(error)) return
-        if (options%folder == "") call fail(error, "option '--output' needs the name of a folder")
+        call take_picture(line, options%picture, error)
+        if (.not. allocated(error)) call take_folder(line, options%folder, error)
         if (allocated(error)) return
         allocate (words(size(line%arguments)))
         do i = 1, size(words)

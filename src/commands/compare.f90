@@ -5,13 +5,14 @@ module lagrangia_compare
     use lagrangia_changed_scene, only: make_own_scene
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: note, put_line
-    use lagrangia_data_files, only: check_format, check_picture, draw, script_path
+    use lagrangia_data_files, only: check_format, draw, script_path
     use lagrangia_errors, only: error_t, fail, is_signal
     use lagrangia_gnuplot, only: panel_t, series_t
     use lagrangia_kinds, only: dp
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_json, outcome_t
     use lagrangia_output_file, only: refuse_unwritable
+    use lagrangia_output_options, only: take_folder, take_picture
     use lagrangia_overlay, only: add_to_overlay, common_panels, compare_methods, compare_starts, &
                                  overlay_path, run_name, write_overlay
     use lagrangia_places, only: places_t
@@ -63,12 +64,9 @@ contains
         format = line%value_of("format", "text")
         call check_format(format, error)
         if (allocated(error)) return
-        folder = line%value_of("output", "data/output")
-        if (folder == "") call fail(error, "option '--output' needs the name of a folder")
+        call take_folder(line, folder, error)
         if (allocated(error)) return
-        kind = line%value_of("plot", "png")
-        if (kind == "") kind = "png"
-        call check_picture(kind, error)
+        call take_picture(line, kind, error)
         if (allocated(error)) return
         call plan_runs(line, folder, format, runs, name, error)
         if (allocated(error)) return

@@ -4,7 +4,7 @@ module lagrangia_modes_command
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: note, put, put_line
     use lagrangia_damped_rates, only: damped_rates
-    use lagrangia_data_files, only: check_picture, data_path, draw
+    use lagrangia_data_files, only: data_path, draw
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_interrupt, only: interrupt_status
@@ -16,6 +16,7 @@ module lagrangia_modes_command
     use lagrangia_number_list, only: read_numbers
     use lagrangia_number_text, only: scientific
     use lagrangia_output_file, only: refuse_unwritable
+    use lagrangia_output_options, only: take_folder, take_picture
     use lagrangia_progress, only: progress_t
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, &
@@ -52,12 +53,9 @@ contains
             call fail(error, "modes of what? 'lagrangia list systems' shows the names")
             return
         end if
-        folder = line%value_of("output", "data/output")
-        if (folder == "") call fail(error, "option '--output' needs the name of a folder")
+        call take_folder(line, folder, error)
         if (allocated(error)) return
-        kind = line%value_of("plot", "png")
-        if (kind == "") kind = "png"
-        call check_picture(kind, error)
+        call take_picture(line, kind, error)
         if (allocated(error)) return
         call read_named_system(line%arguments(1)%text, line%values_of("set"), system, error)
         if (allocated(error)) return
@@ -73,8 +71,7 @@ contains
             if (allocated(error)) return
             if (warning /= "" .and. .not. line%has("quiet")) call note(warning)
         end if
-        page = data_path(line%value_of("output", "data/output"), trim(d%name)//"_modes.html", &
-                         "text")
+        page = data_path(folder, trim(d%name)//"_modes.html", "text")
         if (line%has("animate")) call refuse_unwritable(page, error)
         if (allocated(error)) return
         call find_modes(system, at, line%has("at"), modes, error)

@@ -6,7 +6,7 @@ module lagrangia_principle
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_constraints, only: constraints_principle
-    use lagrangia_data_files, only: check_picture, data_path, draw, script_path
+    use lagrangia_data_files, only: data_path, draw, script_path
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_gauge, only: gauge_principle
     use lagrangia_gnuplot, only: gnuplot_script, new_panels, new_series, panel_t, &
@@ -16,6 +16,7 @@ module lagrangia_principle
     use lagrangia_ledger_text, only: statement_head, statement_json, statement_line
     use lagrangia_names, only: refuse_name
     use lagrangia_output_file, only: commit_both, output_file_t, refuse_unwritable
+    use lagrangia_output_options, only: take_folder, take_picture
     use lagrangia_places, only: places_t
     use lagrangia_report, only: picture_t, report_t
     use lagrangia_scene_claims, only: claim_table
@@ -56,12 +57,9 @@ contains
             call list_principles()
             return
         end if
-        folder = line%value_of("output", "data/output")
-        if (folder == "") call fail(error, "option '--output' needs the name of a folder")
+        call take_folder(line, folder, error)
         if (allocated(error)) return
-        kind = line%value_of("plot", "png")
-        if (kind == "") kind = "png"
-        call check_picture(kind, error)
+        call take_picture(line, kind, error)
         if (allocated(error)) return
         if (any(principles%name == line%arguments(1)%text .and. principles%drawn)) then
             call check_files(picture_name(line%arguments(1)%text), folder, error)

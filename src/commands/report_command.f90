@@ -9,6 +9,7 @@ module lagrangia_report_command
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_t
     use lagrangia_output_file, only: refuse_unwritable
+    use lagrangia_output_options, only: take_folder
     use lagrangia_progress, only: progress_t
     use lagrangia_report_page, only: report_page_t
     use lagrangia_run_command, only: choose_scenes, chosen_t
@@ -36,8 +37,7 @@ contains
         character(:), allocatable :: folder, path
         integer :: i, missed
 
-        folder = line%value_of("output", "data/output")
-        if (folder == "") call fail(error, "option '--output' needs the name of a folder")
+        call take_folder(line, folder, error)
         if (allocated(error)) return
         path = data_path(folder, "report.html", "text")
         allocate (chosen(0))  ! gfortran 12 would warn of its bounds

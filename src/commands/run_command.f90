@@ -4,7 +4,7 @@ module lagrangia_run_command
     use lagrangia_changed_scene, only: make_own_scene
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: note, put, put_line
-    use lagrangia_data_files, only: check_format, check_picture, data_path, draw, film_path, &
+    use lagrangia_data_files, only: check_format, data_path, draw, film_path, &
                                     script_path
     use lagrangia_errors, only: error_t, fail, is_signal, status_not_held
     use lagrangia_final_values, only: final_values_legend, final_values_line
@@ -12,6 +12,7 @@ module lagrangia_run_command
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_json, outcome_t
     use lagrangia_output_file, only: refuse_unwritable
+    use lagrangia_output_options, only: take_folder, take_picture
     use lagrangia_overlay, only: add_to_overlay, common_panels, overlay_path, write_overlay
     use lagrangia_places, only: places_t
     use lagrangia_progress, only: progress_t
@@ -61,17 +62,12 @@ contains
         format = line%value_of("format", "text")
         call check_format(format, error)
         if (allocated(error)) return
-        folder = line%value_of("output", "data/output")
-        if (folder == "") call fail(error, "option '--output' needs the name of a folder")
+        call take_folder(line, folder, error)
         if (allocated(error)) return
-        kind = line%value_of("plot", "png")
-        if (kind == "") kind = "png"
-        call check_picture(kind, error)
+        call take_picture(line, kind, error)
         if (allocated(error)) return
         allocate (chosen(0))  ! gfortran 12 would warn of its bounds
         call choose_scenes(line, folder, format, chosen, error)
-        if (allocated(error)) return
-        call check_overlay(line, folder, chosen, error)
         if (allocated(error)) return
         if (.not. (is_optimised() .or. quiet)) call note("this build is not optimised; "// &
             "'fpm run --profile release' is several times faster")
@@ -164,27 +160,18 @@ contains
         end subroutine run_one
     end subroutine run_command
 
-    subroutine check_overlay(line, folder, chosen, error)
+    subroutine check_overlay(scenes, folder, places, error)
         !! Fails where `--overlay` has too little to draw, or nowhere to write.
-        type(command_line_t), intent(in) :: line
+        integer, intent(in) :: scenes
         character(*), intent(in) :: folder
-        type(chosen_t), intent(in) :: chosen(:)
+        type(places_t), intent(inout) :: places  !! all files of the scenes
         type(error_t), allocatable, intent(out) :: error
         character(:), allocatable :: path
-        type(places_t) :: places
-        integer :: i
 
-        if (.not. line%has("overlay")) return
-        if (size(chosen) < 2) call fail(error, "--overlay: two scenes at least are needed, to "// &
-                                        "be drawn in one picture")
+        if (scenes < 2) call fail(error, "--overlay: two scenes at least are needed, to be "// &
+                                  "drawn in one picture")
         if (allocated(error)) return
         path = overlay_path(folder, overlay)
-        do i = 1, size(chosen)
-            call claim_scene(chosen(i)%plan%scene, places, error)
-            if (.not. allocated(error)) call claim_files(chosen(i)%plan%scene, &
-                chosen(i)%plan%system, folder, line%value_of("format", "text"), places, error)
-            if (allocated(error)) return
-        end do
         call claim_table(path, "overlay", "", places, error)
         if (.not. allocated(error)) call refuse_unwritable(script_path(path), error)
     end subroutine check_overlay
@@ -272,5 +259,6 @@ contains
                 end if
             end do
         end do
+        if (line%has("overlay")) call check_overlay(size(chosen), folder, places, error)
     end subroutine choose_scenes
 end module lagrangia_run_command

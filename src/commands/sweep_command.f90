@@ -1,9 +1,8 @@
 module lagrangia_sweep_command
     !! `lagrangia sweep SCENE`: many trajectories of a scene, and a number or more of each.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: note, put_line
-    use lagrangia_data_files, only: check_format, check_picture, data_path, draw
+    use lagrangia_data_files, only: check_format, data_path, draw, path_beside
     use lagrangia_disk_space, only: space_warning
     use lagrangia_errors, only: error_t, fail
     use lagrangia_json, only: json_item, json_object, json_pair
@@ -12,10 +11,12 @@ module lagrangia_sweep_command
     use lagrangia_number_reader, only: to_integer
     use lagrangia_number_text, only: field_width, scientific
     use lagrangia_observer, only: observer_t
+    use lagrangia_output_options, only: take_folder, take_picture
     use lagrangia_places, only: places_t
     use lagrangia_progress, only: progress_t
     use lagrangia_resources, only: check_memory
-    use lagrangia_scene, only: add_texts, axis_length, scene_line_length, scene_t
+    use lagrangia_scene, only: add_texts, scene_line_length, scene_t, &
+                               sweep_text_length
     use lagrangia_scene_claims, only: claim_scene, claim_table
     use lagrangia_scene_reader, only: read_scene
     use lagrangia_shipped, only: find_sweep
@@ -41,7 +42,7 @@ contains
         type(sweep_result_t) :: result
         type(progress_t), target :: progress
         class(observer_t), pointer :: observer
-        character(:), allocatable :: format, kind, path, warning
+        character(:), allocatable :: folder, format, kind, path, warning
         integer :: threads
         real(dp) :: numbers
 
@@ -53,9 +54,8 @@ contains
         format = line%value_of("format", "text")
         call check_format(format, error)
         if (allocated(error)) return
-        kind = line%value_of("plot", "png")
-        if (kind == "") kind = "png"
-        call check_picture(kind, error)
+        call take_picture(line, kind, error)
+        if (.not. allocated(error)) call take_folder(line, folder, error)
         if (allocated(error)) return
         call find_sweep(line%arguments(1)%text, path, error)
         if (.not. allocated(error)) call read_scene(path, line%values_of("set"), scene, system, &
@@ -63,13 +63,12 @@ contains
         if (.not. allocated(error)) call take_options(line, scene, error)
         if (.not. allocated(error)) call plan(scene, system, sweep, error)
         if (allocated(error)) return
-        call claim(scene, line%value_of("output", "data/output"), format, path, error)
+        call claim(scene, folder, format, path, error)
         if (allocated(error)) return
         numbers = real(sweep%trajectories(), dp)*(size(sweep%kept) + size(sweep%axes))
         call check_memory(8.0_dp*numbers, to_text(sweep%trajectories())//" trajectories", error)
         if (allocated(error)) return
-        warning = space_warning(numbers*merge(8, field_width + 1, format == "npy"), &
-                                line%value_of("output", "data/output"))
+        warning = space_warning(numbers*merge(8, field_width + 1, format == "npy"), folder)
         if (warning /= "" .and. .not. line%has("quiet")) call note(warning)
 
         threads = thread_count(scene%sweep%threads)
@@ -115,7 +114,7 @@ contains
     contains
         subroutine take_texts(name, texts)
             character(*), intent(in) :: name
-            character(axis_length), allocatable, intent(inout) :: texts(:)
+            character(sweep_text_length), allocatable, intent(inout) :: texts(:)
             type(word_t), allocatable :: words(:)
             integer :: i
 
@@ -176,17 +175,8 @@ contains
         character(:), allocatable, intent(out) :: path
         type(error_t), allocatable, intent(out) :: error
         type(places_t) :: places
-        character(:), allocatable :: plain
-        integer :: dot
 
-        path = ""
-        if (folder == "") then
-            call fail(error, "option '--output' needs the name of a folder")
-            return
-        end if
-        plain = data_path(folder, trim(scene%output), format)
-        dot = index(plain, ".", back=.true.)
-        path = plain(:dot - 1)//"_sweep"//plain(dot:)
+        path = path_beside(data_path(folder, trim(scene%output), format), "_sweep")
         call claim_scene(scene, places, error)
         if (.not. allocated(error)) call claim_table(path, "sweep", trim(scene%name), places, error)
     end subroutine claim
@@ -211,8 +201,8 @@ contains
         integer, intent(in) :: threads
         character(*), intent(in) :: path
         character(:), allocatable :: how
-        logical, allocatable :: there(:)
-        integer :: i, width
+        real(dp) :: largest, least
+        integer :: found, i, width
 
         how = " on "//to_text(threads)//" thread"//trim(merge(" ", "s", threads == 1))
         if (result%in_lanes) how = how//", in lanes"
@@ -220,15 +210,13 @@ contains
                       " trajectories by "//trim(sweep%scene%method)//" in "// &
                       scientific(result%seconds, 3)//" s"//how)
         width = maxval(len_trim(sweep%kept%text)) + 2
-        allocate (there(sweep%trajectories()))
         do i = 1, size(sweep%kept)
-            there = ieee_is_finite(result%values(i, :))
-            associate (kept => sweep%kept(i), values => result%values(i, :))
-                if (any(there)) then
-                    call put_line("  "//kept%text(:width)// &
-                                  scientific(minval(values, mask=there), 6)//" to "// &
-                                  scientific(maxval(values, mask=there), 6)//" "// &
-                                  unit(kept%unit)//missing(count(.not. there)))
+            call result%range_of(i, found, least, largest)
+            associate (kept => sweep%kept(i))
+                if (found > 0) then
+                    call put_line("  "//kept%text(:width)//scientific(least, 6)//" to "// &
+                                  scientific(largest, 6)//" "//unit(kept%unit)// &
+                                  missing(sweep%trajectories() - found))
                 else
                     call put_line("  "//kept%text(:width)//"none of them has it")
                 end if
@@ -245,7 +233,7 @@ contains
         end function unit
 
         pure function missing(number) result(text)
-            integer, intent(in) :: number
+            integer(i8), intent(in) :: number
             character(:), allocatable :: text
 
             text = ""
@@ -260,18 +248,16 @@ contains
         integer, intent(in) :: threads
         character(*), intent(in) :: path
         character(:), allocatable :: rows
-        logical, allocatable :: there(:)
-        integer :: i
+        real(dp) :: largest, least
+        integer :: found, i
 
         rows = ""
-        allocate (there(sweep%trajectories()))
         do i = 1, size(sweep%kept)
-            there = ieee_is_finite(result%values(i, :))
+            call result%range_of(i, found, least, largest)
             rows = rows//", "//json_object(json_pair("keep", trim(sweep%kept(i)%text))// &
                 json_pair("unit", trim(sweep%kept(i)%unit))// &
-                json_pair("found", to_text(count(there)))// &
-                json_pair("least", minval(result%values(i, :), mask=there))// &
-                json_pair("largest", maxval(result%values(i, :), mask=there)))
+                json_pair("found", to_text(found))// &
+                json_pair("least", least)//json_pair("largest", largest))
         end do
         call put_line(json_object(json_pair("scene", trim(sweep%scene%name))// &
             json_pair("file", path)// &

@@ -3,9 +3,10 @@ module lagrangia_number_text
     use, intrinsic :: iso_fortran_env, only: real64
     use lagrangia_decimal, only: decimal_width, write_decimal
     use lagrangia_kinds, only: dp
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: field_width, fixed, scientific, write_csv_row, write_row
+    public :: field_width, fixed, rounded, scientific, write_csv_row, write_row
 
     integer, parameter :: field_width = decimal_width  !! a double survives the trip
 
@@ -41,6 +42,19 @@ contains
         write (buffer, layout) value
         text = trim(adjustl(buffer))
     end function fixed
+
+    pure function rounded(value, digits) result(text)
+        !! `0.0125`: as `to_text` has it, after rounding to so many significant digits.
+        real(dp), intent(in) :: value  !! a finite one
+        integer, intent(in) :: digits  !! 1 to 17
+        character(:), allocatable :: text
+        character(32) :: buffer
+        real(dp) :: near
+
+        buffer = scientific(value, digits)
+        read (buffer, *) near
+        text = to_text(near)
+    end function rounded
 
     pure subroutine write_row(values, row, length)
         !! A line of a text table: every value as `es24.16e3`, a blank between two, a newline.

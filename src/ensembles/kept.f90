@@ -20,22 +20,22 @@ module lagrangia_kept
     use lagrangia_kinds, only: dp
     use lagrangia_names, only: advice
     use lagrangia_observer, only: observer_t
+    use lagrangia_scene, only: sweep_text_length
     use lagrangia_system, only: system_t
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
     private
-    public :: keeper_t, kept_t, kept_text_length, read_kept
+    public :: keeper_t, kept_t, read_kept
     public :: keeps_end, keeps_event, keeps_exact_period, keeps_flip, keeps_largest
     public :: keeps_lyapunov, keeps_lyapunov_error, keeps_period, keeps_smallest
 
     integer, parameter :: keeps_end = 1, keeps_largest = 2, keeps_smallest = 3, keeps_period = 4
     integer, parameter :: keeps_exact_period = 5, keeps_event = 6, keeps_flip = 7
     integer, parameter :: keeps_lyapunov = 8, keeps_lyapunov_error = 9
-    integer, parameter :: kept_text_length = 120
 
     type :: kept_t
         !! One number of a trajectory.
-        character(kept_text_length) :: text = ""  !! as above
+        character(sweep_text_length) :: text = ""  !! as above
         character(name_length) :: label = ""      !! one word: its column in the data file
         character(16) :: unit = "1"
         integer :: kind = 0
@@ -65,11 +65,14 @@ contains
         class(system_t), intent(in) :: system              !! with its parameters
         type(kept_t), allocatable, intent(out) :: kept(:)  !! one for each text
         type(columns_t), intent(out) :: columns            !! of the system
-        character(kept_text_length), allocatable, intent(out) :: events(:)  !! in a scene's words
+        character(sweep_text_length), allocatable, intent(out) :: events(:)  !! in a scene's words
         type(error_t), allocatable, intent(out) :: error   !! status 2: what cannot be read
-        character(name_length), allocatable :: names(:)
+        character(name_length), allocatable :: coordinates(:), names(:)
+        type(description_t) :: d
         integer :: i
 
+        call system%describe(d)
+        coordinates = d%coordinates%name
         allocate (kept(size(texts)), names(0), events(0))
         do i = 1, size(texts)
             call read_one(trim(adjustl(texts(i))), kept(i))
@@ -97,8 +100,8 @@ contains
             blank = index(text//" ", " ")
             first = text(:blank - 1)
             rest = trim(adjustl(text(blank:)))
-            if (len(text) > kept_text_length) then
-                call fail(error, "a text of at most "//to_text(kept_text_length)// &
+            if (len(text) > sweep_text_length) then
+                call fail(error, "a text of at most "//to_text(sweep_text_length)// &
                           " characters is needed")
             else if (text == "") then
                 call fail(error, "what is to be kept? a column, 'max COLUMN', 'min COLUMN', "// &
@@ -119,9 +122,9 @@ contains
                 call take_coordinate(rest, this%coordinate)
                 if (allocated(error)) return
                 this%events = size(events) + [1, 2]
-                call add_event(name_of(this%coordinate)//" = "//to_text(acos(-1.0_dp))//" rising")
-                call add_event(name_of(this%coordinate)//" = -"//to_text(acos(-1.0_dp))// &
-                               " falling")
+                rest = trim(coordinates(this%coordinate))
+                call add_event(rest//" = "//to_text(acos(-1.0_dp))//" rising")
+                call add_event(rest//" = -"//to_text(acos(-1.0_dp))//" falling")
             else if (first == "first") then
                 this%kind = keeps_event
                 this%unit = "s"
@@ -143,37 +146,23 @@ contains
 
             if (all(names /= name)) names = [character(name_length) :: names, name]
             which = findloc(names == name, .true., 1)
-            if (which == 0) call fail(error, "unknown column "//quoted(name))
         end subroutine take_column
 
         subroutine take_coordinate(name, which)
             !! Number of the coordinate; the first where none is named.
             character(*), intent(in) :: name
             integer, intent(out) :: which
-            type(description_t) :: d
-            character(name_length), allocatable :: all_names(:)
 
-            call system%describe(d)
-            all_names = d%coordinates%name
             which = 1
-            if (name /= "") which = findloc(all_names == name, .true., 1)
+            if (name /= "") which = findloc(coordinates == name, .true., 1)
             if (which == 0) call fail(error, "a coordinate is needed, not "//quoted(name)//"; "// &
-                                      advice(name, all_names))
+                                      advice(name, coordinates))
         end subroutine take_coordinate
-
-        function name_of(coordinate) result(name)
-            integer, intent(in) :: coordinate
-            character(:), allocatable :: name
-            type(description_t) :: d
-
-            call system%describe(d)
-            name = trim(d%coordinates(coordinate)%name)
-        end function name_of
 
         subroutine add_event(text)
             character(*), intent(in) :: text
 
-            events = [character(kept_text_length) :: events, text]
+            events = [character(sweep_text_length) :: events, text]
         end subroutine add_event
     end subroutine read_kept
 

@@ -8,7 +8,7 @@ module lagrangia_sweep
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kept, only: keeper_t, keeps_end, keeps_event, keeps_exact_period, keeps_flip, &
                               keeps_largest, keeps_lyapunov, keeps_lyapunov_error, keeps_period, &
-                              keeps_smallest, kept_t, kept_text_length, read_kept
+                              keeps_smallest, kept_t, read_kept
     use lagrangia_kinds, only: dp, i8
     use lagrangia_lyapunov, only: lyapunov_exponent
     use lagrangia_methods, only: auto, exact, new_adaptive, workhorse
@@ -16,7 +16,7 @@ module lagrangia_sweep
     use lagrangia_period, only: period_t
     use lagrangia_random_draws, only: random_t
     use lagrangia_reference, only: reference_t
-    use lagrangia_scene, only: scene_t
+    use lagrangia_scene, only: most_axes, scene_t, sweep_text_length
     use lagrangia_sweep_axis, only: new_sweep_axis, sweep_axis_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
@@ -26,7 +26,6 @@ module lagrangia_sweep
     public :: sweep_t, sweep_box_t
     public :: new_sweep, compute_one
 
-    integer, parameter :: most_axes = 2
 
     type :: sweep_t
         !! A grid of trajectories. The first axis is the one that varies slowest.
@@ -41,6 +40,7 @@ module lagrangia_sweep
         procedure :: trajectories
         procedure :: places
         procedure :: coordinates_of
+        procedure :: set_start
     end type sweep_t
 
     type :: sweep_box_t
@@ -61,7 +61,7 @@ contains
         integer, intent(in) :: seed                       !! of the values that are drawn
         real(dp), intent(in) :: after                     !! samples before don't count, s
         type(error_t), allocatable, intent(out) :: error  !! names the key: over, keep, after
-        character(kept_text_length), allocatable :: events(:)
+        character(sweep_text_length), allocatable :: events(:)
         type(random_t) :: random
         integer :: i
 
@@ -186,6 +186,19 @@ contains
         end do
     end function coordinates_of
 
+    pure subroutine set_start(self, index, q, v, parameters)
+        !! Put the values of trajectory number `index` in their places.
+        class(sweep_t), intent(in) :: self
+        integer(i8), intent(in) :: index                      !! from 1 to `trajectories`
+        real(dp), intent(inout) :: q(:), v(:), parameters(:)  !! those of `scene`
+        integer :: i, which(size(self%axes))
+
+        which = self%places(index)
+        do i = 1, size(which)
+            call self%axes(i)%set(which(i), q, v, parameters)
+        end do
+    end subroutine set_start
+
     subroutine compute_one(sweep, index, values, error)
         !! What is kept of trajectory number `index`; NaN where it fails, with the reason.
         type(sweep_t), intent(in) :: sweep                !! as `new_sweep` made it
@@ -196,14 +209,10 @@ contains
         class(reference_t), allocatable :: closed_form
         type(scene_t) :: scene
         real(dp) :: given(size(sweep%scene%v))
-        integer :: i, which(size(sweep%axes))
 
         values = ieee_value(values, ieee_quiet_nan)
-        which = sweep%places(index)
         scene = sweep%scene
-        do i = 1, size(sweep%axes)
-            call sweep%axes(i)%set(which(i), scene%q, scene%v, scene%parameters)
-        end do
+        call sweep%set_start(index, scene%q, scene%v, scene%parameters)
         allocate (system, source=sweep%system)
         if (any(sweep%axes%is_parameter())) call system%configure(scene%parameters, error)
         if (allocated(error)) return

@@ -1,7 +1,6 @@
 module lagrangia_sweep_files
     !! The data file of a sweep, a row a trajectory, and the gnuplot script beside it: curves over
     !! one axis, a map over two.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_data_files, only: new_table, script_path
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
@@ -122,7 +121,7 @@ contains
         call script%add("set tics out nomirror; unset key")
         do i = 1, n
             if (size(sweep%axes) == 2) then
-                call add_map(sweep, i, spans_decades(found%values(i, :)), reading, script)
+                call add_map(sweep, found, i, reading, script)
             else
                 call add_curves(sweep, pack([(k, k=1, size(groups))], groups == i), reading, script)
             end if
@@ -179,31 +178,21 @@ contains
         end associate
     end subroutine add_curves
 
-    pure function spans_decades(values) result(yes)
-        !! All of them that are numbers are above 0, and the largest is over 30 times the least.
-        real(dp), intent(in) :: values(:)
-        logical :: yes
-        logical :: there(size(values))
-
-        there = ieee_is_finite(values)
-        yes = any(there)
-        if (yes) yes = minval(values, mask=there) > 0.0_dp .and. &
-                       maxval(values, mask=there) > 30.0_dp*minval(values, mask=there)
-    end function spans_decades
-
-    subroutine add_map(sweep, which, wide, reading, script)
-        !! One number over both axes, as colour, by its logarithm if it spans decades. What is NaN
-        !! stays grey.
+    subroutine add_map(sweep, found, which, reading, script)
+        !! One number over both axes, as colour; by its logarithm, if all of them are above 0 and
+        !! the largest is over 30 times the least. What is NaN stays grey.
         type(sweep_t), intent(in) :: sweep
+        type(sweep_result_t), intent(in) :: found
         integer, intent(in) :: which
-        logical, intent(in) :: wide
         character(*), intent(in) :: reading
         type(lines_t), intent(inout) :: script
         character(*), parameter :: colours = "set palette defined (0 '#440154', "// &
             "0.25 '#3b528b', 0.5 '#21908c', 0.75 '#5dc863', 1 '#fde725')"
         character(:), allocatable :: range
-        integer :: i
+        real(dp) :: largest, least
+        integer :: i, n
 
+        call found%range_of(which, n, least, largest)
         associate (x => sweep%axes(1), y => sweep%axes(2), kept => sweep%kept(which))
             call script%add(colours)
             call script%add("set object 1 rectangle from graph 0,0 to graph 1,1 behind "// &
@@ -217,7 +206,9 @@ contains
                 end associate
             end do
             call script%add("unset logscale; unset grid; unset key")
-            if (wide) call script%add("set logscale cb")
+            if (n > 0 .and. least > 0.0_dp .and. largest > 30.0_dp*least) then
+                call script%add("set logscale cb")
+            end if
             if (x%logarithmic) call script%add("set logscale x")
             if (y%logarithmic) call script%add("set logscale y")
             call script%add("set xlabel "//label(x%name, x%unit))

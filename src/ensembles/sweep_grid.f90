@@ -1,6 +1,7 @@
 module lagrangia_sweep_grid
     !! All trajectories of a sweep, on as many threads as are wanted: blocks of them are dealt out
     !! as threads get free, and each trajectory gives the same bytes whoever computes it.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_kinds, only: dp, i8
@@ -22,6 +23,8 @@ module lagrangia_sweep_grid
         character(:), allocatable :: reason      !! of the first of these; absent: none failed
         real(dp) :: seconds = 0.0_dp             !! on the clock
         logical :: in_lanes = .false.            !! computed in the lanes of vector registers
+    contains
+        procedure :: range_of
     end type sweep_result_t
 
 contains
@@ -77,6 +80,20 @@ contains
             call fail(error, "every trajectory diverges, or the step is too long", status_numbers)
         end if
     end subroutine compute_grid
+
+    pure subroutine range_of(self, which, found, least, largest)
+        !! How many trajectories have a number that is kept, and between what bounds.
+        class(sweep_result_t), intent(in) :: self
+        integer, intent(in) :: which             !! of those that are kept
+        integer, intent(out) :: found            !! trajectories
+        real(dp), intent(out) :: least, largest  !! huge and -huge where there are none
+        logical, allocatable :: there(:)  ! there may be more of them than fit on the stack
+
+        there = ieee_is_finite(self%values(which, :))
+        found = count(there)
+        least = minval(self%values(which, :), mask=there)
+        largest = maxval(self%values(which, :), mask=there)
+    end subroutine range_of
 
     subroutine compute_block(sweep, result, block, total, progress, done, first_failed, first_error)
         !! Compute the trajectories of one block, on one thread.

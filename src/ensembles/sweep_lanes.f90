@@ -94,7 +94,6 @@ contains
         subroutine load(i)
             !! The next trajectory, if there is one, into lane `i`.
             integer, intent(in) :: i
-            integer :: k, which(size(sweep%axes))
             real(dp) :: q0(size(sweep%scene%q)), v0(size(sweep%scene%v))
             real(dp) :: parameters(size(sweep%scene%parameters))
 
@@ -107,10 +106,7 @@ contains
             q0 = sweep%scene%q
             v0 = sweep%scene%v
             parameters = sweep%scene%parameters
-            which = sweep%places(lane(i)%index)
-            do k = 1, size(which)
-                call sweep%axes(k)%set(which(k), q0, v0, parameters)
-            end do
+            call sweep%set_start(lane(i)%index, q0, v0, parameters)
             q(i, :) = q0
             v(i, :) = v0
             t(i) = sweep%scene%t0

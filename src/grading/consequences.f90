@@ -219,14 +219,24 @@ contains
         samples = base
         call suppose(samples, suppositions, possible)
         if (.not. possible) return
+        call add_world(self, because, base, samples)
+        self%worlds(self%count)%suppositions = suppositions
+    end subroutine try_world
+
+    subroutine add_world(self, because, base, samples)
+        !! There is room for one more; it supposes nothing beside its base.
+        class(consequences_t), intent(inout) :: self
+        integer, intent(in) :: because(:)
+        type(samples_t), intent(in) :: base, samples
+
         self%count = self%count + 1
         associate (world => self%worlds(self%count))
             world%because = because
             world%base = base
-            world%suppositions = suppositions
+            allocate (world%suppositions(0))
             world%samples = samples
         end associate
-    end subroutine try_world
+    end subroutine add_world
 
     subroutine add_frequency(self, number, residual, truth)
         !! Omega is what a wrong line says.
@@ -241,13 +251,7 @@ contains
         samples = truth
         call suppose_frequency(samples, residual, possible)
         if (.not. possible) return
-        self%count = self%count + 1
-        associate (world => self%worlds(self%count))
-            world%because = [number]
-            world%base = samples
-            allocate (world%suppositions(0))
-            world%samples = samples
-        end associate
+        call add_world(self, [number], samples, samples)
     end subroutine add_frequency
 
     subroutine suppose_another_lagrangian(self, beside, number, name, formula, truth)
@@ -288,13 +292,7 @@ contains
         end if
         call suppose_lagrangian(samples, lagrangian, possible)
         if (.not. possible) return
-        self%count = self%count + 1
-        associate (world => self%worlds(self%count))
-            world%because = because
-            world%base = samples
-            allocate (world%suppositions(0))
-            world%samples = samples
-        end associate
+        call add_world(self, because, samples, samples)
     end subroutine suppose_another_lagrangian
 
     pure function without_known(expression, samples, but_energies) result(yes)

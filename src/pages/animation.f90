@@ -7,11 +7,10 @@ module lagrangia_animation
     use lagrangia_film, only: count_channels, film_json
     use lagrangia_frames, only: add_reference, film_speed, find_pace, finer_run, finer_words, &
                                 frames_t, record_frames, window_of
-    use lagrangia_html, only: fill_template, html_text, script_json
+    use lagrangia_html, only: html_text, script_json, write_template
     use lagrangia_json, only: json_item, json_object, json_pair, json_string
     use lagrangia_kinds, only: dp
     use lagrangia_methods, only: exact
-    use lagrangia_output_file, only: output_file_t
     use lagrangia_run_plan, only: run_plan_t
     use lagrangia_shipped_files, only: shipped_text
     use lagrangia_system, only: system_t
@@ -142,20 +141,14 @@ contains
         character(*), intent(in) :: path         !! of the file; folders are made
         character(*), intent(in) :: title, json  !! of the page; of `page_of_films`
         type(error_t), allocatable, intent(out) :: error  !! status 5: it cannot be written
-        type(output_file_t) :: file
         type(word_t) :: texts(4)
-        character(:), allocatable :: template, page
 
-        call shipped_text("data/templates/animation.html", template)
         texts(1)%text = html_text(title)
         call shipped_text("data/templates/film.css", texts(2)%text)
         call shipped_text("data/templates/film.js", texts(3)%text)
         texts(4)%text = script_json(json)
-        call fill_template(template, [character(6) :: "TITLE", "STYLE", "SCRIPT", "DATA"], texts, &
-                           page)
-        call file%open(path, error)
-        if (allocated(error)) return
-        call file%write(page)
-        call file%commit(error)
+        call write_template("data/templates/animation.html", &
+                            [character(6) :: "TITLE", "STYLE", "SCRIPT", "DATA"], texts, path, &
+                            error)
     end subroutine write_page
 end module lagrangia_animation

@@ -1,10 +1,13 @@
 module lagrangia_html
     !! Texts inside a page, and templates with gaps for them.
     use lagrangia_characters, only: decode, is_control, printable
+    use lagrangia_errors, only: error_t
+    use lagrangia_output_file, only: output_file_t
+    use lagrangia_shipped_files, only: shipped_text
     use lagrangia_text, only: word_t
     implicit none (type, external)
     private
-    public :: fill_template, html_text, replaced, script_json
+    public :: fill_template, html_text, replaced, script_json, write_template
 
 contains
 
@@ -91,4 +94,22 @@ contains
         end do
         page = page//template(from:)
     end subroutine fill_template
+
+    subroutine write_template(template, names, texts, path, error)
+        !! A template that the program carries, filled in, as a file: whole or not at all.
+        character(*), intent(in) :: template            !! `data/templates/report.html`
+        character(*), intent(in) :: names(:)            !! of its gaps, upper case
+        type(word_t), intent(in) :: texts(:)            !! for them
+        character(*), intent(in) :: path                !! of the file; folders are made
+        type(error_t), allocatable, intent(out) :: error  !! status 5: it cannot be written
+        type(output_file_t) :: file
+        character(:), allocatable :: page, text
+
+        call shipped_text(template, text)
+        call fill_template(text, names, texts, page)
+        call file%open(path, error)
+        if (allocated(error)) return
+        call file%write(page)
+        call file%commit(error)
+    end subroutine write_template
 end module lagrangia_html

@@ -4,10 +4,9 @@ module lagrangia_report_page
     use lagrangia_animation, only: page_of_film
     use lagrangia_errors, only: error_t
     use lagrangia_files, only: read_whole_file
-    use lagrangia_html, only: fill_template, html_text, replaced, script_json
+    use lagrangia_html, only: html_text, replaced, script_json, write_template
     use lagrangia_lecture_text, only: derivation_html, errata_html, lecture_html
     use lagrangia_outcome, only: outcome_t
-    use lagrangia_output_file, only: output_file_t
     use lagrangia_run_plan, only: run_plan_t
     use lagrangia_scorecard, only: scorecard_head, scorecard_legend, scorecard_lines, scorecard_row
     use lagrangia_shipped_files, only: shipped_text
@@ -144,11 +143,9 @@ contains
         character(*), intent(in) :: path          !! of the page
         type(error_t), allocatable, intent(out) :: error  !! status 5: it cannot be written
         character(*), parameter :: title = "lagrangia: report"
-        type(output_file_t) :: file
         type(word_t) :: texts(4)
-        character(:), allocatable :: template, page, style
+        character(:), allocatable :: style
 
-        call shipped_text("data/templates/report.html", template)
         texts(1)%text = title
         call shipped_text("data/templates/film.css", texts(2)%text)
         call shipped_text("data/templates/report.css", style)
@@ -159,12 +156,9 @@ contains
             "</ol>"//newline//"<h2>Scorecard</h2>"//newline//'<pre tabindex="0">'// &
             html_text(scorecard_head())//newline//self%scores//newline// &
             html_text(scorecard_legend)//"</pre>"//newline//self%sections//"</section>"
-        call fill_template(template, [character(6) :: "TITLE", "STYLE", "SCRIPT", "BODY"], texts, &
-                           page)
-        call file%open(path, error)
-        if (allocated(error)) return
-        call file%write(page)
-        call file%commit(error)
+        call write_template("data/templates/report.html", &
+                            [character(6) :: "TITLE", "STYLE", "SCRIPT", "BODY"], texts, path, &
+                            error)
     end subroutine write_page
 
     pure function anchor(i) result(name)

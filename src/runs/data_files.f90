@@ -14,7 +14,7 @@ module lagrangia_data_files
     implicit none (type, external)
     private
     public :: check_format, check_picture, data_path, draw, ends_well, event_path, film_path
-    public :: new_table, pictures, scene_path, script_path
+    public :: new_table, path_beside, pictures, scene_path, script_path
 
     character(4), parameter :: formats(3) = ["text", "csv ", "npy "]
     character(3), parameter :: pictures(3) = ["png", "svg", "pdf"]  !! what `draw` makes
@@ -74,11 +74,19 @@ contains
         !! The file of a run's events: its data file, with `_events` before its ending.
         character(*), intent(in) :: path  !! as `data_path` has it
         character(:), allocatable :: events
+
+        events = path_beside(path, "_events")
+    end function event_path
+
+    pure function path_beside(path, words) result(beside)
+        !! `a_events.dat` of `a.dat` and `_events`.
+        character(*), intent(in) :: path, words  !! as `data_path` has it; put before its ending
+        character(:), allocatable :: beside
         integer :: dot
 
         dot = index(path, ".", back=.true.)
-        events = path(:dot - 1)//"_events"//path(dot:)
-    end function event_path
+        beside = path(:dot - 1)//words//path(dot:)
+    end function path_beside
 
     pure function scene_path(path) result(scene)
         !! The scene beside a data file whose format has no place for it: `a.csv.nml`.

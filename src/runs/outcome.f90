@@ -9,7 +9,7 @@ module lagrangia_outcome
     implicit none (type, external)
     private
     public :: outcome_t
-    public :: outcome_json
+    public :: outcome_json, within
     public :: from_closed_form, from_half_step, from_steps
 
     integer, parameter :: from_closed_form = 1, from_half_step = 2
@@ -61,7 +61,7 @@ contains
 
     elemental function within(measure) result(good)
         !! Not judged, or within its limit; NaN is not.
-        type(claim_t), intent(in) :: measure
+        type(claim_t), intent(in) :: measure  !! a drift, an error, ...
         logical :: good
 
         good = .not. measure%judged .or. measure%value <= measure%most

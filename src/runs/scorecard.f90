@@ -5,7 +5,7 @@ module lagrangia_scorecard
     use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: claim_t
     use lagrangia_number_text, only: fixed, scientific
-    use lagrangia_outcome, only: outcome_t
+    use lagrangia_outcome, only: outcome_t, within
     use lagrangia_printed_table, only: left, short, two_digits
     use lagrangia_text, only: to_text, word_t
     use lagrangia_wrapping, only: wrapped
@@ -102,7 +102,7 @@ contains
         subroutine judge(measure)
             type(claim_t), intent(in) :: measure
 
-            if (.not. measure%judged .or. measure%value <= measure%most) return
+            if (within(measure)) return
             call add("NOT as expected: "//trim(measure%name)//" is "// &
                      two_digits(measure%value)//", expect_"//trim(measure%name)//" = "// &
                      to_text(measure%most))

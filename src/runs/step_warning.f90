@@ -4,6 +4,7 @@ module lagrangia_step_warning
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp
     use lagrangia_methods, only: new_integrator
+    use lagrangia_number_text, only: rounded
     use lagrangia_scene, only: scene_t
     use lagrangia_small_oscillations, only: find_modes, is_oscillation, likely_equilibrium, modes_t
     use lagrangia_system, only: system_t
@@ -43,8 +44,8 @@ contains
         omega = sqrt(maxval([0.0_dp, pack(modes%omega2, modes%label == is_oscillation)]))
         if (.not. scene%dt*omega > method%step_limit) return
         text = "dt = "//to_text(scene%dt)//" s exceeds the step limit "// &
-               rounded(method%step_limit/omega)//" s of "//trim(method%name)//" ("// &
-               rounded(method%step_limit)//"/omega_max, omega_max = "//rounded(omega)// &
+               rounded(method%step_limit/omega, 4)//" s of "//trim(method%name)//" ("// &
+               rounded(method%step_limit, 4)//"/omega_max, omega_max = "//rounded(omega, 4)// &
                " rad/s): small oscillations would grow at every step"
     end function step_warning
 
@@ -83,16 +84,4 @@ contains
         end do
         yes = margin*sqrt(maxval(row)) < fastest
     end function all_slower
-
-    pure function rounded(number) result(text)
-        !! With four digits.
-        real(dp), intent(in) :: number
-        character(:), allocatable :: text
-        character(12) :: buffer
-        real(dp) :: near
-
-        write (buffer, "(ss, es12.3e3)") number
-        read (buffer, *) near
-        text = to_text(near)
-    end function rounded
 end module lagrangia_step_warning

@@ -8,10 +8,11 @@ module lagrangia_scene
     implicit none (type, external)
     private
     public :: scene_t, expectation_t, sweep_group_t
-    public :: add_texts, axis_length, scene_lines, scene_line_length
+    public :: add_texts, most_axes, sweep_text_length, scene_lines, scene_line_length
 
     integer, parameter :: scene_line_length = 600  !! what a single value may need
-    integer, parameter :: axis_length = 120        !! of a text of `&sweep`
+    integer, parameter :: sweep_text_length = 120  !! of a text of `&sweep`
+    integer, parameter :: most_axes = 2            !! of a sweep
     integer, parameter :: short_line = 100         !! a list goes on in the next line
 
     type :: expectation_t
@@ -23,8 +24,8 @@ module lagrangia_scene
 
     type :: sweep_group_t
         !! The group `&sweep`.
-        character(axis_length), allocatable :: over(:)     !! the axes: `'theta = 0.1:3:50'`
-        character(axis_length), allocatable :: keep(:)     !! of each trajectory: `'period'`
+        character(sweep_text_length), allocatable :: over(:)     !! the axes: `'theta = 0.1:3:50'`
+        character(sweep_text_length), allocatable :: keep(:)     !! of each trajectory: `'period'`
         real(dp) :: after = -huge(1.0_dp)          !! samples before don't count, s
         integer :: seed = 1                        !! of values drawn at random
         integer :: threads = 0                     !! 0: as many as there are processors

@@ -6,7 +6,7 @@ module lagrangia_sweep_group
     use lagrangia_kinds, only: dp, i8
     use lagrangia_namelist, only: get_integer, get_real, get_strings, has_group, namelist_t, &
                                   refuse_unknown_keys, refuse_value
-    use lagrangia_scene, only: sweep_group_t
+    use lagrangia_scene, only: most_axes, sweep_group_t
     implicit none (type, external)
     private
     public :: group, keys, read_sweep_group
@@ -14,7 +14,7 @@ module lagrangia_sweep_group
     character(*), parameter :: group = "sweep"
     character(name_length), parameter :: keys(*) = [character(name_length) :: &
         "over", "keep", "after", "seed", "threads"]
-    integer, parameter :: most_axes = 2, most_kept = 20
+    integer, parameter :: most_kept = 20
 
 contains
 

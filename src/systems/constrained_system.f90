@@ -15,6 +15,7 @@ module lagrangia_constrained_system
     use lagrangia_kinds, only: dp, lanes
     use lagrangia_lagrange, only: accelerations_from_lagrangian
     use lagrangia_lapack, only: matrix_rank, solve_linear
+    use lagrangia_system, only: each_lane
     use lagrangia_text, only: join, to_text
     use lagrangia_written_constraints, only: constraint_row, is_in_velocities
     use lagrangia_written_expressions, only: written_expressions_t
@@ -196,15 +197,8 @@ contains
         class(constrained_system_t), intent(in) :: self
         real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
         real(dp), intent(out) :: a(lanes, self%ndof)
-        real(dp) :: q_now(self%ndof), v_now(self%ndof), a_now(self%ndof)
-        integer :: i
 
-        do i = 1, lanes
-            q_now = q(i, :)
-            v_now = v(i, :)
-            call self%accelerations(t(i), q_now, v_now, a_now)
-            a(i, :) = a_now
-        end do
+        call each_lane(self, t, q, v, a)
     end subroutine accelerations_lanes
 
     pure function link_quantity(self, i, t, q, v) result(value)

@@ -17,6 +17,7 @@ module lagrangia_system
     private
     public :: system_t, system_box_t, reduced_t
     public :: lanes, check_parameter, check_parameters, check_state, default_values, add_zeros
+    public :: each_lane
 
     type, abstract :: system_t
         integer :: ndof = 0                  !! number of coordinates

@@ -2,6 +2,7 @@ module lagrangia_gnuplot_axes
     !! Scales, ranges and labels of a panel's axes, as lines of a gnuplot script.
     use lagrangia_gnuplot_script, only: lines_t
     use lagrangia_kinds, only: dp
+    use lagrangia_number_text, only: rounded
     use lagrangia_plot_label, only: label, labels
     use lagrangia_plot_panel, only: panel_t, series_t, told_apart
     use lagrangia_text, only: to_text
@@ -89,9 +90,9 @@ contains
                         tick(max(across, up)))
         across = 0.5_dp*scale*(frame%right - frame%left)
         up = 0.5_dp*scale*(frame%top - frame%bottom)
-        call script%add("set xrange ["//short(middle(1) - across)//":"// &
-                        short(middle(1) + across)//"]; set yrange ["//short(middle(2) - up)// &
-                        ":"//short(middle(2) + up)//"]")
+        call script%add("set xrange ["//rounded(middle(1) - across, 5)//":"// &
+                        rounded(middle(1) + across, 5)//"]; set yrange ["// &
+                        rounded(middle(2) - up, 5)//":"//rounded(middle(2) + up, 5)//"]")
     end subroutine add_equal_scale
 
     pure subroutine add_range(script, y)
@@ -162,16 +163,4 @@ contains
         if (range/3.0_dp >= 5.0_dp*power) step = 5.0_dp*power
         text = to_text(step)
     end function tick
-
-    pure function short(value) result(text)
-        !! Five digits are enough for the end of an axis.
-        real(dp), intent(in) :: value
-        character(:), allocatable :: text
-        character(16) :: digits
-        real(dp) :: rounded
-
-        write (digits, "(ss, es12.4e3)") value
-        read (digits, *) rounded
-        text = to_text(rounded)
-    end function short
 end module lagrangia_gnuplot_axes

@@ -1,0 +1,32 @@
+module lagrangia_output_options
+    !! What commands that write files have in common: `--output`, `--plot`.
+    use lagrangia_command_line, only: command_line_t
+    use lagrangia_data_files, only: check_picture
+    use lagrangia_errors, only: error_t, fail
+    implicit none (type, external)
+    private
+    public :: take_folder, take_picture
+
+contains
+
+    pure subroutine take_folder(line, folder, error)
+        !! Where files go.
+        type(command_line_t), intent(in) :: line            !! what was typed
+        character(:), allocatable, intent(out) :: folder    !! `--output`, or data/output
+        type(error_t), allocatable, intent(out) :: error    !! it is empty
+
+        folder = line%value_of("output", "data/output")
+        if (folder == "") call fail(error, "option '--output' needs the name of a folder")
+    end subroutine take_folder
+
+    pure subroutine take_picture(line, kind, error)
+        !! What `--plot` draws, whether it was given or not.
+        type(command_line_t), intent(in) :: line            !! what was typed
+        character(:), allocatable, intent(out) :: kind      !! of `pictures`; without a value png
+        type(error_t), allocatable, intent(out) :: error    !! there is no such format
+
+        kind = line%value_of("plot", "png")
+        if (kind == "") kind = "png"
+        call check_picture(kind, error)
+    end subroutine take_picture
+end module lagrangia_output_options
