@@ -89,7 +89,7 @@ contains
         real(dp), intent(out) :: least, largest  !! huge and -huge where there are none
         logical, allocatable :: there(:)  ! there may be more of them than fit on the stack
 
-        there = ieee_is_finite(self%values(which, :))
+        allocate (there, source=ieee_is_finite(self%values(which, :)))
         found = count(there)
         least = minval(self%values(which, :), mask=there)
         largest = maxval(self%values(which, :), mask=there)
