@@ -1,8 +1,8 @@
 module test_stress
     !! The verdicts of `lagrangia stress` on methods: each is seen to hold, and to fail.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
-    use lagrangia_edges_of_numbers, only: judge_edges
-    use lagrangia_energy_growth, only: growth_t, judge_energy_growth, judge_rounding, &
+    use lagrangia_edges_of_numbers, only: stress_edges
+    use lagrangia_energy_growth, only: growth_t, stress_energy_growth, stress_rounding, &
                                        observe_energy
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: integrator_t
@@ -10,10 +10,10 @@ module test_stress
     use lagrangia_ledger, only: ledger_t
     use lagrangia_ledger_text, only: allowed, measured_json, verdict
     use lagrangia_method_orders, only: new_problem
-    use lagrangia_method_promises, only: judge_bytes, judge_reversal, judge_scaling, &
-                                         judge_symplectic, judge_text
+    use lagrangia_method_promises, only: stress_bytes, stress_reversal, stress_scaling, &
+                                         stress_symplectic, stress_text
     use lagrangia_methods, only: method_names, new_integrator, nth_integrator
-    use lagrangia_step_limits, only: judge_step_limit
+    use lagrangia_step_limits, only: stress_step_limit
     use lagrangia_system, only: system_t
     use spoiled_methods, only: new_spoiled, spoiled_t
     implicit none (type, external)
@@ -50,24 +50,24 @@ contains
 
         call verdicts%section("promises")
         call new_integrator("verlet", method, error)
-        call judge_reversal(method, verdicts)
-        call judge_symplectic(method, verdicts)
-        call judge_bytes(method, verdicts)
-        call judge_scaling(method, verdicts)
-        call judge_text(verdicts)
+        call stress_reversal(method, verdicts)
+        call stress_symplectic(method, verdicts)
+        call stress_bytes(method, verdicts)
+        call stress_scaling(method, verdicts)
+        call stress_text(verdicts)
         call assertEqual(0, verdicts%broken())
         call new_spoiled(spoiled, "verlet", damping=1e-8_dp)
-        call judge_reversal(spoiled, verdicts)
-        call judge_symplectic(spoiled, verdicts)
+        call stress_reversal(spoiled, verdicts)
+        call stress_symplectic(spoiled, verdicts)
         call new_spoiled(spoiled, "verlet", share=epsilon(1.0_dp))
-        call judge_bytes(spoiled, verdicts)
+        call stress_bytes(spoiled, verdicts)
         call new_spoiled(spoiled, "verlet", push=1e-12_dp)
-        call judge_scaling(spoiled, verdicts)
+        call stress_scaling(spoiled, verdicts)
         do i = 6, 9
             call assertFalse(verdicts%rows(i)%holds, verdicts%rows(i)%measured)
         end do
         call new_integrator("rk4", method, error)
-        call judge_reversal(method, verdicts)
+        call stress_reversal(method, verdicts)
         call assertEqual("stated", verdict(verdicts%rows(10)))
     end subroutine promises_are_held
 
@@ -80,12 +80,12 @@ contains
 
         call verdicts%section("rounding")
         call new_integrator("verlet", method, error)
-        call judge_rounding(method, "plain", 1000000_i8, verdicts)
-        call judge_rounding(method, "compensated", 1000000_i8, verdicts)
+        call stress_rounding(method, "plain", 1000000_i8, verdicts)
+        call stress_rounding(method, "compensated", 1000000_i8, verdicts)
         call new_integrator("verlet", method, error, compensated=.true.)
-        call judge_rounding(method, "compensated", 100000_i8, verdicts)
+        call stress_rounding(method, "compensated", 100000_i8, verdicts)
         call new_integrator("velocity_verlet", method, error)
-        call judge_rounding(method, "plain", 10000_i8, verdicts)
+        call stress_rounding(method, "plain", 10000_i8, verdicts)
         call assertTrue(all(verdicts%rows%holds .eqv. [.true., .false., .true., .false.]), &
                         "plain, compensated")
     end subroutine rounding_is_told_apart
@@ -99,13 +99,13 @@ contains
 
         call verdicts%section("edges")
         call new_integrator("rk4", method, error)
-        call judge_edges(method, verdicts)
+        call stress_edges(method, verdicts)
         call assertEqual(0, verdicts%broken())
         call new_spoiled(spoiled, "rk4", push=1e-3_dp)
-        call judge_edges(spoiled, verdicts)
+        call stress_edges(spoiled, verdicts)
         call assertFalse(verdicts%rows(6)%holds .or. verdicts%rows(7)%holds, "amplitudes")
         call new_spoiled(spoiled, "rk4", damping=0.5_dp)
-        call judge_edges(spoiled, verdicts)
+        call stress_edges(spoiled, verdicts)
         call assertFalse(verdicts%rows(13)%holds .or. verdicts%rows(14)%holds, "overflow")
     end subroutine edges_of_numbers_are_seen
 
@@ -169,17 +169,17 @@ contains
 
         call verdicts%section("step_limits")
         call new_integrator("verlet", method, error)
-        call judge_step_limit(method, 2000_i8, verdicts)
+        call stress_step_limit(method, 2000_i8, verdicts)
         call assertEqual(2.0_dp, verdicts%rows(1)%value, 1e-3_dp, "verlet")
         call new_integrator("rk4", method, error)
-        call judge_step_limit(method, 20000_i8, verdicts)
+        call stress_step_limit(method, 20000_i8, verdicts)
         call assertEqual(2.0_dp*sqrt(2.0_dp), verdicts%rows(3)%value, 1e-3_dp, "rk4")
         call assertEqual(0, verdicts%broken())
         method%step_limit = 2.9_dp
-        call judge_step_limit(method, 1000_i8, verdicts)
+        call stress_step_limit(method, 1000_i8, verdicts)
         call assertFalse(verdicts%rows(5)%holds, "another claim")
         call new_spoiled(spoiled, "verlet", damping=-1e-2_dp)
-        call judge_step_limit(spoiled, 1000_i8, verdicts)
+        call stress_step_limit(spoiled, 1000_i8, verdicts)
         call assertFalse(verdicts%rows(7)%holds, "energy is fed in at every step")
     end subroutine step_limits_are_measured
 
@@ -196,7 +196,7 @@ contains
             call nth_integrator(i, method)
             if (.not. method%step_limit > 0.0_dp) cycle
             declared = declared + 1
-            call judge_step_limit(method, 1_i8, verdicts)
+            call stress_step_limit(method, 1_i8, verdicts)
             call assertEqual(verdicts%rows(2*declared - 1)%value, method%step_limit, &
                              merge(1e-5_dp, 7e-7_dp, method%name == "rk4"), trim(method%name))
         end do
@@ -213,15 +213,15 @@ contains
 
         call verdicts%section("energy_growth")
         call new_integrator("verlet", method, error)
-        call judge_energy_growth(method, 100000_i8, verdicts)
+        call stress_energy_growth(method, 100000_i8, verdicts)
         call assertTrue(verdicts%rows(1)%holds, "verlet")
         call assertEqual("bounded", verdicts%rows(1)%remark(:7))
         call new_integrator("rk4", method, error)
-        call judge_energy_growth(method, 400000_i8, verdicts)
+        call stress_energy_growth(method, 400000_i8, verdicts)
         call assertTrue(verdicts%rows(2)%holds, "rk4")
         call assertEqual("linear", verdicts%rows(2)%remark(:6))
         call new_spoiled(spoiled, "suzuki4", damping=1e-7_dp)
-        call judge_energy_growth(spoiled, 500000_i8, verdicts)
+        call stress_energy_growth(spoiled, 500000_i8, verdicts)
         call assertFalse(verdicts%rows(3)%holds, "friction")
         call assertEqual("linear", verdicts%rows(3)%remark(:6))
     end subroutine energy_growth_is_named

@@ -3,21 +3,21 @@ module test_stress_systems
     use careless_systems, only: careless_ball_t, careless_double_t, careless_pendulum_t, &
                                 careless_wedge_t
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
-    use lagrangia_bounces, only: judge_elastic, judge_zeno
+    use lagrangia_bounces, only: stress_elastic, stress_zeno
     use lagrangia_bouncing_ball, only: bouncing_ball_t
     use lagrangia_catalogue, only: new_system
-    use lagrangia_chaos, only: judge_chaos
+    use lagrangia_chaos, only: stress_chaos
     use lagrangia_double_pendulum, only: double_pendulum_t
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: ledger_t
-    use lagrangia_limits_of_systems, only: judge_slow_disk, judge_slow_wire, judge_wedge, &
-                                           judge_weak_field
+    use lagrangia_limits_of_systems, only: stress_slow_disk, stress_slow_wire, stress_wedge, &
+                                           stress_weak_field
     use lagrangia_methods, only: new_adaptive
     use lagrangia_pendulum, only: pendulum_t
-    use lagrangia_pendulum_extremes, only: exact_omega2, exact_period, judge_large_angles, &
-                                           judge_mass_ratios, judge_massless, judge_separatrix
+    use lagrangia_pendulum_extremes, only: exact_omega2, exact_period, stress_large_angles, &
+                                           stress_mass_ratios, stress_massless, stress_separatrix
     use lagrangia_system, only: system_t
     use lagrangia_wedge, only: wedge_t
     use plain_system, only: plain_system_t
@@ -26,7 +26,7 @@ module test_stress_systems
     public :: stress_systems_suite
 
     type, extends(plain_system_t) :: saddle_t
-        !! Two coordinates pushed away from (2, 1), where the runs of `judge_chaos` begin.
+        !! Two coordinates pushed away from (2, 1), where the runs of `stress_chaos` begin.
     contains
         procedure :: accelerations => pushed
     end type saddle_t
@@ -101,16 +101,16 @@ contains
         call careless%configure([1.0_dp, 1.0_dp, 9.81_dp], error)
         call new_method("gauss16", 1e-13_dp, method)
         call verdicts%section("near_separatrix")
-        call judge_separatrix(system, method, verdicts)
+        call stress_separatrix(system, method, verdicts)
         call check_all(verdicts, .true., "run", "pi - 1e-1; pi - 1e-3; pi - 1e-6; pi - 1e-9; "// &
                        "pi - 1e-12; pi - 1e-15")
-        call judge_large_angles(system, method, verdicts)
+        call stress_large_angles(system, method, verdicts)
         call check_all(verdicts, .true., "last digits", &
                        "theta = 1000.0; theta = 1000000.0; theta = 1000000000.0")
-        call judge_separatrix(careless, method, verdicts)
+        call stress_separatrix(careless, method, verdicts)
         call assertFalse(verdicts%rows(2)%holds .or. verdicts%rows(4)%holds, "a careless run")
         call check_all(verdicts, .false., "closed form")
-        call judge_large_angles(careless, method, verdicts)
+        call stress_large_angles(careless, method, verdicts)
         call check_all(verdicts, .false., "last digits")
     end subroutine the_pendulum_at_its_extremes
 
@@ -128,15 +128,15 @@ contains
         call assertEqual(9.81_dp*5.0_dp*1.7_dp/(3.0_dp*0.7_dp), sum(omega2), 1e-13_dp, "sum")
         call new_method("gauss16", 1e-11_dp, method)
         call verdicts%section("mass_ratios")
-        call judge_massless(system, verdicts)
+        call stress_massless(system, verdicts)
         call check_all(verdicts, .true., "refused", "m1 = 1e-3; m1 = 1e-6; m1 = 1e-12; "// &
                        "m1 = 1e-100; m1 = 1e-300; m1 = 0")
-        call judge_massless(careless, verdicts)
+        call stress_massless(careless, verdicts)
         call assertFalse(verdicts%rows(7)%holds, "slow mode, 1e-100")
         call check_all(verdicts, .false., "refused")
-        call judge_mass_ratios(careless, method, 0.0_dp, verdicts)
+        call stress_mass_ratios(careless, method, 0.0_dp, verdicts)
         call check_all(verdicts, .false., "frequencies")
-        call judge_mass_ratios(system, method, 1e-5_dp, verdicts)
+        call stress_mass_ratios(system, method, 1e-5_dp, verdicts)
         call check_all(verdicts, .true., "from one", "m1/m2 = 1e-12; m1/m2 = 1e-8; "// &
                        "m1/m2 = 1e-4; m1/m2 = 1e0; m1/m2 = 1e4; m1/m2 = 1e8; m1/m2 = 1e12; "// &
                        "m1/m2 = 1e-12")
@@ -149,11 +149,11 @@ contains
         type(ledger_t) :: verdicts
 
         call verdicts%section("wedge")
-        call judge_wedge(system, verdicts)
+        call stress_wedge(system, verdicts)
         call check_all(verdicts, .true., "accelerations", "alpha = 0.6; alpha = 0.0001; "// &
                        "alpha = 1e-8; alpha = 1e-300; alpha = 0.0; alpha = pi/2 - 1e-4; "// &
                        "alpha = pi/2 - 1e-12; alpha = pi/2 - 0")
-        call judge_wedge(careless, verdicts)
+        call stress_wedge(careless, verdicts)
         call check_all(verdicts, .false., "accelerations")
     end subroutine steep_and_flat_wedges
 
@@ -172,10 +172,10 @@ contains
         do i = 1, 4
             call new_system(trim(names(i)), system, error)
             select case (i)
-            case (1); call judge_slow_wire(system, verdicts)
-            case (2); call judge_slow_disk(system, verdicts)
-            case (3); call judge_weak_field(system, verdicts)
-            case default; call judge_slow_wire(system, verdicts)
+            case (1); call stress_slow_wire(system, verdicts)
+            case (2); call stress_slow_disk(system, verdicts)
+            case (3); call stress_weak_field(system, verdicts)
+            case default; call stress_slow_wire(system, verdicts)
             end select
             if (i < 4) call check_all(verdicts, .true., "after 2 s", cases_of(trim(turns(i))))
             if (i == 4) call assertFalse(any(verdicts%rows(:2)%holds), "another system")
@@ -200,14 +200,14 @@ contains
 
         call new_method("dop853", 1e-12_dp, method)
         call verdicts%section("bounces")
-        call judge_elastic(system, method, verdicts)
+        call stress_elastic(system, method, verdicts)
         call check_all(verdicts, .true., "20 bounces", "e = 1 - 1e-1; e = 1 - 1e-4; "// &
                        "e = 1 - 1e-8; e = 1 - 1e-12; e = 1 - 1e-15; e = 1")
-        call judge_zeno(system, method, verdicts)
+        call stress_zeno(system, method, verdicts)
         call check_all(verdicts, .true., "height", "e = 0.1; e = 0.5; e = 0.8; e = 0.95")
-        call judge_elastic(careless, method, verdicts)
+        call stress_elastic(careless, method, verdicts)
         call check_all(verdicts, .false., "20 bounces")
-        call judge_zeno(careless, method, verdicts)
+        call stress_zeno(careless, method, verdicts)
         call check_all(verdicts, .false., "time of the last")
     end subroutine bounces
 
@@ -222,12 +222,12 @@ contains
         call new_method("dop853", 1e-13_dp, other)
         call system%configure([1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 9.81_dp], error)
         call verdicts%section("chaos")
-        call judge_chaos(system, method, other, 40.0_dp, verdicts)
+        call stress_chaos(system, method, other, 40.0_dp, verdicts)
         call check_all(verdicts, .true., "part")
         call assertEqual(1e-14_dp, method%tolerance, 0.0_dp, "as the row says")
         call assertEqual(1e-10_dp, other%tolerance, 0.0_dp, "as the last row says")
         call system%configure([1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 0.0_dp], error)
-        call judge_chaos(system, method, other, 40.0_dp, verdicts)
+        call stress_chaos(system, method, other, 40.0_dp, verdicts)
         call check_all(verdicts, .false., "ln(growth)")
     end subroutine chaos_takes_digits
 
@@ -244,7 +244,7 @@ contains
         call new_method("gauss16", 1e-13_dp, method)
         call new_method("dop853", 1e-13_dp, other)
         call verdicts%section("saddle")
-        call judge_chaos(system, method, other, 40.0_dp, verdicts)
+        call stress_chaos(system, method, other, 40.0_dp, verdicts)
         call assertEqual(18.25_dp, verdicts%rows(2)%least, 0.0_dp, "half of it")
         call assertEqual(73.0_dp, verdicts%rows(2)%most, 0.0_dp, "twice of it")
     end subroutine the_time_of_no_digit_is_predicted

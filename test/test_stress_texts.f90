@@ -3,7 +3,7 @@ module test_stress_texts
     use formula, only: formula_value, names_t
     use funit, only: TestMethod, TestSuite, assertEqual, assertGreaterThan, assertLessThan, &
                      assertTrue
-    use lagrangia_chaos, only: judge_chaos
+    use lagrangia_chaos, only: stress_chaos
     use lagrangia_double_pendulum, only: double_pendulum_t
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
@@ -160,7 +160,7 @@ contains
         call new_adaptive("dop853", other)
         call system%configure([1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 9.81_dp], error)
         call verdicts%section("chaos")
-        call judge_chaos(system, method, other, 40.0_dp, verdicts)
+        call stress_chaos(system, method, other, 40.0_dp, verdicts)
         associate (remark => verdicts%rows(1)%remark)
             call assertEqual("+- ", remark(:3))
             call assertGreaterThan(index(remark, "from 16 windows of 40.0 s"), 0, message=remark)

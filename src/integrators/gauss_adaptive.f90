@@ -35,7 +35,7 @@ module lagrangia_gauss_adaptive
         type(gauss_dense_t) :: inside            !! the last step
         real(dp) :: h = 0.0_dp                   !! length to try next, s
         real(dp) :: rate = 1.0_dp                !! of the last sweep: change over change, squared
-        real(dp) :: won = 1.0_dp                 !! the same of all sweeps of the step
+        real(dp) :: all_rates = 1.0_dp           !! change of the last sweep over the first's
         real(dp), allocatable :: weight(:)       !! 1/(wanted error of `f`), squared
         real(dp), allocatable :: first(:)        !! accelerations at the start of the step
     contains
@@ -54,7 +54,7 @@ contains
 
         self%name = "gauss16"
         self%least_tolerance = 1e-14_dp
-        self%bears_noise = 2.0_dp**16
+        self%noise_margin = 2.0_dp**16
         self%title = "Gauss-Legendre collocation by tolerance, for smooth forces (Butcher 1964)"
         self%order = 16
         self%leaves_cyclic = .true.
@@ -230,8 +230,8 @@ contains
         self%t_old = self%t_new
         self%t_new = to
         grow = min(2.0_dp, safety*ratio)
-        if (self%won*(grow**4/best_rate)**(sweeps - 1) > 1.0_dp) then
-            grow = (best_rate/self%won**(1.0_dp/(sweeps - 1)))**0.25_dp
+        if (self%all_rates*(grow**4/best_rate)**(sweeps - 1) > 1.0_dp) then
+            grow = (best_rate/self%all_rates**(1.0_dp/(sweeps - 1)))**0.25_dp
         end if
         self%h = merge(max(self%h, grow*h), grow*h, cut)
     end subroutine take_step
@@ -292,7 +292,7 @@ contains
             if (ratio < 1.0_dp) exit
             if (good .or. (sweeps > 4 .and. self%rate > 0.64_dp)) exit
         end do
-        self%won = change/max(first, tiny(first))
+        self%all_rates = change/max(first, tiny(first))
     end subroutine solve
 
     pure subroutine state_at(self, t, q, v)

@@ -49,12 +49,12 @@ module lagrangia_integrator
         !! latest step, `t_old` to `t_new`. Adaptive ones choose their steps by `tolerance`.
         real(dp) :: tolerance = 1e-10_dp  !! of the local error, absolute below 1, relative above
         real(dp) :: least_tolerance = 1e-15_dp  !! below, all is rounding
-        real(dp) :: bears_noise = 16.0_dp  !! a tolerance can be so far below what rounding shakes
+        real(dp) :: noise_margin = 16.0_dp  !! the least tolerance of use is rounding over this
         real(dp) :: longest = huge(1.0_dp)  !! no step is longer, but for 1 % at the end, s
         real(dp) :: t_old = 0.0_dp        !! s
         real(dp) :: t_new = 0.0_dp        !! s
         real(dp) :: t_end = 0.0_dp        !! no step goes beyond, s; set by `start`
-        integer :: looks = 8              !! places in a step, between which the motion hardly turns
+        integer :: points_a_step = 8      !! between two of them the motion hardly turns
         logical :: dense = .true.         !! if false only the ends of steps are asked for: cheaper,
         !! but gauss16 looks for no kinks of the force
         integer(i8) :: accepted = 0

@@ -116,7 +116,7 @@ contains
         integer :: k, count
 
         start = self%t
-        count = method%looks
+        count = method%points_a_step
         do k = 1, count
             high = merge(t, start + k*(t - start)/count, k == count)
             call method%state_at(high, q, v)

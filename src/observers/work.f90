@@ -112,7 +112,7 @@ contains
 
         if (t <= self%t) return
         start = self%t
-        parts = max(1, ceiling(method%looks*(t - start)/(method%t_new - method%t_old)))
+        parts = max(1, ceiling(method%points_a_step*(t - start)/(method%t_new - method%t_old)))
         h = (t - start)/parts
         do i = 1, parts
             part = 0.0_dp

@@ -28,7 +28,7 @@ contains
         class(reference_t), intent(in) :: closed_form  !! has the state; is copied
 
         self%name = "exact"
-        self%looks = 32768  ! all of the motion is one step
+        self%points_a_step = 32768  ! all of the motion is one step
         self%title = closed_form%title
         allocate (self%closed_form, source=closed_form)
     end subroutine new_exact_motion

@@ -48,7 +48,7 @@ contains
         end if
         tolerance = method%least_tolerance
         if (.not. (rate > 0.0_dp .and. rate < huge(rate))) return
-        noise = noise/rate/max(1.0_dp, maxval(abs(v)), maxval(abs(a))/rate)/method%bears_noise
+        noise = noise/rate/max(1.0_dp, maxval(abs(v)), maxval(abs(a))/rate)/method%noise_margin
         if (.not. noise > tolerance) return
         write (digits, "(ss, es12.1e3)") min(0.1_dp, 1.1_dp*noise)
         read (digits, *) tolerance

@@ -13,7 +13,7 @@ module lagrangia_bounces
     use lagrangia_time_grid, only: new_sample_times, time_grid_t
     implicit none (type, external)
     private
-    public :: judge_elastic, judge_zeno
+    public :: stress_elastic, stress_zeno
 
     real(dp), parameter :: g = 9.81_dp, v0 = 3.0_dp
 
@@ -29,7 +29,7 @@ module lagrangia_bounces
 
 contains
 
-    subroutine judge_elastic(system, method, verdicts)
+    subroutine stress_elastic(system, method, verdicts)
         !! \(e \to 1\): the times of 20 bounces after a throw from the floor against
         !! \(\frac{2v_0}{g}\frac{1-e^n}{1-e}\) in quadruple precision.
         class(system_t), intent(inout) :: system  !! its parameters are set as needed
@@ -59,9 +59,9 @@ contains
             if (powers(i) > 0) of = "e = 1 - 1e-"//to_text(powers(i))
             call verdicts%judge(of, "times of 20 bounces: error", worst, most=1e-13_dp)
         end do
-    end subroutine judge_elastic
+    end subroutine stress_elastic
 
-    subroutine judge_zeno(system, method, verdicts)
+    subroutine stress_zeno(system, method, verdicts)
         !! The bounces end at \(2v_0/[g(1-e)]\); from there on the ball lies on the floor, exactly.
         class(system_t), intent(inout) :: system  !! its parameters are set as needed
         class(dense_integrator_t), intent(inout) :: method  !! with its tolerance; prepared here
@@ -82,7 +82,7 @@ contains
             call verdicts%judge("e = "//to_text(e), "height and speed after that", &
                                 max(abs(q(1)), abs(v(1))), 0.0_dp, 0.0_dp)
         end do
-    end subroutine judge_zeno
+    end subroutine stress_zeno
 
     subroutine bounce(system, method, e, duration, counter, q_end, v_end)
         !! Thrown up from the floor. A run that fails leaves no impact.

@@ -9,14 +9,14 @@ module lagrangia_chaos
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: judge_chaos
+    public :: stress_chaos
 
     real(dp), parameter :: interval = 0.25_dp, no_digit = 1.0_dp  !! s; rad
     real(dp), parameter :: start(2) = [2.0_dp, 1.0_dp]            !! rad, at rest
 
 contains
 
-    subroutine judge_chaos(system, method, other, duration, verdicts)
+    subroutine stress_chaos(system, method, other, duration, verdicts)
         !! The growth of a small difference, followed along the motion and rescaled on the way,
         !! gives Lyapunov's exponent and a bound: an error made at \(s\) grows by
         !! \(G(t)/G(s)\). The exponent is the mean over windows of `duration`, and its error is
@@ -62,7 +62,7 @@ contains
         end do
         call verdicts%judge("tolerance 1e-10", "error / (tolerance growth)", excess, &
                             most=10.0_dp, remark="up to t = "//short((k - 1)*interval, 3)//" s")
-    end subroutine judge_chaos
+    end subroutine stress_chaos
 
     subroutine follow_growth(system, method, n, growth)
         !! `growth(k)`: the logarithm of what a small difference is multiplied by in `k` intervals.

@@ -13,7 +13,7 @@ module lagrangia_edges_of_numbers
     use lagrangia_time_grid, only: new_time_grid, time_grid_t
     implicit none (type, external)
     private
-    public :: judge_edges
+    public :: stress_edges
 
     real(dp), parameter :: dt = 0.02_dp  !! s
 
@@ -26,7 +26,7 @@ module lagrangia_edges_of_numbers
 
 contains
 
-    subroutine judge_edges(method, verdicts)
+    subroutine stress_edges(method, verdicts)
         !! A linear motion does not know its amplitude; one that grows without bound is stopped
         !! where it leaves the numbers, with status 3 and the last good state.
         class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
@@ -55,7 +55,7 @@ contains
         call verdicts%judge("overflow", "status", real(status, dp), 3.0_dp, 3.0_dp)
         call end_of_run(method, oscillator, ieee_value(x, ieee_quiet_nan), 1.0_dp, x, status)
         call verdicts%judge("start at NaN", "status", real(status, dp), 3.0_dp, 3.0_dp)
-    end subroutine judge_edges
+    end subroutine stress_edges
 
     subroutine end_of_run(method, system, x0, duration, x, status)
         !! From rest at `x0`, looked at every 50 steps.

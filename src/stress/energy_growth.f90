@@ -12,7 +12,7 @@ module lagrangia_energy_growth
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: growth_t, judge_energy_growth, judge_rounding, observe_energy
+    public :: growth_t, stress_energy_growth, stress_rounding, observe_energy
 
     integer(i8), parameter :: most_steps = 100000000_i8
     integer(i8), parameter :: every = 7            !! odd: it meets all phases of a swing
@@ -31,7 +31,7 @@ module lagrangia_energy_growth
 
 contains
 
-    subroutine judge_energy_growth(method, evaluations, verdicts)
+    subroutine stress_energy_growth(method, evaluations, verdicts)
         !! On a pendulum from 2 rad, or on a charge in a trap where the method is for charges only.
         !! What declares its energy error bounded must keep it so; the rounding of so many
         !! evaluations may grow as a random walk. What declares nothing is expected to drift.
@@ -69,7 +69,7 @@ contains
                                     remark=growth%remark())
             end if
         end associate
-    end subroutine judge_energy_growth
+    end subroutine stress_energy_growth
 
     subroutine observe_energy(method, system, dt, steps, q, v, growth)
         !! Take the steps and see the relative error of the energy.
@@ -156,7 +156,7 @@ contains
                short(self%steps(size(self%steps)), 1)//" steps"
     end function remark
 
-    subroutine judge_rounding(method, sums, steps, verdicts)
+    subroutine stress_rounding(method, sums, steps, verdicts)
         !! The energy that its steps conserve exactly but for rounding,
         !! \((1-\omega^2h^2/4)v^2 + \omega^2x^2\) for drift, kick, drift. Plain sums lose it as a
         !! random walk, \(\varepsilon\sqrt N\); compensated ones keep it but for the last digits.
@@ -200,5 +200,5 @@ contains
 
             energy = (1.0_dp - 0.25_dp*h**2)*v(1)**2 + q(1)**2
         end function energy
-    end subroutine judge_rounding
+    end subroutine stress_rounding
 end module lagrangia_energy_growth

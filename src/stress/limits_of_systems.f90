@@ -9,14 +9,14 @@ module lagrangia_limits_of_systems
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: judge_slow_disk, judge_slow_wire, judge_wedge, judge_weak_field
+    public :: stress_slow_disk, stress_slow_wire, stress_wedge, stress_weak_field
 
     real(dp), parameter :: few = 8.0_dp*epsilon(1.0_dp)  !! of roundings
     real(dp), parameter :: rates(*) = [1.0_dp, 1e-3_dp, 1e-6_dp, 1e-9_dp, 1e-300_dp, 0.0_dp]
 
 contains
 
-    subroutine judge_wedge(system, verdicts)
+    subroutine stress_wedge(system, verdicts)
         !! Both accelerations for a steep and a flat incline, against the formula in quadruple
         !! precision; relative, for each.
         class(system_t), intent(inout) :: system  !! its parameters are set as needed
@@ -44,9 +44,9 @@ contains
             if (angles(i) > 1.0_dp) of = "alpha = pi/2 - "//short(right_angle - angles(i), 1)
             call verdicts%judge(of, "accelerations: relative error", worst, most=few)
         end do
-    end subroutine judge_wedge
+    end subroutine stress_wedge
 
-    subroutine judge_slow_wire(system, verdicts)
+    subroutine stress_slow_wire(system, verdicts)
         !! A bead on a wire that hardly rotates: the closed form against
         !! \(r_0\cosh\omega t + v_0\sinh(\omega t)/\omega\) in quadruple precision, at 2 s.
         class(system_t), intent(inout) :: system  !! its parameters are set as needed
@@ -65,9 +65,9 @@ contains
                                 "r after 2 s: relative error", real(abs(q(1)/exact - 1.0_qp), &
                                                                     dp), most=few)
         end do
-    end subroutine judge_slow_wire
+    end subroutine stress_slow_wire
 
-    subroutine judge_slow_disk(system, verdicts)
+    subroutine stress_slow_disk(system, verdicts)
         !! A disk whose heading hardly turns rolls on a circle of huge radius: the closed form
         !! against the chord in quadruple precision, at 2 s.
         class(system_t), intent(inout) :: system  !! its parameters are set as needed
@@ -87,9 +87,9 @@ contains
             call verdicts%judge("disk, omega = "//to_text(rates(i)), "x, y after 2 s: error", &
                                 real(maxval(abs(q(:2) - exact)), dp), most=few)
         end do
-    end subroutine judge_slow_disk
+    end subroutine stress_slow_disk
 
-    subroutine judge_weak_field(system, verdicts)
+    subroutine stress_weak_field(system, verdicts)
         !! A charge across a field that hardly bends its way, likewise.
         class(system_t), intent(inout) :: system  !! its parameters are set as needed
         type(ledger_t), intent(inout) :: verdicts  !! gets the lines
@@ -106,7 +106,7 @@ contains
             call verdicts%judge("charge, B = "//to_text(rates(i)), "x, y after 2 s: error", &
                                 real(maxval(abs(q(:2) - exact)), dp), most=few)
         end do
-    end subroutine judge_weak_field
+    end subroutine stress_weak_field
 
     subroutine state_of(system, parameters, q0, v0, t, q, v)
         !! The closed form at `t`; huge where the parameters are refused or none is known.

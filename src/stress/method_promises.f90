@@ -15,7 +15,7 @@ module lagrangia_method_promises
     use lagrangia_time_grid, only: new_time_grid, time_grid_t
     implicit none (type, external)
     private
-    public :: judge_bytes, judge_reversal, judge_scaling, judge_symplectic, judge_text
+    public :: stress_bytes, stress_reversal, stress_scaling, stress_symplectic, stress_text
     public :: canonical_defect, differentiate_step
 
     real(dp), parameter :: dt = 0.02_dp        !! s
@@ -25,7 +25,7 @@ module lagrangia_method_promises
 
 contains
 
-    subroutine judge_symplectic(method, verdicts)
+    subroutine stress_symplectic(method, verdicts)
         !! The defect of a step over the problems; of a method that declares nothing it is stated.
         class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
         type(ledger_t), intent(inout) :: verdicts  !! gets the lines
@@ -47,9 +47,9 @@ contains
         else
             call verdicts%judge(method%name, measured, worst, remark="does not declare it")
         end if
-    end subroutine judge_symplectic
+    end subroutine stress_symplectic
 
-    subroutine judge_reversal(method, verdicts)
+    subroutine stress_reversal(method, verdicts)
         !! A thousand steps forth and back, over the problems.
         class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
         type(ledger_t), intent(inout) :: verdicts  !! gets the lines
@@ -77,9 +77,9 @@ contains
         else
             call verdicts%judge(method%name, measured, worst, remark="does not declare it")
         end if
-    end subroutine judge_reversal
+    end subroutine stress_reversal
 
-    subroutine judge_bytes(method, verdicts)
+    subroutine stress_bytes(method, verdicts)
         !! Runs that are looked at every 1, 7, 64, 1000 steps end in the same bits.
         class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
         type(ledger_t), intent(inout) :: verdicts  !! gets the lines
@@ -106,9 +106,9 @@ contains
         end do
         call verdicts%judge(method%name, "numbers that differ with the stride", &
                             real(different, dp), 0.0_dp, 0.0_dp)
-    end subroutine judge_bytes
+    end subroutine stress_bytes
 
-    subroutine judge_text(verdicts)
+    subroutine stress_text(verdicts)
         !! Numbers of all sizes, written as the data files have them and read again.
         type(ledger_t), intent(inout) :: verdicts  !! gets the lines
         character(field_width + 1) :: text
@@ -124,7 +124,7 @@ contains
         end do
         call verdicts%judge("text files", "numbers that do not come back", real(different, dp), &
                             0.0_dp, 0.0_dp)
-    end subroutine judge_text
+    end subroutine stress_text
 
     pure function differing(x, y) result(number)
         !! How many numbers differ in a bit; those that are not finite do.
@@ -135,7 +135,7 @@ contains
                               abs(x) <= huge(x)))
     end function differing
 
-    subroutine judge_scaling(method, verdicts)
+    subroutine stress_scaling(method, verdicts)
         !! Other units of mass, length and time, each smaller by a power of two, change no digit.
         class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
         type(ledger_t), intent(inout) :: verdicts  !! gets the lines
@@ -184,7 +184,7 @@ contains
                 end associate
             end do
         end subroutine scale_parameters
-    end subroutine judge_scaling
+    end subroutine stress_scaling
 
     elemental function factor_of(unit, kilogram, metre, second) result(factor)
         !! By which numbers in this unit grow where the three are smaller by so many powers of two.

@@ -15,8 +15,8 @@ module lagrangia_pendulum_extremes
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: exact_period, judge_large_angles, judge_separatrix
-    public :: exact_omega2, judge_mass_ratios, judge_massless
+    public :: exact_period, stress_large_angles, stress_separatrix
+    public :: exact_omega2, stress_mass_ratios, stress_massless
 
     real(qp), parameter :: pi = acos(-1.0_qp)
 
@@ -24,7 +24,7 @@ module lagrangia_pendulum_extremes
 
 contains
 
-    subroutine judge_separatrix(system, method, verdicts)
+    subroutine stress_separatrix(system, method, verdicts)
         !! Released from rest at \(\theta_0 = \pi - 10^{-k}\). The closed form has every digit of
         !! the period; a run has those that the rounding of \(\theta\) near \(\pi\) leaves, and
         !! needs a tolerance that sees them.
@@ -53,7 +53,7 @@ contains
                                 most=4.0_dp*epsilon(period)*10.0_dp**powers(i) + 1e-12_dp, &
                                 remark="allowed: eps*1e"//to_text(powers(i))//", a digit a power")
         end do
-    end subroutine judge_separatrix
+    end subroutine stress_separatrix
 
     function exact_period(system, theta0) result(period)
         !! \(2\pi/[\omega\,\mathrm{agm}(1, \cos(\theta_0/2))]\) in quadruple precision.
@@ -76,7 +76,7 @@ contains
         period = real(2.0_qp*pi/(sqrt(real(p(3), qp)/p(2))*(0.5_qp*(a + b))), dp)
     end function exact_period
 
-    subroutine judge_large_angles(system, method, verdicts)
+    subroutine stress_large_angles(system, method, verdicts)
         !! Wound up by \(n\) turns: against the same motion with the turns taken off exactly. The
         !! angle's last digit is worth `spacing(theta)`, for the start and at every step.
         class(system_t), intent(in) :: system  !! with its parameters
@@ -101,9 +101,9 @@ contains
                                 difference/spacing(angles(i)), most=100.0_dp, remark= &
                                 "a last digit is "//short(spacing(angles(i)), 2)//" rad")
         end do
-    end subroutine judge_large_angles
+    end subroutine stress_large_angles
 
-    subroutine judge_mass_ratios(system, method, fast_time, verdicts)
+    subroutine stress_mass_ratios(system, method, fast_time, verdicts)
         !! Frequencies against the formula in quadruple precision, to full relative accuracy; and
         !! the motion against the pendulum that is left where one bob weighs nothing: the heavy
         !! upper one on its rod, or, with a heavy lower one, both rods in line.
@@ -133,7 +133,7 @@ contains
                                                    fast_time), &
                             most=100.0_dp*method%tolerance*phase, remark= &
                             short(phase/6.283_dp, 2)//" fast oscillations, unseen")
-    end subroutine judge_mass_ratios
+    end subroutine stress_mass_ratios
 
     function frequency_error(system, m1, m2) result(worst)
         !! The largest relative error of the two.
@@ -183,7 +183,7 @@ contains
         distance = abs(q(1) - q_true(1))
     end function distance_from_pendulum
 
-    subroutine judge_massless(system, verdicts)
+    subroutine stress_massless(system, verdicts)
         !! \(m_1 \to 0\): one mode gets infinitely fast as \(\sqrt{m_2/m_1}\), the other becomes
         !! that of a rod \(\ell_1 + \ell_2\) long; \(m_1 = 0\) itself is refused.
         class(system_t), intent(inout) :: system  !! its parameters are set as needed
@@ -209,7 +209,7 @@ contains
         call system%configure([0.0_dp, 1.0_dp, l1, l2, g], error)
         call verdicts%judge("m1 = 0", "is refused", merge(1.0_dp, 0.0_dp, allocated(error)), &
                             1.0_dp, 1.0_dp)
-    end subroutine judge_massless
+    end subroutine stress_massless
 
     subroutine move(method, system, t_end, q, v)
         !! From time 0 to `t_end`; NaN where the method gives up.

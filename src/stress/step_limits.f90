@@ -14,7 +14,7 @@ module lagrangia_step_limits
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: judge_step_limit, step_limit
+    public :: stress_step_limit, step_limit
 
     real(dp), parameter :: stride = 1e-3_dp, farthest = 8.0_dp  !! of the search
     real(dp), parameter :: resolution = 1e-3_dp                 !! to which a limit is known
@@ -22,7 +22,7 @@ module lagrangia_step_limits
 
 contains
 
-    subroutine judge_step_limit(method, runs, verdicts)
+    subroutine stress_step_limit(method, runs, verdicts)
         !! The limit beside the one that the method declares, and runs just below and above.
         class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
         integer(i8), intent(in) :: runs  !! steps of a run
@@ -49,7 +49,7 @@ contains
             call verdicts%judge(method%name, "longest solvable omega dt", limit, &
                                 remark="beyond, its iteration does not converge")
         end if
-    end subroutine judge_step_limit
+    end subroutine stress_step_limit
 
     subroutine new_oscillation(method, system, refused)
         !! \(\omega = 1\) in one coordinate, or a trap in three for methods made for charges.

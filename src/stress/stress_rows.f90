@@ -1,25 +1,25 @@
 module lagrangia_stress_rows
     !! The rows of `lagrangia stress`: their names, what they mean for a student, and who measures
     !! them.
-    use lagrangia_bounces, only: judge_elastic, judge_zeno
+    use lagrangia_bounces, only: stress_elastic, stress_zeno
     use lagrangia_catalogue, only: new_system
-    use lagrangia_chaos, only: judge_chaos
+    use lagrangia_chaos, only: stress_chaos
     use lagrangia_description, only: name_length
-    use lagrangia_edges_of_numbers, only: judge_edges
-    use lagrangia_energy_growth, only: judge_energy_growth, judge_rounding
+    use lagrangia_edges_of_numbers, only: stress_edges
+    use lagrangia_energy_growth, only: stress_energy_growth, stress_rounding
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_ledger, only: ledger_t
-    use lagrangia_limits_of_systems, only: judge_slow_disk, judge_slow_wire, judge_wedge, &
-                                           judge_weak_field
-    use lagrangia_method_promises, only: judge_bytes, judge_reversal, judge_scaling, &
-                                         judge_symplectic, judge_text
+    use lagrangia_limits_of_systems, only: stress_slow_disk, stress_slow_wire, stress_wedge, &
+                                           stress_weak_field
+    use lagrangia_method_promises, only: stress_bytes, stress_reversal, stress_scaling, &
+                                         stress_symplectic, stress_text
     use lagrangia_methods, only: new_adaptive, new_integrator, nth_integrator
     use lagrangia_observer, only: observer_t
-    use lagrangia_pendulum_extremes, only: judge_large_angles, judge_mass_ratios, judge_massless, &
-                                           judge_separatrix
-    use lagrangia_step_limits, only: judge_step_limit
+    use lagrangia_pendulum_extremes, only: stress_large_angles, stress_mass_ratios, &
+                                           stress_massless, stress_separatrix
+    use lagrangia_step_limits, only: stress_step_limit
     use lagrangia_system, only: system_t
     use lagrangia_work_precision, only: look_around
     implicit none (type, external)
@@ -104,35 +104,35 @@ contains
             call measure_sums("verlet")
         case ("near_separatrix", "large_angles")
             call new_system("pendulum", system, error)
-            if (name == "near_separatrix") call judge_separatrix(system, dense, verdicts)
-            if (name == "large_angles") call judge_large_angles(system, dense, verdicts)
+            if (name == "near_separatrix") call stress_separatrix(system, dense, verdicts)
+            if (name == "large_angles") call stress_large_angles(system, dense, verdicts)
         case ("mass_ratios", "massless", "chaos")
             call new_system("double_pendulum", system, error)
-            if (name == "mass_ratios") call judge_mass_ratios(system, dense, 0.01_dp, verdicts)
-            if (name == "massless") call judge_massless(system, verdicts)
+            if (name == "mass_ratios") call stress_mass_ratios(system, dense, 0.01_dp, verdicts)
+            if (name == "massless") call stress_massless(system, verdicts)
             if (name /= "chaos") return
             call new_adaptive("dop853", other)
-            call judge_chaos(system, dense, other, 100.0_dp, verdicts)
+            call stress_chaos(system, dense, other, 100.0_dp, verdicts)
         case ("wedge_angles")
             call new_system("wedge", system, error)
-            call judge_wedge(system, verdicts)
+            call stress_wedge(system, verdicts)
         case ("slow_rotation")
             call new_system("rotating_wire", system, error)
-            call judge_slow_wire(system, verdicts)
+            call stress_slow_wire(system, verdicts)
             call new_system("rolling_disk", system, error)
-            call judge_slow_disk(system, verdicts)
+            call stress_slow_disk(system, verdicts)
             call new_system("charged_particle", system, error)
-            call judge_weak_field(system, verdicts)
+            call stress_weak_field(system, verdicts)
         case ("elastic", "zeno")
             call new_system("bouncing_ball", system, error)
-            if (name == "elastic") call judge_elastic(system, dense, verdicts)
-            if (name == "zeno") call judge_zeno(system, dense, verdicts)
+            if (name == "elastic") call stress_elastic(system, dense, verdicts)
+            if (name == "zeno") call stress_zeno(system, dense, verdicts)
         case ("edges_of_numbers")
             call new_integrator("rk4", method, error)
-            call judge_edges(method, verdicts)
+            call stress_edges(method, verdicts)
         case default
             call measure_methods()
-            if (name == "same_bytes" .and. .not. allocated(error)) call judge_text(verdicts)
+            if (name == "same_bytes" .and. .not. allocated(error)) call stress_text(verdicts)
         end select
     contains
         subroutine measure_methods()
@@ -147,13 +147,13 @@ contains
                 call look_around(watcher, min(i, 20), 20, error)
                 if (allocated(error)) return
                 select case (name)
-                case ("step_limits"); call judge_step_limit(method, 100000_i8, verdicts)
-                case ("reversal"); call judge_reversal(method, verdicts)
-                case ("symplectic"); call judge_symplectic(method, verdicts)
-                case ("same_bytes"); call judge_bytes(method, verdicts)
-                case ("scaling"); call judge_scaling(method, verdicts)
+                case ("step_limits"); call stress_step_limit(method, 100000_i8, verdicts)
+                case ("reversal"); call stress_reversal(method, verdicts)
+                case ("symplectic"); call stress_symplectic(method, verdicts)
+                case ("same_bytes"); call stress_bytes(method, verdicts)
+                case ("scaling"); call stress_scaling(method, verdicts)
                 case default
-                    call judge_energy_growth(method, merge(4000000000_i8, 50000000_i8, long), &
+                    call stress_energy_growth(method, merge(4000000000_i8, 50000000_i8, long), &
                                              verdicts)
                 end select
             end do
@@ -170,9 +170,9 @@ contains
                 call look_around(watcher, i, 2, error)
                 if (allocated(error)) return
                 call new_integrator(name, variant, error)
-                call judge_rounding(variant, "plain", steps(i), verdicts)
+                call stress_rounding(variant, "plain", steps(i), verdicts)
                 call new_integrator(name, variant, error, compensated=.true.)
-                call judge_rounding(variant, "compensated", steps(i), verdicts)
+                call stress_rounding(variant, "compensated", steps(i), verdicts)
             end do
         end subroutine measure_sums
     end subroutine measure_row
