@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What the program prints, whole pages: each as it is kept in .ci/pages, but for rounding.
+# What the program prints and the files it writes, whole: each as it is kept in .ci/pages, but for rounding.
 #
 #     .ci/try_pages.sh [PROGRAM]            compare; status 1 where a page differs
 #     .ci/try_pages.sh [PROGRAM] --accept   after a change that is meant: keep them, and read git diff
@@ -22,18 +22,37 @@ plain() { # without what rounding decides
         -e 's/(^| )(~0|0) +/\1~0 /g; s/ +(~0|0)( |$)/ ~0\2/g' -e 's/n eps\) = [0-9.E+-]+$/n eps) = ~/'
 }
 
-page() { # page FILTER WORDS...: what the program prints for WORDS, through the filter
-    local name=${*:2}
+keep() { # keep WORDS...: the page of these words is what comes in
+    local name=$*
     name=${name//[^A-Za-z0-9_.-]/_}
     count=$((count + 1))
-    timeout 600 "$program" "${@:2}" </dev/null 2>&1 | grep -v "^lagrangia: .* takes about " | "$1" >"$work/$name.txt"
+    cat >"$work/$name.txt"
     if [ -n "$accept" ]; then
         cp "$work/$name.txt" "$pages/$name.txt"
     elif ! diff -u "$pages/$name.txt" "$work/$name.txt" >"$work/diff"; then
-        echo "FAILED  lagrangia ${*:2}: another page; if that is meant: .ci/try_pages.sh --accept"
+        echo "FAILED  lagrangia $*: another page; if that is meant: .ci/try_pages.sh --accept"
         head -n 12 "$work/diff"
         failures=$((failures + 1))
     fi
+}
+
+page() { # page FILTER WORDS...: what the program prints for WORDS, through the filter
+    keep "${@:2}" < <(timeout 600 "$program" "${@:2}" </dev/null 2>&1 | grep -v "^lagrangia: .* takes about " | "$1")
+}
+
+costless() { # without what a run costs, which folder it wrote to, and digits that rounding decides
+    grep -v -e "^lagrangia: .* takes about " -e "^lagrangia: this build is not optimised" |
+        sed -E -e "s,$work/,,g" -e 's/[0-9]+ steps, [0-9]+ evaluations (.*, )[0-9.]+ s$/~ steps, ~ evaluations \1~ s/' \
+            -e 's/"(seconds|threads|steps|evaluations)": [0-9.E+-]+/"\1": ~/g' -e 's/(  [0-9]+ +[0-9]+ .*[^ ]) +[0-9.]+$/\1 ~/' \
+            -e 's/ in [0-9.E+-]+ s on [0-9]+ threads?/ in ~/' -e 's/([0-9]\.[0-9]{3})[0-9]{6,}(E[+-][0-9]+)/\1\2/g' | plain
+}
+
+files() { # files WORDS...: what the program prints for WORDS, and every file that it writes
+    rm -rf "$work/files"
+    keep files of "$@" < <({
+        timeout 600 "$program" "$@" --output "$work/files" </dev/null 2>&1
+        python3 .ci/written_files.py "$work/files"
+    } | costless)
 }
 
 claims() { # of check: claim, bound over noise, states, verdict; not how large rounding is
@@ -71,6 +90,48 @@ page ledger stress --json
 if "$program" --version | grep -q ', optimised'; then
     page shapes bench steps growth modes output samples --quick --json
 fi
+# Words alone
+page plain list
+for list in scenes sweeps; do page plain list $list; done
+page plain help
+for command in $("$program" completion bash | sed -n "s/^        '') words='\(.*\) --set.*/\1/p"); do page plain help "$command"; done
+for system in $systems spring_pendulum sphere dry_friction; do page plain derive "$system"; done
+for system in cart_pendulum double_pendulum rotating_hoop wedge; do page plain derive "$system" --latex; done
+page shapes derive cart_pendulum --numbers
+for sheet in data/homework/*.txt; do page plain grade "$sheet"; done
+page plain describe pendulum --set pendulum%b=0.1
+page plain describe hanging_chain --set hanging_chain%n=1
+page plain describe spring_pendulum
+page plain describe sphere
+page plain modes oscillator --set oscillator%b=0.3
+page plain modes rotating_hoop --set rotating_hoop%r=0.5 --set rotating_hoop%omega=7
+page plain modes charged_particle --set charged_particle%trap=3 --set charged_particle%magnetic=0,0,2
+page plain modes hanging_chain --set hanging_chain%n=7
+page plain modes pendulum --at 3.141592653589793
+page claims check methods
+
+# Files
+files run bouncing_ball
+files run double_pendulum_section charged_trap damped_driven_pendulum
+files run cart_pendulum_auto cart_pendulum_small pendulum --json
+files run bouncing_ball --format csv
+files run rotating_hoop --format npy
+files run pendulum oscillator sphere --error-estimate
+files run pendulum oscillator --overlay
+files run pendulum --set pendulum%l=2 --set scene%method=verlet --set scene%dt=0.3
+files run cart_pendulum sphere bouncing_ball --animate
+files compare pendulum --methods verlet,rk4,dop853
+files compare double_pendulum --methods gauss16,rk4 --json
+files compare pendulum --starts "1 2 0:7"
+for system in pendulum cart_pendulum double_pendulum hanging_chain rotating_hoop; do files modes $system; done
+files modes hanging_chain --animate
+files sweep flip_map --over theta1=0.5:3:6
+files sweep flip_map --over theta1=0.5:3:6 --over theta2=-1:1:3 --json
+files sweep period_of_amplitude --over theta=0.5:3:6
+files sweep resonance --over drive_frequency=0.2:3:5 --format csv
+files sweep ueda --over f=5.5:13.5:3
+command -v gnuplot >/dev/null && files report pendulum_rotation hanging_chain
+for principle in action constraints gauge least-time virtual-work; do files principle $principle; done
 if [ -n "$accept" ]; then
     echo "$count pages kept in $pages"
 else

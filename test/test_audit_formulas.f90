@@ -35,6 +35,8 @@ contains
         call suite%addTest(TestMethod("a_slip_in_any_formula_is_seen", &
                                       a_slip_in_any_formula_is_seen))
         call suite%addTest(TestMethod("what_cannot_be_read_fails", what_cannot_be_read_fails))
+        call suite%addTest(TestMethod("a_start_is_as_exact_as_its_place", &
+                                      a_start_is_as_exact_as_its_place))
         call suite%addTest(TestMethod("every_formula_is_tried", every_formula_is_tried))
     end function audit_formulas_suite
 
@@ -219,6 +221,32 @@ contains
             call assertTrue(index(audit%rows(row)%remark, why) > 0, audit%rows(row)%remark)
         end subroutine fails
     end subroutine what_cannot_be_read_fails
+
+    subroutine a_start_is_as_exact_as_its_place()
+        !! However fast the motion is that begins there: omega = 10^6/s.
+        call assertTrue(holds("x_0"), "as it is")
+        call assertFalse(holds("(1 + 1e-9) x_0"), "off by 10^-9")
+    contains
+        logical function holds(start)
+            character(*), intent(in) :: start  !! that the motion has
+            type(misprint_t) :: misprint
+            class(system_t), allocatable :: system
+            type(error_t), allocatable :: error
+            type(draw_t) :: drawn
+            type(ledger_t) :: audit
+
+            call new_system("oscillator", system, error)
+            drawn%values = [2.0_dp, 2e12_dp, 0.0_dp, 0.0_dp, 0.0_dp]
+            drawn%t = 1e-6_dp
+            drawn%q = [0.7_dp]
+            drawn%v = [0.3_dp]
+            call new_misprint(system, 705, 0, misprint)
+            misprint%instead = "x = "//start//" cos(omega t) + x_dot_0/omega sin(omega t)"
+            call audit%section("misprint")
+            call audit_draw(misprint, drawn, audit)
+            holds = audit%rows(audit%row_of("closed form as printed"))%holds
+        end function holds
+    end subroutine a_start_is_as_exact_as_its_place
 
     subroutine every_formula_is_tried()
         !! The rows of each system's audit that say what is printed, and no others.

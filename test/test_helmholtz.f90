@@ -72,7 +72,8 @@ contains
     end subroutine forces_with_a_potential
 
     subroutine forces_without()
-        !! Drag, a curl, a field with sources, a field that changes without induction.
+        !! Drag, a curl, a field with sources, a field that changes without induction; drag in one
+        !! direction only, which half of the states do not show.
         call has_not("Q_x = '-b x_dot'", "dQ_x/dx_dot = -0.5, not 0")
         call has_not("Q_x = '-b x_dot^3'", "dQ_x/dx_dot = ")
         call has_not("Q_x = 'b y_dot', Q_y = 'b x_dot'", "dQ_y/dx_dot = 0.5 is not "// &
@@ -83,6 +84,8 @@ contains
                      "dQ_x/dy_dot = ")
         call has_not("Q_x = 't y_dot', Q_y = '-t x_dot'", "dQ_x/dy - dQ_y/dx = 0.0, not (d/dt) "// &
                      "dQ_x/dy_dot = 1.0")
+        call has_not("Q_x = '-b (x_dot + |x_dot|)'", "dQ_x/dx_dot = -1.0, not 0")
+        call has_not("Q_x = '-b (x_dot - |x_dot|)'", "dQ_x/dx_dot = -1.0, not 0")
         call has_not("Q_z = 'x'", "dQ_x/dz - dQ_z/dx = -1.0, not 0")
     contains
         subroutine has_not(forces, expected)

@@ -74,7 +74,7 @@ contains
         type(hyperdual_t), allocatable :: path(:, :), start(:, :)
         real(dp), allocatable :: a(:, :)
         integer, allocatable :: which(:)
-        real(dp) :: omega, sizes, values(0:neighbours)
+        real(dp) :: omega, place_size, sizes, values(0:neighbours)
         integer :: i, k, n
 
         n = nearby%systems(0)%item%ndof
@@ -105,11 +105,11 @@ contains
             sizes = sizes + omega*abs(nearby%t(0))*abs(a(i, 0))
             call compare(audit, claim_motion, values(:0), a(i, :0), [sizes])
             values = start(i, :)%re
-            sizes = term_size(values) + sum(abs(nearby%q(:, 0)))
+            place_size = term_size(values) + sum(abs(nearby%q(:, 0)))
             values = start(i, :)%d1
-            sizes = sizes + term_size(values) + omega*abs(nearby%q(i, 0))
+            sizes = place_size + term_size(values) + omega*abs(nearby%q(i, 0))
             call compare(audit, claim_motion, [start(i, 0)%re, start(i, 0)%d1], &
-                         [nearby%q(i, 0), nearby%v(i, 0)], [sizes, sizes])
+                         [nearby%q(i, 0), nearby%v(i, 0)], [place_size, sizes])
             if (audit%rows(audit%row_of(claim_motion))%holds) cycle
             call audit%say(claim_motion, trim(d%motion(which(i)))//": its second derivative is "// &
                            to_text(path(i, 0)%d12)//", the acceleration "//to_text(a(i, 0)))
