@@ -42,7 +42,7 @@ contains
         call suite%addTest(TestMethod("every_line_is_read_back", every_line_is_read_back))
         call suite%addTest(TestMethod("a_wrong_description_is_found", wrong_description_is_found))
         call suite%addTest(TestMethod("a_slip_is_wrong_where_it_is_put_in", slips_are_found))
-        call suite%addTest(TestMethod("the_cart_pendulum_reads_like_the_page", reads_like_the_page))
+        call suite%addTest(TestMethod("derivations_read_like_the_page", reads_like_the_page))
     end function derivation_suite
 
     subroutine check_system(system, random, lines)
@@ -262,7 +262,7 @@ contains
     end subroutine slips_are_found
 
     subroutine reads_like_the_page()
-        character(100), parameter :: page(*) = [character(100) :: &
+        call reads("cart_pendulum", [character(100) :: &
             "x_bob = x + l sin(theta)", &
             "= (m1 + m2)/2 x_dot^2 + m2/2 l^2 theta_dot^2 + m2 l x_dot theta_dot cos(theta)", &
             "(m1 + m2) x_ddot + m2 l theta_ddot cos(theta) - m2 l theta_dot^2 sin(theta) = 0", &
@@ -270,14 +270,24 @@ contains
             "m2 l^2 theta_ddot + m2 l x_ddot cos(theta) + m2 g l sin(theta) = 0", &
             "l theta_ddot + x_ddot cos(theta) + g sin(theta) = 0", &
             "x_ddot = m2 sin(theta) (l theta_dot^2 + g cos(theta))/(m1 + m2 sin(theta)^2)", &
-            "omega^2 = (m1 + m2) g/(m1 l)"]
+            "omega^2 = (m1 + m2) g/(m1 l)"])
+        call reads("rotating_hoop", [character(100) :: &
+            "theta_ddot = omega^2 sin(theta) cos(theta) - g/r sin(theta)", &
+            "Omega^2 = g/r - omega^2"])
+        call reads("driven_pendulum", [character(100) :: &
+            "theta_ddot = -sin(theta) (g - a W^2 cos(W t))/l"])
+    end subroutine reads_like_the_page
+
+    subroutine reads(name, page)
+        !! The derivation of a system has these lines in this order.
+        character(*), intent(in) :: name, page(:)
         class(system_t), allocatable :: system
         type(slip_in_formula_t) :: none
         type(derivation_t) :: derivation
         type(error_t), allocatable :: error
         integer :: at, i, k
 
-        call new_system("cart_pendulum", system, error)
+        call new_system(name, system, error)
         call derive(system, none, derivation, error)
         at = 0
         do k = 1, size(page)
@@ -287,5 +297,5 @@ contains
             call assertTrue(i <= derivation%count, message="in this order: "//trim(page(k)))
             if (i <= derivation%count) at = i
         end do
-    end subroutine reads_like_the_page
+    end subroutine reads
 end module test_derivation

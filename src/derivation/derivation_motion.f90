@@ -4,12 +4,12 @@ module lagrangia_derivation_motion
     use lagrangia_algebra, only: algebra_t
     use lagrangia_derivation, only: derivation_t, line_acceleration, line_mass, line_multiplier, &
                                     line_right_side
-    use lagrangia_exact_number, only: ratio
+    use lagrangia_exact_number, only: operator(/), ratio
     use lagrangia_expression, only: expression_t
     use lagrangia_formula_latex, only: latex_name
     use lagrangia_formula_text, only: formula_text
     use lagrangia_kinds, only: i8
-    use lagrangia_page_layout, only: lay_out_fraction
+    use lagrangia_page_layout, only: lay_out, lay_out_fraction
     use lagrangia_polynomial, only: atom_power, most_atoms, operator(+), operator(-), &
                                     operator(*), polynomial_t
     use lagrangia_text, only: to_text
@@ -205,12 +205,13 @@ contains
     end subroutine add_quotient
 
     subroutine lay_out_quotient(algebra, roles, above, below, e)
-        !! Both parts shortened, without fractions in fractions.
+        !! Both parts shortened, without fractions in fractions; term by term where one of them
+        !! has no denominator then, `g/r - omega^2`.
         type(algebra_t), intent(inout) :: algebra      !! of the atoms
         integer, intent(in) :: roles(:)                !! of the names
         type(polynomial_t), intent(in) :: above, below  !! the latter not zero
         type(expression_t), intent(out) :: e           !! their quotient
-        type(polynomial_t) :: numerator, denominator
+        type(polynomial_t) :: numerator, denominator, quotient
         integer :: k, powers(most_atoms)
 
         numerator = above
@@ -228,6 +229,14 @@ contains
         end if
         numerator = numerator%shifted(ratio(1_i8, 1_i8), powers)
         denominator = denominator%shifted(ratio(1_i8, 1_i8), powers)
+        if (denominator%terms == 1) then
+            quotient = numerator%shifted(ratio(1_i8, 1_i8)/denominator%coefficient(1), &
+                                         -denominator%power(:, 1))
+            if (any(minval(quotient%power(:, :quotient%terms), 1) >= 0)) then
+                call lay_out(algebra, roles, quotient, e)
+                return
+            end if
+        end if
         call lay_out_fraction(algebra, roles, numerator, denominator, e)
     end subroutine lay_out_quotient
 
