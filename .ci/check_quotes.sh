@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What 'lagrangia errata' quotes stands in the lecture notes, on the line that it names.
+# What 'errata', 'principle' and 'course' quote stands in the lecture notes, on the line that it names.
 #
 # The notes are not in this project. data/reference/lecture_notes.txt holds the quoted lines; a unit test
 # compares the quotes with it, this script compares it with the scans. Their folder is the first argument,
@@ -28,4 +28,13 @@ while read -r scan line text; do
     fi
 done <data/reference/lecture_notes.txt
 echo "$count quoted lines, $bad of them not as in the notes"
-[ "$count" -eq 45 ] && [ "$bad" -eq 0 ]
+# 'lagrangia course' has every line with text on it: test/test_course.f90 has their numbers.
+for scan in first:000 second:001; do
+    in_test=$(sed -n "/parameter :: ${scan%:*}(/,/]/p" test/test_course.f90 | sed 's/.*\[//' | grep -oE '[0-9]+' | tr '\n' ' ')
+    in_scan=$(grep -n '[^[:space:]]' "$notes"/"${scan#*:}"_*.txt | cut -d: -f1 | tr '\n' ' ')
+    if [ "$in_test" != "$in_scan" ]; then
+        echo "the ${scan%:*} lecture: other lines with text than in test/test_course.f90"
+        bad=$((bad + 1))
+    fi
+done
+[ "$count" -eq 102 ] && [ "$bad" -eq 0 ]

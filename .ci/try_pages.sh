@@ -62,7 +62,7 @@ claims() { # of check: claim, bound over noise, states, verdict; not how large r
 }
 
 statements() { # of principle: the bounds stay, as 1.0(-13)
-    sed -E -e 's/E([+-][0-9]+) +(holds|fails)$/(\1) \2/' -e 's/^(worst of 13: )[a-z_]+ +/\1 /' | plain
+    sed -E -e 's/E([+-][0-9]+) +(holds|differs)$/(\1) \2/' -e 's/^(worst of 13: )[a-z_]+ +/\1 /' | plain
 }
 
 ledger() { # of JSON: all but the numbers measured
@@ -76,7 +76,8 @@ shapes() { # of JSON: whole numbers and words, but no number measured
 systems=$("$program" list systems | awk '{ print $1 }')
 for system in $systems atwood_lift double_pendulum_formulas; do page plain describe "$system"; done
 for system in $systems; do page plain modes "$system"; done
-for principle in action constraints gauge least-time virtual-work; do page statements principle "$principle"; done
+for principle in $("$program" principle | awk '{ print $1 }'); do page statements principle "$principle"; done
+page plain course
 for slip in "" $("$program" errata | grep -oE "\bE[0-9]+\b" | sort -u); do page plain errata $slip; done
 for system in pendulum cart_pendulum rotating_hoop; do page shapes derive "$system" --json; done
 page shapes derive cart_pendulum --slip E1 --json

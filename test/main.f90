@@ -30,7 +30,9 @@ module suites
     use test_constrained_system, only: constrained_system_suite
     use test_constraints, only: constraints_suite
     use test_coupled_orders, only: coupled_orders_suite
+    use test_course, only: course_suite
     use test_cross_check, only: cross_check_suite
+    use test_dalembert, only: dalembert_suite
     use test_decimal, only: decimal_suite
     use test_dense_orders, only: dense_orders_suite
     use test_dense_powers, only: dense_powers_suite
@@ -221,6 +223,8 @@ contains
         call suite%addTest(driven_pendulum_suite())
         call suite%addTest(echo_suite())
         call suite%addTest(elliptic_suite())
+        call suite%addTest(course_suite())
+        call suite%addTest(dalembert_suite())
         call suite%addTest(errata_suite())
         call suite%addTest(errata_ledger_suite())
         call suite%addTest(errors_suite())

@@ -2,10 +2,12 @@ module test_errata
     !! The slips in the lecture notes: every one is listed, quoted word for word, and its numbers
     !! are what it claims.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
+    use lagrangia_course_table, only: course_of_the_notes, statement_t
     use lagrangia_errata_command, only: slip_report
     use lagrangia_errata_ledger, only: kind_lecture, kind_none, kind_scan, kind_terminology, &
                                        line_length, quote_t, slip_t, slips_of_the_notes
     use lagrangia_errors, only: error_t
+    use lagrangia_principles, only: principle_names, principle_report
     use lagrangia_report, only: report_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -79,6 +81,10 @@ contains
         !! the notes themselves, which are not in this project. No line is there for nothing.
         type(slip_t), allocatable :: slips(:)
         type(line_t), allocatable :: lines(:)
+        type(statement_t), allocatable :: course(:)
+        character(16), allocatable :: names(:)
+        type(report_t) :: page
+        type(error_t), allocatable :: error
         integer :: i, k
 
         call read_lines(lines)
@@ -89,6 +95,24 @@ contains
                 call look_for(slips(k)%quotes(i), slips(k)%id)
             end do
             if (slips(k)%elsewhere%scan /= "") call look_for(slips(k)%elsewhere, slips(k)%id)
+        end do
+        allocate (course, source=course_of_the_notes())
+        do i = 1, size(course)
+            lines%quoted = lines%quoted .or. (lines%scan == course(i)%scan .and. &
+                                              lines%line >= course(i)%line .and. &
+                                              lines%line <= course(i)%last .and. &
+                                              index(lines%text, trim(course(i)%quote)) > 0)
+        end do
+        allocate (names, source=principle_names())
+        do i = 1, size(names)
+            call principle_report(trim(names(i)), page, error)
+            do k = 1, size(page%citations)
+                associate (cited => page%citations(k))
+                    lines%quoted = lines%quoted .or. (lines%scan == cited%scan .and. &
+                                                      lines%line == cited%line .and. &
+                                                      index(lines%text, trim(cited%text)) > 0)
+                end associate
+            end do
         end do
         do i = 1, size(lines)
             call assertTrue(lines(i)%quoted, "nobody quotes "//trim(lines(i)%text))
@@ -135,7 +159,7 @@ contains
             lines = [lines, line]
         end do
         close (unit)
-        call assertEqual(45, size(lines), lines_of_the_notes)
+        call assertEqual(102, size(lines), lines_of_the_notes)
     end subroutine read_lines
 
     subroutine places_are_those_of_the_quotes()

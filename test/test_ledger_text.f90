@@ -51,7 +51,7 @@ contains
         call under(statement_head(), "differ", statement_line(row), "3.5E+00", 5)
         call under(statement_head(), "bound", statement_line(row), "1.0E-09", 5)
         line = statement_line(row)
-        call assertTrue(line(len(line) - 15:) == "1.0E-09  FAILS !", line)
+        call assertTrue(line(len(line) - 14:) == "1.0E-09 FAILS !", line)
         row%name = repeat("n", len(row%name))
         row%left = 1.25e8_dp
         row%right = -1234.5_dp

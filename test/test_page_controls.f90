@@ -6,7 +6,7 @@ module test_page_controls
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
-    use lagrangia_principle, only: principle_names, principle_report
+    use lagrangia_principles, only: principle_names, principle_report
     use lagrangia_report, only: report_t
     use lagrangia_test_potentials, only: test_charge_t
     use lagrangia_text, only: to_text
@@ -250,7 +250,7 @@ contains
             call principle_report(trim(names(i)), report, error)
             counts = counts//trim(names(i))//" "//to_text(count(report%rows%control))//" "
         end do
-        call assertEqual("action 3 constraints 5 gauge 5 least-time 4 virtual-work 5 ", counts, &
-                         "controls")
+        call assertEqual("action 3 constraints 5 gauge 5 least-time 4 virtual-work 5 "// &
+                         "dalembert 2 ", counts, "controls")
     end subroutine every_control_is_known
 end module test_page_controls

@@ -10,7 +10,7 @@ module test_page_formulae
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: claim_t
-    use lagrangia_principle, only: principle_report
+    use lagrangia_principles, only: principle_report
     use lagrangia_report, only: report_t
     use lagrangia_text, only: to_text
     implicit none (type, external)

@@ -6,7 +6,7 @@ module test_page_headings
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_lecture_constraints, only: examples
-    use lagrangia_principle, only: principle_report
+    use lagrangia_principles, only: principle_report
     use lagrangia_report, only: report_t
     implicit none (type, external)
     private

@@ -3,12 +3,13 @@ module test_principles
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, &
                      assertGreaterThan, assertLessThanOrEqual, assertTrue
     use lagrangia_errors, only: error_t
+    use lagrangia_files, only: read_whole_file
     use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: claim_t
     use lagrangia_ledger_text, only: statement_line
-    use lagrangia_principle, only: principle_names, principle_report
+    use lagrangia_principles, only: principle_names, principle_report, principles
     use lagrangia_report, only: report_t
-    use lagrangia_text, only: join
+    use lagrangia_text, only: join, to_text
     implicit none (type, external)
     private
     public :: principles_suite
@@ -50,10 +51,11 @@ module test_principles
         section_t("virtual-work", "double pendulum", 2, 0), &
         section_t("virtual-work", "Q_j = -dV/dq_j with V = T - L", 12, 0), &
         section_t("virtual-work", "U = e phi - e A.v", 4, 1), &
-        section_t("virtual-work", "B = 0, made up: A = grad(chi),", 3, 1)]
-
-    character(21), parameter :: pictures(5) = [character(21) :: "principle_action", &
-        "principle_constraints", "", "principle_least_time", ""]
+        section_t("virtual-work", "B = 0, made up: A = grad(chi),", 3, 1), &
+        section_t("dalembert", "cart-pendulum: the two steps", 3, 0), &
+        section_t("dalembert", "cart-pendulum, theta: each sum", 5, 1), &
+        section_t("dalembert", "cart-pendulum, x: T has no x", 2, 0), &
+        section_t("dalembert", "bead on a wire that turns, W = ", 2, 1)]
 
 contains
 
@@ -69,6 +71,7 @@ contains
         call suite%addTest(TestMethod("the_picture_of_the_disk", the_picture_of_the_disk))
         call suite%addTest(TestMethod("what_is_replaced_is_said", what_is_replaced_is_said))
         call suite%addTest(TestMethod("pages_are_whole", pages_are_whole))
+        call suite%addTest(TestMethod("lines_are_quoted", lines_are_quoted))
         call suite%addTest(TestMethod("rows_are_judged", rows_are_judged))
         call suite%addTest(TestMethod("refuses_unknown_names", refuses_unknown_names))
     end function principles_suite
@@ -157,7 +160,7 @@ contains
         integer :: i, k
 
         allocate (names, source=principle_names())
-        do i = 1, size(names)
+        do i = 1, size(expected)
             call principle_report(trim(names(i)), report, error)
             text = ""
             associate (picture => report%picture)
@@ -250,7 +253,7 @@ contains
         integer :: i, k, first, next
 
         allocate (names, source=principle_names())
-        call assertEqual(5, size(names), "principles")
+        call assertEqual(names_of_pages(), join(names, " "), "principles")
         next = 1
         do i = 1, size(names)
             call principle_report(trim(names(i)), report, error)
@@ -274,10 +277,56 @@ contains
                 next = next + 1
                 first = k
             end do
-            call assertEqual(pictures(i), trim(report%picture%file), "picture of "//names(i))
+            call assertTrue(principles(i)%drawn .eqv. report%picture%file /= "", &
+                            names(i)//": drawn")
         end do
         call assertEqual(size(sections) + 1, next, "sections in all")
+    contains
+        pure function names_of_pages() result(text)
+            !! Those of the table above, each once.
+            character(:), allocatable :: text
+            integer :: s
+
+            text = trim(sections(1)%page)
+            do s = 2, size(sections)
+                if (sections(s)%page /= sections(s - 1)%page) text = text//" "// &
+                    trim(sections(s)%page)
+            end do
+        end function names_of_pages
     end subroutine pages_are_whole
+
+    subroutine lines_are_quoted()
+        !! Every page quotes what it serves, word for word.
+        character(*), parameter :: notes = "data/reference/lecture_notes.txt"
+        character(16), allocatable :: names(:)
+        type(report_t) :: report
+        type(error_t), allocatable :: error
+        character(:), allocatable :: text, head
+        integer :: at, i, k
+
+        call read_whole_file(notes, text, error)
+        call assertFalse(allocated(error), notes)
+        if (anyExceptions()) return
+        allocate (names, source=principle_names())
+        do i = 1, size(names)
+            call principle_report(trim(names(i)), report, error)
+            call assertTrue(size(report%citations) > 0, trim(names(i))//": a line of the notes")
+            do k = 1, size(report%citations)
+                associate (cited => report%citations(k))
+                    head = new_line("a")//trim(cited%scan)//" "//to_text(cited%line)//" "
+                    at = index(text, head)
+                    do while (at > 0)
+                        at = at + len(head)
+                        if (index(text(at:at + index(text(at:), new_line("a")) - 2), &
+                                  trim(cited%text)) > 0) exit
+                        if (index(text(at - 1:), head) == 0) at = 0
+                        if (at > 0) at = at - 2 + index(text(at - 1:), head)
+                    end do
+                    call assertTrue(at > 0, trim(names(i))//" quotes "//head(2:)//cited%text)
+                end associate
+            end do
+        end do
+    end subroutine lines_are_quoted
 
     subroutine rows_are_judged()
         !! NaN holds nothing, and is not what a control must give either.
@@ -302,10 +351,10 @@ contains
         call assertEqual(5, report%broken())
         differences = report%rows(7:)%value
         call assertEqual([0.0_dp, 0.25_dp, 1.0_dp], differences, 1e-15_dp)
-        call assertTrue(index(statement_line(report%rows(1)), "  holds") > 0, &
-                        "index(statement_line(report%rows(1)), '  holds') > 0")
-        call assertTrue(index(statement_line(report%rows(6)), "  fails") > 0, &
-                        "index(statement_line(report%rows(6)), '  fails') > 0")
+        call assertTrue(index(statement_line(report%rows(1)), " holds") > 0, &
+                        "index(statement_line(report%rows(1)), ' holds') > 0")
+        call assertTrue(index(statement_line(report%rows(6)), " differs") > 0, &
+                        "index(statement_line(report%rows(6)), ' differs') > 0")
         call assertTrue(index(statement_line(report%rows(2)), "FAILS !") > 0, &
                         "index(statement_line(report%rows(2)), 'FAILS !') > 0")
         call assertTrue(index(statement_line(report%rows(5)), "HOLDS !") > 0, &

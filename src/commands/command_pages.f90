@@ -45,9 +45,12 @@ module lagrangia_command_pages
                "line as derived, and in numbers what each slip would do.", &
                [character(72) :: "lagrangia errata", "lagrangia errata E1", "", ""]), &
         page_t("principle", "Puts both sides of a principle of the lecture into numbers, with "// &
-               "controls that must fail. Without a name it lists them.", &
+               "controls that must differ. Without a name it lists them.", &
                [character(72) :: "lagrangia principle", "lagrangia principle least-time --plot", &
                 "", ""]), &
+        page_t("course", "Walks through both lectures line by line: what stands there, what it "// &
+               "says in plain words, and the commands that show it; or why nothing does.", &
+               [character(72) :: "lagrangia course", "lagrangia course II", "", ""]), &
         page_t("bench", "Measures speed: run time against error of every method and of GSL's, "// &
                "the cost of a step and of a sample, energy in long runs. Takes minutes; "// &
                "--quick measures less.", &

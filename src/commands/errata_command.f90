@@ -8,7 +8,8 @@ module lagrangia_errata_command
                                        quote_t, slip_t, slips_of_the_notes
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_json, only: json_item, json_object, json_pair
-    use lagrangia_principle, only: principle_report, put_json, put_report
+    use lagrangia_principle, only: put_json, put_report
+    use lagrangia_principles, only: principle_report
     use lagrangia_report, only: report_t
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)

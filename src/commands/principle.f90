@@ -1,48 +1,27 @@
 module lagrangia_principle
     !! `lagrangia principle NAME`: both sides of a principle's statement, their difference,
     !! and its picture as files: the data, and the gnuplot script beside it.
-    use lagrangia_action, only: action_principle
-    use lagrangia_catalogue, only: built_in, nth_system
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
-    use lagrangia_constraints, only: constraints_principle
     use lagrangia_data_files, only: data_path, draw, script_path
     use lagrangia_errors, only: error_t, fail, status_not_held
-    use lagrangia_gauge, only: gauge_principle
     use lagrangia_gnuplot, only: gnuplot_script, new_panels, new_series, panel_t, &
                                  series_t
-    use lagrangia_least_time, only: least_time_principle
     use lagrangia_ledger, only: group_length
     use lagrangia_ledger_text, only: statement_head, statement_json, statement_line
-    use lagrangia_names, only: refuse_name
     use lagrangia_output_file, only: commit_both, output_file_t, refuse_unwritable
     use lagrangia_output_options, only: take_folder, take_picture
     use lagrangia_places, only: places_t
+    use lagrangia_principles, only: principle_report, principles
     use lagrangia_report, only: picture_t, report_t
     use lagrangia_scene_claims, only: claim_table
-    use lagrangia_system, only: system_box_t
     use lagrangia_text, only: to_text
     use lagrangia_text_table, only: text_table_t
     use lagrangia_value_range, only: range_of, value_range_t
     use lagrangia_version, only: build_text, version
-    use lagrangia_virtual_work, only: virtual_work_principle
     implicit none (type, external)
     private
-    public :: principle_command, principle_names, principle_report, put_json, put_report
-
-    type :: principle_t
-        character(16) :: name = ""
-        character(76) :: meaning = ""
-        logical :: drawn = .false.  !! there is a picture to it
-    end type principle_t
-
-    type(principle_t), parameter :: principles(*) = [ &
-        principle_t("action", "Hamilton: the actual path makes the action stationary", .true.), &
-        principle_t("constraints", "holonomic or not, fixed or moving; degrees of freedom", &
-                    .true.), &
-        principle_t("gauge", "uniqueness: L and L + dF/dt tell the same motion"), &
-        principle_t("least-time", "Hero, Fermat: light takes a path of stationary time", .true.), &
-        principle_t("virtual-work", "d'Alembert: constraint forces do no virtual work; Q_j")]
+    public :: principle_command, put_json, put_report
 
 contains
 
@@ -93,49 +72,6 @@ contains
         end do
     end function picture_name
 
-    subroutine principle_report(name, report, error)
-        !! The report of one principle.
-        character(*), intent(in) :: name  !! as on the command line
-        type(report_t), intent(out) :: report  !! the result
-        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
-        type(system_box_t), allocatable :: systems(:)
-
-        select case (name)
-        case ("action")
-            call action_principle(report, error)
-        case ("constraints")
-            call constraints_principle(report, error)
-        case ("gauge")
-            call every_system(systems)
-            call gauge_principle(systems, report, error)
-        case ("least-time")
-            call least_time_principle(report, error)
-        case ("virtual-work")
-            call every_system(systems)
-            call virtual_work_principle(systems, report, error)
-        case default
-            call refuse_name("principle", name, principle_names(), error)
-        end select
-    end subroutine principle_report
-
-    subroutine every_system(systems)
-        !! Those of the lectures, with default parameters.
-        type(system_box_t), allocatable, intent(out) :: systems(:)
-        integer :: i
-
-        allocate (systems(built_in))
-        do i = 1, size(systems)
-            call nth_system(i, systems(i)%item)
-        end do
-    end subroutine every_system
-
-    pure function principle_names() result(names)
-        !! All of them.
-        character(16) :: names(size(principles))
-
-        names = principles%name
-    end function principle_names
-
     subroutine list_principles()
         !! One a line.
         integer :: i
@@ -153,6 +89,12 @@ contains
         integer :: i, controls
 
         if (report%title /= "") call put_line(trim(report%title))
+        do i = 1, size(report%citations)
+            associate (cited => report%citations(i))
+                call put_line("the notes, "//trim(cited%scan)//" "//to_text(cited%line)//": "// &
+                              trim(cited%text))
+            end associate
+        end do
         heading = ""
         do i = 1, size(report%rows)
             if (report%rows(i)%group /= heading .or. i == 1) then
@@ -169,7 +111,7 @@ contains
         end do
         controls = count(report%rows%control)
         call put_line(to_text(size(report%rows) - controls)//" statements, "//to_text(controls)// &
-                      " negative controls (fails: as it must); "// &
+                      " negative controls (differs, as it must); "// &
                       to_text(report%broken())//" not as they must be")
         if (file /= "") call put_line("data and gnuplot script: "//file)
     end subroutine put_report
@@ -220,6 +162,7 @@ contains
         allocate (series(1), ranges(size(picture%values, 1)))
         call new_panels(picture%panels, picture%names, picture%units, panels, error)
         if (allocated(error)) return
+        panels%nested = picture%nested
         path = data_path(folder, trim(picture%file), "text")
         header(1) = "lagrangia "//version//": "//picture%title
         header(2) = "build: "//build_text()

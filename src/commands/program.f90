@@ -9,6 +9,7 @@ module lagrangia_program
     use lagrangia_compare, only: compare_command
     use lagrangia_completion, only: completion_command
     use lagrangia_console, only: finish_console, note, put, put_line, say_at_once
+    use lagrangia_course_command, only: course_command
     use lagrangia_derive, only: derive_command
     use lagrangia_describe, only: describe_command
     use lagrangia_errata_command, only: errata_command
@@ -90,6 +91,7 @@ contains
         else
             select case (commands(which)%name)
             case ("check"); call check_command(line, error)
+            case ("course"); call course_command(line, error)
             case ("errata"); call errata_command(line, error)
             case ("completion"); call completion_command(line, error)
             case ("help"); call help_command(line, error)

@@ -71,6 +71,9 @@ module lagrangia_registry
                   "json", takes="slips"), &
         command_t("principle", "[NAME]", "both sides of Hamilton's, d'Alembert's, Fermat's", 1, &
                   "output plot json", takes="principles"), &
+        command_t("course", "[I|II]", &
+                  "the lecture's notes line by line, and what shows each line", 1, &
+                  "json", takes="lectures"), &
         command_t("bench", "[PART...]", "run time against error, cost of a step, growth, "// &
                   "output; parts by name", -1, &
                   "quick problems methods systems tolerances output plot json quiet", &

@@ -10,7 +10,7 @@ module lagrangia_vocabulary
     use lagrangia_errata_ledger, only: slip_t, slips_of_the_notes
     use lagrangia_errors, only: error_t
     use lagrangia_names, only: name_length
-    use lagrangia_principle, only: principle_names
+    use lagrangia_principles, only: principle_names
     use lagrangia_registry, only: commands
     use lagrangia_scene_keys, only: keys
     use lagrangia_shipped, only: scene_name
@@ -48,6 +48,7 @@ contains
         case ("slips"); call slip_ids(names)
         case ("lists"); call split("systems|methods|scenes|sweeps", names)
         case ("shells"); call split("bash|zsh", names)
+        case ("lectures"); call split("I|II", names)
         case ("scene", "methods"); call split(kind, names)
         case default
             if (index(kind, "|") > 0) call split(kind, names)

@@ -40,6 +40,8 @@ contains
         type(pendulum_t) :: pendulum
 
         call report%begin("action: the actual path makes S = int L dt stationary, not always least")
+        call report%cite("II", 18, &
+                         "the actual path followed is that which minimizes the time integral")
         call oscillator%configure([m, k], error)
         if (allocated(error)) return
         call pendulum%configure([bob, l, g], error)

@@ -34,6 +34,8 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
 
         call report%begin("gauge: L and L + dF/dt, F = F(q, t), have the same equations of motion")
+        call report%cite("I", 95, "multiple Lagrangians can lead to the same equations of motion")
+        call report%cite("I", 107, "=> F does not show up in the equations of motion")
         call same_equations(systems, report, error)
         if (allocated(error)) return
         call shifted(report, error)

@@ -31,6 +31,8 @@ contains
         real(dp) :: crossing
 
         call report%begin("least-time: light takes a path of stationary time, not always the least")
+        call report%cite("II", 5, "reflection of light always takes the shortest path")
+        call report%cite("II", 6, "a path that requires the least time.")
         call by_mirrors(report, error)
         if (allocated(error)) return
         call into_glass(report, crossing, error)

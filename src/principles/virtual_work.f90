@@ -31,6 +31,11 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
 
         call report%begin("virtual-work: sum of (m x_ddot - F).delta x = 0, delta x has no dt")
+        call report%cite("I", 3, &
+                         "e.g. given dt -> changes in dz; even if dt zero, but constraints "// &
+                         "Virtual displacement")
+        call report%cite("I", 53, &
+                         "$$Q_{i} = \sum_{i} F_{i} \frac{\partial x_{i}}{\partial q_{j}}$$")
         call displacements(report, error)
         if (allocated(error)) return
         call moving_wire(report, error)

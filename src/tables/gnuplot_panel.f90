@@ -105,7 +105,8 @@ contains
                 if (size(series) > 1 .and. panel%curves == 1) k = trace%series
                 colour = " lc rgb '"//colours(modulo(k - 1, size(colours)) + 1)//"'"
                 width = " lw 2"
-                if (size(series) > 1 .and. panel%x == 1 .and. .not. logarithmic) then
+                if (panel%nested .or. (size(series) > 1 .and. panel%x == 1 &
+                                       .and. .not. logarithmic)) then
                     width = " lw "//to_text(2 + 3*max(0, min(size(traces), most_widths) - i))
                 end if
                 title = curve_title(series, panel, trace, number, logarithmic)

@@ -60,12 +60,12 @@ contains
         character(7) :: word
 
         if (row%as_it_must()) then
-            word = merge("fails  ", "holds  ", row%control)
+            word = merge("differs", "holds  ", row%control)
         else
             word = merge("HOLDS !", "FAILS !", row%control)
         end if
         line = row%name//nine_digits(row%left)//nine_digits(row%right)// &
-               right(two_digits(row%value), 8)//right(two_digits(row%most), 8)//"  "//trim(word)
+               right(two_digits(row%value), 8)//right(two_digits(row%most), 8)//" "//trim(word)
     end function statement_line
 
     pure function nine_digits(value) result(text)

@@ -1,0 +1,81 @@
+module lagrangia_principles
+    !! The pages of `lagrangia principle`, as data, and the report of each.
+    use lagrangia_action, only: action_principle
+    use lagrangia_catalogue, only: built_in, nth_system
+    use lagrangia_constraints, only: constraints_principle
+    use lagrangia_dalembert, only: dalembert_principle
+    use lagrangia_errors, only: error_t
+    use lagrangia_gauge, only: gauge_principle
+    use lagrangia_least_time, only: least_time_principle
+    use lagrangia_names, only: refuse_name
+    use lagrangia_report, only: report_t
+    use lagrangia_system, only: system_box_t
+    use lagrangia_virtual_work, only: virtual_work_principle
+    implicit none (type, external)
+    private
+    public :: principle_t, principles
+    public :: principle_names, principle_report
+
+    type :: principle_t
+        character(16) :: name = ""
+        character(76) :: meaning = ""
+        logical :: drawn = .false.  !! there is a picture to it
+    end type principle_t
+
+    type(principle_t), parameter :: principles(*) = [ &
+        principle_t("action", "Hamilton: the actual path makes the action stationary", .true.), &
+        principle_t("constraints", "holonomic or not, fixed or moving; degrees of freedom", &
+                    .true.), &
+        principle_t("gauge", "uniqueness: L and L + dF/dt tell the same motion"), &
+        principle_t("least-time", "Hero, Fermat: light takes a path of stationary time", .true.), &
+        principle_t("virtual-work", "d'Alembert: constraint forces do no virtual work; Q_j"), &
+        principle_t("dalembert", "from d'Alembert to Lagrange, term by term; why dT/dq is there", &
+                    .true.)]
+
+contains
+
+    subroutine principle_report(name, report, error)
+        !! The report of one principle.
+        character(*), intent(in) :: name  !! as on the command line
+        type(report_t), intent(out) :: report  !! the result
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
+        type(system_box_t), allocatable :: systems(:)
+
+        select case (name)
+        case ("action")
+            call action_principle(report, error)
+        case ("constraints")
+            call constraints_principle(report, error)
+        case ("gauge")
+            call every_system(systems)
+            call gauge_principle(systems, report, error)
+        case ("least-time")
+            call least_time_principle(report, error)
+        case ("virtual-work")
+            call every_system(systems)
+            call virtual_work_principle(systems, report, error)
+        case ("dalembert")
+            call dalembert_principle(report, error)
+        case default
+            call refuse_name("principle", name, principle_names(), error)
+        end select
+    end subroutine principle_report
+
+    subroutine every_system(systems)
+        !! Those of the lectures, with default parameters.
+        type(system_box_t), allocatable, intent(out) :: systems(:)
+        integer :: i
+
+        allocate (systems(built_in))
+        do i = 1, size(systems)
+            call nth_system(i, systems(i)%item)
+        end do
+    end subroutine every_system
+
+    pure function principle_names() result(names)
+        !! All of them.
+        character(16) :: names(size(principles))
+
+        names = principles%name
+    end function principle_names
+end module lagrangia_principles
