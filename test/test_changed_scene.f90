@@ -2,11 +2,15 @@ module test_changed_scene
     !! What `--set` makes of a scene.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_changed_scene, only: make_own_scene
+    use lagrangia_description, only: check_parameter, description_t, parameter_t
     use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_run_plan, only: new_run_plan, run_plan_t
     use lagrangia_scene, only: scene_t
-    use lagrangia_scene_reader, only: read_scene
+    use lagrangia_scene_reader, only: parse_scene, read_scene
+    use lagrangia_shipped, only: shipped_scenes
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: word_t
+    use lagrangia_text, only: join, to_text, word_t
     implicit none (type, external)
     private
     public :: changed_scene_suite
@@ -24,6 +28,13 @@ contains
                                       the_same_motion_is_the_same_scene))
         call suite%addTest(TestMethod("what_is_given_is_kept", what_is_given_is_kept))
         call suite%addTest(TestMethod("names_are_those_of_files", names_are_those_of_files))
+        call suite%addTest(TestMethod("every_parameter_can_be_changed", &
+                                      every_parameter_can_be_changed))
+        call suite%addTest(TestMethod("energies_change_places", energies_change_places))
+        call suite%addTest(TestMethod("what_is_gone_is_left_out", what_is_gone_is_left_out))
+        call suite%addTest(TestMethod("steps_and_tolerances_change_places", &
+                                      steps_and_tolerances_change_places))
+        call suite%addTest(TestMethod("slips_are_still_refused", slips_are_still_refused))
     end function changed_scene_suite
 
     subroutine change(settings, scene)
@@ -95,4 +106,207 @@ contains
         call change("scene%dt="//repeat("0", 120)//"1", scene)
         call assertEqual("pendulum_changed", trim(scene%output))
     end subroutine names_are_those_of_files
+
+    subroutine every_parameter_can_be_changed()
+        !! Of every shipped scene: to each of these values that the parameter may have. The run is
+        !! planned, and so refused if the file's other keys do not suit it.
+        real(dp), parameter :: by(4) = [2.0_dp, 0.5_dp, 0.0_dp, 0.0_dp]
+        real(dp), parameter :: plus(4) = [0.0_dp, 0.0_dp, 0.0_dp, 0.1_dp]
+        class(system_t), allocatable :: system
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+        type(parameter_t) :: p
+        type(scene_t) :: scene
+        type(word_t), allocatable :: paths(:)
+        type(word_t) :: none(0), overrides(1)
+        integer :: first, i, j, k, tried
+
+        tried = 0
+        call shipped_scenes(paths)
+        do i = 1, size(paths)
+            call read_scene(paths(i)%text, none, scene, system, error)
+            call assertFalse(allocated(error), paths(i)%text)
+            if (allocated(error)) cycle
+            call system%describe(d)
+            do j = 1, size(d%parameters)
+                first = 1 + sum(d%parameters(:j - 1)%count)
+                if (d%parameters(j)%name == "n") cycle  ! another start: `what_is_gone_is_left_out`
+                do k = 1, size(by)
+                    p = d%parameters(j)
+                    p%value(:p%count) = by(k)*scene%parameters(first:first + p%count - 1) + plus(k)
+                    call check_parameter(p, error)
+                    if (allocated(error)) cycle
+                    ! Without a mass or a length a system in formulas has no inertia.
+                    if (by(k) + plus(k) <= 0.0_dp .and. allocated(scene%formulas) .and. &
+                        any(["m ", "m1", "m2", "l1", "l2"] == p%name)) cycle
+                    overrides(1)%text = setting(trim(scene%system), p)
+                    call plan_changed(paths(i)%text, overrides)
+                    tried = tried + 1
+                end do
+            end do
+        end do
+        call assertTrue(tried > 400, "all were tried")
+    end subroutine every_parameter_can_be_changed
+
+    function setting(system, p) result(text)
+        !! `pendulum%l=2.0`.
+        character(*), intent(in) :: system
+        type(parameter_t), intent(in) :: p
+        character(:), allocatable :: text
+        integer :: i
+
+        text = system//"%"//trim(p%name)//"="
+        do i = 1, p%count
+            if (i > 1) text = text//","
+            text = text//to_text(p%value(i))
+        end do
+    end function setting
+
+    recursive subroutine plan_changed(path, overrides)
+        !! The changed scene is read and planned, and nothing judges it. Verlet is refused where a
+        !! force now depends on velocities; with a method that is named there the run is planned.
+        character(*), intent(in) :: path
+        type(word_t), intent(in) :: overrides(:)
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(run_plan_t) :: plan
+        type(scene_t) :: scene
+        type(word_t), allocatable :: more(:)
+
+        call read_scene(path, overrides, scene, system, error)
+        if (.not. allocated(error)) then
+            call make_own_scene(scene, overrides)
+            call assertFalse(any(scene%expectations%judged), overrides(1)%text)
+            call new_run_plan(plan, scene, system, error)
+        end if
+        if (.not. allocated(error)) return
+        if (index(error%message, "verlet is for forces that depend on positions only, "// &
+                  "and here they depend on velocities; these methods work: rk4") > 0) then
+            allocate (more(size(overrides) + 1))
+            more(:size(overrides)) = overrides
+            more(size(more))%text = "scene%method=rk4"
+            call plan_changed(path, more)
+            return
+        end if
+        call assertEqual("", path//" "//overrides(1)%text//": "//error%message)
+    end subroutine plan_changed
+
+    subroutine energies_change_places()
+        !! Friction: the drift of the energy's balance for that of the energy, and back, in columns,
+        !! panels and expectations, and the scene's warning says so.
+        type(scene_t) :: scene
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(word_t) :: overrides(1)
+
+        call change("pendulum%b=0.1", scene)
+        call assertEqual("t, theta, energy_balance_drift, error", join(scene%columns, ", "))
+        call assertTrue(any(scene%expectations%name == "energy_balance_drift"), "measured still")
+        call assertFalse(any(scene%expectations%name == "energy_drift"), "there is none")
+        call assertTrue(allocated(scene%warning), "it is said")
+        if (allocated(scene%warning)) call assertEqual("its energy is no longer conserved, for "// &
+            "generalised forces do work; left out of the file's scene: expect_energy_drift", &
+            scene%warning)
+        overrides(1)%text = "pendulum%b=0.1"
+        call read_scene("data/scenes/pendulum_separatrix.nml", overrides, scene, system, error)
+        call assertEqual("t:theta, theta:theta_dot, energy_balance_drift", join(scene%plots, ", "))
+        overrides(1)%text = "oscillator%b=0"
+        call read_scene("data/scenes/damped_oscillator.nml", overrides, scene, system, error)
+        call assertEqual("t, x, x_dot, energy, energy_drift, error", join(scene%columns, ", "))
+        call assertEqual("its energy is conserved now; left out of the file's scene: "// &
+                         "expect_energy_balance_drift", scene%warning)
+        overrides(1)%text = "dry_friction%mu=0"
+        call read_scene("data/scenes/dry_friction.nml", overrides, scene, system, error)
+        call assertEqual("t, x, x_dot, energy_drift", join(scene%columns, ", "))
+        call assertEqual("x, x:x_dot", join(scene%plots, ", "))
+    end subroutine energies_change_places
+
+    subroutine what_is_gone_is_left_out()
+        !! A shorter chain has no tenth bob; fewer columns leave panels without theirs.
+        type(scene_t) :: scene
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(word_t) :: overrides(2)
+
+        overrides(1)%text = "hanging_chain%n=5"
+        overrides(2)%text = "scene%q=5*0.6"
+        call read_scene("data/scenes/hanging_chain.nml", overrides(:1), scene, system, error)
+        call assertTrue(allocated(error), "another start is needed")
+        if (allocated(error)) call assertTrue(index(error%message, &
+            "; add --set scene%q=5*0.6") > 0, error%message)
+        call read_scene("data/scenes/hanging_chain.nml", overrides, scene, system, error)
+        call assertFalse(allocated(error), "with it")
+        if (allocated(error)) return
+        call assertEqual("t, theta1, tension1, energy_drift", join(scene%columns, ", "))
+        call assertEqual("theta1, tension1, energy_drift", join(scene%plots, ", "))
+        call assertEqual("left out of the file's scene: theta10, x_bob10, y_bob10", scene%warning)
+        overrides(1)%text = "scene%columns=t,theta"
+        call read_scene("data/scenes/pendulum_separatrix.nml", overrides(:1), scene, system, error)
+        call assertFalse(allocated(error), "fewer columns")
+        if (.not. allocated(error)) call assertEqual("t:theta", join(scene%plots, ", "))
+    end subroutine what_is_gone_is_left_out
+
+    subroutine steps_and_tolerances_change_places()
+        !! What is set takes the place of the file's other one, and of the counts that go with it.
+        type(scene_t) :: scene
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(word_t) :: overrides(2)
+
+        call change("scene%method=dop853;scene%tolerance=1e-9", scene)
+        call assertEqual(1e-9_dp, scene%tolerance)
+        call assertEqual("left out of the file's scene: every, dt", scene%warning)
+        call change("scene%method=dop853", scene)
+        call assertEqual(1e-10_dp, scene%tolerance)
+        call change("scene%samples=500", scene)
+        call assertEqual(40, int(scene%every))
+        overrides(1)%text = "scene%method=rk4"
+        overrides(2)%text = "scene%dt=1e-2"
+        call read_scene("data/scenes/sphere.nml", overrides(:1), scene, system, error)
+        call assertTrue(allocated(error), "it needs a step")
+        if (allocated(error)) call assertTrue(index(error%message, &
+            "add --set scene%dt=1e-3 or the like") > 0, error%message)
+        call read_scene("data/scenes/sphere.nml", overrides, scene, system, error)
+        call assertFalse(allocated(error), "and has one")
+        if (allocated(error)) return
+        call assertEqual(0.0_dp, scene%tolerance)
+        call assertEqual(1e-2_dp, scene%dt)
+        overrides(1)%text = "scene%v(2)=0.2"
+        call read_scene("data/scenes/charged_trap.nml", overrides(:1), scene, system, error)
+        call assertFalse(allocated(error), "one velocity, where the file has none")
+        if (.not. allocated(error)) call assertEqual([0.0_dp, 0.2_dp, 0.0_dp], scene%v)
+    end subroutine steps_and_tolerances_change_places
+
+    subroutine slips_are_still_refused()
+        !! What the unchanged scene has not either, and what is set itself.
+        character(*), parameter :: start = "&scene system='pendulum' dt=0.1 duration=1 q=1 "
+
+        call refused(start//"columns='t','thta' /", "pendulum%b=0.1", "unknown column 'thta'")
+        call refused(start//"plot='thta' /", "pendulum%b=0.1", "'thta' is none of this scene's")
+        call refused(start//"expect_enrgy=1 /", "pendulum%b=0.1", "unknown key 'expect_enrgy'")
+        call refused(start//"/ &pendulum b=0.1 /", "scene%expect_energy_drift=1", "not conserved")
+        call refused(start//"/", "pendulum%b=0.1;scene%columns=t,energy_drift", "not conserved")
+        call refused(start//"tolerance=1 /", "pendulum%b=0.1", "method 'rk4' takes steps of dt")
+    end subroutine slips_are_still_refused
+
+    subroutine refused(text, settings, reason)
+        !! The scene in `text`, with one or two settings.
+        character(*), intent(in) :: text, settings, reason
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(run_plan_t) :: plan
+        type(scene_t) :: scene
+        type(word_t), allocatable :: overrides(:)
+        integer :: cut
+
+        cut = index(settings, ";")
+        allocate (overrides(merge(2, 1, cut > 0)))
+        if (cut == 0) cut = len(settings) + 1
+        overrides(1)%text = settings(:cut - 1)
+        if (size(overrides) == 2) overrides(2)%text = settings(cut + 1:)
+        call parse_scene(text, "a.nml", overrides, scene, system, error)
+        if (.not. allocated(error)) call new_run_plan(plan, scene, system, error)
+        call assertTrue(allocated(error), text)
+        if (allocated(error)) call assertTrue(index(error%message, reason) > 0, error%message)
+    end subroutine refused
 end module test_changed_scene

@@ -53,7 +53,7 @@ contains
         class(observer_t), pointer :: observer
         type(outcome_t) :: outcome
         character(:), allocatable :: folder, format, kind
-        type(word_t), allocatable :: lines(:), remarks(:)
+        type(word_t), allocatable :: lines(:), remarks(:), warnings(:)
         logical :: json, quiet, stated
         integer :: i, k, missed
 
@@ -76,13 +76,17 @@ contains
         missed = 0
         allocate (remarks(2*size(chosen)))
         stated = .false.
+        allocate (warnings(size(chosen)))
+        do i = 1, size(chosen)
+            call warn(chosen(i), folder, format, quiet, warnings(i)%text)
+        end do
         if (json) then
             call put_line("[")
         else if (.not. quiet) then
             call put_line(scorecard_head())
         end if
         do i = 1, size(chosen)
-            call run_one(chosen(i)%path%text, chosen(i)%plan, scene_error)
+            call run_one(chosen(i)%plan, warnings(i)%text, scene_error)
             call progress%clear()
             if (allocated(scene_error)) then
                 call scene_error%add_context(chosen(i)%path%text)
@@ -132,22 +136,11 @@ contains
         if (missed > 0 .and. .not. allocated(error)) call fail(error, to_text(missed)//" of "// &
             to_text(size(chosen))//" scenes did not hold their tolerances", status_not_held)
     contains
-        subroutine run_one(path, plan, error)
-            character(*), intent(in) :: path
+        subroutine run_one(plan, warning, error)
             type(run_plan_t), intent(inout) :: plan
+            character(*), intent(in) :: warning
             type(error_t), allocatable, intent(out) :: error
-            character(:), allocatable :: warning, much
 
-            warning = step_warning(plan%scene, plan%system)
-            if (allocated(plan%scene%warning)) then
-                if (warning /= "") warning = "; "//warning
-                warning = plan%scene%warning//warning
-            end if
-            much = size_warning(plan%scene, folder, format)
-            if (warning /= "" .and. .not. quiet) call note(path//": "//warning)
-            if (much /= "" .and. .not. quiet) call note(path//": "//much)
-            if (warning /= "" .and. much /= "") warning = warning//"; "
-            warning = warning//much
             call progress%restart(trim(plan%scene%name), quiet)
             call run_scene(plan, folder, format, observer, outcome, error)
             outcome%warning = warning
@@ -159,6 +152,28 @@ contains
             call draw(outcome%events, kind, error)
         end subroutine run_one
     end subroutine run_command
+
+    subroutine warn(one, folder, format, quiet, text)
+        !! What is to be known of a scene before it runs.
+        type(chosen_t), intent(in) :: one
+        character(*), intent(in) :: folder, format
+        logical, intent(in) :: quiet
+        character(:), allocatable, intent(out) :: text  !! `; ` between two; "": nothing
+        type(word_t) :: parts(3)
+        integer :: i
+
+        parts(1)%text = ""
+        if (allocated(one%plan%scene%warning)) parts(1)%text = one%plan%scene%warning
+        parts(2)%text = step_warning(one%plan%scene, one%plan%system)
+        parts(3)%text = size_warning(one%plan%scene, folder, format)
+        text = ""
+        do i = 1, size(parts)
+            if (parts(i)%text == "") cycle
+            if (.not. quiet) call note(one%path%text//": "//parts(i)%text)
+            if (text /= "") text = text//"; "
+            text = text//parts(i)%text
+        end do
+    end subroutine warn
 
     subroutine check_overlay(scenes, folder, places, error)
         !! Fails where `--overlay` has too little to draw, or nowhere to write.

@@ -9,16 +9,18 @@ module lagrangia_namelist
     use lagrangia_kinds, only: dp, i8
     use lagrangia_namelist_lexer, only: stray, truth_of
     use lagrangia_namelist_parser, only: apply_override, parse_namelist
-    use lagrangia_namelist_tree, only: fail_at, find_entry, find_group, in_override, kind_number, &
-                                       kind_string, kind_word, label, namelist_t, raw_text, &
+    use lagrangia_namelist_tree, only: drop_key, fail_at, find_entry, find_group, in_override, &
+                                       is_overridden, kind_number, kind_string, kind_word, &
+                                       label, namelist_t, raw_text, &
                                        refuse_missing, refuse_picked, refuse_unknown_groups, &
                                        refuse_unknown_keys, spelling, text_of, value_t
     use lagrangia_number_reader, only: misread, read_number, to_integer
     use lagrangia_text, only: escaped, lower, quoted, to_text
     implicit none (type, external)
     private
-    public :: apply_override, get_integer, get_logical, get_real, get_reals, get_string, &
-              get_strings, has_group, has_key, namelist_t, parse_namelist, point_advice, &
+    public :: apply_override, drop_key, get_integer, get_logical, get_real, get_reals, &
+              get_string, get_strings, has_group, has_key, is_overridden, namelist_t, &
+              parse_namelist, point_advice, &
               refuse_unknown_groups, refuse_unknown_keys, refuse_value
 
 contains
@@ -37,7 +39,8 @@ contains
     end subroutine get_real
 
     pure subroutine get_reals(tree, group, key, least, most, values, error, required)
-        !! The numbers at `key`, written in a row, with repeat counts or with indices.
+        !! The numbers at `key`, written in a row, with repeat counts or with indices. Where only
+        !! elements are written, as in `v(2) = 0.5`, the others stay as they were.
         type(namelist_t), intent(inout) :: tree    !! its key is marked as used
         character(*), intent(in) :: group, key  !! in lower case
         integer, intent(in) :: least, most         !! how many there may be
@@ -46,12 +49,18 @@ contains
         logical, intent(in), optional :: required  !! fail when the key is absent
         integer, allocatable :: picked(:)
         real(dp), allocatable :: numbers(:)
-        integer :: i
+        integer :: i, stay
 
-        call pick(tree, group, key, picked, error, least, most, required)
+        stay = 0
+        if (allocated(values)) stay = size(values)
+        call pick(tree, group, key, picked, error, least, most, required, stay)
         if (size(picked) == 0) return
         allocate (numbers(size(picked)))
         do i = 1, size(picked)
+            if (picked(i) == 0) then
+                numbers(i) = values(i)
+                cycle
+            end if
             call convert_real(tree, picked(i), numbers(i), error)
             if (allocated(error)) return
         end do
@@ -155,16 +164,21 @@ contains
         yes = find_entry(tree, group, key) > 0
     end function has_key
 
-    pure subroutine pick(tree, group, key, picked, error, least, most, required)
-        !! Find the values of `key`, element by element, and mark it as used; none on failure.
+    pure subroutine pick(tree, group, key, picked, error, least, most, required, stay)
+        !! Find the values of `key`, element by element, and mark it as used; none on failure. Of
+        !! the first `stay` elements 0 stands for one that is not written where another is, with its
+        !! index.
         type(namelist_t), intent(inout) :: tree
         character(*), intent(in) :: group, key
         integer, allocatable, intent(out) :: picked(:)       !! positions among the values
         type(error_t), allocatable, intent(out) :: error
         integer, intent(in), optional :: least, most         !! absent: one value, no array
         logical, intent(in), optional :: required
+        integer, intent(in), optional :: stay                !! absent: 0
+        logical :: whole  !! some entry gives all elements
         integer :: i, owner, position
 
+        whole = .false.
         allocate (picked(0))
         owner = find_group(tree, group)
         if (owner > 0) tree%groups(owner)%used = .true.
@@ -175,6 +189,7 @@ contains
                 item%used = .true.
                 if (item%replaced) cycle
                 position = item%at
+                whole = whole .or. item%index == 0
                 if (item%index == 0 .or. present(least)) cycle
                 call fail_at(tree, position, label(group, key)//" is a single value; write "// &
                              escaped(key, 30)//" = value, without an index", error)
@@ -183,6 +198,12 @@ contains
         end do
         if (position > 0) then
             picked = elements(tree, group, key)
+            if (present(stay) .and. .not. whole) then
+                if (size(picked) <= stay) then
+                    picked = [picked, [(0, i=size(picked) + 1, stay)]]
+                    return
+                end if
+            end if
             call check_elements(tree, picked, position, label(group, key), error, least, most)
             if (allocated(error)) picked = [integer ::]
         else if (present(required)) then

@@ -9,9 +9,10 @@ module lagrangia_namelist_tree
     implicit none (type, external)
     private
     public :: entry_t, group_t, namelist_t, value_t
-    public :: add_entry, add_group, add_value, fail_at, find_entry, find_group, in_override, &
-              label, line_of, new_namelist, raw_text, refuse_missing, refuse_picked, &
-              refuse_unknown_groups, refuse_unknown_keys, settle_twins, spelling, text_of
+    public :: add_entry, add_group, add_value, drop_key, fail_at, find_entry, find_group, &
+              in_override, is_overridden, label, line_of, new_namelist, raw_text, refuse_missing, &
+              refuse_picked, refuse_unknown_groups, refuse_unknown_keys, settle_twins, spelling, &
+              text_of
     public :: kind_number, kind_string, kind_word, max_values, name_length
 
     integer, parameter :: name_length = 63    !! of a group or key, as in Fortran
@@ -111,6 +112,39 @@ contains
         yes = .false.
         if (position > 0) yes = count(tree%starts <= position) > 1
     end function in_override
+
+    pure function is_overridden(tree, group, key) result(yes)
+        !! Does the command line give `key`, or an element of it?
+        type(namelist_t), intent(in) :: tree    !! of a file
+        character(*), intent(in) :: group, key  !! in lower case
+        logical :: yes
+        integer :: i, owner
+
+        yes = .false.
+        owner = find_group(tree, group)
+        do i = 1, tree%entry_count
+            associate (item => tree%entries(i))
+                if (item%group == owner .and. item%key == key) yes = &
+                    yes .or. in_override(tree, item%at)
+            end associate
+        end do
+    end function is_overridden
+
+    pure subroutine drop_key(tree, group, key)
+        !! As if `key` were not there.
+        type(namelist_t), intent(inout) :: tree  !! of a file
+        character(*), intent(in) :: group, key   !! in lower case
+        integer :: i, owner
+
+        owner = find_group(tree, group)
+        do i = 1, tree%entry_count
+            associate (item => tree%entries(i))
+                if (item%group /= owner .or. item%key /= key) cycle
+                item%key = ""
+                item%replaced = .true.
+            end associate
+        end do
+    end subroutine drop_key
 
     pure function line_of(tree, position) result(line)
         !! The line of the file that holds this byte, from 1.

@@ -5,7 +5,8 @@ module lagrangia_scene_keys
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_namelist, only: get_integer, get_logical, get_real, get_reals, get_string, &
-                                  get_strings, has_key, namelist_t, point_advice, refuse_value
+                                  get_strings, has_key, is_overridden, namelist_t, point_advice, &
+                                  refuse_value
     use lagrangia_scene, only: expectation_t, scene_t
     use lagrangia_scene_figure, only: figure_t, new_figure
     use lagrangia_scene_tolerance, only: most_samples, read_tolerance, too_many
@@ -114,7 +115,8 @@ contains
                               to_text(system%ndof)// &
                               trim(merge(" is ", " are", system%ndof == 1))// &
                               " needed: "//coordinates(d)// &
-                              point_advice(tree, "scene", "q", system%ndof), error, &
+                              point_advice(tree, "scene", "q", system%ndof)// &
+                              start_advice(tree, scene%q, system%ndof), error, &
                               min(size(scene%q), system%ndof + 1))
             return
         end if
@@ -126,6 +128,20 @@ contains
         if (allocated(found)) call refuse_value(tree, "scene", "v", found%message// &
             point_advice(tree, "scene", "v", system%ndof), error)
     end subroutine read_state
+
+    pure function start_advice(tree, q, ndof) result(remedy)
+        !! What to set where another key that is set, `n` of a chain, wants another start.
+        type(namelist_t), intent(in) :: tree
+        real(dp), intent(in) :: q(:)
+        integer, intent(in) :: ndof
+        character(:), allocatable :: remedy
+
+        remedy = ""
+        if (size(tree%starts) == 1 .or. is_overridden(tree, "scene", "q")) return
+        remedy = "; add --set scene%q="//to_text(ndof)//" values"
+        if (all(abs(q - q(1)) <= 0.0_dp)) remedy = "; add --set scene%q="//to_text(ndof)//"*"// &
+                                                  to_text(q(1))
+    end function start_advice
 
     subroutine read_columns(tree, system, scene, error)
         !! What is written, drawn, measured and expected.

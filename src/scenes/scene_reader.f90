@@ -15,6 +15,7 @@ module lagrangia_scene_reader
                                   namelist_t, parse_namelist, refuse_unknown_groups, &
                                   refuse_unknown_keys, refuse_value
     use lagrangia_names, only: nearest_name
+    use lagrangia_overridden_keys, only: fit_columns, fit_times
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_keys, only: coordinates, expectation_keys, key_length, keys, &
                                     read_columns, read_state, read_times
@@ -120,6 +121,8 @@ contains
         read_groups: block
             call read_system(tree, scene, system, error)
             if (allocated(error)) exit read_groups
+            if (size(overrides) > 0) call fit_to_overrides(tree, text, source, system, scene, error)
+            if (allocated(error)) exit read_groups
             allowed = [character(key_length) :: keys, expectation_keys(system)]
             call refuse_coordinates(tree, system, error)
             if (allocated(error)) exit read_groups
@@ -142,6 +145,34 @@ contains
         end block read_groups
         call move_alloc(tree, scene%file)
     end subroutine parse_scene
+
+    subroutine fit_to_overrides(tree, text, source, system, scene, error)
+        !! Leave out what the command line has made meaningless; the scene's warning says what.
+        type(namelist_t), intent(inout) :: tree
+        character(*), intent(in) :: text, source
+        class(system_t), intent(in) :: system
+        type(scene_t), intent(inout) :: scene
+        type(error_t), allocatable, intent(out) :: error
+        class(system_t), allocatable :: unchanged
+        type(error_t), allocatable :: found
+        type(namelist_t), allocatable :: original
+        type(scene_t) :: file
+        character(:), allocatable :: remark
+
+        remark = ""
+        call fit_times(tree, remark)
+        allocate (original)
+        call parse_namelist(text, source, original, found)
+        if (.not. allocated(found)) call read_system(original, file, unchanged, found)
+        ! A file that is complete only with what is set has nothing that was changed.
+        if (.not. allocated(found)) then
+            if (file%system == scene%system) call fit_columns(tree, system, original, unchanged, &
+                                                              remark, error)
+        end if
+        if (allocated(scene%warning) .and. remark /= "") remark = "; "//remark
+        if (allocated(scene%warning)) remark = scene%warning//remark
+        if (remark /= "") scene%warning = remark
+    end subroutine fit_to_overrides
 
     subroutine refuse_coordinates(tree, system, error)
         !! Refuse `theta = 0.5` and the like where a key is expected.

@@ -6,7 +6,8 @@ module lagrangia_scene_tolerance
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: adaptive_names, auto, exact, method_names, new_adaptive, &
                                  workhorse
-    use lagrangia_namelist, only: get_integer, get_real, has_key, namelist_t, refuse_value
+    use lagrangia_namelist, only: get_integer, get_real, has_key, is_overridden, namelist_t, &
+                                  refuse_value
     use lagrangia_names, only: refuse_name
     use lagrangia_scene, only: scene_t
     use lagrangia_text, only: join, to_text
@@ -97,6 +98,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
         type(error_t), allocatable :: found
         character(name_length), allocatable :: adaptive(:)
+        character(:), allocatable :: remedy
 
         allocate (adaptive, source=adaptive_names())
         if (name == exact) then
@@ -107,8 +109,14 @@ contains
                                               pack(adaptive, .not. listed(adaptive, fixed))], found)
             call refuse_value(tree, "scene", "method", found%message, error)
         else if (has_key(tree, "scene", "tolerance")) then
+            remedy = ""
+            if (is_overridden(tree, "scene", "method") .and. &
+                .not. is_overridden(tree, "scene", "tolerance")) then
+                remedy = " (add --set scene%dt=1e-3 or the like)"
+            end if
             call refuse_value(tree, "scene", "tolerance", "method '"//name//"' takes steps of "// &
-                              "dt; methods that keep a tolerance: "//join(adaptive, ", "), error)
+                              "dt"//remedy//"; methods that keep a tolerance: "// &
+                              join(adaptive, ", "), error)
         end if
     end subroutine refuse_fixed
 
