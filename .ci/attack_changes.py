@@ -8,6 +8,7 @@ or judges the changed one: no line names a key that was not set, and no run has 
 Usage: attack_changes.py PROGRAM [SCENE...]; takes half a minute.
 """
 import collections
+import os
 import re
 import subprocess
 import sys
@@ -27,7 +28,7 @@ HONEST = [
 
 
 def main():
-    program, only = sys.argv[1], sys.argv[2:]
+    program, only = os.path.abspath(sys.argv[1]), sys.argv[2:]
     folder = tempfile.mkdtemp()
 
     def run(*words):
