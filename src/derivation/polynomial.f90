@@ -1,7 +1,7 @@
 module lagrangia_polynomial
     !! Sums of products: exact coefficients times whole powers of numbered atoms, `m2 l sin(theta)`.
-    use lagrangia_exact_number, only: number_t, operator(+), operator(-), operator(*), &
-                                      operator(==), ratio
+    use lagrangia_exact_number, only: common_measure, number_t, operator(+), operator(-), &
+                                      operator(*), operator(==), ratio
     use lagrangia_kinds, only: dp, i8
     implicit none (type, external)
     private
@@ -229,36 +229,10 @@ contains
             end do
             coefficient = c(1)
             if (.not. all(c%is_exact())) return
-            do i = 1, self%terms
-                coefficient = common_number(coefficient, c(i))
-            end do
+            coefficient = common_measure(c)
             if (c(1)%numerator < 0_i8) coefficient = -coefficient
         end associate
     end subroutine common
-
-    pure function common_number(a, b) result(c)
-        !! The largest fraction of which both are whole multiples, positive.
-        type(number_t), intent(in) :: a, b
-        type(number_t) :: c
-
-        c = ratio(divisor(abs(a%numerator), abs(b%numerator)), &
-                  a%denominator/divisor(a%denominator, b%denominator)*b%denominator)
-    end function common_number
-
-    pure function divisor(a, b) result(d)
-        !! The greatest common one.
-        integer(i8), intent(in) :: a, b
-        integer(i8) :: d
-        integer(i8) :: other, rest
-
-        d = a
-        other = b
-        do while (other /= 0_i8)
-            rest = mod(d, other)
-            d = other
-            other = rest
-        end do
-    end function divisor
 
     pure function shifted(self, coefficient, powers) result(p)
         !! Times `coefficient` and a product of powers.

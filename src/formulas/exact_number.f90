@@ -6,7 +6,7 @@ module lagrangia_exact_number
     implicit none (type, external)
     private
     public :: number_t
-    public :: number_of, ratio, power
+    public :: common_measure, number_of, ratio, power
     public :: operator(+), operator(-), operator(*), operator(/), operator(==)
 
     type :: number_t
@@ -164,6 +164,28 @@ contains
             yes = (a%is_exact() .eqv. b%is_exact()) .and. abs(a%value - b%value) <= 0.0_dp
         end if
     end function equal
+
+    pure function common_measure(numbers) result(measure)
+        !! The largest fraction of which all are whole multiples; 1 where one of them is no
+        !! fraction, or a denominator of over 10^9 would be needed.
+        type(number_t), intent(in) :: numbers(:)  !! not 0
+        type(number_t) :: measure                 !! positive
+        integer(i8), parameter :: largest = 10_i8**9
+        integer(i8) :: above, below
+        integer :: i
+
+        measure = ratio(1_i8, 1_i8)
+        above = 0_i8
+        below = 1_i8
+        do i = 1, size(numbers)
+            if (.not. numbers(i)%is_exact()) return
+            if (max(below, numbers(i)%denominator) > largest) return
+            above = greatest_common_divisor(above, numbers(i)%numerator)
+            below = below/greatest_common_divisor(below, numbers(i)%denominator) &
+                    *numbers(i)%denominator
+        end do
+        measure = ratio(above, below)
+    end function common_measure
 
     elemental function fits(a, b) result(yes)
         !! Can \(ab\) be half of a sum in 64 bits?

@@ -1,8 +1,8 @@
 module lagrangia_sums
     !! Sums of monomials: added, multiplied, divided where that leaves no rest.
-    use lagrangia_exact_number, only: number_of, number_t, operator(+), operator(-), operator(*), &
-                                      operator(/), operator(==), ratio
-    use lagrangia_kinds, only: dp, i8
+    use lagrangia_exact_number, only: common_measure, number_of, number_t, operator(+), &
+                                      operator(-), operator(*), operator(/), operator(==)
+    use lagrangia_kinds, only: dp
     use lagrangia_monomials, only: compare, inverse, multiply, order_t, power_of, sum_t, term_t
     implicit none (type, external)
     private
@@ -183,7 +183,8 @@ contains
                 if (fits) factor = next
             end do
         end do
-        factor%coefficient = shared_number(s)
+        factor%coefficient = number_of(sign(1.0_dp, s%terms(1)%coefficient%value)) &
+                             *common_measure(s%terms(:s%count)%coefficient)
     end function common_factor
 
     pure function shared_power(s, atom, clear) result(power)
@@ -203,40 +204,6 @@ contains
         end do
         if (power < 0 .and. highest >= 0 .and. .not. clear) power = 0
     end function shared_power
-
-    pure function shared_number(s) result(number)
-        !! The largest fraction of which all coefficients are whole multiples.
-        type(sum_t), intent(in) :: s
-        type(number_t) :: number
-        integer(i8) :: above, below
-        integer :: i
-
-        number = number_of(sign(1.0_dp, s%terms(1)%coefficient%value))
-        above = 0_i8
-        below = 1_i8
-        do i = 1, s%count
-            associate (c => s%terms(i)%coefficient)
-                if (.not. c%is_exact() .or. below > 10_i8**9 .or. c%denominator > 10_i8**9) return
-                above = divisor(above, c%numerator)
-                below = below/divisor(below, c%denominator)*c%denominator
-            end associate
-        end do
-        number = number*ratio(above, below)
-    end function shared_number
-
-    pure function divisor(a, b) result(d)
-        !! The greatest common one, by Euclid; not negative.
-        integer(i8), intent(in) :: a, b
-        integer(i8) :: d, other, rest
-
-        d = abs(a)
-        other = abs(b)
-        do while (other /= 0_i8)
-            rest = mod(d, other)
-            d = other
-            other = rest
-        end do
-    end function divisor
 
     pure subroutine divide_exactly(order, a, b, quotient, divides)
         !! \(a = qb\), if there is such a sum \(q\).
