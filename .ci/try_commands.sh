@@ -336,7 +336,15 @@ done
 check "sweep: the measured period is the exact one" awk '!/^#/ { d = $2/$3 - 1; if (d*d > 1e-18) exit 1 }' "$work/sweep/period_of_amplitude_sweep.dat"
 run sweep pendulum --over l=0.1:10:4:log --over theta=0.1:3:3 --keep period --output "$work/sweep" --plot
 check "sweep over two axes: a map" eval '[ $status -eq 0 ] && [ -s "$work/sweep/pendulum_sweep.png" ] && [ "$(grep -c "^$" "$work/sweep/pendulum_sweep.dat")" -eq 3 ]'
-for words in "sweep" "sweep pendulum" "sweep pendulum --over q=0:1:3" "sweep pendulum --over q=0:1 --keep q" "sweep pendulum --over q=0:1:3 --keep nope" "sweep resonance --set sweep%after=300"; do
+for row in "bifurcation f=1:1.5:3 210" "section theta2_dot=-4:4:3 1800" "basins theta=-3:3:8 8" "lyapunov_map f=1:1.5:2 2"; do
+    read -r sweep over rows <<<"$row"
+    run sweep $sweep --over $over --output "$work/sweep" --plot
+    check "sweep $sweep: $rows rows and a picture" eval '[ $status -eq 0 ] && [ ! -s "$work/err" ] && [ -s "$work/sweep/${sweep}_sweep.png" ] &&
+        [ "$(grep -c "^[^#]" "$work/sweep/${sweep}_sweep.dat")" -eq $rows ]'
+done
+for words in "sweep bifurcation --set sweep%strobe=w0" "sweep section --set sweep%strobe='1'" "sweep section --set sweep%energy_by=x" \
+    "sweep pendulum --over q=0:1:3 --keep attractor" "sweep section --set sweep%points=0" \
+    "sweep" "sweep pendulum" "sweep pendulum --over q=0:1:3" "sweep pendulum --over q=0:1 --keep q" "sweep pendulum --over q=0:1:3 --keep nope" "sweep resonance --set sweep%after=300"; do
     run $words --output "$work/sweep"
     check "$words: one line, status 2" eval '[ $status -eq 2 ] && [ "$(wc -l <"$work/err")" -eq 1 ] && [ ! -s "$work/out" ]'
 done

@@ -10,11 +10,12 @@ module test_sweep
     use lagrangia_random_draws, only: random_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene
-    use lagrangia_sweep, only: compute_one, new_sweep, sweep_t
+    use lagrangia_sweep, only: new_sweep, sweep_t
     use lagrangia_sweep_axis, only: new_sweep_axis, sweep_axis_t
     use lagrangia_sweep_files, only: write_sweep
     use lagrangia_sweep_grid, only: compute_grid, sweep_result_t
     use lagrangia_sweep_lanes, only: compute_lanes, fits_lanes
+    use lagrangia_sweep_trajectory, only: compute_one
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     use test_scratch, only: new_folder

@@ -65,7 +65,7 @@ contains
         if (allocated(error)) return
         call claim(scene, folder, format, path, error)
         if (allocated(error)) return
-        numbers = real(sweep%trajectories(), dp)*(size(sweep%kept) + size(sweep%axes))
+        numbers = real(sweep%trajectories(), dp)*sweep%points*(size(sweep%kept) + size(sweep%axes))
         call check_memory(8.0_dp*numbers, to_text(sweep%trajectories())//" trajectories", error)
         if (allocated(error)) return
         warning = space_warning(numbers*merge(8, field_width + 1, format == "npy"), folder)
@@ -191,6 +191,11 @@ contains
         call add_texts(lines, "keep", scene%sweep%keep)
         if (scene%sweep%after > -huge(1.0_dp)) lines = [character(scene_line_length) :: lines, &
             "  after = "//to_text(scene%sweep%after)]
+        if (scene%sweep%strobe /= "") call add_texts(lines, "strobe", [scene%sweep%strobe])
+        if (scene%sweep%section /= "") call add_texts(lines, "section", [scene%sweep%section])
+        if (scene%sweep%strobe /= "" .or. scene%sweep%section /= "") lines = &
+            [character(scene_line_length) :: lines, "  points = "//to_text(scene%sweep%points)]
+        if (scene%sweep%energy_by /= "") call add_texts(lines, "energy_by", [scene%sweep%energy_by])
         lines = [character(scene_line_length) :: lines, "  seed = "//to_text(scene%sweep%seed), "/"]
     end function sweep_lines
 
@@ -202,7 +207,8 @@ contains
         character(*), intent(in) :: path
         character(:), allocatable :: how
         real(dp) :: largest, least
-        integer :: found, i, width
+        integer(i8) :: found
+        integer :: i, width
 
         how = " on "//to_text(threads)//" thread"//trim(merge(" ", "s", threads == 1))
         if (result%in_lanes) how = how//", in lanes"
@@ -216,7 +222,7 @@ contains
                 if (found > 0) then
                     call put_line("  "//kept%text(:width)//scientific(least, 6)//" to "// &
                                   scientific(largest, 6)//" "//unit(kept%unit)// &
-                                  missing(sweep%trajectories() - found))
+                                  missing(found))
                 else
                     call put_line("  "//kept%text(:width)//"none of them has it")
                 end if
@@ -232,12 +238,18 @@ contains
             if (text == "1") unit = ""
         end function unit
 
-        pure function missing(number) result(text)
-            integer(i8), intent(in) :: number
+        pure function missing(found) result(text)
+            integer(i8), intent(in) :: found
             character(:), allocatable :: text
+            integer(i8) :: number
 
             text = ""
-            if (number > 0) text = "; "//to_text(number)//" of them have none"
+            number = sweep%trajectories() - found
+            if (sweep%keeps_points) then
+                text = " in "//to_text(found)//" points"
+            else if (number > 0) then
+                text = "; "//to_text(number)//" of them have none"
+            end if
         end function missing
     end subroutine put_summary
 
@@ -249,7 +261,8 @@ contains
         character(*), intent(in) :: path
         character(:), allocatable :: rows
         real(dp) :: largest, least
-        integer :: found, i
+        integer(i8) :: found
+        integer :: i
 
         rows = ""
         do i = 1, size(sweep%kept)

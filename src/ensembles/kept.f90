@@ -4,6 +4,7 @@ module lagrangia_kept
     !! | text | number |
     !! |---|---|
     !! | `theta` | a column at the end |
+    !! | `wrapped theta` | an angle at the end, from -pi to pi |
     !! | `max theta`, `min theta` | its largest, its smallest value among the samples |
     !! | `period`, `period x` | of the first coordinate, or that one, from its turning points |
     !! | `exact period` | by the closed form of the start |
@@ -11,9 +12,11 @@ module lagrangia_kept
     !! | `flip theta2` | the time at which the angle first goes over the top: plus or minus pi |
     !! | `lyapunov` | the largest Lyapunov exponent, from the time `after` to the end |
     !! | `lyapunov error` | its standard error |
+    !! | `attractor` | the number of the attractor, by stroboscopic points; 0: none, or chaos |
     !!
     !! What does not happen, or is not known, is NaN.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
+    use lagrangia_attractor, only: strobed_t
     use lagrangia_columns, only: columns_t, new_columns, refuse_work
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail
@@ -25,13 +28,15 @@ module lagrangia_kept
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
     private
-    public :: keeper_t, kept_t, read_kept
+    public :: keeper_t, kept_t, read_kept, wrapped
+    public :: keeps_attractor, keeps_wrapped
     public :: keeps_end, keeps_event, keeps_exact_period, keeps_flip, keeps_largest
     public :: keeps_lyapunov, keeps_lyapunov_error, keeps_period, keeps_smallest
 
     integer, parameter :: keeps_end = 1, keeps_largest = 2, keeps_smallest = 3, keeps_period = 4
     integer, parameter :: keeps_exact_period = 5, keeps_event = 6, keeps_flip = 7
     integer, parameter :: keeps_lyapunov = 8, keeps_lyapunov_error = 9
+    integer, parameter :: keeps_wrapped = 10, keeps_attractor = 11
 
     type :: kept_t
         !! One number of a trajectory.
@@ -51,7 +56,15 @@ module lagrangia_kept
         real(dp), allocatable :: row(:)             !! the last sample
         real(dp), allocatable :: low(:), high(:)    !! of each column
         real(dp), allocatable :: met(:)             !! first time of each event, s; else NaN
+        logical :: points_kept = .false.            !! of a stroboscope, or else of a section
+        logical :: strobed = .false.                !! samples are points of a stroboscope
+        logical :: looks_for_attractor = .false.
+        real(dp), allocatable :: points(:, :)       !! (columns, most)
+        integer :: found = 0                        !! points that are there
+        logical :: full = .false.                   !! all that there is room for: the run has ended
+        type(strobed_t) :: strobed_points           !! where an attractor is looked for
     contains
+        procedure :: make_room
         procedure :: begin
         procedure :: observe
         procedure :: meet
@@ -105,13 +118,24 @@ contains
                           " characters is needed")
             else if (text == "") then
                 call fail(error, "what is to be kept? a column, 'max COLUMN', 'min COLUMN', "// &
-                          "'period', 'exact period', 'first EVENT', 'flip ANGLE', 'lyapunov'")
+                          "'wrapped ANGLE', 'period', 'exact period', 'first EVENT', "// &
+                          "'flip ANGLE', 'lyapunov', 'attractor'")
             else if (text == "exact period") then
                 this%kind = keeps_exact_period
                 this%unit = "s"
             else if (text == "lyapunov" .or. text == "lyapunov error") then
                 this%kind = merge(keeps_lyapunov, keeps_lyapunov_error, text == "lyapunov")
                 this%unit = "1/s"
+            else if (text == "attractor") then
+                this%kind = keeps_attractor
+            else if (first == "wrapped") then
+                this%kind = keeps_wrapped
+                call take_coordinate(rest, this%coordinate)
+                if (allocated(error)) return
+                if (d%coordinates(this%coordinate)%unit /= "rad") call fail(error, "only an "// &
+                    "angle can be wrapped, and "//trim(coordinates(this%coordinate))//" is none")
+                if (.not. allocated(error)) call take_column(trim(coordinates(this%coordinate)), &
+                                                             this%column)
             else if (first == "period") then
                 this%kind = keeps_period
                 this%unit = "s"
@@ -211,12 +235,45 @@ contains
         real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
         type(error_t), allocatable, intent(out) :: error
 
-        if (size(self%row) == 0) return
-        call self%columns%evaluate(system, t, q, v, 0.0_dp, self%row)
+        if (size(self%row) > 0) call self%columns%evaluate(system, t, q, v, 0.0_dp, self%row)
         if (t < self%after) return
         self%low = min(self%low, self%row)
         self%high = max(self%high, self%row)
+        if (self%points_kept .and. self%strobed) call keep_point(self, error)
+        if (.not. self%looks_for_attractor) return
+        if (self%strobed_points%fresh()) call self%strobed_points%begin(system)
+        call self%strobed_points%see(q, v)
     end subroutine observe
+
+    subroutine make_room(self, most)
+        !! For so many points.
+        class(keeper_t), intent(inout) :: self
+        integer, intent(in) :: most  !! points at most
+
+        allocate (self%points(size(self%row), most))
+    end subroutine make_room
+
+    subroutine keep_point(self, error)
+        !! The latest row is one; the error ends the run when there is room for no more.
+        class(keeper_t), intent(inout) :: self
+        type(error_t), allocatable, intent(inout) :: error
+
+        if (self%found < size(self%points, 2)) then
+            self%found = self%found + 1
+            self%points(:, self%found) = self%row
+        end if
+        self%full = self%found == size(self%points, 2)
+        if (self%full) call fail(error, "all points that are wanted are there")
+    end subroutine keep_point
+
+    elemental function wrapped(angle) result(angle_in_turn)
+        !! The same angle from \(-\pi\) to \(\pi\).
+        real(dp), intent(in) :: angle  !! rad
+        real(dp) :: angle_in_turn
+        real(dp), parameter :: turn = 2.0_dp*acos(-1.0_dp)
+
+        angle_in_turn = angle - turn*anint(angle/turn)
+    end function wrapped
 
     subroutine meet(self, system, event, t, q, v, error)
         !! See `observer_t`.
@@ -228,5 +285,8 @@ contains
 
         if (event > size(self%met)) return
         if (ieee_is_nan(self%met(event))) self%met(event) = t
+        if (.not. self%points_kept .or. self%strobed .or. t < self%after) return
+        call self%columns%evaluate(system, t, q, v, 0.0_dp, self%row)
+        call keep_point(self, error)
     end subroutine meet
 end module lagrangia_kept

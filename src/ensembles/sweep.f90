@@ -1,30 +1,25 @@
 module lagrangia_sweep
     !! Many trajectories of one scene: a number or two of it are changed over a grid, and of each
     !! trajectory a few numbers are kept.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
+    use lagrangia_attractor, only: signature_size
     use lagrangia_columns, only: columns_t
-    use lagrangia_dense_run, only: drive
+    use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail, status_numbers
-    use lagrangia_integrator, only: dense_integrator_t
-    use lagrangia_kept, only: keeper_t, keeps_end, keeps_event, keeps_exact_period, keeps_flip, &
-                              keeps_largest, keeps_lyapunov, keeps_lyapunov_error, keeps_period, &
-                              keeps_smallest, kept_t, read_kept
+    use lagrangia_kept, only: keeps_attractor, keeps_end, keeps_event, keeps_flip, keeps_largest, &
+                              keeps_smallest, keeps_wrapped, kept_t, read_kept
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_lyapunov, only: lyapunov_exponent
-    use lagrangia_methods, only: auto, exact, new_adaptive, workhorse
-    use lagrangia_observer, only: observer_box_t
-    use lagrangia_period, only: period_t
+    use lagrangia_methods, only: auto, workhorse
+    use lagrangia_names, only: advice
     use lagrangia_random_draws, only: random_t
-    use lagrangia_reference, only: reference_t
     use lagrangia_scene, only: most_axes, scene_t, sweep_text_length
+    use lagrangia_strobe, only: new_strobe, strobe_t
     use lagrangia_sweep_axis, only: new_sweep_axis, sweep_axis_t
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: to_text
-    use lagrangia_trajectory_plan, only: plan_events, plan_steps, trajectory_plan_t
+    use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
     private
     public :: sweep_t, sweep_box_t
-    public :: new_sweep, compute_one
+    public :: new_sweep
 
 
     type :: sweep_t
@@ -36,7 +31,16 @@ module lagrangia_sweep
         type(columns_t) :: columns               !! those that `kept` takes
         integer :: events = 0                    !! number of events that `kept` takes
         real(dp) :: after = 0.0_dp               !! samples before this time don't count, s
+        type(strobe_t) :: strobe                 !! samples are its points
+        logical :: keeps_points = .false.        !! a row is a point, not a trajectory
+        integer :: points = 1                    !! of a trajectory at most
+        logical :: attractors = .false.          !! they are numbered at the end
+        integer :: energy_by = 0                 !! velocity that makes all energies one; 0: none
+        real(dp) :: energy = 0.0_dp              !! that of the scene's own start, J
     contains
+        procedure :: match_energy
+        procedure :: set_strobe
+        procedure :: width
         procedure :: trajectories
         procedure :: places
         procedure :: coordinates_of
@@ -63,6 +67,8 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! names the key: over, keep, after
         character(sweep_text_length), allocatable :: events(:)
         type(random_t) :: random
+        type(scene_t) :: trial
+        real(dp) :: time
         integer :: i
 
         if (size(over) < 1 .or. size(over) > most_axes) then
@@ -102,8 +108,151 @@ contains
                       " s", key="after")
             return
         end if
+        call plan_points(sweep, events, error)
+        if (.not. allocated(error)) call plan_energy(sweep, error)
+        if (allocated(error)) return
         call adapt_scene(sweep, events)
+        trial = sweep%scene
+        if (.not. any(sweep%axes%is_parameter())) call sweep%set_strobe(trial, time, error)
     end subroutine new_sweep
+
+    subroutine plan_points(sweep, events, error)
+        !! Points of a stroboscope or a section in the place of whole trajectories.
+        type(sweep_t), intent(inout) :: sweep
+        character(sweep_text_length), allocatable, intent(inout) :: events(:)
+        type(error_t), allocatable, intent(out) :: error
+        logical :: only_columns
+
+        associate (group => sweep%scene%sweep, kept => sweep%kept)
+            call new_strobe(sweep%strobe, group%strobe, sweep%system, error)
+            if (allocated(error)) then
+                error%key = "strobe"
+                return
+            end if
+            sweep%attractors = any(kept%kind == keeps_attractor)
+            sweep%keeps_points = (sweep%strobe%given .and. .not. sweep%attractors) .or. &
+                                 group%section /= ""
+            only_columns = all(kept%kind == keeps_end .or. kept%kind == keeps_wrapped)
+            if (sweep%strobe%given .and. group%section /= "") then
+                call fail(error, "points are either those of a stroboscope or of a section", &
+                          key="section")
+            else if (sweep%attractors .and. .not. sweep%strobe%given) then
+                call fail(error, "an attractor is told by stroboscopic points: strobe = "// &
+                          "'2 pi/drive_frequency', or any time where nothing is driven", key="keep")
+            else if (sweep%keeps_points .and. .not. only_columns) then
+                call fail(error, "of the points of a stroboscope or a section only columns are "// &
+                          "kept, 'theta' or 'wrapped theta'", key="keep")
+            end if
+            if (allocated(error) .or. .not. sweep%keeps_points) return
+            sweep%points = group%points
+            if (group%section /= "") events = [group%section]
+        end associate
+    end subroutine plan_points
+
+    subroutine plan_energy(sweep, error)
+        !! Which velocity gives every start the energy of the scene's own.
+        type(sweep_t), intent(inout) :: sweep
+        type(error_t), allocatable, intent(out) :: error
+        type(description_t) :: d
+        character(name_length), allocatable :: names(:)
+        integer :: i
+
+        associate (scene => sweep%scene, by => sweep%scene%sweep%energy_by)
+            if (by == "") return
+            call sweep%system%describe(d)
+            names = [(d%coordinates(i)%name, i=1, size(d%coordinates))]
+            do i = 1, size(names)
+                names(i) = trim(names(i))//"_dot"
+            end do
+            sweep%energy_by = findloc(names == by, .true., 1)
+            sweep%energy = sweep%system%energy(scene%t0, scene%q, scene%v)
+            if (sweep%energy_by == 0) then
+                call fail(error, "a velocity is needed, not "//quoted(trim(by))//"; "// &
+                          advice(trim(by), names), key="energy_by")
+            else if (any(sweep%axes%name == by)) then
+                call fail(error, trim(by)//" cannot be an axis and be chosen by the energy", &
+                          key="energy_by")
+            else if (sweep%system%constraints > 0) then
+                call fail(error, "the constraints leave no velocity free to be chosen", &
+                          key="energy_by")
+            end if
+        end associate
+    end subroutine plan_energy
+
+    subroutine match_energy(self, system, q, v, error)
+        !! Choose the velocity that `energy_by` names: the larger root of \(E(q, v) = E_0\), which
+        !! is of second order in it. Does nothing without that key.
+        class(sweep_t), intent(in) :: self
+        class(system_t), intent(in) :: system             !! of this trajectory
+        real(dp), intent(in) :: q(:)                      !! its start
+        real(dp), intent(inout) :: v(:)                   !! its velocities
+        type(error_t), allocatable, intent(out) :: error  !! no velocity gives this energy
+        real(dp) :: a, b, c, change(-1:1), discriminant
+        integer :: i
+
+        if (self%energy_by == 0) return
+        do i = -1, 1
+            v(self%energy_by) = i
+            change(i) = system%energy(self%scene%t0, q, v) - self%energy
+        end do
+        a = 0.5_dp*(change(1) + change(-1)) - change(0)
+        b = 0.5_dp*(change(1) - change(-1))
+        c = change(0)
+        discriminant = b**2 - 4.0_dp*a*c
+        if (.not. (discriminant >= 0.0_dp .and. a > 0.0_dp)) then
+            call fail(error, "no "//trim(self%scene%sweep%energy_by)//" gives this start the "// &
+                      "energy "//to_text(self%energy)//" J", status_numbers)
+            return
+        end if
+        v(self%energy_by) = (-b + sqrt(discriminant))/(2.0_dp*a)
+    end subroutine match_energy
+
+    pure subroutine set_strobe(self, scene, after, error)
+        !! Samples at whole periods of the stroboscope, from the first that counts on no more than
+        !! are kept; steps of fixed length are shortened so that a period is a whole number of them.
+        class(sweep_t), intent(in) :: self
+        type(scene_t), intent(inout) :: scene             !! of one trajectory, numbers set
+        real(dp), intent(out) :: after                    !! samples before don't count, s
+        type(error_t), allocatable, intent(out) :: error  !! the period is longer than the motion
+        real(dp), parameter :: slack = 1e-9_dp  ! of a period
+        real(dp) :: period
+        integer(i8) :: first, last, steps
+
+        after = self%after
+        if (.not. self%strobe%given) return
+        call self%strobe%period(scene%parameters, period, error)
+        if (allocated(error)) return
+        if (scene%duration/period > 1e9_dp) then
+            call fail(error, "a period of "//to_text(period)//" s is too short for the duration", &
+                      key="strobe")
+            return
+        end if
+        first = ceiling((self%after - scene%t0)/period - slack, i8)
+        last = floor(scene%duration/period + slack, i8)
+        if (self%keeps_points) last = min(last, first + self%points - 1)
+        if (last < max(first, 1_i8)) then
+            call fail(error, "no point of the stroboscope, every "//to_text(period)//" s, lies "// &
+                      "between 'after' and the end", key="strobe")
+            return
+        end if
+        after = scene%t0 + (first - 0.5_dp)*period
+        scene%duration = last*period
+        scene%samples = last
+        if (scene%tolerance > 0.0_dp) return
+        steps = ceiling(period/scene%dt*(1.0_dp - slack), i8)
+        scene%dt = period/steps
+        scene%every = steps
+        scene%samples = 0
+    end subroutine set_strobe
+
+    pure function width(self) result(n)
+        !! Numbers of a trajectory: what is kept, of every point, and what tells its attractor.
+        class(sweep_t), intent(in) :: self
+        integer :: n
+
+        n = size(self%kept)*self%points
+        if (self%attractors) n = n + signature_size(self%system%ndof)
+    end function width
 
     subroutine adapt_scene(sweep, events)
         !! The scene computes what is kept, and no more: no samples where none is looked at, its
@@ -198,136 +347,4 @@ contains
             call self%axes(i)%set(which(i), q, v, parameters)
         end do
     end subroutine set_start
-
-    subroutine compute_one(sweep, index, values, error)
-        !! What is kept of trajectory number `index`; NaN where it fails, with the reason.
-        type(sweep_t), intent(in) :: sweep                !! as `new_sweep` made it
-        integer(i8), intent(in) :: index                  !! from 1 to `trajectories`
-        real(dp), intent(out) :: values(size(sweep%kept)) !! in the units of `kept`
-        type(error_t), allocatable, intent(out) :: error  !! of the start, or of the numbers
-        class(system_t), allocatable :: system
-        class(reference_t), allocatable :: closed_form
-        type(scene_t) :: scene
-        real(dp) :: given(size(sweep%scene%v))
-
-        values = ieee_value(values, ieee_quiet_nan)
-        scene = sweep%scene
-        call sweep%set_start(index, scene%q, scene%v, scene%parameters)
-        allocate (system, source=sweep%system)
-        if (any(sweep%axes%is_parameter())) call system%configure(scene%parameters, error)
-        if (allocated(error)) return
-        if (system%constraints > 0) then
-            given = scene%v
-            call system%complete_velocities(scene%t0, scene%q, given, scene%v, error)
-            if (allocated(error)) return
-        end if
-        if (scene%method == exact .or. any(sweep%kept%kind == keeps_exact_period)) then
-            call system%closed_form(scene%t0, scene%q, scene%v, closed_form)
-        end if
-        if (scene%method == exact) then
-            if (.not. allocated(closed_form)) call fail(error, "no closed form is known from "// &
-                                                        "this start", status_numbers)
-            if (allocated(error)) return
-        end if
-        call follow(sweep, scene, system, closed_form, values, error)
-    end subroutine compute_one
-
-    subroutine follow(sweep, scene, system, closed_form, values, error)
-        !! One trajectory of a scene whose numbers are set.
-        type(sweep_t), intent(in) :: sweep
-        type(scene_t), intent(in) :: scene
-        class(system_t), intent(in) :: system
-        class(reference_t), allocatable, intent(in) :: closed_form
-        real(dp), intent(inout) :: values(:)
-        type(error_t), allocatable, intent(out) :: error
-        type(trajectory_plan_t) :: plan
-        type(keeper_t), target :: keeper
-        type(period_t), allocatable, target :: periods(:)
-        type(observer_box_t) :: observers(1 + count(sweep%kept%kind == keeps_period))
-        real(dp) :: t_end
-        integer :: i, n
-
-        if (any(is_lyapunov(sweep%kept%kind))) then
-            call keep_lyapunov(sweep, scene, system, values, error)
-            if (allocated(error) .or. all(is_lyapunov(sweep%kept%kind))) return
-        end if
-        call plan_steps(scene, system, plan, error, closed_form)
-        if (.not. allocated(error)) call plan_events(scene, system, plan%events, error)
-        if (allocated(error)) return
-        call keeper%begin(sweep%columns, sweep%events, sweep%after)
-        observers(1)%item => keeper
-        allocate (periods(size(observers) - 1))
-        n = 0
-        do i = 1, size(sweep%kept)
-            if (sweep%kept(i)%kind /= keeps_period) cycle
-            n = n + 1
-            periods(n)%coordinate = sweep%kept(i)%coordinate
-            observers(1 + n)%item => periods(n)
-        end do
-        call drive(system, plan%integrator, plan%times, plan%events, observers, plan%q, plan%v, &
-                   t_end, error)
-        if (allocated(error)) return
-        n = 0
-        do i = 1, size(values)
-            associate (kept => sweep%kept(i))
-                select case (kept%kind)
-                case (keeps_lyapunov, keeps_lyapunov_error); cycle
-                case (keeps_end); values(i) = keeper%row(kept%column)
-                case (keeps_largest); values(i) = keeper%high(kept%column)
-                case (keeps_smallest); values(i) = keeper%low(kept%column)
-                case (keeps_event); values(i) = keeper%met(kept%events(1))
-                case (keeps_flip); values(i) = earlier(keeper%met(kept%events(1)), &
-                                                       keeper%met(kept%events(2)))
-                case (keeps_period)
-                    n = n + 1
-                    if (periods(n)%period() > 0.0_dp) values(i) = periods(n)%period()
-                case default
-                    if (.not. allocated(closed_form)) cycle
-                    if (closed_form%period > 0.0_dp) values(i) = closed_form%period
-                end select
-            end associate
-        end do
-    end subroutine follow
-
-    elemental function is_lyapunov(kind) result(yes)
-        !! It is measured by a run of its own.
-        integer, intent(in) :: kind
-        logical :: yes
-
-        yes = kind == keeps_lyapunov .or. kind == keeps_lyapunov_error
-    end function is_lyapunov
-
-    subroutine keep_lyapunov(sweep, scene, system, values, error)
-        !! The Lyapunov exponent and its error, by the scene's method and tolerance; where it takes
-        !! steps of `dt`, by the workhorse and its own.
-        type(sweep_t), intent(in) :: sweep
-        type(scene_t), intent(in) :: scene
-        class(system_t), intent(in) :: system
-        real(dp), intent(inout) :: values(:)
-        type(error_t), allocatable, intent(out) :: error
-        class(dense_integrator_t), allocatable :: method
-        real(dp) :: exponent, uncertainty
-
-        if (scene%tolerance > 0.0_dp .and. scene%method /= exact) then
-            call new_adaptive(trim(scene%method), method)
-            method%tolerance = scene%tolerance
-        else
-            call new_adaptive(workhorse, method)
-        end if
-        call lyapunov_exponent(system, method, scene%t0, sweep%after, scene%t0 + scene%duration, &
-                               scene%q, scene%v, exponent, uncertainty, error)
-        if (allocated(error)) return
-        where (sweep%kept%kind == keeps_lyapunov) values = exponent
-        where (sweep%kept%kind == keeps_lyapunov_error) values = uncertainty
-    end subroutine keep_lyapunov
-
-    elemental function earlier(a, b) result(t)
-        !! The earlier of two times, of which either may be NaN.
-        real(dp), intent(in) :: a, b
-        real(dp) :: t
-
-        t = min(a, b)
-        if (ieee_is_nan(a)) t = b
-        if (ieee_is_nan(b)) t = a
-    end function earlier
 end module lagrangia_sweep

@@ -1,13 +1,16 @@
 module lagrangia_sweep_lanes
     !! Trajectories in the lanes of vector registers, where a sweep changes only the start, takes
-    !! steps of `rk4`, and keeps what the steps themselves show: columns at the end, and when an
-    !! angle goes over the top. A lane whose trajectory has ended takes the next one.
+    !! steps of `rk4`, and keeps what the steps themselves show: columns at the end, when an angle
+    !! goes over the top, points of a stroboscope. A lane whose trajectory has ended takes the next.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+    use lagrangia_attractor, only: strobed_t
     use lagrangia_columns, only: columns_t
+    use lagrangia_errors, only: error_t
     use lagrangia_hermite, only: quintic
-    use lagrangia_kept, only: keeps_end, keeps_flip
+    use lagrangia_kept, only: keeps_attractor, keeps_end, keeps_flip, keeps_wrapped, wrapped
     use lagrangia_kinds, only: dp, i8, lanes
     use lagrangia_rk4_lanes, only: rk4_lanes_t
+    use lagrangia_scene, only: scene_t
     use lagrangia_stepwise, only: whole_steps
     use lagrangia_sweep, only: sweep_t
     use lagrangia_system, only: system_t
@@ -24,6 +27,9 @@ module lagrangia_sweep_lanes
         type(columns_t) :: columns
         real(dp), allocatable :: row(:)
         real(dp), allocatable :: flips(:)        !! time of each that is kept, s; NaN: not yet
+        real(dp), allocatable :: points(:, :)    !! rows of the points of a stroboscope
+        integer :: found = 0                     !! points that are there
+        type(strobed_t) :: strobed               !! where an attractor is looked for
     end type lane_t
 
 contains
@@ -36,7 +42,9 @@ contains
         yes = sweep%scene%method == "rk4" .and. .not. sweep%scene%compensated .and. &
               sweep%scene%tolerance <= 0.0_dp .and. sweep%system%contacts == 0 .and. &
               sweep%system%constraints == 0 .and. .not. any(sweep%axes%is_parameter()) .and. &
-              all(sweep%kept%kind == keeps_end .or. sweep%kept%kind == keeps_flip)
+              sweep%energy_by == 0 .and. (sweep%strobe%given .or. .not. sweep%keeps_points) .and. &
+              all(sweep%kept%kind == keeps_end .or. sweep%kept%kind == keeps_flip .or. &
+                  sweep%kept%kind == keeps_wrapped .or. sweep%kept%kind == keeps_attractor)
     end function fits_lanes
 
     subroutine compute_lanes(sweep, first, last, values, failures)
@@ -44,20 +52,25 @@ contains
         !! rounding. A trajectory that fails is NaN.
         type(sweep_t), intent(in) :: sweep       !! one that `fits_lanes`
         integer(i8), intent(in) :: first, last   !! numbers of trajectories
-        real(dp), intent(out) :: values(size(sweep%kept), last - first + 1)  !! one column each
+        real(dp), intent(out) :: values(:, :)    !! (`sweep%width()`, last - first + 1)
         integer(i8), intent(out) :: failures     !! trajectories that ended in no finite state
+        type(scene_t) :: scene
+        type(error_t), allocatable :: error
         type(rk4_lanes_t) :: method
         type(lane_t) :: lane(lanes)
         real(dp) :: t(lanes), h(lanes), q(lanes, sweep%system%ndof), v(lanes, sweep%system%ndof)
         real(dp) :: q_old(lanes, sweep%system%ndof), v_old(lanes, sweep%system%ndof)
-        real(dp) :: rest
+        real(dp) :: after, rest
         integer(i8) :: next, steps
+        integer(i8) :: lit(lanes)  ! steps to the next point of the stroboscope
         integer(i8) :: done(lanes), left(lanes)  ! steps; `left` near `never`: the lane is empty
         integer :: angles(count(sweep%kept%kind == keeps_flip))  ! coordinates whose flip is kept
         integer :: i
         logical :: flips_only
 
-        associate (scene => sweep%scene, system => sweep%system)
+        scene = sweep%scene
+        call sweep%set_strobe(scene, after, error)  ! `new_sweep` has seen that it can be
+        associate (system => sweep%system)
             call whole_steps(scene%duration, scene%dt, steps, rest)
             flips_only = all(sweep%kept%kind == keeps_flip)
             angles = pack([(sweep%kept(i)%coordinate, i=1, size(sweep%kept))], &
@@ -78,9 +91,11 @@ contains
                 v_old = v
                 call method%step(system, t, h, q, v)
                 left = left - 1
+                lit = lit - 1
                 done = done + 1
                 t = scene%t0 + done*scene%dt
                 if (over_the_top()) call see_flips()
+                if (any(lit == 0)) call see_points()
                 if (rest > 0.0_dp) h = merge(rest, scene%dt, left == 1)
                 if (all(left > 0)) cycle
                 do i = 1, lanes
@@ -94,23 +109,24 @@ contains
         subroutine load(i)
             !! The next trajectory, if there is one, into lane `i`.
             integer, intent(in) :: i
-            real(dp) :: q0(size(sweep%scene%q)), v0(size(sweep%scene%v))
-            real(dp) :: parameters(size(sweep%scene%parameters))
+            real(dp) :: q0(size(scene%q)), v0(size(scene%v))
+            real(dp) :: parameters(size(scene%parameters))
 
             left(i) = huge(left)
+            lit(i) = huge(lit)
             if (next > last) return
             lane(i)%index = next
             next = next + 1
             done(i) = 0
             left(i) = steps + merge(1, 0, rest > 0.0_dp)
-            q0 = sweep%scene%q
-            v0 = sweep%scene%v
-            parameters = sweep%scene%parameters
+            q0 = scene%q
+            v0 = scene%v
+            parameters = scene%parameters
             call sweep%set_start(lane(i)%index, q0, v0, parameters)
             q(i, :) = q0
             v(i, :) = v0
-            t(i) = sweep%scene%t0
-            h(i) = sweep%scene%dt
+            t(i) = scene%t0
+            h(i) = scene%dt
             if (left(i) == 1 .and. rest > 0.0_dp) h(i) = rest
             lane(i)%columns = sweep%columns
             if (.not. allocated(lane(i)%row)) allocate (lane(i)%row(size(sweep%columns%items)), &
@@ -118,33 +134,85 @@ contains
             lane(i)%flips = ieee_value(1.0_dp, ieee_quiet_nan)
             if (size(lane(i)%row) > 0) call lane(i)%columns%evaluate(sweep%system, t(i), q0, v0, &
                                                                      0.0_dp, lane(i)%row)
+            if (.not. sweep%strobe%given) return
+            lit(i) = scene%every
+            lane(i)%found = 0
+            if (sweep%keeps_points .and. .not. allocated(lane(i)%points)) then
+                allocate (lane(i)%points(size(sweep%kept), sweep%points))
+            end if
+            if (sweep%attractors) call lane(i)%strobed%begin(sweep%system)
+            if (scene%t0 >= after) call see_point(i)
         end subroutine load
+
+        subroutine see_points()
+            !! Of the lanes that the stroboscope lights now.
+            integer :: i
+
+            do i = 1, lanes
+                if (lit(i) /= 0) cycle
+                lit(i) = scene%every
+                if (t(i) >= after) call see_point(i)
+            end do
+        end subroutine see_points
+
+        subroutine see_point(i)
+            !! A point of the stroboscope.
+            integer, intent(in) :: i
+            real(dp) :: q1(size(scene%q)), v1(size(scene%v))
+
+            q1 = q(i, :)
+            v1 = v(i, :)
+            if (sweep%attractors) call lane(i)%strobed%see(q1, v1)
+            if (.not. sweep%keeps_points .or. lane(i)%found == sweep%points) return
+            call lane(i)%columns%evaluate(sweep%system, t(i), q1, v1, 0.0_dp, lane(i)%row)
+            lane(i)%found = lane(i)%found + 1
+            call take(lane(i), lane(i)%points(:, lane(i)%found))
+        end subroutine see_point
+
+        pure subroutine take(this, numbers)
+            !! What is kept, from the latest row and the flips.
+            type(lane_t), intent(in) :: this
+            real(dp), intent(out) :: numbers(:)
+            integer :: flips, k
+
+            flips = 0
+            do k = 1, size(sweep%kept)
+                select case (sweep%kept(k)%kind)
+                case (keeps_flip)
+                    flips = flips + 1
+                    numbers(k) = this%flips(flips)
+                case (keeps_attractor); numbers(k) = 0.0_dp  ! its number is known at the end
+                case (keeps_wrapped); numbers(k) = wrapped(this%row(sweep%kept(k)%column))
+                case default; numbers(k) = this%row(sweep%kept(k)%column)
+                end select
+            end do
+        end subroutine take
 
         subroutine finish(i)
             !! Lane `i` has come to its end.
             integer, intent(in) :: i
-            real(dp) :: q1(size(sweep%scene%q)), v1(size(sweep%scene%v))
-            integer :: k, flips
+            real(dp) :: q1(size(scene%q)), v1(size(scene%v))
+            integer :: k, n
 
+            n = size(sweep%kept)
             q1 = q(i, :)
             v1 = v(i, :)
-            associate (kept => values(:, lane(i)%index - first + 1))
-                kept = ieee_value(kept, ieee_quiet_nan)
+            associate (numbers => values(:, lane(i)%index - first + 1))
+                numbers = ieee_value(numbers, ieee_quiet_nan)
                 if (.not. all(ieee_is_finite([q1, v1]))) then
                     failures = failures + 1
                     return
                 end if
+                if (sweep%keeps_points) then
+                    do k = 1, lane(i)%found
+                        numbers((k - 1)*n + 1:k*n) = lane(i)%points(:, k)
+                    end do
+                    return
+                end if
                 if (size(lane(i)%row) > 0) call lane(i)%columns%evaluate(sweep%system, &
-                    sweep%scene%t0 + sweep%scene%duration, q1, v1, 0.0_dp, lane(i)%row)
-                flips = 0
-                do k = 1, size(kept)
-                    if (sweep%kept(k)%kind == keeps_flip) then
-                        flips = flips + 1
-                        kept(k) = lane(i)%flips(flips)
-                    else
-                        kept(k) = lane(i)%row(sweep%kept(k)%column)
-                    end if
-                end do
+                    scene%t0 + scene%duration, q1, v1, 0.0_dp, lane(i)%row)
+                call take(lane(i), numbers(:n))
+                if (sweep%attractors) numbers(n + 1:) = lane(i)%strobed%signature()
             end associate
         end subroutine finish
 
@@ -175,13 +243,13 @@ contains
                 v1 = v(i, :)
                 do k = 1, size(angles)
                     associate (c => angles(k))
-                        if (lane(i)%flips(k) >= sweep%scene%t0 .or. abs(q1(c)) < pi) cycle
+                        if (lane(i)%flips(k) >= scene%t0 .or. abs(q1(c)) < pi) cycle
                         if (q0(c)*sign(1.0_dp, q1(c)) >= pi) cycle
-                        lane(i)%flips(k) = time_of_flip(sweep%system, sweep%scene%t0 + &
-                            (done(i) - 1)*sweep%scene%dt, h(i), c, q0, v0, q1, v1)
+                        lane(i)%flips(k) = time_of_flip(sweep%system, scene%t0 + &
+                            (done(i) - 1)*scene%dt, h(i), c, q0, v0, q1, v1)
                     end associate
                 end do
-                if (flips_only .and. all(lane(i)%flips >= sweep%scene%t0)) left(i) = 0
+                if (flips_only .and. all(lane(i)%flips >= scene%t0)) left(i) = 0
             end do
         end subroutine see_flips
     end subroutine compute_lanes

@@ -27,6 +27,10 @@ module lagrangia_scene
         character(sweep_text_length), allocatable :: over(:)     !! the axes: `'theta = 0.1:3:50'`
         character(sweep_text_length), allocatable :: keep(:)     !! of each trajectory: `'period'`
         real(dp) :: after = -huge(1.0_dp)          !! samples before don't count, s
+        character(sweep_text_length) :: strobe = ""  !! period of a stroboscope, s: a formula
+        character(sweep_text_length) :: section = "" !! or an event: points are kept there
+        integer :: points = 100                    !! of a trajectory at most
+        character(sweep_text_length) :: energy_by = ""  !! velocity that keeps all at one energy
         integer :: seed = 1                        !! of values drawn at random
         integer :: threads = 0                     !! 0: as many as there are processors
     end type sweep_group_t

@@ -115,11 +115,21 @@ module lagrangia_scene_reference
                 "perhaps with ':log' or ':random'; NAME is a coordinate, its _dot, or a "// &
                 "parameter", "over = 'theta = -pi:pi:100', 'm = 0.1:10:50:log'"), &
         entry_t("sweep", "keep", "", absent, "of each trajectory: a column at the end, 'max "// &
-                "COLUMN', 'min COLUMN', 'period', 'exact period', 'first EVENT', "// &
-                "'flip ANGLE', 'lyapunov'", &
+                "COLUMN', 'min COLUMN', 'wrapped ANGLE', 'period', 'exact period', "// &
+                "'first EVENT', 'flip ANGLE', 'lyapunov', 'lyapunov error', 'attractor'", &
                 "keep = 'period', 'max theta_dot'"), &
         entry_t("sweep", "after", "s", "t0", "samples before this time don't count for max, "// &
                 "min and lyapunov", "after = 0.5"), &
+        entry_t("sweep", "strobe", "s", absent, "period of a stroboscope, a formula in the "// &
+                "parameters: what is kept is kept of each of its points, and a row is a "// &
+                "point; for 'attractor', the points that tell it", &
+                "strobe = '2 pi/drive_frequency'"), &
+        entry_t("sweep", "section", "", absent, "an event: the same for each point where it "// &
+                "happens", "section = 'theta1 = 0 rising'"), &
+        entry_t("sweep", "points", "", "100", "points of a trajectory at most, from 'after' "// &
+                "on", "points = 500"), &
+        entry_t("sweep", "energy_by", "", absent, "a velocity, chosen so that every start has "// &
+                "the energy of the scene's own", "energy_by = 'theta1_dot'"), &
         entry_t("sweep", "seed", "", "1", "of values drawn at random", "seed = 7"), &
         entry_t("sweep", "threads", "", "one a processor", "that compute at a time, a number "// &
                 "up to 10000", "threads = 2")]

@@ -4,17 +4,18 @@ module lagrangia_sweep_group
     use lagrangia_description, only: name_length
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_namelist, only: get_integer, get_real, get_strings, has_group, namelist_t, &
-                                  refuse_unknown_keys, refuse_value
+    use lagrangia_namelist, only: get_integer, get_real, get_string, get_strings, &
+                                  has_group, namelist_t, refuse_unknown_keys, refuse_value
     use lagrangia_scene, only: most_axes, sweep_group_t
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: group, keys, read_sweep_group
 
     character(*), parameter :: group = "sweep"
     character(name_length), parameter :: keys(*) = [character(name_length) :: &
-        "over", "keep", "after", "seed", "threads"]
-    integer, parameter :: most_kept = 20
+        "over", "keep", "after", "strobe", "section", "points", "energy_by", "seed", "threads"]
+    integer, parameter :: most_kept = 20, most_points = 1000000
 
 contains
 
@@ -23,7 +24,7 @@ contains
         type(namelist_t), intent(inout) :: tree           !! keys that are read are marked as used
         type(sweep_group_t), intent(out) :: sweep         !! else as by default
         type(error_t), allocatable, intent(out) :: error  !! a value that is not allowed
-        integer(i8) :: seed, threads
+        integer(i8) :: points, seed, threads
 
         allocate (sweep%over(0), sweep%keep(0))
         if (.not. has_group(tree, group)) return
@@ -33,6 +34,21 @@ contains
         if (allocated(error)) return
         call get_real(tree, group, "after", sweep%after, error)
         if (allocated(error)) return
+        call get_string(tree, group, "strobe", sweep%strobe, error)
+        if (allocated(error)) return
+        call get_string(tree, group, "section", sweep%section, error)
+        if (allocated(error)) return
+        call get_string(tree, group, "energy_by", sweep%energy_by, error)
+        if (allocated(error)) return
+        points = sweep%points
+        call get_integer(tree, group, "points", points, error)
+        if (allocated(error)) return
+        if (points < 1 .or. points > most_points) then
+            call refuse_value(tree, group, "points", "a number from 1 to "// &
+                              to_text(most_points)//" is needed", error)
+            return
+        end if
+        sweep%points = int(points)
         seed = sweep%seed
         call get_integer(tree, group, "seed", seed, error)
         if (allocated(error)) return

@@ -1,0 +1,216 @@
+module lagrangia_sweep_picture
+    !! The gnuplot script of a sweep: curves over one axis, a map over two, points of a stroboscope
+    !! or a section as a diagram.
+    use lagrangia_gnuplot_script, only: begin_script, gnuplot_string, lines_t
+    use lagrangia_kept, only: keeps_attractor, keeps_wrapped, kept_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_plot_label, only: label, plain_label, symbol
+    use lagrangia_sweep, only: sweep_t
+    use lagrangia_sweep_grid, only: sweep_result_t
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: sweep_script
+
+    integer, parameter :: few = 60  !! points of a curve that are marked
+    character(*), parameter :: colours = "set palette defined (0 '#440154', "// &
+        "0.25 '#3b528b', 0.5 '#21908c', 0.75 '#5dc863', 1 '#fde725')"
+    character(7), parameter :: distinct(*) = ["#fde725", "#3b528b", "#5dc863", "#d8576b", &
+        "#21908c", "#f89540", "#7e03a8", "#a5dbf2", "#b4de2c", "#8c564b", "#e377c2", "#7f7f7f"]
+
+contains
+
+    function sweep_script(sweep, found, file, reading) result(text)
+        !! What draws `file`, a bare name beside the script: a panel for each number that is kept.
+        type(sweep_t), intent(in) :: sweep         !! that has been computed
+        type(sweep_result_t), intent(in) :: found  !! what came out
+        character(*), intent(in) :: file, reading  !! its words for gnuplot, behind the name
+        character(:), allocatable :: text
+        type(lines_t) :: script
+        integer :: groups(size(sweep%kept)), i, k, n
+
+        groups = panels(sweep)
+        n = maxval(groups)
+        if (sweep%keeps_points) n = 1
+        if (size(sweep%axes) == 2 .or. sweep%keeps_points) then
+            call begin_script(script, file, 900, 60 + 760*n, 40*n)
+        else
+            call begin_script(script, file, 1000, 60 + merge(560, 340, n == 1)*n, 30*n)
+        end if
+        call script%add("data = folder."//gnuplot_string(file))
+        if (index(reading, "skip") == 1) call script%add("set datafile separator comma")
+        call script%add("set multiplot layout "//to_text(n)//",1 title "// &
+                        gnuplot_string(trim(sweep%scene%title))//" noenhanced")
+        call script%add("set tics out nomirror; unset key")
+        do i = 1, n
+            if (sweep%keeps_points) then
+                call add_points(sweep, reading, script)
+            else if (size(sweep%axes) == 2) then
+                call add_map(sweep, found, i, reading, script)
+            else
+                call add_curves(sweep, pack([(k, k=1, size(groups))], groups == i), reading, script)
+            end if
+        end do
+        call script%add("unset multiplot")
+        text = script%text
+    end function sweep_script
+
+    pure function panels(sweep) result(groups)
+        !! The panel of each number that is kept: curves of one unit share one, a map has its own.
+        type(sweep_t), intent(in) :: sweep
+        integer :: groups(size(sweep%kept))
+        integer :: i, k
+
+        do i = 1, size(groups)
+            do k = 1, i - 1
+                if (size(sweep%axes) == 1 .and. sweep%kept(k)%unit == sweep%kept(i)%unit) exit
+            end do
+            groups(i) = maxval([0, groups(:i - 1)]) + 1
+            if (k < i) groups(i) = groups(k)
+        end do
+    end function panels
+
+    subroutine add_points(sweep, reading, script)
+        !! Points of a stroboscope or a section: the first two numbers against each other, in the
+        !! colour of their trajectory; or the only one over the first axis.
+        type(sweep_t), intent(in) :: sweep
+        character(*), intent(in) :: reading
+        type(lines_t), intent(inout) :: script
+        character(:), allocatable :: colour, using
+        integer :: n
+
+        n = size(sweep%axes)
+        associate (axis => sweep%axes(1), kept => sweep%kept)
+            call script%add(colours)
+            colour = "palette"
+            if (size(axis%values) == 1 .or. size(kept) == 1) colour = "lc rgb '#3b528b'"
+            if (size(kept) > 1) then
+                call script%add("set xlabel "//kept_label(kept(1)))
+                call script%add("set ylabel "//kept_label(kept(2)))
+                using = to_text(n + 1)//":"//to_text(n + 2)//":1"
+                call script%add("set cblabel "//gnuplot_string("of the start: "// &
+                    trim(symbol(trim(axis%name)))//", "//trim(axis%unit)))
+            else
+                if (axis%logarithmic) call script%add("set logscale x")
+                call script%add("set xlabel "//label(axis%name, axis%unit))
+                call script%add("set ylabel "//kept_label(kept(1)))
+                using = "1:"//to_text(n + 1)
+            end if
+            call script%add("plot data "//reading//"using "//using// &
+                            " with points pt 7 ps 0.15 "//colour)
+        end associate
+    end subroutine add_points
+
+    pure function kept_label(kept) result(text)
+        !! Of an axis: a wrapped angle has the letter of the angle.
+        type(kept_t), intent(in) :: kept
+        character(:), allocatable :: text
+
+        text = label(kept%text, kept%unit)
+        if (kept%kind == keeps_wrapped) text = label(kept%text(index(kept%text, " ") + 1:), &
+                                                     kept%unit)
+    end function kept_label
+
+    pure function attractor_colours(least, largest) result(line)
+        !! A colour for each attractor; black is that of none, 0.
+        integer, intent(in) :: least, largest  !! of their numbers, 0 <= least <= largest
+        character(:), allocatable :: line
+        integer :: i
+
+        line = "set palette maxcolors "//to_text(largest - least + 1)//" defined ("
+        do i = least, largest
+            if (i > least) line = line//", "
+            if (i == 0) line = line//"0 '#000000'"
+            if (i > 0) line = line//to_text(i)//" '"//distinct(i)//"'"
+        end do
+        if (least == largest) line = line//", "//to_text(least + 1)//" '"//distinct(1)//"'"
+        line = line//"); set cbrange ["//to_text(least - 0.5_dp)//":"// &
+               to_text(largest + 0.5_dp)//"]; set cbtics 1"
+    end function attractor_colours
+
+    subroutine add_curves(sweep, which, reading, script)
+        !! Numbers of one unit over the only axis.
+        type(sweep_t), intent(in) :: sweep
+        integer, intent(in) :: which(:)
+        character(*), intent(in) :: reading
+        type(lines_t), intent(inout) :: script
+        character(:), allocatable :: line, style
+        integer :: i
+
+        associate (axis => sweep%axes(1))
+            style = "lines lw 2"
+            if (size(axis%values) <= few) style = "linespoints lw 2 pt 7 ps 0.7"
+            if (axis%random) style = "points pt 7 ps 0.5"
+            call script%add("set grid lc rgb '#cccccc' lw 0.8 lt 1")
+            call script%add(trim(merge("set logscale x  ", "unset logscale x", axis%logarithmic)))
+            call script%add("set xlabel "//label(axis%name, axis%unit))
+            if (size(which) == 1) then
+                call script%add("unset key; set ylabel "//label(sweep%kept(which(1))%text, &
+                                                                sweep%kept(which(1))%unit))
+            else
+                call script%add("set key top left reverse Left; set ylabel "// &
+                                plain_label("("//trim(sweep%kept(which(1))%unit)//")"))
+            end if
+            line = "plot"
+            do i = 1, size(which)
+                if (i > 1) style = "lines dt 2 lw 2"
+                line = line//" data "//reading//"using 1:"//to_text(which(i) + 1)//" with "// &
+                       style//" title "//label(trim(sweep%kept(which(i))%text), "1")//","
+            end do
+            call script%add(line(:len(line) - 1))
+        end associate
+    end subroutine add_curves
+
+    subroutine add_map(sweep, found, which, reading, script)
+        !! One number over both axes, as colour; by its logarithm, if all of them are above 0 and
+        !! the largest is over 30 times the least. What is NaN stays grey.
+        type(sweep_t), intent(in) :: sweep
+        type(sweep_result_t), intent(in) :: found
+        integer, intent(in) :: which
+        character(*), intent(in) :: reading
+        type(lines_t), intent(inout) :: script
+        character(:), allocatable :: range
+        real(dp) :: largest, least
+        integer(i8) :: n
+        integer :: i
+
+        call found%range_of(which, n, least, largest)
+        associate (x => sweep%axes(1), y => sweep%axes(2), kept => sweep%kept(which))
+            if (kept%kind == keeps_attractor .and. n > 0 .and. &
+                largest < size(distinct) + 0.5_dp) then
+                call script%add(attractor_colours(nint(least), nint(largest)))
+            else
+                call script%add("set cbrange [*:*]; "//colours)
+            end if
+            call script%add("set object 1 rectangle from graph 0,0 to graph 1,1 behind "// &
+                            "fc rgb '#c8c8c8' fs solid noborder")
+            range = ""
+            do i = 1, 2
+                associate (axis => sweep%axes(i))
+                    range = range//" ["//to_text(minval(axis%values))//":"// &
+                            to_text(maxval(axis%values))//"]"
+                    if (size(axis%values) == 1) range = range(:index(range, "[", back=.true.))//"]"
+                end associate
+            end do
+            call script%add("unset logscale; unset grid; unset key")
+            if (n > 0 .and. least > 0.0_dp .and. largest > 30.0_dp*least) then
+                call script%add("set logscale cb")
+            end if
+            if (x%logarithmic) call script%add("set logscale x")
+            if (y%logarithmic) call script%add("set logscale y")
+            call script%add("set xlabel "//label(x%name, x%unit))
+            call script%add("set ylabel "//label(y%name, y%unit))
+            call script%add("set cblabel "//label(kept%text, kept%unit))
+            if (x%random .or. y%random) then
+                call script%add("plot"//range//" data "//reading//"using 1:2:"// &
+                                to_text(which + 2)//" with points pt 7 ps 0.5 palette")
+            else if (x%logarithmic .or. y%logarithmic) then
+                call script%add("set pm3d map corners2color mean; splot"//range//" data "// &
+                                reading//"using 1:2:"//to_text(which + 2)//" with pm3d")
+            else
+                call script%add("plot"//range//" data "//reading//"using 1:2:"// &
+                                to_text(which + 2)//" with image")
+            end if
+        end associate
+    end subroutine add_map
+end module lagrangia_sweep_picture

@@ -1,0 +1,192 @@
+module lagrangia_sweep_trajectory
+    !! What is kept of one trajectory of a sweep.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
+    use lagrangia_dense_run, only: drive
+    use lagrangia_errors, only: error_t, fail, status_numbers
+    use lagrangia_integrator, only: dense_integrator_t
+    use lagrangia_kept, only: keeper_t, keeps_attractor, keeps_end, keeps_event, &
+                              keeps_exact_period, keeps_flip, keeps_largest, keeps_lyapunov, &
+                              keeps_lyapunov_error, keeps_period, keeps_smallest, keeps_wrapped, &
+                              wrapped
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_lyapunov, only: lyapunov_exponent
+    use lagrangia_methods, only: exact, new_adaptive, workhorse
+    use lagrangia_observer, only: observer_box_t
+    use lagrangia_period, only: period_t
+    use lagrangia_reference, only: reference_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_sweep, only: sweep_t
+    use lagrangia_system, only: system_t
+    use lagrangia_trajectory_plan, only: plan_events, plan_steps, trajectory_plan_t
+    implicit none (type, external)
+    private
+    public :: compute_one
+
+contains
+
+    subroutine compute_one(sweep, index, values, error)
+        !! What is kept of trajectory number `index`; NaN where it fails, with the reason.
+        type(sweep_t), intent(in) :: sweep                !! as `new_sweep` made it
+        integer(i8), intent(in) :: index                  !! from 1 to `trajectories`
+        real(dp), intent(out) :: values(:)                !! `sweep%width()` of them
+        type(error_t), allocatable, intent(out) :: error  !! of the start, or of the numbers
+        class(system_t), allocatable :: system
+        class(reference_t), allocatable :: closed_form
+        type(scene_t) :: scene
+        real(dp) :: after, given(size(sweep%scene%v))
+
+        values = ieee_value(values, ieee_quiet_nan)
+        scene = sweep%scene
+        call sweep%set_start(index, scene%q, scene%v, scene%parameters)
+        allocate (system, source=sweep%system)
+        if (any(sweep%axes%is_parameter())) call system%configure(scene%parameters, error)
+        if (allocated(error)) return
+        if (system%constraints > 0) then
+            given = scene%v
+            call system%complete_velocities(scene%t0, scene%q, given, scene%v, error)
+            if (allocated(error)) return
+        end if
+        call sweep%match_energy(system, scene%q, scene%v, error)
+        if (.not. allocated(error)) call sweep%set_strobe(scene, after, error)
+        if (allocated(error)) return
+        if (scene%method == exact .or. any(sweep%kept%kind == keeps_exact_period)) then
+            call system%closed_form(scene%t0, scene%q, scene%v, closed_form)
+        end if
+        if (scene%method == exact) then
+            if (.not. allocated(closed_form)) call fail(error, "no closed form is known from "// &
+                                                        "this start", status_numbers)
+            if (allocated(error)) return
+        end if
+        call follow(sweep, scene, system, closed_form, after, values, error)
+    end subroutine compute_one
+
+    subroutine follow(sweep, scene, system, closed_form, after, values, error)
+        !! One trajectory of a scene whose numbers are set; samples before `after` don't count.
+        type(sweep_t), intent(in) :: sweep
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        class(reference_t), allocatable, intent(in) :: closed_form
+        real(dp), intent(in) :: after
+        real(dp), intent(inout) :: values(:)
+        type(error_t), allocatable, intent(out) :: error
+        type(trajectory_plan_t) :: plan
+        type(keeper_t), target :: keeper
+        type(period_t), allocatable, target :: periods(:)
+        type(observer_box_t) :: observers(1 + count(sweep%kept%kind == keeps_period))
+        real(dp) :: t_end
+        integer :: i, n
+
+        if (any(is_lyapunov(sweep%kept%kind))) then
+            call keep_lyapunov(sweep, scene, system, values, error)
+            if (allocated(error) .or. all(is_lyapunov(sweep%kept%kind))) return
+        end if
+        call plan_steps(scene, system, plan, error, closed_form)
+        if (.not. allocated(error)) call plan_events(scene, system, plan%events, error)
+        if (allocated(error)) return
+        call keeper%begin(sweep%columns, sweep%events, after)
+        keeper%points_kept = sweep%keeps_points
+        keeper%strobed = sweep%strobe%given
+        keeper%looks_for_attractor = sweep%attractors
+        if (sweep%keeps_points) call keeper%make_room(sweep%points)
+        observers(1)%item => keeper
+        allocate (periods(size(observers) - 1))
+        n = 0
+        do i = 1, size(sweep%kept)
+            if (sweep%kept(i)%kind /= keeps_period) cycle
+            n = n + 1
+            periods(n)%coordinate = sweep%kept(i)%coordinate
+            observers(1 + n)%item => periods(n)
+        end do
+        call drive(system, plan%integrator, plan%times, plan%events, observers, plan%q, plan%v, &
+                   t_end, error)
+        if (keeper%full .and. allocated(error)) deallocate (error)
+        if (allocated(error)) return
+        if (sweep%keeps_points) then
+            call take_points(sweep, keeper, values)
+            return
+        end if
+        if (sweep%attractors) values(size(sweep%kept) + 1:) = keeper%strobed_points%signature()
+        n = 0
+        do i = 1, size(sweep%kept)
+            associate (kept => sweep%kept(i))
+                select case (kept%kind)
+                case (keeps_lyapunov, keeps_lyapunov_error); cycle
+                case (keeps_attractor); values(i) = 0.0_dp  ! its number is known at the end
+                case (keeps_end); values(i) = keeper%row(kept%column)
+                case (keeps_wrapped); values(i) = wrapped(keeper%row(kept%column))
+                case (keeps_largest); values(i) = keeper%high(kept%column)
+                case (keeps_smallest); values(i) = keeper%low(kept%column)
+                case (keeps_event); values(i) = keeper%met(kept%events(1))
+                case (keeps_flip); values(i) = earlier(keeper%met(kept%events(1)), &
+                                                       keeper%met(kept%events(2)))
+                case (keeps_period)
+                    n = n + 1
+                    if (periods(n)%period() > 0.0_dp) values(i) = periods(n)%period()
+                case default
+                    if (.not. allocated(closed_form)) cycle
+                    if (closed_form%period > 0.0_dp) values(i) = closed_form%period
+                end select
+            end associate
+        end do
+    end subroutine follow
+
+    pure subroutine take_points(sweep, keeper, values)
+        !! All numbers of the first point, then of the second; NaN where there are fewer points.
+        type(sweep_t), intent(in) :: sweep
+        type(keeper_t), intent(in) :: keeper
+        real(dp), intent(inout) :: values(:)
+        integer :: i, k, n
+
+        n = size(sweep%kept)
+        do k = 1, keeper%found
+            do i = 1, n
+                associate (value => values((k - 1)*n + i))
+                    value = keeper%points(sweep%kept(i)%column, k)
+                    if (sweep%kept(i)%kind == keeps_wrapped) value = wrapped(value)
+                end associate
+            end do
+        end do
+    end subroutine take_points
+
+    elemental function is_lyapunov(kind) result(yes)
+        !! It is measured by a run of its own.
+        integer, intent(in) :: kind
+        logical :: yes
+
+        yes = kind == keeps_lyapunov .or. kind == keeps_lyapunov_error
+    end function is_lyapunov
+
+    subroutine keep_lyapunov(sweep, scene, system, values, error)
+        !! The Lyapunov exponent and its error, by the scene's method and tolerance; where it takes
+        !! steps of `dt`, by the workhorse and its own.
+        type(sweep_t), intent(in) :: sweep
+        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system
+        real(dp), intent(inout) :: values(:)
+        type(error_t), allocatable, intent(out) :: error
+        class(dense_integrator_t), allocatable :: method
+        real(dp) :: exponent, uncertainty
+
+        if (scene%tolerance > 0.0_dp .and. scene%method /= exact) then
+            call new_adaptive(trim(scene%method), method)
+            method%tolerance = scene%tolerance
+        else
+            call new_adaptive(workhorse, method)
+        end if
+        call lyapunov_exponent(system, method, scene%t0, sweep%after, scene%t0 + scene%duration, &
+                               scene%q, scene%v, exponent, uncertainty, error)
+        if (allocated(error)) return
+        where (sweep%kept%kind == keeps_lyapunov) values = exponent
+        where (sweep%kept%kind == keeps_lyapunov_error) values = uncertainty
+    end subroutine keep_lyapunov
+
+    elemental function earlier(a, b) result(t)
+        !! The earlier of two times, of which either may be NaN.
+        real(dp), intent(in) :: a, b
+        real(dp) :: t
+
+        t = min(a, b)
+        if (ieee_is_nan(a)) t = b
+        if (ieee_is_nan(b)) t = a
+    end function earlier
+end module lagrangia_sweep_trajectory
