@@ -100,6 +100,7 @@ module suites
     use test_namelist_mistakes, only: namelist_mistakes_suite
     use test_namelist_refusals, only: namelist_refusals_suite
     use test_namelist_values, only: namelist_values_suite
+    use test_noether, only: noether_suite
     use test_normal_modes, only: normal_modes_suite
     use test_npy, only: npy_suite
     use test_number_text, only: number_text_suite
@@ -125,6 +126,7 @@ module suites
     use test_printed_notes, only: printed_notes_suite
     use test_processes, only: processes_suite
     use test_progress, only: progress_suite
+    use test_reactions, only: reactions_suite
     use test_reduced_motion, only: reduced_motion_suite
     use test_register, only: register_suite
     use test_resources, only: resources_suite
@@ -136,6 +138,7 @@ module suites
     use test_run, only: run_suite
     use test_run_disks, only: run_disks_suite
     use test_run_plan, only: run_plan_suite
+    use test_same_motion_page, only: same_motion_page_suite
     use test_scene_files, only: scene_files_suite
     use test_scene_reference, only: scene_reference_suite
     use test_scene_steps, only: scene_steps_suite
@@ -145,6 +148,7 @@ module suites
     use test_shipped_files, only: shipped_files_suite
     use test_sinc, only: sinc_suite
     use test_sine_cosine, only: sine_cosine_suite
+    use test_small_angle, only: small_angle_suite
     use test_small_oscillations, only: small_oscillations_suite
     use test_solve, only: solve_suite
     use test_statement, only: statement_suite
@@ -160,6 +164,7 @@ module suites
     use test_text, only: text_suite
     use test_time_grid, only: time_grid_suite
     use test_unfinished, only: unfinished_suite
+    use test_vakonomic, only: vakonomic_suite
     use test_value_range, only: value_range_suite
     use test_virtual_work, only: virtual_work_suite
     use test_walls, only: walls_suite
@@ -226,6 +231,11 @@ contains
         call suite%addTest(elliptic_suite())
         call suite%addTest(course_suite())
         call suite%addTest(dalembert_suite())
+        call suite%addTest(small_angle_suite())
+        call suite%addTest(reactions_suite())
+        call suite%addTest(noether_suite())
+        call suite%addTest(same_motion_page_suite())
+        call suite%addTest(vakonomic_suite())
         call suite%addTest(errata_suite())
         call suite%addTest(errata_ledger_suite())
         call suite%addTest(errors_suite())

@@ -159,7 +159,7 @@ contains
             lines = [lines, line]
         end do
         close (unit)
-        call assertEqual(102, size(lines), lines_of_the_notes)
+        call assertEqual(105, size(lines), lines_of_the_notes)
     end subroutine read_lines
 
     subroutine places_are_those_of_the_quotes()

@@ -251,6 +251,7 @@ contains
             counts = counts//trim(names(i))//" "//to_text(count(report%rows%control))//" "
         end do
         call assertEqual("action 3 constraints 5 gauge 5 least-time 4 virtual-work 5 "// &
-                         "dalembert 2 ", counts, "controls")
+                         "dalembert 2 small-angle 3 reactions 4 noether 7 same-motion 7 "// &
+                         "vakonomic 3 ", counts, "controls")
     end subroutine every_control_is_known
 end module test_page_controls

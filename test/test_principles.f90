@@ -55,7 +55,27 @@ module test_principles
         section_t("dalembert", "cart-pendulum: the two steps", 3, 0), &
         section_t("dalembert", "cart-pendulum, theta: each sum", 5, 1), &
         section_t("dalembert", "cart-pendulum, x: T has no x", 2, 0), &
-        section_t("dalembert", "bead on a wire that turns, W = ", 2, 1)]
+        section_t("dalembert", "bead on a wire that turns, W = ", 2, 1), &
+        section_t("small-angle", "cart-pendulum from rest at A", 6, 1), &
+        section_t("small-angle", "what is lost: T0 = 2 pi/w", 4, 1), &
+        section_t("small-angle", "the notes' sign, - g sin(theta)", 2, 1), &
+        section_t("reactions", "pendulum from rest at th0 = 2", 4, 1), &
+        section_t("reactions", "cart-pendulum from rest at 2 r", 3, 1), &
+        section_t("reactions", "block on a wedge: the incline'", 2, 1), &
+        section_t("reactions", "rolling disk on a circle", 2, 0), &
+        section_t("reactions", "the rod's constraint stated tw", 4, 1), &
+        section_t("noether", "cart-pendulum: of 9 changes", 4, 1), &
+        section_t("noether", "cart-pendulum: largest change", 3, 1), &
+        section_t("noether", "double pendulum without g", 3, 0), &
+        section_t("noether", "double pendulum with g", 1, 2), &
+        section_t("noether", "charge in B along z, A = B x r", 5, 2), &
+        section_t("noether", "bead on a hoop that is turned", 3, 1), &
+        section_t("same-motion", "oscillator in the plane", 6, 3), &
+        section_t("same-motion", "damped oscillator", 3, 3), &
+        section_t("same-motion", "L, 2 L and L + 3 J", 3, 1), &
+        section_t("vakonomic", "D'Alembert, as disks roll", 3, 0), &
+        section_t("vakonomic", "the constraint inside L, the sa", 2, 3), &
+        section_t("vakonomic", "steering locked at 0.7 rad", 3, 0)]
 
 contains
 

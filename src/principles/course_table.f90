@@ -82,11 +82,11 @@ contains
         call add(course, "I", 9, 13, &
                  "holonomic constraint: $x_i = x_i (\{q, f, t\}) = c_i$", &
                  "holonomic: f(x, t) = c, and one variable less for each of them", &
-                 "principle constraints; errata E24")
+                 "principle constraints; principle reactions; errata E24")
         call add(course, "I", 14, 14, &
                  "nonholonomic constraint -> more difficult case", &
                  "nonholonomic: a constraint on velocities, which takes away no coordinate", &
-                 "run rolling_disk; principle constraints")
+                 "principle vakonomic; run rolling_disk; principle constraints")
         call add(course, "I", 15, 16, &
                  "nonholonomic constraint -> more difficult case e.g. y >0", &
                  "the example y > 0: a floor, which is another class (unilateral)", &
@@ -94,7 +94,7 @@ contains
         call add(course, "I", 17, 22, &
                  "the set of son independent", &
                  "Lagrange's equations one by one need independent delta q; else multipliers", &
-                 "check rolling_disk")
+                 "check rolling_disk; principle vakonomic")
         call add(course, "I", 28, 32, &
                  "* Lagrange's Equations:", &
                  "D'Alembert: sum of (p_dot - F) delta x = 0", &
@@ -164,15 +164,15 @@ contains
         call add(course, "I", 93, 95, &
                  "multiple Lagrangians can lead to the same equations of motion", &
                  "more than one L for one motion", &
-                 "principle gauge")
+                 "principle same-motion; principle gauge")
         call add(course, "I", 97, 97, &
                  "e.g. $L = \frac{1}{2} m l^2 \hat{O}^2 + mg l \cos \theta - constant", &
                  "a constant in L changes no derivative of it", &
-                 "describe pendulum")
+                 "principle same-motion")
         call add(course, "I", 99, 107, &
                  "=> F does not show up in the equations of motion", &
                  "L + dF/dt with F(q, t): the same equations", &
-                 "principle gauge; errata E12")
+                 "principle gauge; principle noether; errata E12")
         call add(course, "I", 109, 111, &
                  "* Double planar pendulum;", &
                  "its two constraints, both of them lengths of rods", &
@@ -213,7 +213,7 @@ contains
                  "0 \sim A \omega^2, \quad O^2 \sim A^2 \omega^2, \quad O^2 O \sim A^3 "// &
                  "\omega^2", &
                  "theta_dot^2 theta is of third order, and is dropped", &
-                 "run cart_pendulum_small; sweep period_of_amplitude")
+                 "principle small-angle; sweep period_of_amplitude")
         call add(course, "I", 162, 164, &
                  "\omega^2 \sim \left(\frac{m_1 + m_2}{m_1}\right)", &
                  "omega^2 = (m1 + m2) g/(m1 l)", &
@@ -308,8 +308,8 @@ contains
                  "principle virtual-work; run damped_oscillator")
         call add(course, "II", 62, 62, &
                  "the equations of constraint must be relations that connect the coordinates", &
-                 "holonomic constraints, with or without the time", &
-                 "principle constraints")
+                 "holonomic constraints; the forces that they need", &
+                 "principle constraints; principle reactions")
         call add(course, "II", 65, 65, &
                  "fixed or scleronomous", &
                  "no time in the constraint: scleronomic", &
@@ -370,11 +370,11 @@ contains
         call add(course, "II", 103, 105, &
                  "= \text{constant}", &
                  "q2 is not in L: its momentum is conserved", &
-                 "check wedge; run wedge")
+                 "check wedge; run wedge; principle noether")
         call add(course, "II", 107, 109, &
                  "\frac{g \sin \alpha}{1 - \frac{m \cos^2 \alpha}{M+m}}", &
                  "both accelerations", &
-                 "derive wedge; run wedge")
+                 "derive wedge; principle reactions")
         call add(course, "II", 111, 115, &
                  "= M \left(\frac{d^2 q_1}{dt^2} + \frac{d^2 q_2}{dt^2} \cos \alpha \right)", &
                  "the equation of q1, with M in the place of m", &

@@ -8,8 +8,13 @@ module lagrangia_principles
     use lagrangia_gauge, only: gauge_principle
     use lagrangia_least_time, only: least_time_principle
     use lagrangia_names, only: refuse_name
+    use lagrangia_noether, only: noether_principle
+    use lagrangia_reactions, only: reactions_principle
     use lagrangia_report, only: report_t
+    use lagrangia_same_motion_page, only: same_motion_principle
+    use lagrangia_small_angle, only: small_angle_principle
     use lagrangia_system, only: system_box_t
+    use lagrangia_vakonomic, only: vakonomic_principle
     use lagrangia_virtual_work, only: virtual_work_principle
     implicit none (type, external)
     private
@@ -30,7 +35,16 @@ module lagrangia_principles
         principle_t("least-time", "Hero, Fermat: light takes a path of stationary time", .true.), &
         principle_t("virtual-work", "d'Alembert: constraint forces do no virtual work; Q_j"), &
         principle_t("dalembert", "from d'Alembert to Lagrange, term by term; why dT/dq is there", &
-                    .true.)]
+                    .true.), &
+        principle_t("small-angle", "why theta_dot^2 theta is dropped, and what that costs", &
+                    .true.), &
+        principle_t("reactions", "the forces of constraint along a motion, by 3n equations", &
+                    .true.), &
+        principle_t("noether", &
+                    "conserved quantities found: what leaves L as it is but for dF/dt", .true.), &
+        principle_t("same-motion", "L's that differ by more than a dF/dt, and the same motion", &
+                    .true.), &
+        principle_t("vakonomic", "why a nonholonomic constraint is not put into L", .true.)]
 
 contains
 
@@ -56,6 +70,16 @@ contains
             call virtual_work_principle(systems, report, error)
         case ("dalembert")
             call dalembert_principle(report, error)
+        case ("small-angle")
+            call small_angle_principle(report, error)
+        case ("reactions")
+            call reactions_principle(report, error)
+        case ("noether")
+            call noether_principle(report, error)
+        case ("same-motion")
+            call same_motion_principle(report, error)
+        case ("vakonomic")
+            call vakonomic_principle(report, error)
         case default
             call refuse_name("principle", name, principle_names(), error)
         end select

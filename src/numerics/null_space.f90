@@ -1,0 +1,58 @@
+module lagrangia_null_space
+    !! The vectors that a matrix takes to zero, by LAPACK's singular value decomposition.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_errors, only: error_t, fail, status_library
+    use lagrangia_kinds, only: dp
+    implicit none (type, external)
+    private
+    public :: null_space
+
+    real(dp), parameter :: noise = 1e-10_dp  !! singular values below this share of the largest
+
+    interface
+        pure subroutine dgesvd(jobu, jobvt, m, n, a, lda, s, u, ldu, vt, ldvt, work, lwork, info)
+            import :: dp
+            implicit none (type, external)
+            character, intent(in) :: jobu, jobvt
+            integer, intent(in) :: m, n, lda, ldu, ldvt, lwork
+            real(dp), intent(inout) :: a(lda, n)
+            real(dp), intent(out) :: s(min(m, n)), u(ldu, 1), vt(ldvt, n), work(lwork)
+            integer, intent(out) :: info
+        end subroutine dgesvd
+    end interface
+
+contains
+
+    pure subroutine null_space(matrix, basis, error)
+        !! Orthonormal columns that span the null space: of singular values
+        !! \(\sigma_i \le 10^{-10}\sigma_1\).
+        !!
+        !! Source: LAPACK Users' Guide, 3rd ed., sec. 2.3.4.3; `dgesvd`.
+        real(dp), intent(in) :: matrix(:, :)              !! (m, n), m >= n
+        real(dp), allocatable, intent(out) :: basis(:, :) !! (n, dimension of the null space)
+        type(error_t), allocatable, intent(out) :: error  !! too few rows, NaN, no convergence
+        real(dp) :: a(size(matrix, 1), size(matrix, 2)), values(size(matrix, 2)), u(1, 1)
+        real(dp) :: vt(size(matrix, 2), size(matrix, 2)), work(8*sum(shape(matrix)))
+        integer :: info, m, n, rank
+
+        m = size(matrix, 1)
+        n = size(matrix, 2)
+        allocate (basis(n, 0))
+        if (m < n .or. n == 0) then
+            call fail(error, "null space: a matrix needs as many rows as columns", status_library)
+        else if (.not. all(ieee_is_finite(matrix))) then
+            call fail(error, "null space: an element is not a finite number", status_library)
+        end if
+        if (allocated(error)) return
+        a = matrix
+        call dgesvd("n", "a", m, n, a, m, values, u, 1, vt, n, work, size(work), info)
+        if (info /= 0) then
+            call fail(error, "null space: LAPACK's dgesvd does not converge", status_library)
+            return
+        end if
+        rank = count(values > noise*values(1))
+        deallocate (basis)
+        allocate (basis(n, n - rank))
+        basis = transpose(vt(rank + 1:, :))
+    end subroutine null_space
+end module lagrangia_null_space
