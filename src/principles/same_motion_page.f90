@@ -115,7 +115,7 @@ contains
         call report%equal("2 L: x_ddot  [m/s^2]", a(1), -k/m*x(1), rounding)
         call report%equal("2 L: p' = 2 p  [kg m/s]", momentum(twice), 2.0_dp*momentum(plain), &
                           rounding)
-        call report%equal("is 2 L - L = L a dF/dt?  then 0 off the motion", &
+        call report%equal("is 2 L - L a dF/dt?  then 0 off the motion", &
                           equation(plain, t, x, v, off, 1), 0.0_dp, rounding, control=.true.)
         call report%equal("L + 3 J: its derivative by x, as of L  [N]", shifted_force(), -k*x(1), &
                           rounding)
