@@ -71,6 +71,10 @@ for shell in bash zsh; do
     fi
     "$program" completion $shell >"$work/completion.$shell"
     check "$shell: the script is sound" $shell -n "$work/completion.$shell"
+    if ! python3 -c 'import pty; pty.openpty()' 2>"$work/log"; then # some containers have no /dev/pts
+        echo "not tried: typing to $shell, for there is no pseudo-terminal: $(tail -n 1 "$work/log")"
+        continue
+    fi
     while IFS='|' read -r typed expected; do
         check "$shell: $typed" completes $shell "$typed" "$expected"
     done <<'END_OF_WORDS'
