@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Change one random place of the sources at a time, and see whether anything notices.
 
-    .ci/mutants/mutate.py [--count 100] [--seed 1] [--only src/systems] [--skip TEXT]
+    .ci/mutants/mutate.py [--count 100] [--seed 1] [--only src/runs,src/pages] [--skip TEXT]
                           [--output mutants.jsonl] [--quick] [--again mutants.jsonl]
 
 Run it, by nice, in a checkout of its own whose tests pass. Each mutant is one change of one statement in
@@ -359,7 +359,7 @@ def noticed_by_users(program, root, work, limits):
 def sites_of(root, only, skip):
     """All changes of all lines: (file, line, kind, new line)."""
     sites = []
-    for folder, _, files in os.walk(os.path.join(root, only)):
+    for folder, _, files in (entry for room in only.split(",") for entry in os.walk(os.path.join(root, room))):
         for name in sorted(files):
             source = os.path.relpath(os.path.join(folder, name), root)
             if not name.endswith(".f90") or (skip and skip in source):
