@@ -148,6 +148,32 @@ check "compare, --overlay: what is refused leaves no file" [ ! -e "$work/none" ]
 run modes double_pendulum --quiet --output "$work/cmp"
 check "modes --output: the mechanism, two rods and two masses a side" eval '[ $status -eq 0 ] && [ "$(awk "!/#/ && \$1 == 2 && \$2 == 1 && \$3 == 1" "$work/cmp/double_pendulum_modes.dat" | wc -l)" -eq 2 ] && [ "$(awk "!/#/ && \$1 == 2 && \$2 == 1 && \$3 == 0" "$work/cmp/double_pendulum_modes.dat" | wc -l)" -eq 2 ] && [ "$(grep -c "^set title \"" "$work/cmp/double_pendulum_modes.gp")" -eq 2 ]'
 
+# A file that cannot be written, whichever of a command's it is: one line with its name, and no other
+blocked() { # blocked WORDS...: each file in turn is a folder
+    local name words=$*
+    rm -rf "$work/free"
+    run "$@" --output "$work/free"
+    check "$words: files" eval '[ $status -eq 0 ] && [ -n "$(ls "$work/free")" ]'
+    for name in $(ls "$work/free" | grep -v svg); do # a report goes without its pictures
+        rm -rf "$work/taken"
+        mkdir -p "$work/taken/$name"
+        run "$@" --output "$work/taken"
+        check "$words: $name is a folder" eval '[ $status -eq 5 ] && [ "$(grep -c "cannot write .*$name.: it is a folder$" "$work/err")" -eq 1 ] && leftovers'
+    done
+}
+blocked run bouncing_ball --animate
+blocked run bouncing_ball --format npy
+blocked run pendulum oscillator --overlay
+blocked compare pendulum --methods rk4,verlet
+blocked compare pendulum --starts "1 2"
+blocked modes cart_pendulum --animate
+blocked modes pendulum
+blocked sweep flip_map --over theta1=0.5:3:3
+blocked sweep flip_map --over theta1=0.5:3:3 --format csv
+blocked report pendulum
+for principle in action constraints least-time; do blocked principle $principle; done
+blocked bench precision --quick --problems P1 --methods rk4,gauss16
+
 # run, its options
 run run cart_pendulum pendulum --output "$work/a b'c"
 check "run: two scenes, a folder with blank and quote" eval '[ $status -eq 0 ] && [ -s "$work/a b'"'"'c/pendulum.dat" ]'

@@ -125,6 +125,7 @@ files compare pendulum --methods verlet,rk4,dop853
 files compare double_pendulum --methods gauss16,rk4 --json
 files compare pendulum --starts "1 2 0:7"
 for system in pendulum cart_pendulum double_pendulum hanging_chain rotating_hoop; do files modes $system; done
+for n in 8 13; do files modes hanging_chain --set hanging_chain%n=$n; done
 files modes hanging_chain --animate
 files sweep flip_map --over theta1=0.5:3:6
 files sweep flip_map --over theta1=0.5:3:6 --over theta2=-1:1:3 --json

@@ -26,6 +26,7 @@ contains
         call suite%addTest(TestMethod("every_printed_statement_is_right", &
                                       every_printed_statement_is_right))
         call suite%addTest(TestMethod("which_accelerations_follow", which_accelerations_follow))
+        call suite%addTest(TestMethod("examples_have_four_digits", examples_have_four_digits))
         call suite%addTest(TestMethod("lines_that_follow", lines_that_follow))
         call suite%addTest(TestMethod("sheets_that_cannot_be_read", sheets_that_cannot_be_read))
     end function grading_suite
@@ -124,7 +125,73 @@ contains
         call grade(homework, system, result, error)
         call assertEqual(is_right, result%of(1)%verdict, result%of(1)%remark)
         call assertEqual(0, result%equations, "where the bob is says nothing of its motion")
+        ! numbers in half of the states only, and an acceleration that is 0 in all
+        call determines("pendulum", "sqrt(theta_ddot) = sqrt(-g/l sin(theta))")
+        call determines("pendulum", "sqrt(-theta_ddot) = sqrt(g/l sin(theta))")
+        call determines("rolling_disk", "phi_ddot = 0")
+    contains
+        subroutine determines(name, statement)
+            character(*), intent(in) :: name, statement
+
+            call new_system(name, system, error)
+            call parse_homework("system: "//name//line_feed//statement, "sheet", homework, error)
+            call grade(homework, system, result, error)
+            call assertEqual(is_right, result%of(1)%verdict, statement)
+            call assertEqual(1, result%equations, statement)
+            call assertEqual(1, count(result%determined), message=statement)
+        end subroutine determines
     end subroutine which_accelerations_follow
+
+    subroutine examples_have_four_digits()
+        !! Those of a number times a power of ten are the same; beyond 10^-4 and 10^6 with an exponent.
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: none
+
+        call new_system("pendulum", system, none)
+        call has("1e-7", .true.)
+        call has("1e-3", .false.)
+        call has("1", .false.)
+        call has("1e4", .false.)
+        call has("1e8", .true.)
+    contains
+        subroutine has(factor, exponent)
+            character(*), intent(in) :: factor
+            logical, intent(in) :: exponent
+            type(homework_t) :: homework
+            type(grade_t) :: result
+            type(error_t), allocatable :: error
+            character(:), allocatable :: left, second
+
+            call parse_homework("system: pendulum"//line_feed//factor//" theta_ddot = cos(theta)", &
+                                "sheet", homework, error)
+            call grade(homework, system, result, error)
+            associate (text => result%of(1)%example)
+                call assertEqual(1, index(text, "left "), text)
+                left = text(6:index(text, ",") - 1)
+                second = text(index(text, "theta_ddot = ") + 13:)
+            end associate
+            if (index(second, ",") > 0) second = second(:index(second, ",") - 1)
+            call assertTrue((index(left, "E") > 0) .eqv. exponent, left)
+            call assertEqual(digits_of(second), digits_of(left), result%of(1)%example)
+        end subroutine has
+    end subroutine examples_have_four_digits
+
+    function digits_of(number) result(digits)
+        !! Without the sign, the point, the exponent, and zeros at the ends.
+        character(*), intent(in) :: number
+        character(:), allocatable :: digits
+        integer :: i, last
+
+        digits = ""
+        last = len(number)
+        if (index(number, "E") > 0) last = index(number, "E") - 1
+        do i = 1, last
+            if (scan(number(i:i), "0123456789") == 0) cycle
+            if (digits == "" .and. number(i:i) == "0") cycle
+            digits = digits//number(i:i)
+        end do
+        digits = digits(:verify(digits, "0", back=.true.))
+    end function digits_of
 
     subroutine lines_that_follow()
         !! From a wrong T, an equation of motion, a momentum, a frequency, or two of them; and a new

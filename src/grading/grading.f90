@@ -160,7 +160,7 @@ contains
         !! of their residuals has a unit vector among its combinations of rows.
         type(samples_t), intent(in) :: samples
         type(grade_t), intent(inout) :: result
-        real(dp), allocatable :: rows(:, :), values(:, :), before(:, :), after(:, :)
+        real(dp), allocatable :: rows(:, :)
         type(error_t), allocatable :: error
         integer :: i, j, rank, with_unit
         logical :: where_only
@@ -174,22 +174,11 @@ contains
                 where_only = any([(residual%depends_on(j), j=samples%first_point, &
                                    samples%last_point)])
                 if (where_only) cycle
-                allocate (before(1, residual%count), after(1, residual%count))
-                values = samples%values(1:1, :)
-                call evaluate_nodes(residual, values, before)
-                do j = 1, samples%ndof
-                    values = samples%values(1:1, :)
-                    values(1, samples%first_acceleration + j - 1) = &
-                        values(1, samples%first_acceleration + j - 1) + 1.0_dp
-                    call evaluate_nodes(residual, values, after)
-                    rows(i, j) = after(1, residual%count) - before(1, residual%count)
-                end do
-                if (.not. all(ieee_is_finite(rows(i, :)))) rows(i, :) = 0.0_dp
+                call differentiate(residual, samples, rows(i, :))
                 if (any(abs(rows(i, :)) > 0.0_dp)) then
                     rows(i, :) = rows(i, :)/maxval(abs(rows(i, :)))
                     result%equations = result%equations + 1
                 end if
-                deallocate (before, after)
             end associate
         end do
         if (result%equations == 0) return
@@ -203,4 +192,33 @@ contains
             result%determined(j) = with_unit == rank
         end do
     end subroutine find_determined
+
+    subroutine differentiate(residual, samples, row)
+        !! \(\partial R/\partial\ddot q\) from half the acceleration, or one that is not 0, at the first
+        !! sample where R has values: a root has none where its argument is negative. Zero where
+        !! there is none.
+        type(expression_t), intent(in) :: residual
+        type(samples_t), intent(in) :: samples
+        real(dp), intent(out) :: row(:)  !! (ndof)
+        real(dp), allocatable :: values(:, :), before(:, :), after(:, :)
+        real(dp) :: step
+        integer :: j, k, place
+
+        allocate (before(1, residual%count), after(1, residual%count))
+        do k = 1, size(samples%values, 1)
+            values = samples%values(k:k, :)
+            call evaluate_nodes(residual, values, before)
+            do j = 1, samples%ndof
+                values = samples%values(k:k, :)
+                place = samples%first_acceleration + j - 1
+                step = 0.5_dp*values(1, place)
+                if (.not. abs(step) > 0.0_dp) step = 1.0_dp
+                values(1, place) = values(1, place) - step
+                call evaluate_nodes(residual, values, after)
+                row(j) = (before(1, residual%count) - after(1, residual%count))/step
+            end do
+            if (all(ieee_is_finite(row))) return
+        end do
+        row = 0.0_dp
+    end subroutine differentiate
 end module lagrangia_grading
