@@ -55,6 +55,13 @@ files() { # files WORDS...: what the program prints for WORDS, and every file th
     } | costless)
 }
 
+films() { # films WORDS...: the pages of HTML alone
+    rm -rf "$work/files"
+    "$program" "$@" --animate --output "$work/files" </dev/null >/dev/null 2>&1
+    find "$work/files" -type f ! -name '*.html' -delete
+    keep films of "$@" < <(python3 .ci/written_files.py "$work/files" | costless)
+}
+
 claims() { # of check: claim, bound over noise, states, verdict; not how large rounding is
     awk 'substr($0, 1, 2) == "  " && $NF ~ /^(holds|FAILS)$/ {
         printf "%s bound/noise %.0f, %d states, %s\n", substr($0, 1, 42), $(NF - 2)/$(NF - 3), $(NF - 1), $NF; next }
@@ -101,6 +108,11 @@ for system in cart_pendulum double_pendulum rotating_hoop wedge; do page plain d
 page shapes derive cart_pendulum --numbers
 for sheet in data/homework/*.txt; do page plain grade "$sheet"; done
 page plain describe pendulum --set pendulum%b=0.1
+for b in 0.3 2 6; do page plain describe oscillator --set oscillator%m=1 --set oscillator%k=1 --set oscillator%b=$b; done
+page plain describe oscillator --set oscillator%k=0
+page plain describe rotating_wire --set rotating_wire%omega=0
+page plain describe driven_pendulum --set driven_pendulum%amplitude=0
+page plain manual
 page plain describe hanging_chain --set hanging_chain%n=1
 page plain describe spring_pendulum
 page plain describe sphere
@@ -120,13 +132,18 @@ files run rotating_hoop --format npy
 files run pendulum oscillator sphere --error-estimate
 files run pendulum oscillator --overlay
 files run pendulum --set pendulum%l=2 --set scene%method=verlet --set scene%dt=0.3
-files run cart_pendulum sphere bouncing_ball --animate
+films run cart_pendulum sphere bouncing_ball
 files compare pendulum --methods verlet,rk4,dop853
 files compare double_pendulum --methods gauss16,rk4 --json
 files compare pendulum --starts "1 2 0:7"
 for system in pendulum cart_pendulum double_pendulum hanging_chain rotating_hoop; do files modes $system; done
 for n in 8 13; do files modes hanging_chain --set hanging_chain%n=$n; done
-files modes hanging_chain --animate
+films modes hanging_chain
+films run atwood_lift oscillator driven_oscillator wedge rolling_disk charged_particle rotating_wire rotating_hoop driven_pendulum double_pendulum
+keep closed forms that auto takes < <(for scene in atwood wedge oscillator damped_oscillator driven_oscillator rotating_wire charged_particle \
+    pendulum pendulum_rotation pendulum_separatrix rolling_disk cart_pendulum driven_pendulum rotating_hoop bouncing_ball; do
+    "$program" run $scene --set scene%method=auto --output "$work/files" 2>&1 </dev/null | grep "auto took"
+done)
 files sweep flip_map --over theta1=0.5:3:6
 files sweep flip_map --over theta1=0.5:3:6 --over theta2=-1:1:3 --json
 files sweep period_of_amplitude --over theta=0.5:3:6
