@@ -55,11 +55,11 @@ files() { # files WORDS...: what the program prints for WORDS, and every file th
     } | costless)
 }
 
-films() { # films WORDS...: the pages of HTML alone
+written() { # written NAMES WORDS...: of the files that are written those alone whose names fit
     rm -rf "$work/files"
-    "$program" "$@" --animate --output "$work/files" </dev/null >/dev/null 2>&1
-    find "$work/files" -type f ! -name '*.html' -delete
-    keep films of "$@" < <(python3 .ci/written_files.py "$work/files" | costless)
+    "$program" "${@:2}" --output "$work/files" </dev/null >/dev/null 2>&1
+    find "$work/files" -type f ! -name "$1" -delete
+    keep written by "${@:2}" < <(python3 .ci/written_files.py "$work/files" | costless)
 }
 
 claims() { # of check: claim, bound over noise, states, verdict; not how large rounding is
@@ -132,14 +132,15 @@ files run rotating_hoop --format npy
 files run pendulum oscillator sphere --error-estimate
 files run pendulum oscillator --overlay
 files run pendulum --set pendulum%l=2 --set scene%method=verlet --set scene%dt=0.3
-films run cart_pendulum sphere bouncing_ball
+written '*.html' run cart_pendulum sphere bouncing_ball --animate
 files compare pendulum --methods verlet,rk4,dop853
 files compare double_pendulum --methods gauss16,rk4 --json
 files compare pendulum --starts "1 2 0:7"
 for system in pendulum cart_pendulum double_pendulum hanging_chain rotating_hoop; do files modes $system; done
 for n in 8 13; do files modes hanging_chain --set hanging_chain%n=$n; done
-films modes hanging_chain
-films run atwood_lift oscillator driven_oscillator wedge rolling_disk charged_particle rotating_wire rotating_hoop driven_pendulum double_pendulum
+written '*.html' modes hanging_chain --animate
+written '*.html' run atwood_lift oscillator driven_oscillator wedge rolling_disk charged_particle --animate
+written '*.html' run rotating_wire rotating_hoop driven_pendulum double_pendulum --animate
 keep closed forms that auto takes < <(for scene in atwood wedge oscillator damped_oscillator driven_oscillator rotating_wire charged_particle \
     pendulum pendulum_rotation pendulum_separatrix rolling_disk cart_pendulum driven_pendulum rotating_hoop bouncing_ball; do
     "$program" run $scene --set scene%method=auto --output "$work/files" 2>&1 </dev/null | grep "auto took"
@@ -150,7 +151,7 @@ files sweep period_of_amplitude --over theta=0.5:3:6
 files sweep resonance --over drive_frequency=0.2:3:5 --format csv
 files sweep ueda --over f=5.5:13.5:3
 command -v gnuplot >/dev/null && files report pendulum_rotation hanging_chain
-for principle in action constraints gauge least-time virtual-work; do files principle $principle; done
+for principle in action constraints least-time; do written '*' principle $principle; done
 if [ -n "$accept" ]; then
     echo "$count pages kept in $pages"
 else

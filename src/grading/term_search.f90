@@ -94,7 +94,6 @@ contains
             character(*), intent(in) :: name
             real(dp) :: one(size(letter))
 
-            if (name == text) return
             one = needed/letter
             if (is_constant(one) .and. abs(one(1)) > equal) then
                 remark = text//" lacks the factor "//times(one(1))//name
