@@ -164,6 +164,7 @@ contains
         logical, intent(in) :: clear        !! also what some terms are divided by
         type(term_t) :: factor
         type(term_t) :: known, next, single
+        type(number_t), allocatable :: coefficients(:)
         integer :: i, k, power
         logical :: fits
 
@@ -183,8 +184,9 @@ contains
                 if (fits) factor = next
             end do
         end do
-        factor%coefficient = number_of(sign(1.0_dp, s%terms(1)%coefficient%value)) &
-                             *common_measure(s%terms(:s%count)%coefficient)
+        coefficients = s%terms(:s%count)%coefficient
+        factor%coefficient = number_of(sign(1.0_dp, coefficients(1)%value)) &
+                             *common_measure(coefficients)
     end function common_factor
 
     pure function shared_power(s, atom, clear) result(power)

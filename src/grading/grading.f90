@@ -194,9 +194,9 @@ contains
     end subroutine find_determined
 
     subroutine differentiate(residual, samples, row)
-        !! \(\partial R/\partial\ddot q\) from half the acceleration, or one that is not 0, at the first
-        !! sample where R has values: a root has none where its argument is negative. Zero where
-        !! there is none.
+        !! \(\partial R/\partial\ddot q\) from half the acceleration, or one that is not 0, at the
+        !! first sample where R has values: a root has none where its argument is negative. Zero
+        !! where there is none.
         type(expression_t), intent(in) :: residual
         type(samples_t), intent(in) :: samples
         real(dp), intent(out) :: row(:)  !! (ndof)
