@@ -64,8 +64,10 @@ module suites
     use test_gauss_adaptive, only: gauss_adaptive_suite
     use test_gauss_control, only: gauss_control_suite
     use test_gauss_dense, only: gauss_dense_suite
+    use test_gauss_hertz, only: gauss_hertz_suite
     use test_gauss_tables, only: gauss_tables_suite
     use test_generalised_forces, only: generalised_forces_suite
+    use test_geometric_phase, only: geometric_phase_suite
     use test_gnuplot, only: gnuplot_suite
     use test_gnuplot_scales, only: gnuplot_scales_suite
     use test_graded_responses, only: graded_responses_suite
@@ -89,6 +91,8 @@ module suites
     use test_library_arguments, only: library_arguments_suite
     use test_library_calls, only: library_calls_suite
     use test_machine, only: machine_suite
+    use test_maupertuis, only: maupertuis_suite
+    use test_measure_g, only: measure_g_suite
     use test_method_refusals, only: method_refusals_suite
     use test_method_structure, only: method_structure_suite
     use test_methods, only: methods_suite
@@ -236,6 +240,10 @@ contains
         call suite%addTest(noether_suite())
         call suite%addTest(same_motion_page_suite())
         call suite%addTest(vakonomic_suite())
+        call suite%addTest(maupertuis_suite())
+        call suite%addTest(gauss_hertz_suite())
+        call suite%addTest(geometric_phase_suite())
+        call suite%addTest(measure_g_suite())
         call suite%addTest(errata_suite())
         call suite%addTest(errata_ledger_suite())
         call suite%addTest(errors_suite())

@@ -75,7 +75,20 @@ module test_principles
         section_t("same-motion", "L, 2 L and L + 3 J", 3, 1), &
         section_t("vakonomic", "D'Alembert, as disks roll", 3, 0), &
         section_t("vakonomic", "the constraint inside L, the sa", 2, 3), &
-        section_t("vakonomic", "steering locked at 0.7 rad", 3, 0)]
+        section_t("vakonomic", "steering locked at 0.7 rad", 3, 0), &
+        section_t("maupertuis", "two throws of one energy", 6, 0), &
+        section_t("maupertuis", "is A least, too?", 1, 1), &
+        section_t("maupertuis", "paths of one time in the place", 2, 1), &
+        section_t("maupertuis", "the envelope of all throws", 2, 1), &
+        section_t("gauss-hertz", "Gauss, cart-pendulum", 3, 1), &
+        section_t("gauss-hertz", "Hertz: a mass of no weight on a", 3, 0), &
+        section_t("gauss-hertz", "with weight: Hertz has no force", 1, 2), &
+        section_t("geometric-phase", "disk: roll by d, steer by d", 5, 1), &
+        section_t("geometric-phase", "disk: theta and phi go around", 4, 1), &
+        section_t("geometric-phase", "Foucault: how far the plane", 5, 1), &
+        section_t("measure-g", "m1 = 1.1 kg, m2 = 0.9 kg", 3, 1), &
+        section_t("measure-g", "sigma_g/g: simulated measureme", 3, 1), &
+        section_t("measure-g", "the best difference of the mas", 3, 1)]
 
 contains
 

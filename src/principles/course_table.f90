@@ -188,7 +188,7 @@ contains
         call add(course, "I", 126, 130, &
                  "$A_{\varphi} = -R\sin\theta$, $A_0 = 0$ for \dot{x}", &
                  "the rolling disk: dx - R sin(theta) dphi = 0", &
-                 "run rolling_disk; describe rolling_disk")
+                 "run rolling_disk; principle geometric-phase")
         call add(course, "I", 132, 132, &
                  "\frac{\partial A_{\varphi}}{\partial \theta} = -R\cos\theta", &
                  "unequal mixed partials; what really makes it nonholonomic", &
@@ -239,7 +239,7 @@ contains
         call add(course, "II", 8, 8, &
                  "1747 Maupertuis dynamical motion takes place with minimum motion", &
                  "Maupertuis: least action at a fixed energy", &
-                 "errata E17")
+                 "principle maupertuis; errata E17")
         call add(course, "II", 10, 10, &
                  "1760 Lagrange", &
                  "a year", &
@@ -247,11 +247,11 @@ contains
         call add(course, "II", 12, 12, &
                  "1828 Gauss least constraint", &
                  "Gauss: the accelerations make a sum of squares least", &
-                 "check double_pendulum")
+                 "principle gauss-hertz; check double_pendulum")
         call add(course, "II", 14, 14, &
                  "Hertz least curvature", &
                  "Hertz: without forces a system takes the straightest path", &
-                 nothing="there is no page on curvature yet")
+                 "principle gauss-hertz")
         call add(course, "II", 16, 16, &
                  "1834, 1835 Hamilton", &
                  "two years", &
@@ -350,7 +350,7 @@ contains
         call add(course, "II", 87, 87, &
                  "\frac{m_1 - m_2}{m_1 + m_2} g \text{ elastically measure for } g", &
                  "x_ddot = (m1 - m2)/(m1 + m2) g: a slow fall, by which g can be measured", &
-                 "run atwood; errata E19")
+                 "principle measure-g; run atwood; errata E19")
         call add(course, "II", 89, 89, &
                  "case II a block sliding on a wedge", &
                  "a block on a wedge that is free to slide", &

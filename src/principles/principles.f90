@@ -6,7 +6,11 @@ module lagrangia_principles
     use lagrangia_dalembert, only: dalembert_principle
     use lagrangia_errors, only: error_t
     use lagrangia_gauge, only: gauge_principle
+    use lagrangia_gauss_hertz, only: gauss_hertz_principle
+    use lagrangia_geometric_phase, only: geometric_phase_principle
     use lagrangia_least_time, only: least_time_principle
+    use lagrangia_maupertuis, only: maupertuis_principle
+    use lagrangia_measure_g, only: measure_g_principle
     use lagrangia_names, only: refuse_name
     use lagrangia_noether, only: noether_principle
     use lagrangia_reactions, only: reactions_principle
@@ -44,7 +48,13 @@ module lagrangia_principles
                     "conserved quantities found: what leaves L as it is but for dF/dt", .true.), &
         principle_t("same-motion", "L's that differ by more than a dF/dt, and the same motion", &
                     .true.), &
-        principle_t("vakonomic", "why a nonholonomic constraint is not put into L", .true.)]
+        principle_t("vakonomic", "why a nonholonomic constraint is not put into L", .true.), &
+        principle_t("maupertuis", "Maupertuis: with one energy int p dq is stationary", .true.), &
+        principle_t("gauss-hertz", "Gauss: least constraint; Hertz: the straightest path", &
+                    .true.), &
+        principle_t("geometric-phase", &
+                    "around a loop and back, and not where it was: disk, Foucault", .true.), &
+        principle_t("measure-g", "g from a slow fall: which masses for a given stop watch", .true.)]
 
 contains
 
@@ -80,6 +90,14 @@ contains
             call same_motion_principle(report, error)
         case ("vakonomic")
             call vakonomic_principle(report, error)
+        case ("maupertuis")
+            call maupertuis_principle(report, error)
+        case ("gauss-hertz")
+            call gauss_hertz_principle(report, error)
+        case ("geometric-phase")
+            call geometric_phase_principle(report, error)
+        case ("measure-g")
+            call measure_g_principle(report, error)
         case default
             call refuse_name("principle", name, principle_names(), error)
         end select
