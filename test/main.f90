@@ -3,6 +3,7 @@ module suites
     use funit, only: TestSuite
     use test_accuracy, only: accuracy_suite
     use test_action, only: action_suite
+    use test_all_paths, only: all_paths_suite
     use test_amplitude, only: amplitude_suite
     use test_audit, only: audit_suite
     use test_audit_formulas, only: audit_formulas_suite
@@ -172,6 +173,7 @@ module suites
     use test_value_range, only: value_range_suite
     use test_virtual_work, only: virtual_work_suite
     use test_walls, only: walls_suite
+    use test_which_forces, only: which_forces_suite
     use test_whole_file, only: whole_file_suite
     use test_work, only: work_suite
     use test_written_refusals, only: written_refusals_suite
@@ -244,6 +246,8 @@ contains
         call suite%addTest(gauss_hertz_suite())
         call suite%addTest(geometric_phase_suite())
         call suite%addTest(measure_g_suite())
+        call suite%addTest(all_paths_suite())
+        call suite%addTest(which_forces_suite())
         call suite%addTest(errata_suite())
         call suite%addTest(errata_ledger_suite())
         call suite%addTest(errors_suite())

@@ -39,8 +39,8 @@ contains
                        1e-15_dp)
         ! J1(0.8) from its series
         area = 0.6_dp*pi*0.8_dp*(0.4_dp - 0.4_dp**3/2.0_dp + 0.4_dp**5/12.0_dp &
-                                 - 0.4_dp**7/144.0_dp + 0.4_dp**9/2880.0_dp - 0.4_dp**11/86400.0_dp &
-                                 + 0.4_dp**13/3628800.0_dp)
+                                 - 0.4_dp**7/144.0_dp + 0.4_dp**9/2880.0_dp &
+                                 - 0.4_dp**11/86400.0_dp + 0.4_dp**13/3628800.0_dp)
         call check_row(page, "disk: theta and phi", "delta x", area*cos(0.4_dp), area*cos(0.4_dp), &
                        1e-12_dp)
         call check_row(page, "disk: theta and phi", "is it R cos", area*cos(0.4_dp), &

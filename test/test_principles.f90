@@ -88,7 +88,13 @@ module test_principles
         section_t("geometric-phase", "Foucault: how far the plane", 5, 1), &
         section_t("measure-g", "m1 = 1.1 kg, m2 = 0.9 kg", 3, 1), &
         section_t("measure-g", "sigma_g/g: simulated measureme", 3, 1), &
-        section_t("measure-g", "the best difference of the mas", 3, 1)]
+        section_t("measure-g", "the best difference of the mas", 3, 1), &
+        section_t("all-paths", "pendulum, 0 to 1 rad in T = 9/", 11, 1), &
+        section_t("all-paths", "descent: from a straight line,", 7, 3), &
+        section_t("all-paths", "oscillator, 1 m to 0.5 m", 3, 1), &
+        section_t("helmholtz", "is there a U with Q = d/dt", 3, 2), &
+        section_t("helmholtz", "work around a circle of 1 m", 4, 1), &
+        section_t("helmholtz", "damped oscillator, E = f(t)", 1, 1)]
 
 contains
 

@@ -259,7 +259,7 @@ contains
         call add(course, "II", 18, 18, &
                  "the actual path followed is that which minimizes the time integral", &
                  "the actual path makes the action stationary; least only at first", &
-                 "principle action; errata E15")
+                 "principle action; principle all-paths; errata E15")
         call add(course, "II", 20, 24, &
                  "\delta \int_{t_1}^{t_2} (T - U) dt = 0", &
                  "delta S = 0, solved for the path itself", &
@@ -305,7 +305,7 @@ contains
         call add(course, "II", 60, 60, &
                  "the forces acting on the system must be derivable from potentials", &
                  "forces with a potential; those without stand beside L", &
-                 "principle virtual-work; run damped_oscillator")
+                 "principle helmholtz; run damped_oscillator")
         call add(course, "II", 62, 62, &
                  "the equations of constraint must be relations that connect the coordinates", &
                  "holonomic constraints; the forces that they need", &

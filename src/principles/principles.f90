@@ -1,6 +1,7 @@
 module lagrangia_principles
     !! The pages of `lagrangia principle`, as data, and the report of each.
     use lagrangia_action, only: action_principle
+    use lagrangia_all_paths, only: all_paths_principle
     use lagrangia_catalogue, only: built_in, nth_system
     use lagrangia_constraints, only: constraints_principle
     use lagrangia_dalembert, only: dalembert_principle
@@ -20,6 +21,7 @@ module lagrangia_principles
     use lagrangia_system, only: system_box_t
     use lagrangia_vakonomic, only: vakonomic_principle
     use lagrangia_virtual_work, only: virtual_work_principle
+    use lagrangia_which_forces, only: which_forces_principle
     implicit none (type, external)
     private
     public :: principle_t, principles
@@ -54,7 +56,12 @@ module lagrangia_principles
                     .true.), &
         principle_t("geometric-phase", &
                     "around a loop and back, and not where it was: disk, Foucault", .true.), &
-        principle_t("measure-g", "g from a slow fall: which masses for a given stop watch", .true.)]
+        principle_t("measure-g", "g from a slow fall: which masses for a given stop watch", &
+                    .true.), &
+        principle_t("all-paths", &
+                    "every path between two events, its S, its index; where descent ends", &
+                    .true.), &
+        principle_t("helmholtz", "which forces have an L: Helmholtz' conditions", .true.)]
 
 contains
 
@@ -98,6 +105,10 @@ contains
             call geometric_phase_principle(report, error)
         case ("measure-g")
             call measure_g_principle(report, error)
+        case ("all-paths")
+            call all_paths_principle(report, error)
+        case ("helmholtz")
+            call which_forces_principle(report, error)
         case default
             call refuse_name("principle", name, principle_names(), error)
         end select
