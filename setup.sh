@@ -5,6 +5,7 @@
 #   ./setup.sh --dev            the same, and what .ci/run needs: two tools for lint, FORD for
 #                               the API pages, valgrind, the reference BLAS and LAPACK, zsh, mandoc,
 #                               Chromium, pandas and matplotlib
+#   ./setup.sh --cluster        the first, and OpenCoarrays with Open MPI, for sweeps on many images
 #   ./setup.sh install [DIR]    the same as the first, and then lagrangia itself below DIR (default
 #                               ~/.local): bin, lib, include, completion for bash and zsh, manual
 #
@@ -22,12 +23,13 @@ missing_tools=()
 ready=true
 asked=false # the administrator: whatever else is missing can wait
 dev=false
+cluster=false
 
 say() { printf 'setup: %s\n' "$*"; }
 complain() { printf 'setup: %s\n' "$*" >&2; ready=false; }
 has() { command -v "$1" >/dev/null 2>&1; }
 
-usage() { sed -n '2,13s/^# \{0,1\}//p' "$0"; }
+usage() { sed -n '2,14s/^# \{0,1\}//p' "$0"; }
 
 at_least() { # at_least WANTED VERSION
     [ -n "$2" ] && [ "$(printf '%s\n%s\n' "$1" "$2" | sort -V | head -n 1)" = "$1" ]
@@ -99,6 +101,9 @@ find_missing() {
         has mandoc || missing_packages+=(mandoc)
         compgen -G '/usr/lib/*/blas/libblas.so.3' >/dev/null || missing_packages+=(libblas3)
         compgen -G '/usr/lib/*/lapack/liblapack.so.3' >/dev/null || missing_packages+=(liblapack3)
+    fi
+    if $cluster && ! { has caf && has cafrun; }; then
+        missing_packages+=(libcoarrays-openmpi-dev libopenmpi-dev openmpi-bin)
     fi
     if [ ${#missing_tools[@]} -gt 0 ] && [ -z "$(find_python)" ]; then
         missing_packages+=(python3-venv)
@@ -282,6 +287,9 @@ report() {
             complain "missing: $tool"
         fi
     done
+    if $cluster && ! { has caf && has cafrun; }; then
+        complain "missing: caf and cafrun of OpenCoarrays"
+    fi
     if $ready; then
         has gnuplot || say "no gnuplot: everything works, but plots are not drawn"
         say "ready: gfortran $(compiler_version), fpm $(fpm_version), LAPACK, BLAS, GSL"
@@ -324,6 +332,7 @@ prefix=
 for argument in "$@"; do
     case $argument in
         --dev) dev=true ;;
+        --cluster) cluster=true ;;
         install) prefix=$HOME/.local ;;
         -h | --help) usage; exit 0 ;;
         *)

@@ -54,6 +54,41 @@ done
 wait
 check "four runs into one file: it is whole" eval 'diff -r "$work/alone" "$work/both"'
 
+# A sweep: what is complete stays, and --resume gives the bytes of a sweep that nobody ended
+diagram=(sweep bifurcation --over f=1:1.5:300)
+begin_sweep() { # begin_sweep BYTES WORDS...: in the background; returns when so much is kept
+    ${heard[@]+"${heard[@]}"} "$program" "${diagram[@]}" --output "$work/sweep" "${@:2}" >"$work/out" 2>"$work/err" </dev/null &
+    child=$!
+    for _ in $(seq 1000); do
+        [ "$(stat -c %s "$work/sweep/bifurcation_sweep.dat.part" 2>/dev/null || echo 0)" -gt "$1" ] && return
+        kill -0 $child 2>/dev/null || return
+        sleep 0.02
+    done
+}
+run "${diagram[@]}" --output "$work/whole"
+check "a sweep that nobody ends" eval '[ $status -eq 0 ] && leftovers "$work/whole" && [ ! -e "$work/whole/bifurcation_sweep.dat.part" ]'
+begin_sweep 20000 --threads 2
+ended KILL
+check "sweep: kill -9 leaves what is complete" eval '[ $status -eq 137 ] && [ -s "$work/sweep/bifurcation_sweep.dat.part" ] && [ ! -e "$work/sweep/bifurcation_sweep.dat" ]'
+run "${diagram[@]}" --output "$work/sweep"
+check "sweep: not begun anew over that" eval '[ $status -eq 5 ] && one_line && grep -q -- --resume "$work/err"'
+run sweep bifurcation --over f=1:1.5:301 --output "$work/sweep" --resume
+check "sweep: --resume of another sweep is refused" eval '[ $status -eq 5 ] && one_line && grep -q "another sweep" "$work/err"'
+begin_sweep 60000 --resume --threads 1
+ended KILL
+begin_sweep 90000 --resume --threads 3
+ended INT
+check "sweep: SIGINT says what is kept" eval '[ $status -eq 130 ] && one_line && grep -q "trajectories are kept in" "$work/err"'
+cp "$work/sweep/bifurcation_sweep.dat.part" "$work/part"
+printf x | dd of="$work/sweep/bifurcation_sweep.dat.part" bs=1 seek=30000 conv=notrunc 2>/dev/null
+run "${diagram[@]}" --output "$work/sweep" --resume
+check "sweep: --resume of a damaged file is refused" eval '[ $status -eq 5 ] && one_line && grep -q "damaged" "$work/err"'
+cp "$work/part" "$work/sweep/bifurcation_sweep.dat.part"
+run "${diagram[@]}" --output "$work/sweep" --resume
+check "sweep: twice killed and once interrupted, the bytes are the same, and nothing else is left" eval '[ $status -eq 0 ] && diff -r "$work/whole" "$work/sweep" && leftovers "$work/sweep"'
+run "${diagram[@]}" --output "$work/sweep" --resume
+check "sweep: nothing to resume" eval '[ $status -eq 5 ] && one_line && diff -r "$work/whole" "$work/sweep"'
+
 # A signal in the middle of any command: it ends within seconds, whatever it is at
 begin_command() { # begin_command WORDS...: in the background; returns when it catches signals
     ${heard[@]+"${heard[@]}"} "$program" "$@" >"$work/out" 2>"$work/err" </dev/null &

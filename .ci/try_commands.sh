@@ -374,6 +374,8 @@ for words in "sweep bifurcation --set sweep%strobe=w0" "sweep section --set swee
     run $words --output "$work/sweep"
     check "$words: one line, status 2" eval '[ $status -eq 2 ] && [ "$(wc -l <"$work/err")" -eq 1 ] && [ ! -s "$work/out" ]'
 done
+run sweep pendulum --over q=0:1:1000000 --over v=0:1:1000000 --keep theta --output "$work/sweep"
+check "sweep: 1e12 trajectories are refused with their size" eval '[ $status -eq 2 ] && [ "$(wc -l <"$work/err")" -eq 1 ] && grep -q "TB on the disk and .* MB of memory, and only .* are free" "$work/err"'
 run describe scene
 check "docs/scenes.md: what 'describe scene' prints" python3 -c 'import re, sys
 sys.exit(re.search(r"```\n(.*?)```", open("docs/scenes.md").read(), re.S).group(1) != open(sys.argv[1]).read())' "$work/out"

@@ -163,6 +163,7 @@ module suites
     use test_stress_texts, only: stress_texts_suite
     use test_sweep, only: sweep_suite
     use test_sweep_points, only: sweep_points_suite
+    use test_sweep_store, only: sweep_store_suite
     use test_swings, only: swings_suite
     use test_systems, only: systems_suite
     use test_term_sizes, only: term_sizes_suite
@@ -352,6 +353,7 @@ contains
         call suite%addTest(statement_suite())
         call suite%addTest(sweep_suite())
         call suite%addTest(sweep_points_suite())
+        call suite%addTest(sweep_store_suite())
         call suite%addTest(swings_suite())
         call suite%addTest(systems_suite())
         call suite%addTest(term_sizes_suite())

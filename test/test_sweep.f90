@@ -6,18 +6,17 @@ module test_sweep
     use lagrangia_errors, only: error_t, status_numbers
     use lagrangia_files, only: read_whole_file
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_observer, only: observer_t
     use lagrangia_random_draws, only: random_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene
     use lagrangia_sweep, only: new_sweep, sweep_t
     use lagrangia_sweep_axis, only: new_sweep_axis, sweep_axis_t
     use lagrangia_sweep_files, only: write_sweep
-    use lagrangia_sweep_grid, only: compute_grid, sweep_result_t
     use lagrangia_sweep_lanes, only: compute_lanes, fits_lanes
     use lagrangia_sweep_trajectory, only: compute_one
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
+    use sweep_numbers, only: compute_numbers, sweep_numbers_t
     use test_scratch, only: new_folder
     implicit none (type, external)
     private
@@ -76,15 +75,13 @@ contains
         !! What a sweep gives.
         character(*), intent(in) :: text, over(:), keep(:)
         integer, intent(in) :: threads
-        type(sweep_result_t), intent(out) :: result
+        type(sweep_numbers_t), intent(out) :: result
         type(error_t), allocatable, intent(out) :: error
         type(sweep_t), intent(out) :: sweep
-        class(observer_t), pointer :: nobody
 
-        nullify (nobody)
         call make(text, over, keep, sweep, error)
         if (allocated(error)) return
-        call compute_grid(sweep, threads, nobody, result, error)
+        call compute_numbers(sweep, threads, result, error)
     end subroutine compute
 
     subroutine read_axis(text, axis, error, seed)
@@ -217,7 +214,7 @@ contains
 
     subroutine periods_are_those_of_closed_form()
         !! T(amplitude) of the pendulum: measured, and by the elliptic integral.
-        type(sweep_result_t) :: result
+        type(sweep_numbers_t) :: result
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
 
@@ -237,7 +234,7 @@ contains
         character(*), parameter :: text = "&scene system = 'oscillator', method = 'gauss16', "// &
             "tolerance = 1e-10, duration = 120, samples = 12000, q = 0 / "// &
             "&oscillator m = 2, k = 3, b = 0.5, drive_force = 0.7 / &sweep after = 90 /"
-        type(sweep_result_t) :: result
+        type(sweep_numbers_t) :: result
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
         real(dp) :: amplitude(9), w(9)
@@ -255,14 +252,14 @@ contains
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
         real(dp) :: alone(4), together(4, 33)
-        integer(i8) :: failures, i
+        integer(i8) :: failures, first, i
         integer :: flips
 
         call make(double, ["theta1=-2:3:11", "theta2=-3:3:3 "], &
                   ["flip theta2 ", "theta1      ", "energy_drift", "x_bob2      "], sweep, error)
         call assertFalse(allocated(error), "the sweep")
         call assertTrue(fits_lanes(sweep), "it can be computed in lanes")
-        call compute_lanes(sweep, 1_i8, 33_i8, together, failures)
+        call compute_lanes(sweep, 1_i8, 33_i8, together, failures, first)
         call assertEqual(0, int(failures), "none fails")
         flips = 0
         do i = 1, 33
@@ -285,7 +282,7 @@ contains
 
     subroutine threads_change_no_byte()
         !! In lanes and alone, with more blocks than threads.
-        type(sweep_result_t) :: one, three
+        type(sweep_numbers_t) :: one, three
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
 
@@ -301,13 +298,13 @@ contains
 
     subroutine a_failure_is_nan_and_counted()
         !! Rods of no length are refused, the others go on; where all fail that is an error.
-        type(sweep_result_t) :: result
+        type(sweep_numbers_t) :: result
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
 
         call compute(pendulum, ["l=-1:2:4"], ["theta"], 2, result, error, sweep)
         call assertFalse(allocated(error), "two of four are good")
-        call assertEqual(2, int(result%failures), "two fail")
+        call assertEqual(2, result%failures, "two fail")
         call assertTrue(all(ieee_is_nan(result%values(1, :2))), "they are NaN")
         call assertFalse(any(ieee_is_nan(result%values(1, 3:))), "the others are not")
         call assertTrue(index(result%reason, "l") > 0, result%reason)
@@ -323,7 +320,7 @@ contains
         !! A damped pendulum: the later, the smaller; and events from the start on.
         character(*), parameter :: text = "&scene system='pendulum', method='gauss16', "// &
             "tolerance=1e-10, duration=20, samples=2000, q=1 / &pendulum b=0.3 / &sweep after = "
-        type(sweep_result_t) :: all, late
+        type(sweep_numbers_t) :: all, late
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
 
@@ -347,7 +344,7 @@ contains
         !! Upright at rest a pendulum falls as \(e^{t\sqrt{g/l}}\), within the 5 s in which the
         !! rounding of pi stays below 1e-8, once the part that decays is gone, \(e^{-6\sqrt{g/l}}\);
         !! a damped oscillator forgets as \(e^{-bt/2m}\); a pendulum far from the top does neither.
-        type(sweep_result_t) :: result
+        type(sweep_numbers_t) :: result
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
         character(*), parameter :: both(2) = [character(14) :: "lyapunov", "lyapunov error"]
@@ -379,7 +376,7 @@ contains
             "tolerance=1e-7, duration=900, q=2.5 / &lagrangian coordinates='x', "// &
             "parameters='b', L='x_dot^2/2 - x^4/4 + 7.5 x cos(t)', Q_x='-b x_dot' / "// &
             "&ueda b=0.05 / &sweep after=100 /"
-        type(sweep_result_t) :: result
+        type(sweep_numbers_t) :: result
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
 
@@ -395,7 +392,7 @@ contains
 
     subroutine a_grid_is_written_line_by_line()
         !! Two axes, the second the faster; the script draws a map.
-        type(sweep_result_t) :: result
+        type(sweep_numbers_t) :: result
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
         character(:), allocatable :: path, script, text
@@ -404,7 +401,7 @@ contains
         call compute(double, ["theta1=0:1:2", "m1=1:3:3    "], ["theta1_dot"], 1, result, error, &
                      sweep)
         path = new_folder("sweep")//"/grid.dat"
-        call write_sweep(sweep, result, path, "text", ["a line"], error)
+        call write_sweep(sweep, result%of, path, "text", ["a line"], error)
         call assertFalse(allocated(error), "written")
         call read_whole_file(path, text, error)
         at = index(text, "# theta1[rad] m1[kg] theta1_dot[rad/s]"//line)

@@ -7,16 +7,15 @@ module test_sweep_points
     use lagrangia_files, only: read_whole_file
     use lagrangia_kept, only: wrapped
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_observer, only: observer_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene
     use lagrangia_sweep, only: new_sweep, sweep_t
     use lagrangia_sweep_files, only: write_sweep
-    use lagrangia_sweep_grid, only: compute_grid, sweep_result_t
     use lagrangia_sweep_lanes, only: compute_lanes, fits_lanes
     use lagrangia_sweep_trajectory, only: compute_one
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
+    use sweep_numbers, only: compute_numbers, sweep_numbers_t
     use test_scratch, only: new_folder
     implicit none (type, external)
     private
@@ -74,21 +73,19 @@ contains
     subroutine compute(text, over, keep, result, error, sweep)
         !! What a sweep gives, on three threads.
         character(*), intent(in) :: text, over(:), keep(:)
-        type(sweep_result_t), intent(out) :: result
+        type(sweep_numbers_t), intent(out) :: result
         type(error_t), allocatable, intent(out) :: error
         type(sweep_t), intent(out) :: sweep
-        class(observer_t), pointer :: nobody
 
-        nullify (nobody)
         call make(text, over, keep, sweep, error)
         if (allocated(error)) return
-        call compute_grid(sweep, 3, nobody, result, error)
+        call compute_numbers(sweep, 3, result, error)
     end subroutine compute
 
     subroutine a_stroboscope_follows_the_parameter()
         !! Lit once a period of the free oscillation, 2 pi sqrt(m/k), an oscillator stands still,
         !! whatever its mass is.
-        type(sweep_result_t) :: result
+        type(sweep_numbers_t) :: result
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
         integer :: i, k
@@ -110,7 +107,7 @@ contains
 
     subroutine points_begin_after_a_time_and_end()
         !! With the first at `after` or later, and no more than are there.
-        type(sweep_result_t) :: result
+        type(sweep_numbers_t) :: result
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
 
@@ -128,7 +125,7 @@ contains
 
     subroutine fixed_steps_meet_the_stroboscope()
         !! Steps of 0.1 s do not divide 0.77 s, steps of 0.77/8 s do.
-        type(sweep_result_t) :: fixed, adaptive
+        type(sweep_numbers_t) :: fixed, adaptive
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
         character(*), parameter :: group = "&sweep strobe='0.77', points=9, after=5 /"
@@ -146,7 +143,7 @@ contains
 
     subroutine a_section_is_a_period_apart()
         !! Through the lowest place from one side: the times are those of the closed form.
-        type(sweep_result_t) :: result
+        type(sweep_numbers_t) :: result
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
         real(dp) :: exact
@@ -189,7 +186,7 @@ contains
 
     subroutine all_starts_have_one_energy()
         !! That of the scene's own, by the velocity that is left free; who cannot have it fails.
-        type(sweep_result_t) :: result
+        type(sweep_numbers_t) :: result
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
         real(dp), parameter :: energy = 0.5_dp*2*9 - 3*9.81_dp
@@ -199,7 +196,7 @@ contains
                      "energy_by='theta1_dot' /", ["theta2_dot=-4:8:4"], &
                      [character(10) :: "energy", "theta1_dot"], result, error, sweep)
         call assertFalse(allocated(error), "it can be computed")
-        call assertEqual(1, int(result%failures), "v2^2 must not be above 36 for v1 to be real")
+        call assertEqual(1, result%failures, "v2^2 must not be above 36 for v1 to be real")
         call assertTrue(index(result%reason, "theta1_dot") > 0, result%reason)
         do i = 1, 3
             call assertEqual([energy, energy, energy], result%values(::2, i), 1e-8_dp, "the energy")
@@ -210,7 +207,7 @@ contains
 
     subroutine angles_are_wrapped()
         !! To one turn, with sine and cosine as they were; of a motion that goes round.
-        type(sweep_result_t) :: result
+        type(sweep_numbers_t) :: result
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
 
@@ -228,7 +225,7 @@ contains
 
     subroutine attractors_are_the_two_wells()
         !! x = 1 and x = -1, numbered as they come; from the top neither.
-        type(sweep_result_t) :: result
+        type(sweep_numbers_t) :: result
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
         real(dp) :: expected(101)
@@ -248,7 +245,7 @@ contains
 
     subroutine what_has_settled_has_an_attractor()
         !! Driven, lit twice a period: the two points are one attractor. Undamped or chaotic: none.
-        type(sweep_result_t) :: result
+        type(sweep_numbers_t) :: result
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
         character(*), parameter :: scene = "&scene system='oscillator', method='gauss16', "// &
@@ -299,9 +296,9 @@ contains
         integer, intent(in) :: which
         real(dp) :: alone(sweep%width()), together(sweep%width(), 19)
         type(error_t), allocatable :: error
-        integer(i8) :: failures, i
+        integer(i8) :: failures, first, i
 
-        call compute_lanes(sweep, 1_i8, 19_i8, together, failures)
+        call compute_lanes(sweep, 1_i8, 19_i8, together, failures, first)
         call assertEqual(0, int(failures), "none fails")
         do i = 1, 19
             call compute_one(sweep, i, alone, error)
@@ -330,7 +327,7 @@ contains
             "energy_by='y_dot'", "x", "energy_by", "did you mean 'x_dot'", &
             "energy_by='x'", "x", "energy_by", "x_dot", &
             "energy_by='x_dot'", "t", "", ""], [4, 14])
-        type(sweep_result_t) :: result
+        type(sweep_numbers_t) :: result
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
         integer :: i
@@ -360,7 +357,7 @@ contains
 
     subroutine a_row_is_a_point()
         !! In the file, those that are there; the picture is a diagram or a section.
-        type(sweep_result_t) :: result
+        type(sweep_numbers_t) :: result
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
         character(:), allocatable :: path, text
@@ -369,7 +366,7 @@ contains
         path = new_folder("sweep_points")//"/points.dat"
         call compute(oscillator//"&sweep strobe='3', points=6, after=39 /", ["x=1:2:2"], ["t"], &
                      result, error, sweep)
-        call write_sweep(sweep, result, path, "text", ["a line"], error)
+        call write_sweep(sweep, result%of, path, "text", ["a line"], error)
         call assertFalse(allocated(error), "written")
         call read_whole_file(path, text, error)
         call assertTrue(index(text, "failed: 0, points: 8 ") > 0, "the counts")
@@ -379,12 +376,12 @@ contains
         call assertTrue(index(text, "using 1:2 with points") > 0, "a diagram")
         call compute(oscillator//"&sweep strobe='3', points=6 /", ["x=1:2:2"], &
                      [character(5) :: "x", "x_dot"], result, error, sweep)
-        call write_sweep(sweep, result, path, "text", ["a line"], error)
+        call write_sweep(sweep, result%of, path, "text", ["a line"], error)
         call read_whole_file(path(:len(path) - 3)//"gp", text, error)
         call assertTrue(index(text, "using 2:3:1 with points") > 0, "a section")
         call compute(oscillator//"&oscillator b=1 / &sweep strobe='3' /", ["x=1:2:2", "v=0:1:2"], &
                      ["attractor"], result, error, sweep)
-        call write_sweep(sweep, result, path, "text", ["a line"], error)
+        call write_sweep(sweep, result%of, path, "text", ["a line"], error)
         call read_whole_file(path(:len(path) - 3)//"gp", text, error)
         call assertTrue(index(text, "set palette maxcolors 1 defined (1 ") > 0, "one colour")
     end subroutine a_row_is_a_point

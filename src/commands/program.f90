@@ -111,12 +111,22 @@ contains
             case default; call run_command(line, error)
             end select
         end if
-        if (interrupt_status() /= 0) call fail(error, "interrupted", interrupt_status())
+        if (interrupt_status() /= 0) call note_interruption(error)
         call remove_unfinished()
         call finish_console(output_error)
         if (allocated(error)) return
         if (allocated(output_error)) call move_alloc(output_error, error)
     end subroutine dispatch
+
+    subroutine note_interruption(error)
+        !! It goes before whatever else failed, unless that says it already.
+        type(error_t), allocatable, intent(inout) :: error
+
+        if (allocated(error)) then
+            if (error%status == interrupt_status()) return
+        end if
+        call fail(error, "interrupted", interrupt_status())
+    end subroutine note_interruption
 
     subroutine give_up(number) bind(c)
         !! Answers SIGALRM, for `catch_interrupts`. Runs at any moment: allocates nothing.

@@ -44,6 +44,8 @@ module lagrangia_registry
                  repeatable=.true., any_text=.true.), &
         option_t("seed", needs_value, "N", "of a sweep's random values (default 1)"), &
         option_t("threads", needs_value, "N", "of a sweep (default: one a processor)"), &
+        option_t("resume", no_value, "", "go on with a sweep that was interrupted"), &
+        option_t("any-size", no_value, "", "a sweep that the disk may not hold"), &
         option_t("numbers", no_value, "", "each line of a derivation at a random state, twice"), &
         option_t("slip", needs_value, "ID", "derive with this slip of the notes"), &
         option_t("latex", no_value, "", "print LaTeX for slides"), &
@@ -83,7 +85,7 @@ module lagrangia_registry
         command_t("grade", "FILE...", "a student's equations: right, or which term is wrong", -1, &
                   "json quiet", takes="sheets files"), &
         command_t("sweep", "SCENE", "many trajectories over an axis or two, numbers of each", 1, &
-                  "set over keep seed threads output format plot json quiet", &
+                  "set over keep seed threads resume any-size output format plot json quiet", &
                   takes="sweeps scenes scene_files"), &
         command_t("list", "[systems|methods|scenes|sweeps]", "what there is, one a line", 1, "", &
                   takes="lists"), &

@@ -3,8 +3,10 @@ module lagrangia_sweep_command
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: note, put_line
     use lagrangia_data_files, only: check_format, data_path, draw, path_beside
-    use lagrangia_disk_space, only: space_warning
+    use lagrangia_disk_space, only: free_space, short, space_warning
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_images, only: image_count, image_number
+    use lagrangia_interrupt, only: interrupt_status
     use lagrangia_json, only: json_item, json_object, json_pair
     use lagrangia_kinds, only: dp, i8
     use lagrangia_namelist, only: has_key, refuse_value
@@ -21,8 +23,9 @@ module lagrangia_sweep_command
     use lagrangia_scene_reader, only: read_scene
     use lagrangia_shipped, only: find_sweep
     use lagrangia_sweep, only: new_sweep, sweep_t
-    use lagrangia_sweep_files, only: write_sweep
-    use lagrangia_sweep_grid, only: compute_grid, sweep_result_t, thread_count
+    use lagrangia_sweep_files, only: sweep_header, write_sweep
+    use lagrangia_sweep_grid, only: block_size, compute_grid, sweep_result_t, thread_count
+    use lagrangia_sweep_store, only: part_name
     use lagrangia_system, only: system_t
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
@@ -42,9 +45,11 @@ contains
         type(sweep_result_t) :: result
         type(progress_t), target :: progress
         class(observer_t), pointer :: observer
-        character(:), allocatable :: folder, format, kind, path, warning
+        character(:), allocatable :: folder, format, kind, path
         integer :: threads
-        real(dp) :: numbers
+        logical :: quiet
+
+        quiet = line%has("quiet") .or. image_number() > 1
 
         if (size(line%arguments) == 0) then
             call fail(error, "sweep what? 'lagrangia list sweeps' shows the names; a path ends "// &
@@ -62,33 +67,95 @@ contains
                                                     error)
         if (.not. allocated(error)) call take_options(line, scene, error)
         if (.not. allocated(error)) call plan(scene, system, sweep, error)
+        if (.not. allocated(error)) call claim(scene, folder, format, path, error)
+        if (allocated(error) .and. image_number() > 1) error%message = ""  ! image 1 has said it
         if (allocated(error)) return
-        call claim(scene, folder, format, path, error)
-        if (allocated(error)) return
-        numbers = real(sweep%trajectories(), dp)*sweep%points*(size(sweep%kept) + size(sweep%axes))
-        call check_memory(8.0_dp*numbers, to_text(sweep%trajectories())//" trajectories", error)
-        if (allocated(error)) return
-        warning = space_warning(numbers*merge(8, field_width + 1, format == "npy"), folder)
-        if (warning /= "" .and. .not. line%has("quiet")) call note(warning)
-
         threads = thread_count(scene%sweep%threads)
-        observer => progress
-        call progress%restart(trim(scene%name), line%has("quiet"))
-        call compute_grid(sweep, threads, observer, result, error)
-        call progress%clear()
-        if (.not. allocated(error)) call write_sweep(sweep, result, path, format, &
-                                                     sweep_lines(scene), error)
+        call check_size(sweep, threads, folder, format, line, quiet, error)
         if (allocated(error)) return
-        if (allocated(result%reason) .and. .not. line%has("quiet")) call note( &
+
+        nullify (observer)
+        if (image_number() == 1) observer => progress
+        call progress%restart(trim(scene%name), quiet, "trajectories")
+        call compute_grid(sweep, threads, observer, result, error, path, &
+                          all_lines(sweep_header(sweep, sweep_lines(scene))), line%has("resume"))
+        call progress%clear()
+        if (allocated(error)) then
+            call leave(result, path, error)
+        else if (image_number() == 1) then
+            call write_sweep(sweep, result, path, format, sweep_lines(scene), error)
+        end if
+        if (allocated(error) .or. image_number() > 1) return
+        call result%store%remove()
+        if (allocated(result%reason) .and. .not. quiet) call note( &
             to_text(result%failures)//" of "//to_text(sweep%trajectories())// &
             " trajectories failed and are NaN; the first: "//result%reason)
         if (line%has("json")) then
             call put_json(sweep, result, threads, path)
-        else if (.not. line%has("quiet")) then
+        else if (.not. quiet) then
             call put_summary(sweep, result, threads, path)
         end if
         if (line%has("plot")) call draw(path, kind, error)
     end subroutine sweep_command
+
+    subroutine leave(result, path, error)
+        !! What is complete stays, if there is any; who interrupts a sweep is told.
+        type(sweep_result_t), intent(inout) :: result
+        character(*), intent(in) :: path
+        type(error_t), intent(inout) :: error
+
+        call result%store%release()
+        if (error%status /= interrupt_status()) return
+        if (result%store%there == 0) then
+            call result%store%remove()
+        else
+            error%message = "interrupted: "//to_text(result%store%trajectories_there())// &
+                " trajectories are kept in '"//part_name(path, image_number())// &
+                "', '--resume' goes on"
+        end if
+    end subroutine leave
+
+    pure function all_lines(lines) result(text)
+        !! As one text.
+        character(*), intent(in) :: lines(:)
+        character(:), allocatable :: text
+        integer :: i
+
+        text = ""
+        do i = 1, size(lines)
+            text = text//trim(lines(i))//new_line("a")
+        end do
+    end function all_lines
+
+    subroutine check_size(sweep, threads, folder, format, line, quiet, error)
+        !! Refuse what the memory or the disk cannot hold, the latter unless told otherwise.
+        type(sweep_t), intent(in) :: sweep
+        integer, intent(in) :: threads
+        character(*), intent(in) :: folder, format
+        type(command_line_t), intent(in) :: line
+        logical, intent(in) :: quiet
+        type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: warning
+        real(dp) :: disk, free, memory, rows, total
+
+        total = real(sweep%trajectories(), dp)
+        rows = total*sweep%points
+        disk = 8.0_dp*total*sweep%width() + &
+               rows*(size(sweep%axes) + size(sweep%kept))*merge(8, field_width + 1, format == "npy")
+        memory = 12.0_dp*total/block_size(sweep) + &
+                 16.0_dp*real(block_size(sweep), dp)*sweep%width()*(threads + 1)
+        call check_memory(memory, to_text(sweep%trajectories())//" trajectories", error)
+        if (allocated(error) .or. image_number() > 1 .or. line%has("resume")) return
+        free = free_space(folder)
+        if (free > 0.0_dp .and. disk > free .and. .not. line%has("any-size")) then
+            call fail(error, to_text(sweep%trajectories())//" trajectories take up to "// &
+                      short(disk)//" on the disk and "//short(memory)//" of memory, and only "// &
+                      short(free)//" are free in '"//folder//"'; '--any-size' begins all the same")
+            return
+        end if
+        warning = space_warning(disk, folder)
+        if (warning /= "" .and. .not. quiet) call note(warning)
+    end subroutine check_size
 
     subroutine take_options(line, scene, error)
         !! What the command line says in the place of `&sweep`.
@@ -211,7 +278,9 @@ contains
         integer :: i, width
 
         how = " on "//to_text(threads)//" thread"//trim(merge(" ", "s", threads == 1))
+        if (image_count() > 1) how = how//" each of "//to_text(image_count())//" images"
         if (result%in_lanes) how = how//", in lanes"
+        if (result%resumed > 0) how = how//"; "//to_text(result%resumed)//" were there already"
         call put_line(trim(sweep%scene%name)//": "//to_text(sweep%trajectories())// &
                       " trajectories by "//trim(sweep%scene%method)//" in "// &
                       scientific(result%seconds, 3)//" s"//how)
@@ -276,6 +345,8 @@ contains
             json_pair("file", path)// &
             json_item("trajectories", to_text(sweep%trajectories()))// &
             json_item("failed", to_text(result%failures))// &
+            json_item("resumed", to_text(result%resumed))// &
+            json_item("images", to_text(image_count()))// &
             json_item("threads", to_text(threads))// &
             json_pair("in_lanes", result%in_lanes)// &
             json_pair("seconds", result%seconds)// &

@@ -16,14 +16,14 @@ module lagrangia_sweep_files
     use lagrangia_version, only: build_text, version
     implicit none (type, external)
     private
-    public :: write_sweep
+    public :: sweep_header, write_sweep
 
 contains
 
     subroutine write_sweep(sweep, result, path, format, header, error)
         !! Write the file at `path` and its script; both are there, or neither.
         type(sweep_t), intent(in) :: sweep                !! that has been computed
-        type(sweep_result_t), intent(in) :: result        !! what came out
+        type(sweep_result_t), intent(inout) :: result     !! what came out; its blocks are read
         character(*), intent(in) :: path, format          !! of the data file: text, csv or npy
         character(*), intent(in) :: header(:)             !! lines of the sweep as it was asked for
         type(error_t), allocatable, intent(out) :: error  !! of a file
@@ -47,6 +47,18 @@ contains
         end if
     end subroutine write_sweep
 
+    function sweep_header(sweep, lines) result(header)
+        !! What tells the sweep, in the data file and where it is interrupted.
+        type(sweep_t), intent(in) :: sweep    !! as `new_sweep` made it
+        character(*), intent(in) :: lines(:)  !! of the sweep as it was asked for
+        character(scene_line_length), allocatable :: header(:)
+        type(description_t) :: d
+
+        call sweep%system%describe(d)
+        header = [character(scene_line_length) :: "lagrangia "//version//": "// &
+                  sweep%scene%title, scene_lines(sweep%scene, d), lines, "build: "//build_text()]
+    end function sweep_header
+
     pure function bare_name(path) result(name)
         !! The file's name, without its folder.
         character(*), intent(in) :: path
@@ -59,18 +71,17 @@ contains
         !! The header and every trajectory, in the order of its number. In a text file an empty line
         !! stands before each new value of the first of two axes, as gnuplot has it.
         type(sweep_t), intent(in) :: sweep
-        type(sweep_result_t), intent(in) :: result
+        type(sweep_result_t), intent(inout) :: result
         character(*), intent(in) :: format, header(:)
         class(table_t), intent(inout) :: table
         type(error_t), allocatable, intent(out) :: error
-        character(scene_line_length), allocatable :: lines(:)
+        real(dp), allocatable :: values(:, :)
         character(name_length) :: names(size(sweep%axes) + size(sweep%kept))
         character(16) :: units(size(names))
         real(dp) :: row(size(names))
-        type(description_t) :: d
         character(:), allocatable :: counts
-        integer(i8) :: i, rows
-        integer :: k, n
+        integer(i8) :: block, i, rows
+        integer :: k, kept, n
 
         rows = 0
         n = size(sweep%axes)
@@ -78,25 +89,28 @@ contains
         units(:n) = sweep%axes%unit
         names(n + 1:) = sweep%kept%label
         units(n + 1:) = sweep%kept%unit
-        call sweep%system%describe(d)
-        lines = [character(scene_line_length) :: "lagrangia "//version//": "// &
-                 sweep%scene%title, scene_lines(sweep%scene, d), header, "build: "//build_text()]
-        call table%begin(lines, names, units, error)
+        kept = size(sweep%kept)
+        call table%begin(sweep_header(sweep, header), names, units, error)
         call table%send_header(error)
-        do i = 1, sweep%trajectories()
+        do block = 1, result%store%blocks
             if (allocated(error)) return
-            if (format == "text" .and. n == 2 .and. i > 1) then
-                if (mod(i - 1, int(size(sweep%axes(n)%values), i8)) == 0) then
-                    call table%file%write(new_line("a"))
+            call result%read_block(sweep, block, values, error)
+            if (allocated(error)) return
+            do i = result%store%first_of(block), result%store%last_of(block)
+                if (format == "text" .and. n == 2 .and. i > 1) then
+                    if (mod(i - 1, int(size(sweep%axes(n)%values), i8)) == 0) then
+                        call table%file%write(new_line("a"))
+                    end if
                 end if
-            end if
-            row(:n) = sweep%coordinates_of(i)
-            do k = 1, sweep%points
-                row(n + 1:) = result%values((k - 1)*size(sweep%kept) + 1:k*size(sweep%kept), i)
-                if (sweep%keeps_points .and. all(ieee_is_nan(row(n + 1:)))) exit
-                call table%add_row(row, error)
-                if (allocated(error)) return
-                rows = rows + 1
+                row(:n) = sweep%coordinates_of(i)
+                do k = 1, sweep%points
+                    row(n + 1:) = values((k - 1)*kept + 1:k*kept, &
+                                         i - result%store%first_of(block) + 1)
+                    if (sweep%keeps_points .and. all(ieee_is_nan(row(n + 1:)))) exit
+                    call table%add_row(row, error)
+                    if (allocated(error)) return
+                    rows = rows + 1
+                end do
             end do
         end do
         counts = "trajectories: "//to_text(sweep%trajectories())//", failed: "// &

@@ -1,186 +1,279 @@
 module lagrangia_sweep_grid
-    !! All trajectories of a sweep, on as many threads as are wanted: blocks of them are dealt out
-    !! as threads get free, and each trajectory gives the same bytes whoever computes it.
+    !! All trajectories of a sweep, on as many images and threads as there are: blocks of them are
+    !! dealt to whoever is free, and each trajectory gives the same bytes whoever computes it.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_attractor, only: attractors_t
-    use lagrangia_errors, only: error_t, fail, status_numbers
+    use lagrangia_errors, only: error_t, fail, status_file, status_numbers
+    use lagrangia_files, only: facts_t, look_at
+    use lagrangia_images, only: all_agree, begin_dealing, deal, image_count, image_number
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_kept, only: keeps_attractor
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_t
     use lagrangia_sweep, only: sweep_t
     use lagrangia_sweep_lanes, only: compute_lanes, fits_lanes
+    use lagrangia_sweep_store, only: part_name, sweep_store_t
     use lagrangia_sweep_trajectory, only: compute_one
-    use lagrangia_text, only: to_text
 !$  use omp_lib, only: omp_get_max_threads
     implicit none (type, external)
     private
-    public :: compute_grid, sweep_result_t, thread_count
-
-    integer(i8), parameter :: largest_block = 64  !! trajectories that a thread takes at a time
+    public :: block_size, compute_grid, sweep_result_t, thread_count
 
     type :: sweep_result_t
-        !! What a sweep gave.
-        real(dp), allocatable :: values(:, :)
-        !! (`sweep%width()`, trajectories); NaN: failed, or not there
-        integer :: kept = 0                      !! numbers of a row
-        integer :: points = 1                    !! rows of a trajectory at most
+        !! What a sweep gave. The numbers come block by block, each of them once and in order, by
+        !! `read_block`; how far they range is known after that.
+        type(sweep_store_t) :: store
         integer(i8) :: failures = 0              !! trajectories that failed
         character(:), allocatable :: reason      !! of the first of these; absent: none failed
         real(dp) :: seconds = 0.0_dp             !! on the clock
+        integer(i8) :: resumed = 0               !! trajectories that were there already
         logical :: in_lanes = .false.            !! computed in the lanes of vector registers
+        type(attractors_t), private :: attractors
+        integer(i8), allocatable, private :: found(:)                !! of each number that is kept
+        real(dp), allocatable, private :: least(:), largest(:)
     contains
+        procedure :: read_block
         procedure :: range_of
     end type sweep_result_t
 
 contains
 
     function thread_count(wanted) result(threads)
-        !! How many threads there are to be: as `wanted`, or for 0 one for each processor.
+        !! How many threads there are to be: as `wanted`, or for 0 one for each processor; of many
+        !! images each has one.
         integer, intent(in) :: wanted  !! not negative
         integer :: threads
 
         threads = 1
-!$      threads = omp_get_max_threads()
+!$      if (image_count() == 1) threads = omp_get_max_threads()
         if (wanted > 0) threads = wanted
     end function thread_count
 
-    subroutine compute_grid(sweep, threads, progress, result, error)
-        !! Compute every trajectory. One that fails leaves NaN, and the others go on.
+    pure function block_size(sweep) result(n)
+        !! Trajectories that a thread takes at a time, and that a killed program loses at most: the
+        !! same for any number of threads; few where there are few, or each has many numbers; more
+        !! where there would be over a million blocks.
+        type(sweep_t), intent(in) :: sweep  !! as `new_sweep` made it
+        integer(i8) :: n
+        integer(i8), parameter :: usual = 64, most_blocks = 1000000, most_numbers = 2000000
+
+        n = usual
+        if (.not. fits_lanes(sweep)) n = min(usual, max(1_i8, sweep%trajectories()/usual))
+        n = max(n, usual*(sweep%trajectories()/(usual*most_blocks)))
+        n = min(n, max(1_i8, most_numbers/sweep%width()))
+    end function block_size
+
+    subroutine compute_grid(sweep, threads, progress, result, error, path, told, resume)
+        !! Compute every trajectory. One that fails leaves NaN, and the others go on. To be called
+        !! on all images; image 1 has the result.
         type(sweep_t), intent(in) :: sweep                       !! as `new_sweep` made it
-        integer, intent(in) :: threads                           !! at least 1
+        integer, intent(in) :: threads                           !! of this image, at least 1
         class(observer_t), pointer, intent(in) :: progress       !! hears how far it is; may be null
         type(sweep_result_t), intent(out) :: result              !! the numbers, and what they took
         type(error_t), allocatable, intent(out) :: error
-        !! interrupted; no memory; or all trajectories fail, then for the first one's reason
-        integer(i8) :: blocks, done, first_failed, finish, k, rate, size_of_block, start, total
-        type(error_t), allocatable :: first_error
-        integer :: status
+        !! interrupted; no memory; a file; all trajectories fail, then for the first one's reason;
+        !! without a message where another image has one
+        character(*), intent(in), optional :: path  !! of the data file: blocks wait beside it
+        character(*), intent(in), optional :: told  !! what makes one sweep another
+        logical, intent(in), optional :: resume     !! go on with the blocks that are there
+        integer(i8) :: finish, rate, start, total
 
         total = sweep%trajectories()
-        allocate (result%values(sweep%width(), total), stat=status)
-        if (status /= 0) then
-            call fail(error, to_text(total)//" trajectories are more than fit into the memory")
-            return
-        end if
-        result%kept = size(sweep%kept)
-        result%points = sweep%points
         result%in_lanes = fits_lanes(sweep)
-        size_of_block = block_size(total, result%in_lanes)
-        blocks = (total + size_of_block - 1)/size_of_block
-        done = 0
-        first_failed = huge(first_failed)
+        allocate (result%found(size(sweep%kept)), source=0_i8)
+        allocate (result%least(size(sweep%kept)), source=huge(1.0_dp))
+        allocate (result%largest(size(sweep%kept)), source=-huge(1.0_dp))
+        if (present(path) .and. present(told) .and. present(resume)) then
+            call result%store%prepare(path, told, sweep%width(), total, block_size(sweep), error)
+            if (.not. allocated(error)) call open_parts(path, resume, result%store, error)
+        else
+            call result%store%prepare("", "", sweep%width(), total, block_size(sweep), error)
+        end if
+        call agree(error)
+        if (allocated(error)) return
+        result%resumed = result%store%trajectories_there()
         call system_clock(start, rate)
-        !$omp parallel do schedule(dynamic) num_threads(threads) default(none) private(k) &
-        !$omp shared(sweep, result, blocks, size_of_block, total, done, first_failed, first_error, &
-        !$omp progress)
-        do k = 1, blocks
-            if (interrupt_status() == 0) call compute_block(sweep, result, k, size_of_block, &
-                                                            total, progress, done, &
-                                                            first_failed, first_error)
-        end do
-        !$omp end parallel do
+        call compute_blocks(sweep, threads, progress, result, error)
+        call agree(error)
+        if (.not. allocated(error) .and. image_count() > 1) then
+            if (image_number() == 1) call result%store%take_parts(error)
+            call agree(error)
+        end if
         call system_clock(finish)
         result%seconds = real(finish - start, dp)/real(rate, dp)
-        if (sweep%attractors) call number_attractors(sweep, result)
-        if (interrupt_status() /= 0) then
-            call fail(error, "interrupted", interrupt_status())
-        else if (allocated(first_error)) then
-            result%reason = first_error%message
-            if (result%failures == total) call move_alloc(first_error, error)
-        else if (result%failures == total) then
-            call fail(error, "every trajectory diverges, or the step is too long", status_numbers)
-        end if
+        result%failures = result%store%failures
+        if (allocated(error) .or. image_number() > 1 .or. result%failures == 0) return
+        call explain(sweep, result, error)
     end subroutine compute_grid
 
-    pure function block_size(total, in_lanes) result(n)
-        !! Trajectories that a thread takes at a time: the same for any number of threads, and few
-        !! where there are few.
-        integer(i8), intent(in) :: total   !! trajectories
-        logical, intent(in) :: in_lanes    !! where eight of them fill a vector
-        integer(i8) :: n
+    subroutine agree(error)
+        !! Where an image has failed, all have; who did not has no message.
+        type(error_t), allocatable, intent(inout) :: error
 
-        n = largest_block
-        if (.not. in_lanes) n = min(n, max(1_i8, total/largest_block))
-    end function block_size
+        if (all_agree(.not. allocated(error))) return
+        if (.not. allocated(error)) call fail(error, "", status_file)
+    end subroutine agree
 
-    subroutine number_attractors(sweep, result)
-        !! Each trajectory's, in the order of the trajectories, whoever computed them.
+    subroutine open_parts(path, resume, store, error)
+        !! The files in which blocks are kept: this image's own, and those that are there.
+        character(*), intent(in) :: path
+        logical, intent(in) :: resume
+        type(sweep_store_t), intent(inout) :: store
+        type(error_t), allocatable, intent(out) :: error
+        type(facts_t) :: facts
+        integer :: image
+
+        image = image_number()
+        facts = look_at(part_name(path, image))
+        if (facts%found .and. .not. resume) then
+            call fail(error, "'"//part_name(path, image)//"' is what an interrupted sweep has "// &
+                      "computed: '--resume' goes on with it; remove it to begin anew", status_file)
+        else if (resume .and. image == 1 .and. .not. facts%found) then
+            call fail(error, "there is nothing to resume: no file '"//part_name(path, image)//"'", &
+                      status_file)
+        end if
+        call agree(error)
+        if (resume .and. .not. allocated(error)) call store%take_parts(error)
+        call agree(error)
+        if (.not. allocated(error)) call store%own_part(image, error)
+        if (allocated(error)) call store%release()
+    end subroutine open_parts
+
+    subroutine compute_blocks(sweep, threads, progress, result, error)
+        !! Those that are not there yet: a few at a time where there are other images.
+        type(sweep_t), intent(in) :: sweep
+        integer, intent(in) :: threads
+        class(observer_t), pointer, intent(in) :: progress
+        type(sweep_result_t), intent(inout) :: result
+        type(error_t), allocatable, intent(out) :: error
+        integer(i8) :: blocks, chunk, done, first, k, last
+
+        blocks = result%store%blocks
+        chunk = blocks
+        if (image_count() > 1) chunk = merge(1, 4*threads, threads == 1)
+        done = 0
+        call begin_dealing()
+        do
+            call deal(chunk, first)
+            if (first > blocks .or. allocated(error)) exit
+            last = min(blocks, first + chunk - 1)
+            if (image_count() > 1) done = result%store%last_of(first) - result%resumed
+            !$omp parallel do schedule(dynamic) num_threads(threads) default(none) private(k) &
+            !$omp shared(sweep, result, first, last, done, progress, error)
+            do k = first, last
+                if (interrupt_status() /= 0 .or. result%store%has(k)) cycle
+                call compute_block(sweep, k, progress, result, done, error)
+            end do
+            !$omp end parallel do
+            if (interrupt_status() /= 0) call fail(error, "interrupted", interrupt_status())
+        end do
+    end subroutine compute_blocks
+
+    subroutine compute_block(sweep, block, progress, result, done, error)
+        !! Compute the trajectories of one block, on one thread.
+        type(sweep_t), intent(in) :: sweep
+        integer(i8), intent(in) :: block               !! its number
+        class(observer_t), pointer, intent(in) :: progress
+        type(sweep_result_t), intent(inout) :: result  !! gets their numbers
+        integer(i8), intent(inout) :: done             !! trajectories so far
+        type(error_t), allocatable, intent(inout) :: error  !! they cannot be kept
+        real(dp), allocatable :: values(:, :)
+        type(error_t), allocatable :: failure
+        integer(i8) :: failures, first, first_failed, i, last
+
+        first = result%store%first_of(block)
+        last = result%store%last_of(block)
+        allocate (values(sweep%width(), last - first + 1))
+        failures = 0
+        first_failed = huge(first_failed)
+        if (result%in_lanes) then
+            call compute_lanes(sweep, first, last, values, failures, first_failed)
+        else
+            do i = first, last
+                if (interrupt_status() /= 0) return
+                call compute_one(sweep, i, values(:, i - first + 1), failure)
+                if (.not. allocated(failure)) cycle
+                failures = failures + 1
+                first_failed = min(first_failed, i)
+            end do
+        end if
+        if (interrupt_status() /= 0) return  ! a trajectory that was interrupted has not failed
+        !$omp critical (lagrangia_sweep_block)
+        if (.not. allocated(error)) call result%store%put(block, values, failures, first_failed, &
+                                                          error)
+        done = done + last - first + 1
+        if (associated(progress)) call progress%tick(done, sweep%trajectories() - result%resumed)
+        !$omp end critical (lagrangia_sweep_block)
+    end subroutine compute_block
+
+    subroutine explain(sweep, result, error)
+        !! Why the first trajectory that failed did: it is computed again. Where all failed that is
+        !! an error.
         type(sweep_t), intent(in) :: sweep
         type(sweep_result_t), intent(inout) :: result
-        type(attractors_t) :: attractors
-        real(dp) :: number
-        integer(i8) :: i
+        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable :: failure
+        real(dp) :: values(sweep%width())
 
-        do i = 1, size(result%values, 2, kind=i8)
-            number = attractors%number_of(result%values(result%kept + 1:, i))
-            where (sweep%kept%kind == keeps_attractor) result%values(:result%kept, i) = number
+        call compute_one(sweep, result%store%first_failed, values, failure)
+        if (.not. allocated(failure)) call fail(failure, "the motion diverges, or the step is "// &
+                                                "too long", status_numbers)
+        result%reason = failure%message
+        if (result%failures == sweep%trajectories()) call move_alloc(failure, error)
+    end subroutine explain
+
+    subroutine read_block(self, sweep, block, values, error)
+        !! The numbers of a block, those of attractors among them. The blocks are to be read in
+        !! order, each once: attractors are numbered as they come.
+        class(sweep_result_t), intent(inout) :: self
+        type(sweep_t), intent(in) :: sweep                !! the one that was computed
+        integer(i8), intent(in) :: block                  !! from 1 to `store%blocks`
+        real(dp), allocatable, intent(inout) :: values(:, :)
+        !! (`sweep%width()`, trajectories of the block)
+        type(error_t), allocatable, intent(out) :: error  !! it cannot be read
+        integer(i8) :: n
+        integer :: i, k, kept
+
+        kept = size(sweep%kept)
+        n = self%store%last_of(block) - self%store%first_of(block) + 1
+        if (allocated(values)) then
+            if (size(values, 2, kind=i8) /= n) deallocate (values)
+        end if
+        if (.not. allocated(values)) allocate (values(sweep%width(), n))
+        call self%store%get(block, values, error)
+        if (allocated(error)) return
+        do i = 1, int(n)
+            if (sweep%attractors) then
+                where (sweep%kept%kind == keeps_attractor) values(:kept, i) = &
+                    self%attractors%number_of(values(kept + 1:, i))
+            end if
+            do k = 1, kept*sweep%points
+                call look(modulo(k - 1, kept) + 1, values(k, i))
+            end do
         end do
-    end subroutine number_attractors
+    contains
+        subroutine look(which, value)
+            !! At a number that is kept.
+            integer, intent(in) :: which
+            real(dp), intent(in) :: value
+
+            if (.not. ieee_is_finite(value)) return
+            self%found(which) = self%found(which) + 1
+            self%least(which) = min(self%least(which), value)
+            self%largest(which) = max(self%largest(which), value)
+        end subroutine look
+    end subroutine read_block
 
     pure subroutine range_of(self, which, found, least, largest)
-        !! How many trajectories, or points, have a number that is kept, and between what bounds.
+        !! How many trajectories, or points, have a number that is kept, and between what bounds;
+        !! of the blocks that have been read.
         class(sweep_result_t), intent(in) :: self
         integer, intent(in) :: which             !! of those that are kept
         integer(i8), intent(out) :: found        !! trajectories or points
         real(dp), intent(out) :: least, largest  !! huge and -huge where there are none
-        integer(i8) :: i
-        integer :: k
 
-        found = 0
-        least = huge(least)
-        largest = -huge(largest)
-        do i = 1, size(self%values, 2, kind=i8)
-            do k = which, which + (self%points - 1)*self%kept, self%kept
-                if (.not. ieee_is_finite(self%values(k, i))) cycle
-                found = found + 1
-                least = min(least, self%values(k, i))
-                largest = max(largest, self%values(k, i))
-            end do
-        end do
+        found = self%found(which)
+        least = self%least(which)
+        largest = self%largest(which)
     end subroutine range_of
-
-    subroutine compute_block(sweep, result, block, size_of_block, total, progress, done, &
-                             first_failed, first_error)
-        !! Compute the trajectories of one block, on one thread.
-        type(sweep_t), intent(in) :: sweep
-        type(sweep_result_t), intent(inout) :: result  !! gets their numbers
-        integer(i8), intent(in) :: block, total        !! number of the block; of trajectories
-        integer(i8), intent(in) :: size_of_block       !! of each block but the last
-        class(observer_t), pointer, intent(in) :: progress
-        integer(i8), intent(inout) :: done             !! trajectories so far
-        integer(i8), intent(inout) :: first_failed     !! number of the first that failed
-        type(error_t), allocatable, intent(inout) :: first_error  !! why it did
-        real(dp), allocatable :: values(:, :)
-        type(error_t), allocatable :: error, kept_error
-        integer(i8) :: failed, failures, first, i, last
-
-        allocate (values(sweep%width(), size_of_block))
-        first = (block - 1)*size_of_block + 1
-        last = min(total, first + size_of_block - 1)
-        failures = 0
-        failed = huge(failed)
-        if (result%in_lanes) then
-            call compute_lanes(sweep, first, last, values(:, :last - first + 1), failures)
-        else
-            do i = first, last
-                call compute_one(sweep, i, values(:, i - first + 1), error)
-                if (.not. allocated(error)) cycle
-                failures = failures + 1
-                if (allocated(kept_error)) cycle
-                failed = i
-                call move_alloc(error, kept_error)
-            end do
-        end if
-        !$omp critical (lagrangia_sweep_block)
-        result%values(:, first:last) = values(:, :last - first + 1)
-        result%failures = result%failures + failures
-        if (failed < first_failed) then
-            first_failed = failed
-            call move_alloc(kept_error, first_error)
-        end if
-        done = done + last - first + 1
-        if (associated(progress)) call progress%tick(done, total)
-        !$omp end critical (lagrangia_sweep_block)
-    end subroutine compute_block
 end module lagrangia_sweep_grid

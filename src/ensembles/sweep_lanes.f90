@@ -47,13 +47,14 @@ contains
                   sweep%kept%kind == keeps_wrapped .or. sweep%kept%kind == keeps_attractor)
     end function fits_lanes
 
-    subroutine compute_lanes(sweep, first, last, values, failures)
+    subroutine compute_lanes(sweep, first, last, values, failures, first_failed)
         !! What is kept of the trajectories `first` to `last`: the numbers of `compute_one`, but for
         !! rounding. A trajectory that fails is NaN.
         type(sweep_t), intent(in) :: sweep       !! one that `fits_lanes`
         integer(i8), intent(in) :: first, last   !! numbers of trajectories
         real(dp), intent(out) :: values(:, :)    !! (`sweep%width()`, last - first + 1)
         integer(i8), intent(out) :: failures     !! trajectories that ended in no finite state
+        integer(i8), intent(out) :: first_failed !! number of the first of these, or huge
         type(scene_t) :: scene
         type(error_t), allocatable :: error
         type(rk4_lanes_t) :: method
@@ -77,6 +78,7 @@ contains
                           sweep%kept%kind == keeps_flip)
             call method%prepare(system)
             failures = 0
+            first_failed = huge(first_failed)
             next = first
             q = spread(scene%q, 1, lanes)
             v = spread(scene%v, 1, lanes)
@@ -201,6 +203,7 @@ contains
                 numbers = ieee_value(numbers, ieee_quiet_nan)
                 if (.not. all(ieee_is_finite([q1, v1]))) then
                     failures = failures + 1
+                    first_failed = min(first_failed, lane(i)%index)
                     return
                 end if
                 if (sweep%keeps_points) then

@@ -7,7 +7,7 @@ module lagrangia_disk_space
     use lagrangia_number_text, only: fixed
     implicit none (type, external)
     private
-    public :: free_space, space_warning
+    public :: free_space, short, space_warning
 
     real(dp), parameter :: much = 1e9_dp  !! bytes that nobody should be surprised by
 
@@ -56,7 +56,7 @@ contains
 
     pure function short(bytes) result(text)
         !! `5.0 GB`, with one place behind the point; below a megabyte in kB.
-        real(dp), intent(in) :: bytes
+        real(dp), intent(in) :: bytes  !! not negative
         character(:), allocatable :: text
         character(2), parameter :: units(*) = ["kB", "MB", "GB", "TB", "PB"]
         integer :: k

@@ -1,0 +1,78 @@
+module lagrangia_images
+    !! Coarray images: how many there are, blocks of work dealt to whoever is free, and what all
+    !! agree on. In a plain build there is one image and nothing is sent.
+    !!
+    !! The blocks are counted by an atomic number on image 1, which an image asks without anybody
+    !! else having to take part. Not to be called by several threads of an image at a time.
+    use, intrinsic :: iso_fortran_env, only: atomic_int_kind
+    use lagrangia_kinds, only: i8
+    implicit none (type, external)
+    private
+    public :: all_agree, begin_dealing, deal, image_count, image_number, wait_for_all
+
+contains
+
+    function image_number() result(number)
+        !! Which image this is, from 1.
+        integer :: number
+
+        number = this_image()
+    end function image_number
+
+    function image_count() result(count)
+        !! How many there are.
+        integer :: count
+
+        count = num_images()
+    end function image_count
+
+    subroutine begin_dealing()
+        !! All images: from now on the first block is the next.
+        integer(i8) :: first
+
+        call dealt(0_i8, first)
+    end subroutine begin_dealing
+
+    subroutine deal(count, first)
+        !! Take the next blocks.
+        integer(i8), intent(in) :: count   !! how many, at least 1
+        integer(i8), intent(out) :: first  !! number of the first, from 1
+
+        call dealt(count, first)
+    end subroutine deal
+
+    subroutine dealt(count, first)
+        !! The counter is local, so that no module file tells of a coarray: who uses this module
+        !! need not be compiled for them.
+        integer(i8), intent(in) :: count
+        integer(i8), intent(out) :: first
+        integer(atomic_int_kind), save :: next[*]
+        integer(atomic_int_kind) :: old
+
+        first = 1
+        if (count == 0) then
+            sync all
+            if (this_image() == 1) call atomic_define(next, 0)
+            sync all
+        else
+            call atomic_fetch_add(next[1], int(count, atomic_int_kind), old)
+            first = old + 1_i8
+        end if
+    end subroutine dealt
+
+    subroutine wait_for_all()
+        !! Until every image has come here.
+        sync all
+    end subroutine wait_for_all
+
+    function all_agree(good) result(all_good)
+        !! Whether all images say so; each waits for the others.
+        logical, intent(in) :: good  !! this image does
+        logical :: all_good
+        integer :: bad
+
+        bad = merge(0, 1, good)
+        call co_max(bad)
+        all_good = bad == 0
+    end function all_agree
+end module lagrangia_images
