@@ -186,7 +186,7 @@ check "2 MB of modes need no word" eval '[ $status -eq 0 ] && [ ! -s err ]'
 (ulimit -f 0; timeout 5 "$program" modes hanging_chain --set hanging_chain%n=1000 --output much >out 2>err)
 if [ -n "$disk" ]; then
     mount -o remount,rw,size=1m disk
-    (timeout 5 "$program" modes hanging_chain --set hanging_chain%n=200 --output disk/new >out 2>err)
+    (timeout 30 "$program" modes hanging_chain --set hanging_chain%n=200 --output disk/new >out 2>err)
     check "modes: more than there is room for" grep -q "up to 202.0 MB are to be written, but only .* free in 'disk/new'" err
     (timeout 2 "$program" run pendulum --set scene%output=pendulum --set scene%duration=1e4 --set scene%every=1 --output disk/new >out 2>err)
     check "a run: more than there is room for" grep -q "are to be written, but only .* free in 'disk/new'" err

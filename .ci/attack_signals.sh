@@ -122,7 +122,7 @@ done
 # The program's own clock runs out: SIGXCPU from the system, once a second
 mkdir "$work/clock"
 plant "$work/clock" pendulum.dat
-(ulimit -S -t 1; exec timeout 20 "$program" run pendulum --set scene%output=pendulum --set scene%duration=1e6 --set scene%every=1000 --output "$work/clock" >"$work/out" 2>"$work/err" </dev/null)
+(ulimit -S -t 1; exec timeout 120 "$program" run pendulum --set scene%output=pendulum --set scene%duration=1e6 --set scene%every=1000 --output "$work/clock" >"$work/out" 2>"$work/err" </dev/null)
 status=$?
 check "ulimit -t: status 152, said at the end, the old file lives" eval '[ $status -eq 152 ] && only_ours && [ "$(tail -n 1 "$work/err")" = "lagrangia: interrupted" ] && unharmed "$work/clock" pendulum.dat && leftovers "$work/clock"'
 
@@ -153,7 +153,7 @@ in_little() { # in_little LIMIT... -- WORDS...: OpenBLAS is left to its own devi
     local limit=()
     while [ "$1" != -- ]; do limit+=("$1"); shift; done
     shift
-    (ulimit "${limit[@]}"; exec env -u OPENBLAS_NUM_THREADS timeout 120 "$program" "$@" >"$work/out" 2>"$work/err" </dev/null)
+    (ulimit "${limit[@]}"; exec env -u OPENBLAS_NUM_THREADS timeout 600 "$program" "$@" >"$work/out" 2>"$work/err" </dev/null)
     status=$?
 }
 for writer in "run double_pendulum --output" "run hanging_chain --output" "modes hanging_chain --output" "principle action --output" "bench --quick --quiet --output"; do
