@@ -123,6 +123,7 @@ module suites
     use test_partial_files, only: partial_files_suite
     use test_pendulum, only: pendulum_suite
     use test_period, only: period_suite
+    use test_phase_space, only: phase_space_suite
     use test_places, only: places_suite
     use test_plot_label, only: plot_label_suite
     use test_precision_curve, only: precision_curve_suite
@@ -249,6 +250,7 @@ contains
         call suite%addTest(measure_g_suite())
         call suite%addTest(all_paths_suite())
         call suite%addTest(which_forces_suite())
+        call suite%addTest(phase_space_suite())
         call suite%addTest(errata_suite())
         call suite%addTest(errata_ledger_suite())
         call suite%addTest(errors_suite())

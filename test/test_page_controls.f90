@@ -253,6 +253,6 @@ contains
         call assertEqual("action 3 constraints 5 gauge 5 least-time 4 virtual-work 5 "// &
                          "dalembert 2 small-angle 3 reactions 4 noether 7 same-motion 7 "// &
                          "vakonomic 3 maupertuis 3 gauss-hertz 3 geometric-phase 3 "// &
-                         "measure-g 3 all-paths 5 helmholtz 4 ", counts, "controls")
+                         "measure-g 3 all-paths 5 helmholtz 4 phase-space 4 ", counts, "controls")
     end subroutine every_control_is_known
 end module test_page_controls

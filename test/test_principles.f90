@@ -94,7 +94,11 @@ module test_principles
         section_t("all-paths", "oscillator, 1 m to 0.5 m", 3, 1), &
         section_t("helmholtz", "is there a U with Q = d/dt", 3, 2), &
         section_t("helmholtz", "work around a circle of 1 m", 4, 1), &
-        section_t("helmholtz", "damped oscillator, E = f(t)", 1, 1)]
+        section_t("helmholtz", "damped oscillator, E = f(t)", 1, 1), &
+        section_t("phase-space", "cart-pendulum: H(q, p) = sum", 4, 1), &
+        section_t("phase-space", "pendulum: the area of a cloud", 2, 1), &
+        section_t("phase-space", "pendulum: the area J = int p", 3, 1), &
+        section_t("phase-space", "how fast neighbours part", 3, 1)]
 
 contains
 

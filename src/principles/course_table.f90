@@ -300,8 +300,8 @@ contains
         call add(course, "II", 58, 58, &
                  "\frac{\partial \mathcal{L}}{\partial q_j} - \frac{d}{dt} \frac{\partial "// &
                  "\mathcal{L}}{\partial \dot{q}_j} = 0", &
-                 "Lagrange's equations for the q", &
-                 "check")
+                 "Lagrange's equations for the q; and Hamilton's, from H", &
+                 "check; principle phase-space")
         call add(course, "II", 60, 60, &
                  "the forces acting on the system must be derivable from potentials", &
                  "forces with a potential; those without stand beside L", &

@@ -14,6 +14,7 @@ module lagrangia_principles
     use lagrangia_measure_g, only: measure_g_principle
     use lagrangia_names, only: refuse_name
     use lagrangia_noether, only: noether_principle
+    use lagrangia_phase_space, only: phase_space_principle
     use lagrangia_reactions, only: reactions_principle
     use lagrangia_report, only: report_t
     use lagrangia_same_motion_page, only: same_motion_principle
@@ -61,7 +62,9 @@ module lagrangia_principles
         principle_t("all-paths", &
                     "every path between two events, its S, its index; where descent ends", &
                     .true.), &
-        principle_t("helmholtz", "which forces have an L: Helmholtz' conditions", .true.)]
+        principle_t("helmholtz", "which forces have an L: Helmholtz' conditions", .true.), &
+        principle_t("phase-space", "H from L, areas that stay, periods, neighbours that part", &
+                    .true.)]
 
 contains
 
@@ -109,6 +112,8 @@ contains
             call all_paths_principle(report, error)
         case ("helmholtz")
             call which_forces_principle(report, error)
+        case ("phase-space")
+            call phase_space_principle(report, error)
         case default
             call refuse_name("principle", name, principle_names(), error)
         end select
