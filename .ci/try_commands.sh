@@ -600,6 +600,21 @@ refuses 2 "--set goes with one scene" check "$spring" pendulum --set spring_pend
 refuses 5 "no such file" modes "$work/nothing.nml"
 check "formulas: nothing refused left a file" [ ! -e "$work/none" ]
 
+# quantities of a scene's own
+run run kepler --json --output "$work/o"
+check "quantities: the Laplace vector is kept" json 'd[0]["drifts"]["A_x_drift"] < 1e-10 and d[0]["drifts"]["A_y_drift"] < 1e-10'
+run describe kepler
+check "quantities: conserved ones are found" eval '[ $status -eq 0 ] && sed -n "/^conserved besides/,/^other/p" "$work/out" | grep -q "A_y .*-p_x L_z - m k sin(phi): Laplace"'
+run describe kepler_precession
+check "quantities: others are not conserved" eval '[ $status -eq 0 ] && sed -n "/^other columns/,/^column error/p" "$work/out" | grep -q "A_y .*-p_x L_z - m k sin(phi): Laplace"'
+run check two_bodies
+check "quantities: the audit knows them" eval '[ $status -eq 0 ] && grep -q "X_0 is conserved .* holds" "$work/out" && grep -q "X_0 as printed .* holds" "$work/out"'
+refuses 2 "column 'A_x_drift': A_x of this kepler is not conserved; there is 'A_x'" run kepler_precession --set "scene%columns='t','A_x_drift'" --output "$work/none"
+refuses 2 "two columns would be called 'energy'" run kepler --set "lagrangian%quantities='energy=r'" --output "$work/none"
+refuses 2 "quantities: column 5: unknown name 'rr'; did you mean 'r'?" run kepler --set "lagrangian%quantities='d = rr'" --output "$work/none"
+refuses 2 "a quantity is written 'L_z [kg m^2/s] angular momentum = m r^2 phi_dot'" run kepler --set "lagrangian%quantities='r^2'" --output "$work/none"
+check "quantities: nothing refused left a file" [ ! -e "$work/none" ]
+
 run --help
 check "--help: a signal's status is what those were" eval 'formula=$(tr "\n" " " <"$work/out" | grep -o "128 . n signal n") && n=2 && [ $((${formula% signal n})) -eq 130 ]'
 

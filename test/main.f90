@@ -32,6 +32,9 @@ module suites
     use test_constraints, only: constraints_suite
     use test_coupled_orders, only: coupled_orders_suite
     use test_course, only: course_suite
+    use test_course_motions, only: course_motions_suite
+    use test_course_orbits, only: course_orbits_suite
+    use test_course_oscillators, only: course_oscillators_suite
     use test_cross_check, only: cross_check_suite
     use test_dalembert, only: dalembert_suite
     use test_decimal, only: decimal_suite
@@ -120,6 +123,7 @@ module suites
     use test_page_formulae, only: page_formulae_suite
     use test_page_headings, only: page_headings_suite
     use test_pages, only: pages_suite
+    use test_parameter_domains, only: parameter_domains_suite
     use test_partial_files, only: partial_files_suite
     use test_pendulum, only: pendulum_suite
     use test_period, only: period_suite
@@ -178,6 +182,7 @@ module suites
     use test_which_forces, only: which_forces_suite
     use test_whole_file, only: whole_file_suite
     use test_work, only: work_suite
+    use test_written_quantities, only: written_quantities_suite
     use test_written_refusals, only: written_refusals_suite
     use test_written_system, only: written_system_suite
     implicit none (type, external)
@@ -312,6 +317,7 @@ contains
         call suite%addTest(page_formulae_suite())
         call suite%addTest(page_headings_suite())
         call suite%addTest(pages_suite())
+        call suite%addTest(parameter_domains_suite())
         call suite%addTest(partial_files_suite())
         call suite%addTest(pendulum_suite())
         call suite%addTest(period_suite())
@@ -341,6 +347,9 @@ contains
         call suite%addTest(changed_scene_suite())
         call suite%addTest(scorecard_suite())
         call suite%addTest(help_suite())
+        call suite%addTest(course_motions_suite())
+        call suite%addTest(course_oscillators_suite())
+        call suite%addTest(course_orbits_suite())
         call suite%addTest(cross_check_suite())
         call suite%addTest(second_run_suite())
         call suite%addTest(shipped_files_suite())
@@ -366,6 +375,7 @@ contains
         call suite%addTest(walls_suite())
         call suite%addTest(whole_file_suite())
         call suite%addTest(work_suite())
+        call suite%addTest(written_quantities_suite())
         call suite%addTest(written_refusals_suite())
         call suite%addTest(written_system_suite())
         call suite%addTest(own_closed_form_suite())  ! the last two: their systems stay in the

@@ -73,7 +73,8 @@ contains
     subroutine demanded_keys_are_named()
         !! System, step, duration and coordinates have no default.
         call refused("&scene /", "s.nml:1:1: &scene: system is missing; write system = value")
-        call refused(start//"/", "s.nml:1:1: &scene: dt is missing; write dt = ")
+        call refused(start//"/", "s.nml:1:1: &scene: dt is missing; write dt = "// &
+                     "value, or method = 'auto', which chooses its steps")
         call refused(start//"dt=1 /", "s.nml:1:1: &scene: duration is missing")
         call refused(start//"dt=1 duration=2 /", "s.nml:1:1: &scene: q is missing")
         call refused("&pendulum l=1 /", "s.nml: group &scene is missing; it must give system")

@@ -51,6 +51,7 @@ contains
         call suite%addTest(TestMethod("modes_about_the_equilibrium", modes_about_the_equilibrium))
         call suite%addTest(TestMethod("forces_beside_l", forces_beside_l))
         call suite%addTest(TestMethod("audits_hold", audits_hold))
+        call suite%addTest(TestMethod("some_masses", some_masses))
         call suite%addTest(TestMethod("any_degree_in_velocities", any_degree_in_velocities))
         call suite%addTest(TestMethod("what_cancels_is_not_there", what_cancels_is_not_there))
         call suite%addTest(TestMethod("equations_are_written", equations_are_written))
@@ -305,6 +306,30 @@ contains
         call assertTrue(size(ledger%rows) > 8, "claims")
         call assertEqual(0, ledger%broken())
     end subroutine audits_hold
+
+    subroutine some_masses()
+        !! Where some points have no mass, T is at least that of the others; with a mass too large
+        !! it is not.
+        character(*), parameter :: claim = "T is at least that of the masses"
+        character(*), parameter :: lines = "coordinates = 'x', 'y' parameters = 'm', 'mb' T = "// &
+            "'m/2 x_dot^2 + m y_dot^2' positions = 'a, mb: x, 0', 'b: y, 0'"
+        class(system_t), allocatable :: system
+        type(ledger_t) :: ledger
+        real(dp) :: values(2)
+        integer :: i, k
+
+        do k = 1, 2
+            values = [1.0_dp, merge(1.0_dp, 2.5_dp, k == 1)]
+            call read_typed("own", lines, 2, values, system)
+            if (anyExceptions()) return
+            call audit_system(system, ledger, [(.true., i=1, 2)], values)
+            i = ledger%row_of(claim)
+            call assertTrue(i > 0, "there is a row")
+            if (i == 0) return
+            call assertTrue(ledger%rows(i)%holds .eqv. k == 1, "it holds for the first")
+            call assertEqual(k - 1, ledger%broken())
+        end do
+    end subroutine some_masses
 
     subroutine any_degree_in_velocities()
         !! Relativistic: \(p = mv/\sqrt{1 - v^2/c^2}\) is inverted, also close to c, where Newton's

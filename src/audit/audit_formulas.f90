@@ -26,6 +26,7 @@ module lagrangia_audit_formulas
     integer, parameter :: is_quantity = 5, is_equation = 6, is_acceleration = 7
     integer, parameter :: is_constraint = 8, is_inequality = 9, is_reaction = 10
     integer, parameter :: is_force = 11, is_dissipation = 12
+    integer, parameter :: part = 1  !! of T only is known, for some points have no mass
 
     real(dp), parameter :: much = 1e12_dp  !! m/s^2 or rad/s^2, beside which other terms are small
 
@@ -108,7 +109,10 @@ contains
         do i = 1, size(entries)
             sizes(i) = term_size(left(i, :)) + term_size(right(i, :)) &
                        + sum(abs(change(i, :))*motion%size)
-            if (entries(i)%kind == is_inequality) left(i, 0) = min(left(i, 0), right(i, 0))
+            if (entries(i)%kind == is_inequality .or. &
+                (entries(i)%kind == is_kinetic .and. entries(i)%which == part)) then
+                left(i, 0) = min(left(i, 0), right(i, 0))
+            end if
         end do
         do i = 1, size(entries)
             if (any(entries(i)%kind == [is_constraint, is_inequality]) .and. beyond) cycle
@@ -156,7 +160,11 @@ contains
 
         allocate (entries(0))
         if (allocated(d%kinetic_energy) .and. size(masses_of(d)) > 0) then
-            call add("T as printed", d%kinetic_energy, is_kinetic, 0)
+            if (all(d%points%mass > 0.0_dp)) then
+                call add("T as printed", d%kinetic_energy, is_kinetic, 0)
+            else
+                call add("T is at least that of the masses", d%kinetic_energy, is_kinetic, part)
+            end if
         end if
         if (allocated(d%potential_energy)) then
             call add("V as printed", "T - V", is_potential, 0)

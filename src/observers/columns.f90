@@ -142,6 +142,21 @@ contains
         all = all(:count)
     end subroutine every_column
 
+    pure subroutine set_scale(column, system, t, q, v)
+        !! What a drift is relative to: where it starts, or the natural size of what may start at
+        !! zero; of terms that cancel there but for rounding, these.
+        type(column_t), intent(inout) :: column  !! has its start
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(:), v(:)
+        real(dp), parameter :: rounding = 1e3_dp*epsilon(1.0_dp)
+        real(dp) :: terms
+
+        column%scale = max(abs(column%start), column%scale)
+        terms = system%natural_size(merge(column%index, 0, column%kind == is_quantity), t, q, v)
+        if (column%scale <= rounding*terms) column%scale = terms
+        if (column%scale <= 0.0_dp) column%scale = 1.0_dp
+    end subroutine set_scale
+
     pure function drift_of(column) result(drift)
         !! The relative change of a conserved column since the start.
         type(column_t), intent(in) :: column
@@ -206,6 +221,10 @@ contains
                               "energy_balance_drift"])) then
             call fail(error, "column "//quoted(name)//": the energy of this "//trim(d%name)// &
                       " is conserved; 'energy_drift' says how well")
+        else if (any(d%quantities%name == without_drift(name) .and. &
+                     without_drift(name) /= name)) then
+            call fail(error, "column "//quoted(name)//": "//without_drift(name)//" of this "// &
+                      trim(d%name)//" is not conserved; there is "//quoted(without_drift(name)))
         else if (index(name, ",") > 0) then
             call fail(error, "is one text; each column has its own quotes, as in 't', 'x'")
         else if (near /= "") then
@@ -215,6 +234,17 @@ contains
                       join(names, ", "))
         end if
     end subroutine refuse
+
+    pure function without_drift(name) result(text)
+        !! `A_x` of `A_x_drift`; other names as they are.
+        character(*), intent(in) :: name
+        character(:), allocatable :: text
+
+        text = trim(name)
+        if (len(text) > 6) then
+            if (text(len(text) - 5:) == "_drift") text = text(:len(text) - 6)
+        end if
+    end function without_drift
 
     pure function names(self, count) result(list)
         !! The names of the first `count` columns.
@@ -288,8 +318,7 @@ contains
                 if (c%drift) then
                     if (.not. self%started) then
                         c%start = row(i)
-                        c%scale = max(abs(c%start), c%scale)
-                        if (c%scale <= 0.0_dp) c%scale = 1.0_dp
+                        call set_scale(c, system, t, q, v)
                     end if
                     row(i) = (row(i) - c%start)/c%scale
                 end if

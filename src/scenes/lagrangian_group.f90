@@ -1,11 +1,12 @@
 module lagrangia_lagrangian_group
     !! The group `&lagrangian` of a scene: a system in formulas, its parameters' values in the group
     !! of its name.
-    use lagrangia_description, only: name_length, quantity_t, real_number
+    use lagrangia_description, only: check_parameter, name_length, quantity_t, real_number
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_namelist, only: get_real, get_strings, has_key, namelist_t, refuse_unknown_keys, &
                                   refuse_value
+    use lagrangia_parameter_domains, only: set_domain
     use lagrangia_scene, only: add_texts, scene_line_length
     use lagrangia_text, only: lower, quoted, to_text
     use lagrangia_written_formulas, only: longest_formula, written_formulas_t
@@ -20,7 +21,7 @@ module lagrangia_lagrangian_group
     integer, parameter :: longest_piece = 500  !! if there is a place to break it; else at most
     character(name_length), parameter :: keys(*) = [character(name_length) :: &
         "coordinates", "parameters", "t", "v", "l", "definitions", "positions", "equilibrium", &
-        "constraint"]
+        "constraint", "quantities", "domain"]
     character(*), parameter :: syntax = "a name, its unit and a few words are written "// &
                                         "'r [m] length of the spring'"
 
@@ -32,6 +33,8 @@ contains
         type(written_formulas_t), intent(inout) :: formulas  !! has its name; gets the rest
         type(error_t), allocatable, intent(out) :: error     !! a text that is missing or too long
         type(quantity_t), allocatable :: items(:)
+        character(longest_formula), allocatable :: domains(:)
+        type(error_t), allocatable :: found
         character(:), allocatable :: force
         integer :: i
 
@@ -59,6 +62,10 @@ contains
         if (allocated(error)) return
         call read_list("constraint", formulas%constraints)
         if (allocated(error)) return
+        call read_quantities(formulas%quantities, formulas%quantity_formulas)
+        if (allocated(error)) return
+        call read_list("domain", domains)
+        if (allocated(error)) return
         call refuse_unknown_keys(tree, group, [character(len(keys)) :: keys, &
                                                (force_key(formulas%coordinates(i)), i=1, &
                                                 size(formulas%coordinates))], error)
@@ -67,6 +74,11 @@ contains
         do i = 1, size(items)
             formulas%parameters(i) = real_number(trim(items(i)%name), trim(items(i)%unit), &
                                                  trim(items(i)%meaning), 0.0_dp)
+        end do
+        do i = 1, size(domains)
+            if (allocated(error)) return
+            call set_domain(trim(domains(i)), formulas%parameters, found)
+            if (allocated(found)) call refuse_value(tree, group, "domain", found%message, error, i)
         end do
     contains
         subroutine read_formula(key, formula)
@@ -91,6 +103,33 @@ contains
             end if
         end subroutine read_formula
 
+        subroutine read_quantities(items, texts)
+            !! `'L_z [J s] angular momentum = m r^2 phi_dot'`: what stands before the sign = is as
+            !! with coordinates; of the formula the column is kept.
+            type(quantity_t), allocatable, intent(out) :: items(:)
+            character(longest_formula), allocatable, intent(out) :: texts(:)
+            character(*), parameter :: example = "a quantity is written "// &
+                "'L_z [kg m^2/s] angular momentum = m r^2 phi_dot'"
+            character(:), allocatable :: problem
+            integer :: equals, i
+
+            call read_list("quantities", texts)
+            allocate (items(merge(0, size(texts), allocated(error))))
+            do i = 1, size(items)
+                equals = index(texts(i), "=")
+                if (equals == 0) then
+                    problem = example
+                else
+                    call take_name(texts(i)(:equals - 1), items(i), problem)
+                end if
+                if (problem /= "") then
+                    call refuse_value(tree, group, "quantities", problem, error, i)
+                    return
+                end if
+                texts(i)(:equals) = ""
+            end do
+        end subroutine read_quantities
+
         subroutine read_list(key, texts)
             character(*), intent(in) :: key
             character(longest_formula), allocatable, intent(out) :: texts(:)
@@ -114,6 +153,7 @@ contains
         type(written_formulas_t), intent(inout) :: formulas  !! has its names; gets the values
         type(error_t), allocatable, intent(out) :: error     !! a value that is missing
         character(name_length) :: names(size(formulas%parameters))
+        type(error_t), allocatable :: found
         integer :: i
 
         do i = 1, size(names)
@@ -127,6 +167,10 @@ contains
         do i = 1, size(names)
             call get_real(tree, trim(formulas%name), trim(names(i)), &
                           formulas%parameters(i)%value(1), error, required=.true.)
+            if (allocated(error)) return
+            call check_parameter(formulas%parameters(i), found)
+            if (allocated(found)) call refuse_value(tree, trim(formulas%name), trim(names(i)), &
+                formulas%parameters(i)%domain()//" is needed", error)
             if (allocated(error)) return
         end do
         call refuse_unknown_keys(tree, trim(formulas%name), names, error)
@@ -142,41 +186,52 @@ contains
         type(quantity_t), allocatable, intent(out) :: items(:)
         type(error_t), allocatable, intent(out) :: error
         character(200), allocatable :: texts(:)
-        character(:), allocatable :: text
-        integer :: i, left, right
+        character(:), allocatable :: problem
+        integer :: i
 
         allocate (texts(0))
         call get_strings(tree, group, key, 1, most, texts, error, required=required)
         if (allocated(error)) return
         allocate (items(size(texts)))
         do i = 1, size(texts)
-            text = trim(adjustl(texts(i)))
-            left = scan(text//" ", " [")
-            if (left - 1 > name_length .or. left == 1) then
-                call refuse_value(tree, group, key, syntax, error, i)
-                return
-            end if
-            items(i)%name = text(:left - 1)
-            text = trim(adjustl(text(left:)))
-            if (index(text, "[") == 1) then
-                right = index(text, "]")
-                if (right < 3 .or. right > 2 + len(items%unit)) then
-                    call refuse_value(tree, group, key, "a unit of up to "// &
-                                      to_text(len(items%unit))//" characters stands between "// &
-                                      "brackets; "//syntax, error, i)
-                    return
-                end if
-                items(i)%unit = text(2:right - 1)
-                text = trim(adjustl(text(right + 1:)))
-            end if
-            if (len(text) > len(items%meaning)) then
-                call refuse_value(tree, group, key, "more than "//to_text(len(items%meaning))// &
-                                  " characters behind the name", error, i)
-                return
-            end if
-            items(i)%meaning = text
+            call take_name(texts(i), items(i), problem)
+            if (problem == "") cycle
+            call refuse_value(tree, group, key, problem, error, i)
+            return
         end do
     end subroutine read_names
+
+    pure subroutine take_name(from, item, problem)
+        !! `r [m] length of the spring`: a name, perhaps a unit and a few words.
+        character(*), intent(in) :: from
+        type(quantity_t), intent(out) :: item
+        character(:), allocatable, intent(out) :: problem  !! "" if there is none
+        character(:), allocatable :: text
+        integer :: left, right
+
+        problem = ""
+        text = trim(adjustl(from))
+        left = scan(text//" ", " [")
+        if (left - 1 > name_length .or. left == 1) then
+            problem = syntax
+            return
+        end if
+        item%name = text(:left - 1)
+        text = trim(adjustl(text(left:)))
+        if (index(text, "[") == 1) then
+            right = index(text, "]")
+            if (right < 3 .or. right > 2 + len(item%unit)) then
+                problem = "a unit of up to "//to_text(len(item%unit))//" characters stands "// &
+                          "between brackets; "//syntax
+                return
+            end if
+            item%unit = text(2:right - 1)
+            text = trim(adjustl(text(right + 1:)))
+        end if
+        if (len(text) > len(item%meaning)) problem = "more than "//to_text(len(item%meaning))// &
+                                                     " characters behind the name"
+        item%meaning = text
+    end subroutine take_name
 
     pure function force_key(coordinate) result(key)
         !! Where the generalised force on a coordinate stands: `q_theta`.
@@ -315,6 +370,8 @@ contains
         call add_list("positions")
         call add_list("equilibrium")
         call add_list("constraint")
+        call add_list("quantities")
+        call add_list("domain")
         lines = [character(scene_line_length) :: lines, "/"]
     contains
         subroutine add_list(key)

@@ -14,7 +14,8 @@ module lagrangia_scene_keys
     use lagrangia_text, only: join, lower, shortened, to_text
     implicit none (type, external)
     private
-    public :: keys, key_length, coordinates, expectation_keys, read_columns, read_state, &
+    public :: keys, key_length, coordinates, drift_keys, expectation_keys, read_columns, &
+        read_state, &
               read_times
 
     character(name_length), parameter :: keys(*) = [character(name_length) :: &
@@ -81,6 +82,10 @@ contains
             real(dp), intent(inout) :: value
 
             call get_real(tree, "scene", key, value, error, required=.true.)
+            if (allocated(error) .and. key == "dt") then
+                if (index(error%message, "dt is missing; write") > 0) error%message = &
+                    error%message//", or method = 'auto', which chooses its steps"
+            end if
             if (allocated(error)) return
             if (value <= 0.0_dp) call refuse_value(tree, "scene", key, &
                                                    "a number greater than 0 is needed, in s", error)
@@ -150,7 +155,7 @@ contains
         type(scene_t), intent(inout) :: scene  !! gets columns, plots, events, expectations
         type(error_t), allocatable, intent(out) :: error  !! a value that is not allowed
         character(name_length), allocatable :: names(:)
-        character(key_length), allocatable :: expected(:)
+        character(key_length), allocatable :: drifts(:), expected(:)
         type(description_t) :: d
         real(dp) :: limit
         integer :: i
@@ -189,6 +194,13 @@ contains
                               why_energy_changes(system), error)
             return
         end if
+        allocate (drifts, source=drift_keys(system))
+        do i = 1, size(d%quantities)
+            if (d%quantities(i)%conserved .or. .not. has_key(tree, "scene", trim(drifts(i)))) cycle
+            call refuse_value(tree, "scene", trim(drifts(i)), trim(d%quantities(i)%name)// &
+                              " of this "//trim(d%name)//" is not conserved", error)
+            return
+        end do
         names = judged(system)
         expected = expectation_keys(system)
         allocate (scene%expectations(0))
@@ -302,6 +314,22 @@ contains
             names(i) = lower(names(i))
         end do
     end function expectation_keys
+
+    pure function drift_keys(system) result(names)
+        !! `expect_A_drift` of each quantity A, in lower case, and that of the energy: they bound
+        !! what is conserved, and are refused with the reason where it is not.
+        class(system_t), intent(in) :: system  !! whose quantities they are
+        character(key_length), allocatable :: names(:)
+        type(description_t) :: d
+        integer :: i
+
+        call system%describe(d)
+        allocate (names(size(d%quantities) + 1))
+        do i = 1, size(d%quantities)
+            names(i) = "expect_"//lower(trim(d%quantities(i)%name))//"_drift"
+        end do
+        names(i) = "expect_energy_drift"
+    end function drift_keys
 
     pure function bad_output(name) result(bad)
         !! Whether `name` could leave the output folder or surprise a program that reads it.

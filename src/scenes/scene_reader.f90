@@ -17,7 +17,7 @@ module lagrangia_scene_reader
     use lagrangia_names, only: nearest_name
     use lagrangia_overridden_keys, only: fit_columns, fit_times
     use lagrangia_scene, only: scene_t
-    use lagrangia_scene_keys, only: coordinates, expectation_keys, key_length, keys, &
+    use lagrangia_scene_keys, only: coordinates, drift_keys, expectation_keys, key_length, keys, &
                                     read_columns, read_state, read_times
     use lagrangia_shipped, only: find_scene, looks_like_path, scene_name
     use lagrangia_shipped_files, only: read_file_or_shipped
@@ -127,7 +127,7 @@ contains
             call refuse_coordinates(tree, system, error)
             if (allocated(error)) exit read_groups
             call refuse_unknown_keys(tree, "scene", [character(key_length) :: allowed, &
-                                                     "expect_energy_drift"], error, early=.true.)
+                                     drift_keys(system)], error, early=.true.)
             if (allocated(error)) exit read_groups
             call read_times(tree, scene, error)
             if (allocated(error)) exit read_groups
@@ -299,7 +299,7 @@ contains
                 call move_alloc(written, system)
             end if
         end if
-        if (.not. allocated(found)) call refuse_columns(system, size(formulas%positions), found)
+        if (.not. allocated(found)) call refuse_columns(system, formulas, found)
         if (allocated(found)) then
             call refuse_formula(tree, found, error)
             return
@@ -319,24 +319,33 @@ contains
         yes = verify(name, letters//"0123456789_") == 0 .and. scan(name//" ", letters) == 1
     end function is_group_name
 
-    subroutine refuse_columns(system, points, error)
+    subroutine refuse_columns(system, formulas, error)
         !! Refuse names that would make two columns, or two keys `expect_`, one.
         class(system_t), intent(in) :: system
-        integer, intent(in) :: points  !! that the scene gives
+        type(written_formulas_t), intent(in) :: formulas  !! of the scene
         type(error_t), allocatable, intent(out) :: error
         character(key_length), allocatable :: names(:)
         character(:), allocatable :: key
-        integer :: i
+        character(name_length) :: own
+        integer :: element, i, k
 
+        element = 1
         allocate (names, source=expectation_keys(system))
         do i = 1, size(names)
             if (all(names(:i - 1) /= names(i))) cycle
             associate (name => names(i)(len("expect_") + 1:))
                 key = "coordinates"
-                if (points > 0 .and. &
+                if (size(formulas%positions) > 0 .and. &
                     any(["x_", "y_", "z_"] == name(:2))) key = "positions"
+                do k = 1, size(formulas%quantities)
+                    own = lower(formulas%quantities(k)%name)
+                    if (all(name /= [character(key_length) :: own, trim(own)//"_drift"])) cycle
+                    key = "quantities"
+                    element = k
+                end do
                 call fail(error, "two columns would be called "//quoted(trim(name))// &
-                          ", capital letters aside; take other names", key=key)
+                          ", capital letters aside; take other names", key=key, &
+                          element=element)
             end associate
             return
         end do

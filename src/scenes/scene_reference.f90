@@ -108,6 +108,12 @@ module lagrangia_scene_reference
         entry_t("lagrangian", "constraint", "", absent, "up to one less than coordinates: in "// &
                 "coordinates, or linear in velocities; each has a multiplier, column lambda1", &
                 "constraint = 'r = l0'"), &
+        entry_t("lagrangian", "quantities", "", absent, "functions of t, q, q_dot as columns, "// &
+                "each may use those before it; one that the motion conserves has a drift", &
+                "quantities = 'L_z [kg m^2/s] angular momentum = m r^2 theta_dot'"), &
+        entry_t("lagrangian", "domain", "", "any finite number", &
+                "what is allowed of parameters, with >, >=, < or <=", &
+                "domain = 'm > 0', 'l0 >= 0'"), &
         entry_t("NAME", "PARAMETER", "as is", "as 'lagrangia describe SYSTEM' says", &
                 "the group of "// &
                 "the system's name has its parameters", "l = 2.0"), &

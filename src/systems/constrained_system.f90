@@ -20,7 +20,8 @@ module lagrangia_constrained_system
     use lagrangia_written_constraints, only: constraint_row, is_in_velocities
     use lagrangia_written_expressions, only: written_expressions_t
     use lagrangia_written_formulas, only: written_formulas_t
-    use lagrangia_written_system, only: new_written_system, written_system_t
+    use lagrangia_written_quantities, only: find_conserved
+    use lagrangia_written_system, only: new_written_system, of_quantity, written_system_t
     implicit none (type, external)
     private
     public :: constrained_system_t, new_constrained_system
@@ -178,6 +179,7 @@ contains
             end do
         end do
         self%cyclic = findloc(self%cyclic_coordinates, .true., 1)
+        call find_conserved(self, self%programs(of_quantity), self%is_conserved)
     end subroutine find_structure
 
     pure subroutine accelerations(self, t, q, v, a)
@@ -202,7 +204,7 @@ contains
     end subroutine accelerations_lanes
 
     pure function link_quantity(self, i, t, q, v) result(value)
-        !! Momenta, then multipliers, then what is left of each constraint.
+        !! Momenta, the scene's own, then multipliers, then what is left of each constraint.
         class(constrained_system_t), intent(in) :: self
         integer, intent(in) :: i
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
@@ -211,7 +213,7 @@ contains
         type(error_t), allocatable :: error
         integer :: k
 
-        k = i - self%ndof
+        k = i - self%ndof - size(self%expressions%quantities)
         if (k <= 0) then
             value = self%written_system_t%quantity(i, t, q, v)
         else if (k <= self%constraints) then
@@ -316,7 +318,7 @@ contains
             size_of = dot_product(abs(rows(k, :)%re), abs(q))
             if (.not. self%holonomic(k) .or. abs(values(k)) <= slip*size_of) cycle
             call fail(error, "constraint "//to_text(k)//" is not kept: it gives "// &
-                      to_text(values(k))//", not 0")
+                      to_text(values(k))//", not 0; start elsewhere")
             return
         end do
     end subroutine check_places

@@ -37,6 +37,7 @@ module lagrangia_description
         real(dp) :: lower = -huge(1.0_dp)
         real(dp) :: upper = huge(1.0_dp)
         logical :: open_lower = .false.          !! `lower` itself is not allowed
+        logical :: open_upper = .false.          !! `upper` itself is not allowed
         logical :: whole = .false.               !! a whole number
         character(name_length) :: computed = ""  !! the formula of a default that others determine
     contains
@@ -239,9 +240,12 @@ contains
             if (self%whole) text = "a whole number from "//to_text(nint(self%lower))//" to "// &
                                    to_text(nint(self%upper))
             if (self%open_lower) text = text//", above "//to_text(self%lower)
+            if (self%open_upper) text = text//", below "//bound(self%upper)
         else if (self%lower > -huge(1.0_dp)) then
             text = merge("greater than ", "at least     ", self%open_lower)
             text = trim(text)//" "//to_text(self%lower)
+        else if (self%upper < huge(1.0_dp)) then
+            text = trim(merge("less than", "at most  ", self%open_upper))//" "//bound(self%upper)
         end if
     end function domain
 
@@ -268,6 +272,7 @@ contains
         do i = 1, p%count
             if (len_trim(p%computed) > 0 .and. ieee_is_nan(p%value(i))) cycle
             good = ieee_is_finite(p%value(i)) .and. p%value(i) <= p%upper
+            if (p%open_upper) good = good .and. p%value(i) < p%upper
             if (p%open_lower) then
                 good = good .and. p%value(i) > p%lower
             else

@@ -21,6 +21,7 @@ module lagrangia_lagrangian_system
     implicit none (type, external)
     private
     public :: lagrangian_system_t
+    public :: find_structure, trial_state
 
     type, abstract, extends(system_t) :: lagrangian_system_t
         real(dp), allocatable :: p(:)  !! the parameters, in the order of `describe`
@@ -117,7 +118,7 @@ contains
         logical :: cyclic(self%ndof), moves, acted
         type(hyperdual_t) :: tt, qq(self%ndof), vv(self%ndof), beside(self%ndof)
         real(dp) :: t
-        integer :: i, k, used
+        integer :: k, used
 
         self%velocity_forces = .false.
         self%time_dependent = .false.
@@ -127,10 +128,7 @@ contains
         moves = .false.
         used = 0
         do k = 1, 60
-            t = 0.4_dp*k
-            q = [(0.8_dp**k*sin(1.3_dp*i + 2.1_dp*k), i=1, self%ndof)]
-            if (mod(k, 2) == 0) q = abs(q)  ! a radius is positive
-            v = [(cos(0.7_dp*i + 1.7_dp*k), i=1, self%ndof)]
+            call trial_state(k, t, q, v)
             call expand_lagrangian(self, t, q, v, terms)
             if (.not. all(ieee_is_finite([terms%l, terms%dl_dt, terms%dl_dq]))) cycle
             cyclic = cyclic .and. abs(terms%dl_dq) <= 0.0_dp
@@ -161,6 +159,18 @@ contains
         self%cyclic = findloc(cyclic, .true., 1)
         self%cyclic_coordinates = cyclic
     end subroutine find_structure
+
+    pure subroutine trial_state(k, t, q, v)
+        !! One of many states, of which some will do for any Lagrangian: \(|q| \le 0.8^k\).
+        integer, intent(in) :: k                   !! from 1
+        real(dp), intent(out) :: t, q(:), v(:)     !! time, s; coordinates, velocities
+        integer :: i
+
+        t = 0.4_dp*k
+        q = [(0.8_dp**k*sin(1.3_dp*i + 2.1_dp*k), i=1, size(q))]
+        if (mod(k, 2) == 0) q = abs(q)  ! a radius is positive
+        v = [(cos(0.7_dp*i + 1.7_dp*k), i=1, size(v))]
+    end subroutine trial_state
 
     pure subroutine accelerations(self, t, q, v, a)
         !! From the Lagrangian; NaN where its mass matrix is singular.

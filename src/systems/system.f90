@@ -41,6 +41,7 @@ module lagrangia_system
         procedure :: forces => forces_of_lagrangian
         procedure, non_overridable :: conserves_energy
         procedure :: quantity => no_quantity
+        procedure :: natural_size => no_natural_size
         procedure :: positions => no_positions
         procedure :: constraint_rows => no_constraint_rows
         procedure :: complete_velocities
@@ -259,6 +260,17 @@ contains
 
         value = 0.0_dp
     end function no_quantity
+
+    pure function no_natural_size(self, i, t, q, v) result(value)
+        !! How large the terms are that add up to quantity `i`, 0 for the energy: a value of some
+        !! epsilon of it is rounding. Zero where nothing is known.
+        class(system_t), intent(in) :: self
+        integer, intent(in) :: i                               !! from 0
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)  !! time, s; state
+        real(dp) :: value
+
+        value = 0.0_dp
+    end function no_natural_size
 
     pure subroutine no_positions(self, t, q, r)
         !! Cartesian positions, m, of the points in the description, `r(3, points)`: here none.

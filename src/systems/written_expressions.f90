@@ -12,6 +12,7 @@ module lagrangia_written_expressions
     use lagrangia_text, only: lower, quoted, to_text
     use lagrangia_written_constraints, only: is_zero, read_constraints
     use lagrangia_written_formulas, only: written_formulas_t
+    use lagrangia_written_quantities, only: read_quantities
     implicit none (type, external)
     private
     public :: written_expressions_t, read_expressions, unused_parameters
@@ -29,6 +30,7 @@ module lagrangia_written_expressions
         character(name_length), allocatable :: points(:)    !! their names
         integer :: dimensions = 2                           !! of the points' space
         type(expression_t), allocatable :: constraints(:)   !! zero along the motion
+        type(expression_t), allocatable :: quantities(:)    !! of the scene's own
     end type written_expressions_t
 
 contains
@@ -51,6 +53,9 @@ contains
         if (.not. allocated(error)) call read_constraints( &
             formulas%constraints, size(formulas%coordinates), expressions%symbols, &
             expressions%constraints, error)
+        if (.not. allocated(error)) call read_quantities( &
+            formulas%quantities, formulas%quantity_formulas, expressions%symbols, &
+            expressions%quantities, error)
     end subroutine read_expressions
 
     function unused_parameters(expressions, formulas) result(text)
@@ -69,6 +74,7 @@ contains
             if (any_depends_on(expressions%masses, first + i)) cycle
             if (any_depends_on(expressions%equilibrium, first + i)) cycle
             if (any_depends_on(expressions%constraints, first + i)) cycle
+            if (any_depends_on(expressions%quantities, first + i)) cycle
             if (text /= "") text = text//", "
             text = text//trim(formulas%parameters(i)%name)
         end do

@@ -22,5 +22,7 @@ module lagrangia_written_formulas
         character(longest_formula), allocatable :: positions(:)    !! `bob, m: x, y` or with z
         character(longest_formula), allocatable :: equilibrium(:)  !! one of each coordinate
         character(longest_formula), allocatable :: constraints(:)  !! `x^2 + y^2 = l^2`
+        type(quantity_t), allocatable :: quantities(:)             !! names, units, meanings, and
+        character(longest_formula), allocatable :: quantity_formulas(:)  !! `m r^2 phi_dot`
     end type written_formulas_t
 end module lagrangia_written_formulas

@@ -4,23 +4,26 @@ module lagrangia_written_system
     !! The formulas are read once; where the parameters are set, they are compiled with these
     !! numbers in them, to programs of t, the coordinates and the velocities, in this order.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-    use lagrangia_description, only: description_t, formula_length, quantity
+    use lagrangia_description, only: description_t, quantity, quantity_t
     use lagrangia_elimination, only: solve_positive
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t
     use lagrangia_formula_program, only: formula_program_t, new_formula_program
-    use lagrangia_formula_text, only: formula_text
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp, lanes
-    use lagrangia_lagrangian_system, only: lagrangian_system_t
+    use lagrangia_lagrangian_system, only: find_structure, lagrangian_system_t
+    use lagrangia_magnitude, only: magnitude
+    use lagrangia_written_description, only: momentum_unit, state_formulas, state_places
     use lagrangia_written_equations, only: write_equations
     use lagrangia_written_expressions, only: written_expressions_t
     use lagrangia_written_formulas, only: written_formulas_t
     use lagrangia_written_motion, only: derive_motion, invert_momenta, leave_out_what_cancels, &
                                         solve_motion, written_motion_t
+    use lagrangia_written_quantities, only: find_conserved
     implicit none (type, external)
     private
     public :: written_system_t, new_written_system
+    public :: of_quantity
 
     ! programs of a system
     integer, parameter :: of_l = 1         !! L
@@ -32,6 +35,8 @@ module lagrangia_written_system
     integer, parameter :: of_force = 7     !! Q of each coordinate
     integer, parameter :: of_place = 8     !! x, y, z of each point, m
     integer, parameter :: of_constant = 9  !! masses of the points, then the equilibrium
+    integer, parameter :: of_quantity = 10   !! the scene's own quantities
+    integer, parameter :: of_magnitude = 11  !! of the energy, momenta, own quantities
 
     type, extends(lagrangian_system_t) :: written_system_t
         !! Made by `new_written_system`, with the parameters of the formulas.
@@ -41,7 +46,8 @@ module lagrangia_written_system
         type(expression_t), allocatable :: solved(:) !! accelerations, pivots, diagonal of M
         type(expression_t), allocatable :: inverse(:)  !! velocities, pivots, diagonal of M
         logical :: is_quadratic = .false.            !! `inverse` holds
-        type(formula_program_t), allocatable :: programs(:)  !! gfortran 12 would not free nine
+        type(formula_program_t), allocatable :: programs(:)  !! gfortran 12 would not free each
+        logical, allocatable :: is_conserved(:)      !! of each quantity of the scene's own
     contains
         procedure :: outline
         procedure :: prepare
@@ -53,7 +59,9 @@ module lagrangia_written_system
         procedure :: velocities
         procedure :: forces => slopes
         procedure :: energy
-        procedure :: quantity => momentum
+        procedure :: find_structure => find_all_structure
+        procedure :: quantity => momentum_or_own
+        procedure :: natural_size
         procedure :: positions
     end type written_system_t
 
@@ -69,7 +77,7 @@ contains
         integer :: i
 
         system%expressions = expressions
-        allocate (system%programs(of_constant))
+        allocate (system%programs(of_magnitude))
         associate (e => system%expressions, d => system%stated)
             d%name = formulas%name
             d%title = formulas%title
@@ -98,78 +106,6 @@ contains
                                 size(formulas%parameters))], error)
     end subroutine new_written_system
 
-    subroutine state_places(e, d)
-        !! Masses and places of the points, and forces, as far as there is room for the formulas.
-        type(written_expressions_t), intent(in) :: e
-        type(description_t), intent(inout) :: d
-        character(:), allocatable :: text
-        integer :: i, k, longest
-
-        longest = 0
-        do i = 1, size(d%points)
-            text = formula_text(e%masses(i), e%symbols)
-            longest = max(longest, len(text))
-            d%points(i)%mass_formula = text
-            do k = 1, 3
-                text = formula_text(e%places(3*i - 3 + k), e%symbols)
-                longest = max(longest, len(text))
-                if (text /= "0") d%points(i)%position(k) = text
-            end do
-        end do
-        if (longest > formula_length) d%points%mass_formula = ""
-        longest = 0
-        do i = 1, size(e%forces)
-            text = formula_text(e%forces(i), e%symbols)
-            if (text /= "0") longest = max(longest, len(text) + 40)
-        end do
-        if (longest == 0 .or. longest > formula_length) return
-        allocate (d%generalised_forces(size(e%forces)))
-        do i = 1, size(e%forces)
-            d%generalised_forces(i) = "Q_"//trim(d%coordinates(i)%name)//" = "// &
-                                      formula_text(e%forces(i), e%symbols)
-        end do
-    end subroutine state_places
-
-    subroutine state_formulas(formulas, expressions, d)
-        !! T, V, L and the definitions as they were typed; definitions that are too long for a
-        !! letter are written out.
-        type(written_formulas_t), intent(in) :: formulas
-        type(written_expressions_t), intent(in) :: expressions
-        type(description_t), intent(inout) :: d
-        logical :: as_typed
-        integer :: equals, i
-
-        as_typed = all(len_trim(formulas%definitions) <= formula_length)
-        if (as_typed) then
-            allocate (d%letters(size(formulas%definitions)))
-            do i = 1, size(d%letters)
-                equals = index(formulas%definitions(i), "=")
-                d%letters(i)%name = trim(adjustl(formulas%definitions(i)(:equals - 1)))
-                d%letters(i)%formula = trim(adjustl(formulas%definitions(i)(equals + 1:)))
-            end do
-        end if
-        if (formulas%lagrangian /= "") then
-            d%lagrangian = stated(formulas%lagrangian, expressions%lagrangian)
-        else
-            d%lagrangian = "T - V"
-            d%kinetic_energy = stated(formulas%kinetic, expressions%kinetic)
-            d%potential_energy = stated(formulas%potential, expressions%potential)
-            if (formulas%potential == "") d%potential_energy = "0"
-        end if
-    contains
-        function stated(typed, expression) result(text)
-            character(*), intent(in) :: typed
-            type(expression_t), intent(in) :: expression
-            character(:), allocatable :: text
-
-            if (as_typed .and. typed /= "") then
-                text = trim(adjustl(typed))
-            else
-                text = formula_text(expression, expressions%symbols)
-            end if
-        end function stated
-    end subroutine state_formulas
-
     pure subroutine outline(self, d)
         !! What was stated, and what follows from the parameters: masses, an equilibrium, and which
         !! momenta are conserved.
@@ -177,22 +113,24 @@ contains
         type(description_t), intent(out) :: d
         real(dp) :: values(size(self%expressions%symbols%names))
         real(dp) :: constants(size(self%expressions%masses) + size(self%expressions%equilibrium))
+        type(quantity_t) :: items(size(self%stated%coordinates) + size(self%stated%quantities))
         integer :: i, k, n
 
         d = self%stated
         n = size(d%coordinates)
-        allocate (d%quantities(n))
         do i = 1, n
             associate (q => d%coordinates(i))
-                d%quantities(i) = quantity("p_"//trim(q%name), momentum_unit(q%unit), &
-                                           "momentum dL/d"//trim(q%name)//"_dot")
+                items(i) = quantity("p_"//trim(q%name), momentum_unit(q%unit), &
+                                    "momentum dL/d"//trim(q%name)//"_dot")
                 if (.not. allocated(self%cyclic_coordinates)) cycle
                 if (.not. self%cyclic_coordinates(i)) cycle
-                d%quantities(i)%conserved = .true.
-                d%quantities(i)%meaning = trim(d%quantities(i)%meaning)//": "//trim(q%name)// &
-                                          " is cyclic"
+                items(i)%conserved = .true.
+                items(i)%meaning = trim(items(i)%meaning)//": "//trim(q%name)//" is cyclic"
             end associate
         end do
+        items(n + 1:) = d%quantities
+        if (allocated(self%is_conserved)) items(n + 1:)%conserved = self%is_conserved
+        d%quantities = items
         values = 0.0_dp
         k = 1 + 2*n
         do i = 1, size(d%parameters)
@@ -208,6 +146,7 @@ contains
         !! Compile all formulas of the state, with numbers for the parameters.
         class(written_system_t), intent(inout) :: self
         type(expression_t) :: one(1), all(self%ndof + self%ndof**2)
+        type(expression_t), allocatable :: sizes(:)
         logical :: fixed(size(self%expressions%symbols%names))
         real(dp) :: values(size(fixed))
         integer :: i, j, k, n
@@ -237,25 +176,26 @@ contains
                 end do
             end do
             call new_formula_program(self%programs(of_momentum), all, k, fixed, values)
+            call new_formula_program(self%programs(of_quantity), e%quantities, k, fixed, values)
+            allocate (sizes(1 + n + size(e%quantities)))
+            sizes(1) = magnitude(motion%energy)
+            do i = 1, n
+                sizes(1 + i) = magnitude(motion%momenta(i))
+            end do
+            do i = 1, size(e%quantities)
+                sizes(1 + n + i) = magnitude(e%quantities(i))
+            end do
+            call new_formula_program(self%programs(of_magnitude), sizes, k, fixed, values)
         end associate
     end subroutine prepare
 
-    pure function momentum_unit(unit) result(text)
-        !! Of the momentum that belongs to a coordinate in this unit: J s over it.
-        character(*), intent(in) :: unit
-        character(16) :: text
+    pure subroutine find_all_structure(self)
+        !! That of any Lagrangian, and which quantities of the scene's own are conserved.
+        class(written_system_t), intent(inout) :: self
 
-        select case (unit)
-        case ("m")
-            text = "kg m/s"
-        case ("rad")
-            text = "kg m^2/s"
-        case ("1")
-            text = "J s"
-        case default
-            text = "J s/"//unit
-        end select
-    end function momentum_unit
+        call find_structure(self)
+        call find_conserved(self, self%programs(of_quantity), self%is_conserved)
+    end subroutine find_all_structure
 
     pure function lagrangian(self, t, q, v) result(l)
         !! See `system_t`.
@@ -423,17 +363,36 @@ contains
         e = results(1)
     end function energy
 
-    pure function momentum(self, i, t, q, v) result(value)
-        !! \(p_i = \partial L/\partial\dot q_i\).
+    pure function momentum_or_own(self, i, t, q, v) result(value)
+        !! \(p_i = \partial L/\partial\dot q_i\), then the quantities of the scene's own.
         class(written_system_t), intent(in) :: self
         integer, intent(in) :: i
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
         real(dp) :: value
-        real(dp) :: p(self%ndof)
+        real(dp) :: p(self%ndof), own(self%programs(of_quantity)%outputs)
 
-        call self%momenta(t, q, v, p)
-        value = p(i)
-    end function momentum
+        if (i <= self%ndof) then
+            call self%momenta(t, q, v, p)
+            value = p(i)
+        else
+            call self%programs(of_quantity)%evaluate([t, q, v], own)
+            value = own(i - self%ndof)
+        end if
+    end function momentum_or_own
+
+    pure function natural_size(self, i, t, q, v) result(value)
+        !! See `system_t`.
+        class(written_system_t), intent(in) :: self
+        integer, intent(in) :: i
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp) :: value
+        real(dp) :: sizes(self%programs(of_magnitude)%outputs)
+
+        value = 0.0_dp
+        if (i >= size(sizes)) return
+        call self%programs(of_magnitude)%evaluate([t, q, v], sizes)
+        value = sizes(1 + i)
+    end function natural_size
 
     pure subroutine positions(self, t, q, r)
         !! See `system_t`.

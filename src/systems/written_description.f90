@@ -1,0 +1,108 @@
+module lagrangia_written_description
+    !! What a system in formulas says of itself: places, forces, energies, quantities.
+    use lagrangia_description, only: description_t, formula_length
+    use lagrangia_expression, only: expression_t
+    use lagrangia_formula_text, only: formula_text
+    use lagrangia_written_expressions, only: written_expressions_t
+    use lagrangia_written_formulas, only: written_formulas_t
+    implicit none (type, external)
+    private
+    public :: momentum_unit, state_formulas, state_places
+
+contains
+
+    subroutine state_places(e, d)
+        !! Masses and places of the points, and forces, as far as there is room for the formulas.
+        type(written_expressions_t), intent(in) :: e     !! what the formulas mean
+        type(description_t), intent(inout) :: d          !! has the names of the points
+        character(:), allocatable :: text
+        integer :: i, k, longest
+
+        longest = 0
+        do i = 1, size(d%points)
+            text = formula_text(e%masses(i), e%symbols)
+            longest = max(longest, len(text))
+            d%points(i)%mass_formula = text
+            do k = 1, 3
+                text = formula_text(e%places(3*i - 3 + k), e%symbols)
+                longest = max(longest, len(text))
+                if (text /= "0") d%points(i)%position(k) = text
+            end do
+        end do
+        if (longest > formula_length) d%points%mass_formula = ""
+        longest = 0
+        do i = 1, size(e%forces)
+            text = formula_text(e%forces(i), e%symbols)
+            if (text /= "0") longest = max(longest, len(text) + 40)
+        end do
+        if (longest == 0 .or. longest > formula_length) return
+        allocate (d%generalised_forces(size(e%forces)))
+        do i = 1, size(e%forces)
+            d%generalised_forces(i) = "Q_"//trim(d%coordinates(i)%name)//" = "// &
+                                      formula_text(e%forces(i), e%symbols)
+        end do
+    end subroutine state_places
+
+    subroutine state_formulas(formulas, expressions, d)
+        !! T, V, L, quantities and the definitions as they were typed; definitions that are too long
+        !! for a letter are written out.
+        type(written_formulas_t), intent(in) :: formulas        !! texts
+        type(written_expressions_t), intent(in) :: expressions  !! what they mean
+        type(description_t), intent(inout) :: d                 !! gets these texts
+        character(:), allocatable :: text
+        logical :: as_typed
+        integer :: equals, i
+
+        as_typed = all(len_trim(formulas%definitions) <= formula_length)
+        if (as_typed) then
+            allocate (d%letters(size(formulas%definitions)))
+            do i = 1, size(d%letters)
+                equals = index(formulas%definitions(i), "=")
+                d%letters(i)%name = trim(adjustl(formulas%definitions(i)(:equals - 1)))
+                d%letters(i)%formula = trim(adjustl(formulas%definitions(i)(equals + 1:)))
+            end do
+        end if
+        if (formulas%lagrangian /= "") then
+            d%lagrangian = stated(formulas%lagrangian, expressions%lagrangian)
+        else
+            d%lagrangian = "T - V"
+            d%kinetic_energy = stated(formulas%kinetic, expressions%kinetic)
+            d%potential_energy = stated(formulas%potential, expressions%potential)
+            if (formulas%potential == "") d%potential_energy = "0"
+        end if
+        d%quantities = formulas%quantities
+        do i = 1, size(d%quantities)
+            text = stated(formulas%quantity_formulas(i), expressions%quantities(i))
+            if (len(text) <= formula_length) d%quantities(i)%formula = text
+        end do
+    contains
+        function stated(typed, expression) result(text)
+            character(*), intent(in) :: typed
+            type(expression_t), intent(in) :: expression
+            character(:), allocatable :: text
+
+            if (as_typed .and. typed /= "") then
+                text = trim(adjustl(typed))
+            else
+                text = formula_text(expression, expressions%symbols)
+            end if
+        end function stated
+    end subroutine state_formulas
+
+    pure function momentum_unit(unit) result(text)
+        !! Of the momentum that belongs to a coordinate in this unit: J s over it.
+        character(*), intent(in) :: unit  !! as the scene has it
+        character(16) :: text
+
+        select case (unit)
+        case ("m")
+            text = "kg m/s"
+        case ("rad")
+            text = "kg m^2/s"
+        case ("1")
+            text = "J s"
+        case default
+            text = "J s/"//unit
+        end select
+    end function momentum_unit
+end module lagrangia_written_description

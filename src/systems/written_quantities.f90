@@ -1,0 +1,128 @@
+module lagrangia_written_quantities
+    !! Quantities of a system in formulas: functions of t, coordinates and velocities that a scene
+    !! names, `'L_z [kg m^2/s] angular momentum = m r^2 phi_dot'`. Which of them the motion
+    !! conserves is found out.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_description, only: name_length, quantity_t
+    use lagrangia_elimination, only: solve_positive
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_expression, only: expression_t
+    use lagrangia_formula_parser, only: parse_formula
+    use lagrangia_formula_program, only: formula_program_t
+    use lagrangia_hyperdual, only: hyperdual_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_lagrangian_system, only: lagrangian_system_t, trial_state
+    use lagrangia_symbols, only: symbols_t
+    use lagrangia_text, only: quoted, to_text
+    implicit none (type, external)
+    private
+    public :: find_conserved, read_quantities
+
+    integer, parameter :: longest = name_length - len("_drift")
+
+contains
+
+    subroutine read_quantities(items, formulas, symbols, expressions, error)
+        !! Parse them, one after the other; each may use those before it, which become symbols.
+        type(quantity_t), intent(in) :: items(:)      !! their names
+        character(*), intent(in) :: formulas(:)       !! of each
+        type(symbols_t), intent(in) :: symbols        !! t, q, q_dot, parameters, definitions
+        type(expression_t), allocatable, intent(out) :: expressions(:)  !! of these symbols
+        type(error_t), allocatable, intent(out) :: error
+        !! status 2, `element` of the key `quantities` to blame
+        type(symbols_t) :: known
+        integer :: i
+
+        known = symbols
+        allocate (expressions(size(items)))
+        do i = 1, size(items)
+            associate (name => items(i)%name)
+                if (len_trim(name) > longest) then
+                    call fail(error, "the name "//quoted(trim(name))//" is longer than "// &
+                              to_text(longest)//" characters; shorten it")
+                else
+                    call parse_formula(trim(formulas(i)), known, expressions(i), error)
+                end if
+                if (.not. allocated(error)) call known%define(trim(name), expressions(i), error)
+            end associate
+            if (.not. allocated(error)) cycle
+            error%key = "quantities"
+            error%element = i
+            return
+        end do
+    end subroutine read_quantities
+
+    pure subroutine find_conserved(system, program, conserved)
+        !! A quantity is conserved if its rate is rounding beside the terms that add up to it, at
+        !! up to four states, with velocities that keep the constraints.
+        class(lagrangian_system_t), intent(in) :: system   !! whose motion it is
+        type(formula_program_t), intent(in) :: program     !! the quantities, of t, q, q_dot
+        logical, allocatable, intent(out) :: conserved(:)  !! each of them
+        real(dp), parameter :: rounding = 1e-11_dp  !! of terms that may themselves cancel
+        integer, parameter :: states = 4
+        real(dp), dimension(system%ndof) :: q, v, a
+        real(dp), dimension(program%outputs) :: rate, terms
+        real(dp) :: t
+        integer :: k, used
+
+        allocate (conserved(program%outputs), source=.true.)
+        if (size(conserved) == 0) return
+        used = 0
+        do k = 1, 60
+            call trial_state(k, t, q, v)
+            call keep_constraints(system, t, q, v)
+            call system%accelerations(t, q, v, a)
+            call rates(program, t, q, v, a, rate, terms)
+            if (.not. all(ieee_is_finite([a, rate, terms]))) cycle
+            conserved = conserved .and. abs(rate) <= rounding*terms
+            used = used + 1
+            if (used == states) return
+        end do
+        if (used == 0) conserved = .false.
+    end subroutine find_conserved
+
+    pure subroutine keep_constraints(system, t, q, v)
+        !! Leave out of the velocities what the constraints forbid:
+        !! \(v - A^\top(AA^\top)^{-1}Av\).
+        class(lagrangian_system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(:)
+        real(dp), intent(inout) :: v(:)
+        type(hyperdual_t) :: rows(system%constraints, size(q)), drift(system%constraints)
+        type(hyperdual_t) :: place(size(q))
+        real(dp) :: a(system%constraints, size(q)), multipliers(system%constraints)
+        real(dp) :: products(system%constraints, system%constraints)
+
+        if (system%constraints == 0) return
+        place%re = q
+        call system%constraint_rows(hyperdual_t(re=t), place, rows, drift)
+        a = rows%re
+        products = matmul(a, transpose(a))
+        multipliers = matmul(a, v)
+        call solve_positive(products, 0.0_dp*multipliers, multipliers)
+        v = v - matmul(multipliers, a)
+    end subroutine keep_constraints
+
+    pure subroutine rates(program, t, q, v, a, rate, terms)
+        !! \(\dot A = \partial A/\partial t + \sum\partial A/\partial q_i\,\dot q_i
+        !! + \partial A/\partial\dot q_i\,\ddot q_i\) of each quantity, and the sum of the absolute
+        !! values of these terms.
+        type(formula_program_t), intent(in) :: program     !! the quantities, of t, q, q_dot
+        real(dp), intent(in) :: t, q(:), v(:), a(:)        !! a state of the motion
+        real(dp), intent(out) :: rate(:), terms(:)         !! of each quantity
+        type(hyperdual_t) :: values(1 + 2*size(q)), results(size(rate))
+        real(dp) :: along(size(values))
+        integer :: i
+
+        along = [1.0_dp, v, a]
+        values%re = [t, q, v]
+        rate = 0.0_dp
+        terms = 0.0_dp
+        do i = 1, size(values)
+            values(i)%d1 = along(i)
+            call program%evaluate(values, results)
+            values(i)%d1 = 0.0_dp
+            rate = rate + results%d1
+            terms = terms + abs(results%d1)
+        end do
+    end subroutine rates
+end module lagrangia_written_quantities
