@@ -335,6 +335,21 @@ run run pendulum --json --set pendulum%g=981 --output "$work/o"
 check "and beside the exact one" json '0 < d[0]["period_error"] < 1e-6'
 run run cart_pendulum --output "$work/o"
 check "and beside the exact one" grep -q "^            [0-9.]* s      exact; they differ by [0-9.]*e-1[0-9] of it$" "$work/out"
+for page in $("$program" principle | cut -d' ' -f1); do
+    run principle "$page" --json --output "$work/o"
+    json 'len(d) > 5 and all(row["holds"] != row["control"] for row in d) and any(row["control"] for row in d)' || check "principle $page: its controls differ, the rest holds" false
+done
+check "principle: eighteen pages, one a line" [ "$("$program" principle | wc -l)" -eq 18 ]
+run course --json
+check "course: a command or a reason for every statement" json 'len(d) == 78 and all(bool(s["shows"]) != bool(s["nothing"]) for s in d)'
+refuses 2 "there are I, of 1 September 2011, and II" course III
+course=$("$program" course | sed -n 's/^ *lagrangia //p' | grep -v '^check$' | sort -u)
+while read -r words; do
+    case $words in run* | sweep*) words+=" --quiet --output $work/o" ;; principle*) words+=" --output $work/o" ;; esac
+    run $words
+    [ "$status" -eq 0 ] || { [ "$words" = "grade wedge" ] && [ "$status" -eq 1 ]; } || check "course: lagrangia $words" false
+done <<<"$course"
+check "course: its commands run" [ "$(wc -l <<<"$course")" -gt 50 ]
 run errata --json
 check "errata: three parts, and what is no slip" json '[sum(slip["kind"] == kind for slip in d) for kind in ("lecture", "scan", "terminology", "no slip")] == [9, 17, 2, 1]'
 check "errata: each quoted, with its line" json 'len(d) == 29 and all(q["line"] > 0 and q["scan"] in ("I", "II") and q["text"] for slip in d for q in slip["quotes"]) and all(slip["quotes"] for slip in d)'

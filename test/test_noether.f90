@@ -2,8 +2,9 @@ module test_noether
     !! Noether's search: its null space, what it finds, what it must not find.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_errors, only: error_t
-    use lagrangia_generators, only: count_generators, find_symmetries, of_product, of_time, &
-                                    outside, shift, times_time
+    use lagrangia_generators, only: count_generators, find_symmetries, of_product, of_sine, &
+        of_time, &
+                                    outside, shift
     use lagrangia_kinds, only: dp
     use lagrangia_null_space, only: null_space
     use lagrangia_oscillator, only: oscillator_t
@@ -56,12 +57,12 @@ contains
 
     subroutine places_are_all_different()
         !! The products end where the list ends.
-        call assertEqual([10, 21, 35], [count_generators(1), count_generators(2), &
+        call assertEqual([9, 19, 32], [count_generators(1), count_generators(2), &
                                         count_generators(3)], "numbers")
-        call assertEqual([10, 21, 35], [of_product(1, 1, 1), of_product(2, 2, 2), &
+        call assertEqual([9, 19, 32], [of_product(1, 1, 1), of_product(2, 2, 2), &
                                         of_product(3, 3, 3)], "the last product")
         call assertEqual(of_product(3, 1, 3) + 1, of_product(3, 2, 2), "row by row")
-        call assertTrue(times_time(2, 2) < of_product(2, 1, 1) .and. of_time(2) > shift(2), "order")
+        call assertTrue(of_sine(2, 2) < of_product(2, 1, 1) .and. of_time(2) > shift(2), "order")
     end subroutine places_are_all_different
 
     subroutine an_oscillator_has_its_energy()
@@ -69,7 +70,7 @@ contains
         type(oscillator_t) :: oscillator
         real(dp), allocatable :: symmetries(:, :)
         type(error_t), allocatable :: error
-        real(dp) :: time(10)
+        real(dp) :: time(9)
 
         call oscillator%configure([0.5_dp, 2.0_dp], error)
         call find_symmetries(oscillator, symmetries, error)
@@ -77,7 +78,7 @@ contains
         if (anyExceptions()) return
         time = 0.0_dp
         time(of_time(1)) = 1.0_dp
-        call assertEqual([10, 1], shape(symmetries), "one")
+        call assertEqual([9, 1], shape(symmetries), "one")
         call assertEqual(0.0_dp, outside(symmetries, time), 1e-14_dp, "the energy")
         time(of_time(1)) = 0.0_dp
         time(shift(1)) = 3.0_dp

@@ -18,7 +18,7 @@ module lagrangia_generators
     private
     public :: count_generators, find_symmetries, outside, conserved_values
     public :: boost, linear, of_time, shift
-    public :: of_coordinate, of_product, of_sine, times_time
+    public :: of_coordinate, of_product, of_sine
 
     integer, parameter :: states = 200  !! at which the condition must hold
 
@@ -26,11 +26,11 @@ contains
 
     pure function count_generators(n) result(number)
         !! For n coordinates: \(\xi\) is a constant, t or a coordinate in one of n directions;
-        !! \(\tau\) is a constant; F is t, or q, t q, sin q, cos q of one, or a product of two.
+        !! \(\tau\) is a constant; F is t, or q, sin q, cos q of one, or a product of two.
         integer, intent(in) :: n  !! coordinates
         integer :: number
 
-        number = 2*n + n*n + 1 + 1 + 4*n + n*(n + 1)/2
+        number = 2*n + n*n + 1 + 1 + 3*n + n*(n + 1)/2
     end function count_generators
 
     pure function shift(i) result(at)
@@ -73,20 +73,12 @@ contains
         at = of_time(n) + 1 + i
     end function of_coordinate
 
-    pure function times_time(n, i) result(at)
-        !! \(F = t q_i\).
-        integer, intent(in) :: n, i  !! coordinates; one of them
-        integer :: at
-
-        at = of_time(n) + 1 + n + i
-    end function times_time
-
     pure function of_sine(n, i) result(at)
         !! \(F = \sin q_i\); the cosine is n further on.
         integer, intent(in) :: n, i  !! coordinates; one of them
         integer :: at
 
-        at = of_time(n) + 1 + 2*n + i
+        at = of_time(n) + 1 + n + i
     end function of_sine
 
     pure function of_product(n, i, j) result(at)
@@ -94,7 +86,7 @@ contains
         integer, intent(in) :: n, i, j  !! coordinates; two of them
         integer :: at
 
-        at = of_time(n) + 1 + 4*n + (i - 1)*n - (i - 1)*i/2 + j
+        at = of_time(n) + 1 + 3*n + (i - 1)*n - (i - 1)*i/2 + j
     end function of_product
 
     pure subroutine find_symmetries(system, symmetries, error)
@@ -122,33 +114,32 @@ contains
                 end do
             end do
             matrix(k, of_time(n)) = terms%dl_dt
-            matrix(k, of_time(n) + 1:) = -rate_of_f(t, q, v)
+            matrix(k, of_time(n) + 1:) = -rate_of_f(q, v)
         end do
         call null_space(matrix, symmetries, error)
     end subroutine find_symmetries
 
-    pure function rate_of_f(t, q, v) result(rate)
-        !! \(dF/dt\) of t, q, t q, sin q, cos q, and the products.
-        real(dp), intent(in) :: t, q(:), v(:)
-        real(dp) :: rate(1 + 4*size(q) + size(q)*(size(q) + 1)/2)
+    pure function rate_of_f(q, v) result(rate)
+        !! \(dF/dt\) of t, q, sin q, cos q, and the products.
+        real(dp), intent(in) :: q(:), v(:)
+        real(dp) :: rate(1 + 3*size(q) + size(q)*(size(q) + 1)/2)
         integer :: i, j, n
 
         n = size(q)
         rate(1) = 1.0_dp
         rate(2:n + 1) = v
-        rate(n + 2:2*n + 1) = q + t*v
-        rate(2*n + 2:3*n + 1) = cos(q)*v
-        rate(3*n + 2:4*n + 1) = -sin(q)*v
-        rate(4*n + 2:) = [((v(i)*q(j) + q(i)*v(j), j=i, n), i=1, n)]
+        rate(n + 2:2*n + 1) = cos(q)*v
+        rate(2*n + 2:3*n + 1) = -sin(q)*v
+        rate(3*n + 2:) = [((v(i)*q(j) + q(i)*v(j), j=i, n), i=1, n)]
     end function rate_of_f
 
     pure function value_of_f(t, q) result(f)
         !! The same without the rate.
         real(dp), intent(in) :: t, q(:)
-        real(dp) :: f(1 + 4*size(q) + size(q)*(size(q) + 1)/2)
+        real(dp) :: f(1 + 3*size(q) + size(q)*(size(q) + 1)/2)
         integer :: i, j
 
-        f = [t, q, t*q, sin(q), cos(q), ((q(i)*q(j), j=i, size(q)), i=1, size(q))]
+        f = [t, q, sin(q), cos(q), ((q(i)*q(j), j=i, size(q)), i=1, size(q))]
     end function value_of_f
 
     pure function outside(symmetries, generator) result(distance)

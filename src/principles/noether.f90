@@ -40,7 +40,7 @@ contains
         if (allocated(error)) return
         call report%note("Tried: delta q = 1, t or a q in each direction, delta t = 1; F: t, "// &
                          "q, "// &
-                         "t q, sin q, cos q, q q'.")
+                         "sin q, cos q, q q'.")
         call report%note("Part not found: 0 if a change of length 1 is among those found, 1 if "// &
                          "nothing of it is.")
     end subroutine noether_principle

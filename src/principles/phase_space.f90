@@ -43,12 +43,12 @@ contains
         call areas_and_periods(report)
         call exponents(report, error)
         if (.not. allocated(error)) call draw_clouds(report, error)
-        call report%note("Cloud: the starts within a circle about theta = 1, p/(m l^2 w0) = "// &
-                         "0, of "// &
-                         "0.3. Area in J s.")
-        call report%note("Exponents from 100 s to 400 s; from 90 degrees at rest. Without chaos "// &
-                         "neighbours part")
-        call report%note("as t, not as exp(t): what is left is of size ln(400/100)/300 = 0.005/s.")
+        call report%note("Cloud: the starts within 0.3 of theta = 1 rad, theta_dot/w0 = 0. "// &
+                         "Area in J s.")
+        call report%note("Exponents from 100 s to 400 s; from 90 degrees, at rest. Without "// &
+                         "chaos neighbours")
+        call report%note("part as t, not as exp(t): what is left is of size ln(4)/(300 s) = "// &
+                         "0.005/s.")
     end subroutine phase_space_principle
 
     subroutine legendre(report, error)
