@@ -626,7 +626,7 @@ run check two_bodies
 check "quantities: the audit knows them" eval '[ $status -eq 0 ] && grep -q "X_0 is conserved .* holds" "$work/out" && grep -q "X_0 as printed .* holds" "$work/out"'
 refuses 2 "column 'A_x_drift': A_x of this kepler is not conserved; there is 'A_x'" run kepler_precession --set "scene%columns='t','A_x_drift'" --output "$work/none"
 refuses 2 "two columns would be called 'energy'" run kepler --set "lagrangian%quantities='energy=r'" --output "$work/none"
-refuses 2 "quantities: column 5: unknown name 'rr'; did you mean 'r'?" run kepler --set "lagrangian%quantities='d = rr'" --output "$work/none"
+refuses 2 "quantities: column 5: unknown name 'rr'; did you mean 'r'" run kepler --set "lagrangian%quantities='d = rr'" --output "$work/none"
 refuses 2 "a quantity is written 'L_z [kg m^2/s] angular momentum = m r^2 phi_dot'" run kepler --set "lagrangian%quantities='r^2'" --output "$work/none"
 check "quantities: nothing refused left a file" [ ! -e "$work/none" ]
 
