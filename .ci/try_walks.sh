@@ -27,9 +27,10 @@ for found in python3 /usr/bin/python3; do
     if "$found" -c 'import matplotlib, numpy, pandas' 2>/dev/null; then python=$found; break; fi
 done
 status=0
-for page in docs/walk_cart_pendulum.md docs/walk_verlet.md docs/walk_data.md docs/reading_data.ipynb; do
+for page in docs/walk_cart_pendulum.md docs/walk_verlet.md docs/walk_data.md docs/walk_sweeps.md \
+    docs/reading_data.ipynb; do
     runner=python3
-    case $page in *data*)
+    case $page in *data* | *sweeps*)
         runner=$python
         [ -n "$python" ] || { echo "not tried: no python3 with NumPy, pandas and matplotlib for $page"; continue; } ;;
     esac

@@ -1,7 +1,7 @@
 module test_changed_scene
     !! What `--set` makes of a scene.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
-    use lagrangia_changed_scene, only: make_own_scene
+    use lagrangia_changed_scene, only: ending_start, make_own_scene
     use lagrangia_description, only: check_parameter, description_t, parameter_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
@@ -105,6 +105,9 @@ contains
         call assertEqual("pendulum_dt_1.5E1_duration_30", trim(scene%output))
         call change("scene%dt="//repeat("0", 120)//"1", scene)
         call assertEqual("pendulum_changed", trim(scene%output))
+        call assertEqual(10, ending_start("a.b/c_2.5"), message="a number is no ending")
+        call assertEqual(6, ending_start("a.b/c.dat"), message="an ending")
+        call assertEqual(4, ending_start("c_2"), message="none")
     end subroutine names_are_those_of_files
 
     subroutine every_parameter_can_be_changed()
@@ -262,6 +265,13 @@ contains
         call assertEqual(1e-10_dp, scene%tolerance)
         call change("scene%samples=500", scene)
         call assertEqual(40, int(scene%every))
+        call change("scene%dt=1e-4", scene)
+        call assertEqual(100, int(scene%every), message="0.01 s, as in the file")
+        call assertEqual("every = 100 leaves the rows as far apart as the file's", scene%warning)
+        call change("scene%dt=0.2", scene)
+        call assertEqual(1, int(scene%every), message="further apart than in the file")
+        call change("scene%dt=1e-4;scene%every=7", scene)
+        call assertEqual(7, int(scene%every), message="as it is set")
         overrides(1)%text = "scene%method=rk4"
         overrides(2)%text = "scene%dt=1e-2"
         call read_scene("data/scenes/sphere.nml", overrides(:1), scene, system, error)

@@ -40,6 +40,7 @@ contains
         call assertEqual("pendulum_rk4", run_name("pendulum", "rk4"))
         call assertEqual("a.b/c_rk4", run_name("a.b/c.csv", "rk4"))
         call assertEqual("a.b/c_rk4", run_name("a.b/c", "rk4"))
+        call assertEqual("c_dt_0.2_rk4", run_name("c_dt_0.2", "rk4"))
     end subroutine files_are_named_after_runs
 
     subroutine compared(text, method, scene, error)

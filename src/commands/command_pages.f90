@@ -21,9 +21,10 @@ module lagrangia_command_pages
                 "lagrangia run double_pendulum --error-estimate"]), &
         page_t("compare", "Runs one scene by several methods, or from several starts, and sets "// &
                "the results side by side: one table, one picture of the motion, the drift and "// &
-               "the error.", &
+               "the error; of two methods also a film with one beside the other.", &
                [character(72) :: "lagrangia compare pendulum --methods rk4,verlet --plot", &
-                "lagrangia compare pendulum --starts 0:7 --plot", "", ""]), &
+                "lagrangia compare pendulum --methods rk4,verlet --animate "// &
+                "--set scene%dt=0.2", "lagrangia compare pendulum --starts 0:7 --plot", ""]), &
         page_t("report", "Makes one HTML page of scenes, without a name of all: scorecard, "// &
                "pictures, films, derivations and the slips in the notes. It needs no network "// &
                "and prints well.", &

@@ -2,10 +2,11 @@ module lagrangia_compare
     !! `lagrangia compare SCENE`: one scene by several methods, or from several starts, in one table
     !! and one picture.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use lagrangia_animation, only: animate_both
     use lagrangia_changed_scene, only: make_own_scene
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: note, put_line
-    use lagrangia_data_files, only: check_format, draw, script_path
+    use lagrangia_data_files, only: check_format, draw, film_path, script_path
     use lagrangia_errors, only: error_t, fail, is_signal
     use lagrangia_gnuplot, only: panel_t, series_t
     use lagrangia_kinds, only: dp
@@ -59,6 +60,9 @@ contains
                       "'lagrangia list scenes' shows the names")
         else if (line%has("methods") .eqv. line%has("starts")) then
             call fail(error, "compare by what? --methods rk4,verlet or --starts ""0.5 1 2""")
+        else if (line%has("animate") .and. .not. line%has("methods")) then
+            call fail(error, "--animate: a film shows two methods of one motion; --methods names "// &
+                      "them")
         end if
         if (allocated(error)) return
         format = line%value_of("format", "text")
@@ -94,6 +98,10 @@ contains
         if (.not. (line%has("json") .or. line%has("quiet"))) call put_line("gnuplot script: "// &
             script_path(overlay_path(folder, name)))
         if (line%has("plot")) call draw(overlay_path(folder, name), kind, error)
+        if (.not. line%has("animate") .or. allocated(error)) return
+        call animate_both(runs(1)%plan, runs(2)%plan, film_path(overlay_path(folder, name)), error)
+        if (allocated(error) .or. line%has("json") .or. line%has("quiet")) return
+        call put_line("film: "//film_path(overlay_path(folder, name)))
     end subroutine compare_command
 
     subroutine plan_runs(line, folder, format, runs, name, error)
@@ -114,7 +122,9 @@ contains
             call split(line%value_of("starts", ""), " ", "--starts", words, error)
         end if
         if (allocated(error)) return
-        call find_scene(line%arguments(1)%text, path, error)
+        if (line%has("animate") .and. size(words) /= 2) call fail(error, "--animate: a film shows "// &
+            "two methods, not "//to_text(size(words)))
+        if (.not. allocated(error)) call find_scene(line%arguments(1)%text, path, error)
         if (allocated(error)) return
         allocate (runs(size(words)))
         do i = 1, size(words)
@@ -128,6 +138,8 @@ contains
         call claim_table(overlay_path(folder, name), "overlay", "", places, error)
         if (.not. allocated(error)) call refuse_unwritable( &
             script_path(overlay_path(folder, name)), error)
+        if (line%has("animate") .and. .not. allocated(error)) call refuse_unwritable( &
+            film_path(overlay_path(folder, name)), error)
     end subroutine plan_runs
 
     subroutine plan_run(line, path, word, number, run, name, error)

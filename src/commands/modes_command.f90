@@ -5,7 +5,7 @@ module lagrangia_modes_command
     use lagrangia_console, only: note, put, put_line
     use lagrangia_damped_rates, only: damped_rates
     use lagrangia_data_files, only: data_path, draw
-    use lagrangia_description, only: description_t
+    use lagrangia_description, only: description_t, figure_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_json, only: json_list, json_number, json_string
@@ -31,6 +31,7 @@ module lagrangia_modes_command
         "oscillation", "zero mode", "unstable"]
     real(dp), parameter :: pi = acos(-1.0_dp)
     integer, parameter :: widest = 8  !! matrices beyond are not printed
+    integer, parameter :: many = 300  !! modes: more take a second and longer
 
 contains
 
@@ -46,6 +47,7 @@ contains
         type(progress_t) :: progress
         real(dp), allocatable :: at(:)
         character(:), allocatable :: folder, kind, page, warning
+        character(figure_length), allocatable :: figure(:)
         logical :: elsewhere
         integer :: j
 
@@ -57,7 +59,8 @@ contains
         if (allocated(error)) return
         call take_picture(line, kind, error)
         if (allocated(error)) return
-        call read_named_system(line%arguments(1)%text, line%values_of("set"), system, error)
+        call read_named_system(line%arguments(1)%text, line%values_of("set"), system, error, &
+                               figure)
         if (allocated(error)) return
         call system%describe(d)
         allocate (at, source=likely_equilibrium(system))
@@ -74,7 +77,10 @@ contains
         page = data_path(folder, trim(d%name)//"_modes.html", "text")
         if (line%has("animate")) call refuse_unwritable(page, error)
         if (allocated(error)) return
+        if (system%ndof > many) call progress%say(trim(d%name)//": "//to_text(system%ndof)// &
+                                                  " modes, some seconds")
         call find_modes(system, at, line%has("at"), modes, error)
+        call progress%clear()
         if (allocated(error)) return
         elsewhere = allocated(modes%analytic%elsewhere) .and. .not. line%has("at")
         if (elsewhere) call find_modes(system, modes%analytic%elsewhere, .true., others, error)
@@ -89,7 +95,7 @@ contains
             if (elsewhere) call put_line("")
             if (elsewhere) call print_modes(system, others)
         end if
-        if (line%has("animate")) call animate_modes(system, modes, page, error)
+        if (line%has("animate")) call animate_modes(system, figure, modes, page, error)
         if (allocated(error) .or. .not. (line%has("output") .or. line%has("plot"))) return
         call progress%restart(line%arguments(1)%text, line%has("quiet"))
         do j = 1, size(modes%omega2)
@@ -99,7 +105,7 @@ contains
         end do
         call progress%clear()
         if (allocated(error) .or. interrupt_status() /= 0 .or. .not. has_positions(system)) return
-        call write_mode_picture(system, modes, folder, error)
+        call write_mode_picture(system, figure, modes, folder, error)
         if (allocated(error) .or. .not. line%has("plot")) return
         call draw(mode_picture_path(system, folder), kind, error)
     end subroutine modes_command

@@ -27,6 +27,7 @@ module lagrangia_progress
         procedure :: observe
         procedure :: tick
         procedure :: restart
+        procedure :: say
         procedure :: clear
     end type progress_t
 
@@ -60,7 +61,7 @@ contains
     end subroutine observe
 
     subroutine tick(self, done, steps)
-        !! Rewrite the line when it is time; or announce, once, how long it will be.
+        !! Rewrite the line when it is time, `33 %, 4 s, 8 s left`; or announce, once, how long it will be.
         class(progress_t), intent(inout) :: self
         integer(i8), intent(in) :: done, steps  !! how many of how many
         integer(i8) :: now
@@ -84,16 +85,16 @@ contains
     end subroutine tick
 
     pure function pace(counted, seconds, done, all) result(text)
-        !! `, 5.30E+03 trajectories/s, 12 s left`; nothing where nothing is counted.
+        !! `, 5.30E+03 trajectories/s, 12 s left`; without the first where nothing is counted.
         character(*), intent(in) :: counted        !! the plural of what is counted, or ""
         real(dp), intent(in) :: seconds            !! since the start, above 0
         integer(i8), intent(in) :: done, all       !! how many of how many
         character(:), allocatable :: text
 
         text = ""
-        if (counted == "" .or. done < 1) return
-        text = ", "//scientific(done/seconds, 3)//" "//counted//"/s, "// &
-               about(seconds*(real(all - done, dp)/real(done, dp)))//" left"
+        if (done < 1 .or. done >= all) return
+        if (counted /= "") text = ", "//scientific(done/seconds, 3)//" "//counted//"/s"
+        text = text//", "//about(seconds*(real(all - done, dp)/real(done, dp)))//" left"
     end function pace
 
     pure function about(seconds) result(text)
@@ -109,6 +110,16 @@ contains
         i = max(1, count(seconds >= 2*units))
         text = to_text(nint(min(seconds/units(i), highest)))//" "//trim(names(i))
     end function about
+
+    subroutine say(self, words)
+        !! A line, on a terminal, of work that cannot say how far it is; until `clear`.
+        class(progress_t), intent(inout) :: self
+        character(*), intent(in) :: words  !! what it does
+
+        if (.not. is_terminal(error_unit)) return
+        self%shown = .true.
+        call show_progress(words)
+    end subroutine say
 
     subroutine clear(self)
         !! Remove the line, if there is one.

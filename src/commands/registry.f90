@@ -28,7 +28,7 @@ module lagrangia_registry
                  any_text=.true.), &
         option_t("format", needs_value, "text|csv|npy", "of the data files"), &
         option_t("plot", may_have_value, "png|svg|pdf", "draw the data files by gnuplot"), &
-        option_t("animate", no_value, "", "a film of each scene, or of the modes: one HTML page"), &
+        option_t("animate", no_value, "", "a film of each scene, two methods, or the modes"), &
         option_t("error-estimate", no_value, "", "state the final state to the digits that hold"), &
         option_t("quick", no_value, "", "measure less, in under 20 s"), &
         option_t("long", no_value, "", "up to 10^8 steps of every method"), &
@@ -61,7 +61,7 @@ module lagrangia_registry
                   "set output format plot overlay animate error-estimate json quiet", &
                   takes="scenes scene_files"), &
         command_t("compare", "SCENE", "by --methods, or from many --starts: one table, one "// &
-                  "picture", 1, "set methods starts output format plot json quiet", &
+                  "picture", 1, "set methods starts output format plot animate json quiet", &
                   takes="scenes scene_files"), &
         command_t("report", "[SCENE...]", "one HTML page: scorecard, pictures, films, "// &
                   "derivations, errata", -1, "set output quiet", takes="scenes scene_files"), &

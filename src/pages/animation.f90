@@ -10,14 +10,14 @@ module lagrangia_animation
     use lagrangia_html, only: html_text, script_json, write_template
     use lagrangia_json, only: json_item, json_object, json_pair, json_string
     use lagrangia_kinds, only: dp
-    use lagrangia_methods, only: exact
+    use lagrangia_run_files, only: method_text
     use lagrangia_run_plan, only: run_plan_t
     use lagrangia_shipped_files, only: shipped_text
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text, word_t
     implicit none (type, external)
     private
-    public :: animate_scene, page_of_film, page_of_films, scene_film, write_page
+    public :: animate_both, animate_scene, page_of_film, page_of_films, scene_film, write_page
 
     integer, parameter :: most_bytes = 215000      !! of the series of a page, of 300 kB
     integer, parameter :: least_frames = 120
@@ -38,11 +38,27 @@ contains
         call write_page(film_path(path), trim(plan%scene%title), page_of_film(plan, film), error)
     end subroutine animate_scene
 
-    subroutine scene_film(plan, film, error)
+    subroutine animate_both(one, other, path, error)
+        !! Write the page of a scene by two methods, the second drawn beside the first.
+        type(run_plan_t), intent(in) :: one, other  !! of one scene; may have been run
+        character(*), intent(in) :: path            !! of the page
+        type(error_t), allocatable, intent(out) :: error  !! 2, 3 or 5: why there is none
+        character(:), allocatable :: film, title
+
+        call scene_film(one, film, error, other)
+        if (allocated(error)) return
+        title = trim(one%scene%title)
+        call write_page(path, title, page_of_films(one%system, title, &
+            method_text(one%settled)//"; beside it: "//method_text(other%settled), film), error)
+    end subroutine animate_both
+
+    subroutine scene_film(plan, film, error, beside)
         !! The film of a scene, as JSON for `page_of_films`.
         type(run_plan_t), intent(in) :: plan               !! of the scene; may have been run
         character(:), allocatable, intent(out) :: film     !! one object
         type(error_t), allocatable, intent(out) :: error   !! 2: too many parts; 3: the numbers
+        type(run_plan_t), intent(in), optional :: beside
+        !! the same scene by another method; absent: the closed form or a finer run is beside it
         type(frames_t) :: probe, frames, reference
         character(:), allocatable :: members, title, note
         real(dp) :: omega, window
@@ -56,7 +72,7 @@ contains
             if (.not. allocated(error)) call count_channels(system, own, probe, channels, error)
             if (allocated(error)) return
             count = room_for(2*channels)
-            if (count < frames_for_two) count = room_for(channels)
+            if (count < frames_for_two .and. .not. present(beside)) count = room_for(channels)
             if (count < least_frames) then
                 call fail(error, "no film of so many moving parts fits into a page of 300 kB")
                 return
@@ -65,8 +81,17 @@ contains
             call record_frames(scene, system, plan%closed_form, window, count, frames, error)
             if (allocated(error)) return
             title = ""
-            if (count == room_for(2*channels)) call add_reference(scene, system, &
-                plan%closed_form, frames, reference, title)
+            if (present(beside)) then
+                title = trim(beside%settled%method)
+                call record_frames(beside%settled, system, beside%closed_form, window, count, &
+                                   reference, error)
+                if (allocated(error)) call error%add_context(title)
+                if (allocated(error)) return
+                frames%count = min(frames%count, reference%count)  ! an event may stop one earlier
+                reference%count = frames%count
+            else if (count == room_for(2*channels)) then
+                call add_reference(scene, system, plan%closed_form, frames, reference, title)
+            end if
             call film_json(system, own, frames, reference, members, error)
             if (allocated(error)) return
             note = ""
@@ -92,19 +117,9 @@ contains
         !! What a page says beside the film of a scene.
         type(run_plan_t), intent(in) :: plan  !! of the scene
         character(*), intent(in) :: film      !! of `scene_film`
-        character(:), allocatable :: json, method
+        character(:), allocatable :: json
 
-        associate (scene => plan%settled)
-            method = trim(scene%method)
-            if (scene%method == exact) then
-                method = "closed form"
-            else if (scene%tolerance > 0.0_dp) then
-                method = method//", tolerance "//to_text(scene%tolerance)
-            else
-                method = method//", dt = "//to_text(scene%dt)//" s"
-            end if
-            json = page_of_films(plan%system, trim(scene%title), method, film)
-        end associate
+        json = page_of_films(plan%system, trim(plan%scene%title), method_text(plan%settled), film)
     end function page_of_film
 
     function page_of_films(system, title, method, films) result(json)

@@ -2,7 +2,7 @@ module lagrangia_modes_film
     !! Small oscillations as films: each mode drawn as the mechanism, on one page.
     use lagrangia_animation, only: page_of_films, write_page
     use lagrangia_channels, only: bytes_beside, bytes_of_number
-    use lagrangia_description, only: description_t, figure_length
+    use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_film, only: count_channels, film_json, furthest
     use lagrangia_frames, only: film_speed, frames_t
@@ -19,15 +19,15 @@ module lagrangia_modes_film
     integer, parameter :: most_bytes = 215000  !! of the series of a page, of 300 kB
     real(dp), parameter :: share = 0.15_dp     !! of the figure's size, that a point moves at most
     real(dp), parameter :: pi = acos(-1.0_dp)
-    character(figure_length), parameter :: own(0) = ""  !! the figure is the system's
 
 contains
 
-    subroutine animate_modes(system, modes, path, error)
+    subroutine animate_modes(system, own, modes, path, error)
         !! Write the page of all modes, or of the first that fit into it. The amplitude is such
         !! that it can be seen; the motion is that of the linear equations, a period of it, or two
         !! growth times of \(\cosh\), or a second of a zero mode.
         class(system_t), intent(in) :: system   !! with its parameters
+        character(*), intent(in) :: own(:)      !! parts of a scene's figure; none: the system's
         type(modes_t), intent(in) :: modes      !! of this system
         character(*), intent(in) :: path        !! of the page
         type(error_t), allocatable, intent(out) :: error  !! 2: too many parts; 5: of the file
@@ -44,7 +44,7 @@ contains
         shown = size(modes%omega2)
         do j = 1, size(modes%omega2)
             if (j > shown) exit
-            call move_in_mode(system, modes, j, frames, kinetic, potential)
+            call move_in_mode(system, own, modes, j, frames, kinetic, potential)
             if (j == 1) then
                 call count_channels(system, own, frames, channels, error)
                 if (allocated(error)) return
@@ -81,10 +81,11 @@ contains
         factor = film_speed(max(frames%t(frames%count), 4.0_dp), rate)
     end function speed
 
-    subroutine move_in_mode(system, modes, j, frames, kinetic, potential)
+    subroutine move_in_mode(system, own, modes, j, frames, kinetic, potential)
         !! States of a mode, and its energies: \(\tfrac12\,\dot u\cdot M\dot u\) and
         !! \(\tfrac12\,u\cdot Ku\), \(u\) the distance from the equilibrium.
         class(system_t), intent(in) :: system
+        character(*), intent(in) :: own(:)
         type(modes_t), intent(in) :: modes
         integer, intent(in) :: j
         type(frames_t), intent(out) :: frames

@@ -1,6 +1,7 @@
 module lagrangia_data_files
     !! Data files by their format: their names, the scripts beside them, and the pictures that
     !! gnuplot makes of them.
+    use lagrangia_changed_scene, only: ending_start
     use lagrangia_csv_table, only: csv_table_t
     use lagrangia_errors, only: error_t, fail, status_file
     use lagrangia_files, only: plain_path
@@ -9,7 +10,7 @@ module lagrangia_data_files
     use lagrangia_output_file, only: output_file_t
     use lagrangia_processes, only: run_program
     use lagrangia_table, only: table_t
-    use lagrangia_text, only: join, lower, quoted, to_text, word_t
+    use lagrangia_text, only: join, quoted, to_text, word_t
     use lagrangia_text_table, only: text_table_t
     implicit none (type, external)
     private
@@ -54,19 +55,13 @@ contains
     end subroutine new_table
 
     pure function data_path(folder, output, format) result(path)
-        !! `folder/output`, with the format's ending where `output` has none: a dot and a letter
-        !! make one, `l_2.5` has none.
+        !! `folder/output`, with the format's ending where `output` has none.
         character(*), intent(in) :: folder, output, format  !! none empty; one of the formats
         character(:), allocatable :: path
 
-        integer :: dot
-
         path = folder//"/"//output
         if (folder(len(folder):) == "/") path = folder//output
-        dot = index(output, ".", back=.true.)
-        if (dot > index(output, "/", back=.true.) .and. dot < len(output)) then
-            if (scan(lower(output(dot + 1:dot + 1)), "abcdefghijklmnopqrstuvwxyz") == 1) return
-        end if
+        if (ending_start(output) <= len(output)) return
         path = path//trim(endings(findloc(formats == format, .true., 1)))
     end function data_path
 

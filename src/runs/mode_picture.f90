@@ -1,14 +1,17 @@
 module lagrangia_mode_picture
     !! The modes of a system drawn as the mechanism that swings: the masses where the equilibrium
-    !! has them, displaced to either side, and the way between; rods where two points, or a point
-    !! and the origin, keep their distance whatever the coordinates are.
+    !! has them, displaced to either side, and the way between; the rods, springs, carts and bodies
+    !! of its figure, or where that has none, rods where two points, or a point and the origin, keep
+    !! their distance whatever the coordinates are.
     use lagrangia_data_files, only: data_path, script_path
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
+    use lagrangia_figure_edges, only: find_edges, has_edges
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_mode_script, only: is_mass, is_rod, is_way, mode_script, most_panels
     use lagrangia_output_file, only: commit_both, output_file_t
+    use lagrangia_scene_figure, only: figure_t, new_figure
     use lagrangia_small_oscillations, only: modes_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
@@ -53,9 +56,10 @@ contains
         path = data_path(folder, trim(d%name)//"_modes", "text")
     end function mode_picture_path
 
-    subroutine write_mode_picture(system, modes, folder, error)
+    subroutine write_mode_picture(system, own, modes, folder, error)
         !! `SYSTEM_modes.dat` and its script, of a system that has positions.
         class(system_t), intent(in) :: system  !! with its parameters
+        character(*), intent(in) :: own(:)     !! parts of a scene's figure; none: the system's
         type(modes_t), intent(in) :: modes     !! of this system
         character(*), intent(in) :: folder     !! of the files
         type(error_t), allocatable, intent(out) :: error  !! of a file; then there is none
@@ -67,10 +71,10 @@ contains
         integer :: i
 
         call system%describe(d)
-        call fill(system, modes, size(d%points), picture)
+        call fill(system, own, modes, size(d%points), picture)
         header(1) = trim(d%name)//": small oscillations as the mechanism, the shapes enlarged"
-        header(2) = "side: 0 at rest, 1 and -1 displaced; kind: 0 a mass, 1 a rod, "// &
-                    "2 the way of a mass"
+        header(2) = "side: 0 at rest, 1 and -1 displaced; kind: 0 a mass, 1 a rod or "// &
+                    "an edge, 2 the way of a mass"
         header(3) = "from (x, y, z) to (x + dx, y + dy, z + dz)"
         call table%file%open(mode_picture_path(system, folder), error)
         if (allocated(error)) return
@@ -89,28 +93,48 @@ contains
         call commit_both(table%file, script, error)
     end subroutine write_mode_picture
 
-    subroutine fill(system, modes, points, picture)
+    subroutine fill(system, own, modes, points, picture)
         !! All rows.
         class(system_t), intent(in) :: system
+        character(*), intent(in) :: own(:)
         type(modes_t), intent(in) :: modes
         integer, intent(in) :: points
         type(picture_t), intent(out) :: picture
         logical, allocatable :: rods(:, :)  ! too many for the stack
+        type(figure_t) :: figure
+        type(error_t), allocatable :: error
         real(dp) :: at(3, 0:points), first(3, 0:points), last(3, 0:points), q(system%ndof)
-        real(dp) :: size_of_all
-        integer :: i, j, k
+        real(dp) :: high(system%ndof), low(system%ndof), size_of_all
+        integer :: i, j, k, shown
+        logical :: drawn
 
         allocate (rods(0:points, points))
         call find_rods(system, modes%at, points, rods)
         call place(system, modes%at, points, at)
         size_of_all = extent(at, rods)
+        shown = min(size(modes%omega2), most_panels)
+        low = modes%at
+        high = modes%at
+        do j = 1, shown
+            do i = 1, 2
+                q = displaced(system, modes, j, points, size_of_all, (i - 1)*pi)
+                low = min(low, q)
+                high = max(high, q)
+            end do
+        end do
+        call new_figure(system, own, size_of_all, low, high, figure, error)
+        drawn = .not. allocated(error)  ! else points and rods are drawn all the same
+        if (drawn) drawn = has_edges(figure)
+        if (drawn) rods = .false.
         allocate (picture%rows(columns, 0))
-        do j = 1, min(size(modes%omega2), most_panels)
+        do j = 1, shown
             call add_state(picture, j, 0, at, rods)
+            call add_edges(j, 0, modes%at)
             do i = 1, 2
                 q = displaced(system, modes, j, points, size_of_all, (i - 1)*pi)
                 call place(system, q, points, last)
                 call add_state(picture, j, 3 - 2*i, last, rods)
+                call add_edges(j, 3 - 2*i, q)
             end do
             do i = 0, pieces
                 q = displaced(system, modes, j, points, size_of_all, 2.0_dp*pi*i/pieces)
@@ -121,6 +145,21 @@ contains
                 first = last
             end do
         end do
+    contains
+        subroutine add_edges(mode, side, state)
+            integer, intent(in) :: mode, side
+            real(dp), intent(in) :: state(:)
+            real(dp), allocatable :: edges(:, :, :), r(:, :)
+            integer :: n
+
+            if (.not. drawn) return
+            allocate (r(3, figure%places))
+            call figure%place(system, 0.0_dp, state, 0.0_dp*state, r)
+            call find_edges(figure, r, size_of_all, edges)
+            do n = 1, size(edges, 3)
+                call add(picture, mode, side, is_rod, edges(:, 1, n), edges(:, 2, n))
+            end do
+        end subroutine add_edges
     end subroutine fill
 
     pure subroutine add_state(picture, mode, side, at, rods)

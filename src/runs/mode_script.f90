@@ -43,7 +43,7 @@ contains
         wide = side
         if (n == 1) wide = 1.5_dp*side
         width = nint(beside*(wide*shown(1)/maxval(shown) + gap) + gap)
-        width = max(width, 700)
+        width = max(width, 800)
         height = nint(top + down*(wide*shown(2)/maxval(shown) + label + gap))
         call begin_script(script, trim(d%name)//"_modes.dat", width, height, 30*down)
         call script%add("data = folder."//gnuplot_string(trim(d%name)//"_modes.dat"))
@@ -53,7 +53,7 @@ contains
                         " center font ',16'")
         call script%add("set label 2 ""grey: at rest, and the way of each mass; blue, orange: "// &
                         "to either side, enlarged"" at screen 0.5, screen "// &
-                        fixed(1.0_dp - 52.0_dp/height, 4)//" center font ',12'")
+                        fixed(1.0_dp - 52.0_dp/height, 4)//" center font ',14'")
         call script%add("unset key; unset tics; set size ratio -1; set border lw 0.8 lc rgb "// &
                         "'#bbbbbb'")
         call script%add("set style line 1 lc rgb '#999999' lw 2 pt 7 ps 1.8")

@@ -1,6 +1,7 @@
 module lagrangia_overlay
     !! Several runs in one picture: a script that draws their data files together, and what the
     !! runs of a comparison are.
+    use lagrangia_changed_scene, only: ending_start
     use lagrangia_columns, only: column_names
     use lagrangia_data_files, only: data_path, script_path
     use lagrangia_description, only: description_t, name_length
@@ -32,11 +33,8 @@ contains
         character(*), intent(in) :: output  !! of the scene
         character(*), intent(in) :: word    !! of the run
         character(:), allocatable :: name
-        integer :: dot
 
-        dot = index(output, ".", back=.true.)
-        if (dot <= index(output, "/", back=.true.) + 1) dot = len_trim(output) + 1
-        name = output(:dot - 1)//"_"//word
+        name = output(:ending_start(output) - 1)//"_"//word
     end function run_name
 
     pure function overlay_path(folder, name) result(path)

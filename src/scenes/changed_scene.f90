@@ -5,7 +5,7 @@ module lagrangia_changed_scene
     use lagrangia_text, only: lower, word_t
     implicit none (type, external)
     private
-    public :: make_own_scene
+    public :: ending_start, make_own_scene
 
     character(*), parameter :: same_motion(*) = [character(14) :: "title", "output", "columns", &
         "plot", "event_columns", "event_plot", "error_estimate", "modes", "every", "samples", &
@@ -48,10 +48,22 @@ contains
             scene%title = trim(scene%title)//" ("//changes//")"
         end if
         if (placed) return
-        dot = index(scene%output, ".", back=.true.)
-        if (dot <= index(scene%output, "/", back=.true.)) dot = len_trim(scene%output) + 1
+        dot = ending_start(trim(scene%output))
         scene%output = scene%output(:dot - 1)//"_"//name_of(changes)//scene%output(dot:)
     end subroutine make_own_scene
+
+    pure function ending_start(name) result(dot)
+        !! Where the ending of a file's name begins: a dot and a letter make one, `l_2.5` has none,
+        !! and then it is behind the name.
+        character(*), intent(in) :: name  !! of a file, perhaps below a folder
+        integer :: dot
+
+        dot = index(name, ".", back=.true.)
+        if (dot > index(name, "/", back=.true.) .and. dot < len(name)) then
+            if (scan(lower(name(dot + 1:dot + 1)), "abcdefghijklmnopqrstuvwxyz") == 1) return
+        end if
+        dot = len(name) + 1
+    end function ending_start
 
     pure function lower_names(scene) result(names)
         !! What the scene expects something of, in small letters, as keys are.

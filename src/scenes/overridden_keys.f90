@@ -5,10 +5,10 @@ module lagrangia_overridden_keys
     use lagrangia_columns, only: column_names, why_energy_changes
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
-    use lagrangia_kinds, only: dp
+    use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: adaptive_names, method_names
-    use lagrangia_namelist, only: apply_override, drop_key, get_real, get_string, get_strings, &
-                                  has_key, is_overridden, namelist_t
+    use lagrangia_namelist, only: apply_override, drop_key, get_integer, get_real, get_string, &
+                                  get_strings, has_key, is_overridden, namelist_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: lower, to_text
     implicit none (type, external)
@@ -35,10 +35,11 @@ module lagrangia_overridden_keys
 
 contains
 
-    subroutine fit_times(tree, remark)
+    subroutine fit_times(tree, original, remark)
         !! A scene has steps of `dt` or a `tolerance`: where one is set, or a method that takes only
         !! a tolerance, the file's other one goes, and so do `every` and `samples`.
-        type(namelist_t), intent(inout) :: tree  !! of the file, with what is set
+        type(namelist_t), intent(inout) :: tree      !! of the file, with what is set
+        type(namelist_t), intent(inout) :: original  !! of the file alone
         character(:), allocatable, intent(inout) :: remark  !! grows by what was left out
         character(name_length) :: method
         character(:), allocatable :: gone
@@ -65,6 +66,7 @@ contains
             end if
         end if
         if (is_overridden(tree, group, "samples")) call drop("every")
+        if (is_overridden(tree, group, "dt")) call fit_rows(tree, original, remark)
         if (is_overridden(tree, group, "every")) call drop("samples")
         call add_remark(remark, gone)
     contains
@@ -77,6 +79,30 @@ contains
             gone = gone//key
         end subroutine drop
     end subroutine fit_times
+
+    subroutine fit_rows(tree, original, remark)
+        !! With another step the rows stay as far apart as those of the file, or nearly.
+        type(namelist_t), intent(inout) :: tree, original
+        character(:), allocatable, intent(inout) :: remark
+        type(error_t), allocatable :: error
+        real(dp) :: before, now
+        integer(i8) :: every, steps
+
+        if (is_overridden(tree, group, "every") .or. .not. has_key(tree, group, "every")) return
+        now = 0.0_dp
+        every = 0
+        call get_real(tree, group, "dt", now, error)
+        if (.not. allocated(error)) call get_integer(tree, group, "every", every, error)
+        before = 0.0_dp
+        if (.not. allocated(error)) call get_real(original, group, "dt", before, error)
+        if (allocated(error)) return  ! it is refused when it is read
+        if (.not. (now > 0.0_dp .and. before > 0.0_dp .and. every > 0)) return
+        steps = nint(max(1.0_dp, min(1e15_dp, every*before/now)), i8)
+        if (steps == every) return
+        call apply_override(tree, group//"%every="//to_text(steps), error)
+        if (remark /= "") remark = remark//"; "
+        remark = remark//"every = "//to_text(steps)//" leaves the rows as far apart as the file's"
+    end subroutine fit_rows
 
     subroutine fit_columns(tree, system, original, unchanged, remark, error)
         !! Columns, panels and expectations of the file that the changed system does not have: of

@@ -5,7 +5,7 @@ module lagrangia_scene_reader
     use lagrangia_catalogue, only: new_system, system_names
     use lagrangia_command_line, only: word_t
     use lagrangia_constrained_system, only: constrained_system_t, new_constrained_system
-    use lagrangia_description, only: description_t, name_length
+    use lagrangia_description, only: description_t, figure_length, name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_formula_start, only: check_formulas_at_start
     use lagrangia_kinds, only: dp
@@ -48,21 +48,25 @@ contains
         call parse_scene(text, path, overrides, scene, system, error)
     end subroutine read_scene
 
-    subroutine read_named_system(name, overrides, system, error)
+    subroutine read_named_system(name, overrides, system, error, figure)
         !! The system called `name`, its parameters set by the words behind `--set`; or that of the
         !! scene `name`, with the scene's parameters.
         character(*), intent(in) :: name  !! as 'list' shows it, or a path
         type(word_t), intent(in) :: overrides(:)  !! of a system its parameters only
         class(system_t), allocatable, intent(out) :: system  !! with these parameters
         type(error_t), allocatable, intent(out) :: error  !! unknown, or a parameter is not allowed
+        character(figure_length), allocatable, intent(out), optional :: figure(:)
+        !! parts that the scene draws it by; none: the system's own
         character(:), allocatable :: path
         type(namelist_t) :: tree
         type(scene_t) :: scene
         integer :: i
 
+        if (present(figure)) allocate (figure(0))
         if (names_scene(name)) then
             call find_scene(name, path, error)
             if (.not. allocated(error)) call read_scene(path, overrides, scene, system, error)
+            if (present(figure) .and. .not. allocated(error)) figure = scene%figure
             return
         end if
         call new_system(name, system, error)
@@ -160,9 +164,9 @@ contains
         character(:), allocatable :: remark
 
         remark = ""
-        call fit_times(tree, remark)
         allocate (original)
         call parse_namelist(text, source, original, found)
+        if (.not. allocated(found)) call fit_times(tree, original, remark)
         if (.not. allocated(found)) call read_system(original, file, unchanged, found)
         ! A file that is complete only with what is set has nothing that was changed.
         if (.not. allocated(found)) then

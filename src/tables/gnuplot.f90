@@ -18,15 +18,15 @@ module lagrangia_gnuplot
     public :: panel_t, series_t, gnuplot_script, new_panels, new_series
     public :: curves, dots
 
-    integer, parameter :: text_width = 95        !! characters of a title in its largest type
+    integer, parameter :: text_width = 86        !! characters of a title in its largest type
     real(dp), parameter :: left = 135.0_dp       !! pixels beside the axes, for labels
     real(dp), parameter :: right = 25.0_dp
     real(dp), parameter :: below = 76.0_dp       !! below an axis with a label
     real(dp), parameter :: gap = 22.0_dp         !! between panels on one time axis
     real(dp), parameter :: legend = 26.0_dp      !! above a panel
     real(dp), parameter :: column = 1000.0_dp    !! width of panels below each other
-    real(dp), parameter :: narrow = 740.0_dp     !! of those that have others beside them
-    real(dp), parameter :: side = 560.0_dp       !! width of those drawn to scale, beside them
+    real(dp), parameter :: narrow = 560.0_dp     !! of those that have others beside them
+    real(dp), parameter :: side = 500.0_dp       !! width of those drawn to scale, beside them
     real(dp), parameter :: wide = 0.45_dp        !! aspect of what is drawn across the picture
     real(dp), parameter :: tallest = 760.0_dp    !! pixels of one panel
 
@@ -140,7 +140,7 @@ contains
         end do
         if (index(series(1)%reading, "skip") == 1) call script%add("set datafile separator comma")
         call script%add("set grid lc rgb '#cccccc' lw 0.8 lt 1; set border lw 1.2; "// &
-                        "set tics font ',12'")
+                        "set tics font ',14'")
         do i = 1, size(panels)
             if (how == curves) call add_envelopes(script, series, panels(i), i)
         end do
@@ -150,7 +150,7 @@ contains
                         to_text(max(7, min(16, 16*text_width*width/1000/ &
                                            max(1, len_trim(title)))))//"'")
         if (remark /= "") call script%add("set label 2 "//plain_label(trim(remark))// &
-            " at screen 0.5, screen "//part_of(height - 52, height)//" center font ',12'")
+            " at screen 0.5, screen "//part_of(height - 52, height)//" center font ',14'")
         do i = 1, size(panels)
             call draw_panel(script, series, panels(i), i, frames(i), width, height, how)
             if (i == 1) call script%add("unset label")

@@ -76,7 +76,7 @@ contains
 
         if (shown) then
             call script%add("set key at graph 1, graph 1.02 right bottom horizontal Left "// &
-                            "reverse samplen 2 font ',12'")
+                            "reverse samplen 2 font ',14'")
         else
             call script%add("unset key")
         end if
