@@ -130,6 +130,10 @@ run compare pendulum --methods verlet,rk4 --json --output "$work/cmp"
 check "compare --json" json '[e["method"] for e in d] == ["verlet", "rk4"] and d[1]["error"] < 1e-9 < d[0]["error"]'
 run compare pendulum --starts "1 2 0:7" --quiet --output "$work/cmp"
 check "compare --starts: a phase portrait, angles within one turn" eval '[ $status -eq 0 ] && grep -q "set xrange \[-pi:pi\]" "$work/cmp/pendulum_starts.gp" && [ "$(grep "^[^#]" "$work/cmp/pendulum_start_3.dat" | head -n 1)" = " 0.0000000000000000E+000  0.0000000000000000E+000  7.0000000000000000E+000" ]'
+for dt in 0.2 0.3; do run compare pendulum --methods rk4,verlet --animate --set scene%dt=$dt --output "$work/cmp"; done
+check "compare --animate: two methods in one film, files of each change" eval '[ $status -eq 0 ] && grep -q "\"reference\": \"verlet\"" "$work/cmp/pendulum_dt_0.2_methods.html" && [ "$(wc -c <"$work/cmp/pendulum_dt_0.3_methods.html")" -lt 300000 ] && grep -q "^film: .*pendulum_dt_0.3_methods.html" "$work/out"'
+refuses 2 "--animate: a film shows two methods, not 3" compare pendulum --methods rk4,verlet,dop853 --animate --output "$work/none"
+refuses 2 "--animate: a film shows two methods of one motion" compare pendulum --starts "1 2" --animate --output "$work/none"
 run run pendulum cart_pendulum --overlay --quiet --output "$work/cmp"
 check "run --overlay: the columns that both have" eval '[ $status -eq 0 ] && [ "$(grep -c "^plot " "$work/cmp/overlay.gp")" -eq 2 ] && grep -q "data2 = folder.\"cart_pendulum.dat\"" "$work/cmp/overlay.gp"'
 refuses 2 "compare what?" compare

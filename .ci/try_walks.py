@@ -3,7 +3,7 @@
 
 A ```console block is `$ command` and what it prints; a ```python block is followed by an ```output block.
 Pieces of Python share one interpreter. Times are not compared, nor digits that are only rounding. With
---accept the page gets what was printed. A notebook's cells are run the same way, its outputs compared."""
+--accept the page gets what was printed. Of a scorecard or a scene in a plain block each line is printed. A notebook's cells are run the same way, its outputs compared."""
 import contextlib
 import io
 import json
@@ -55,6 +55,13 @@ def piece(block):
     return f"```python\n{block[2]}```\n```output\n{got}```"
 
 
+def lines_of(command, block):
+    """A page shows some lines of what a command prints, as they are printed: the others are left out."""
+    printed = plain(shell(command))
+    missing = "".join(line + "\n" for line in plain(block) if line not in printed)
+    compare("some lines of $ " + command, "", missing)
+
+
 page, accept = sys.argv[1], "--accept" in sys.argv
 names, count, bad = {}, 0, 0
 if page.endswith(".ipynb"):
@@ -72,6 +79,10 @@ if page.endswith(".ipynb"):
     result = json.dumps(notebook, indent=1) + "\n"
 else:
     text = open(page).read()
+    for block in re.findall(r"^```\n(scene  .*?)```", text, re.M | re.S):
+        lines_of("lagrangia", block)
+    for block in re.findall(r"^```fortran\n((?:!.*\n)?&scene.*?)```", text, re.M | re.S):
+        lines_of("lagrangia show cart_pendulum", block)
     result = re.sub(r"```console\n(.*?)```|```python\n(.*?)```\n```output\n(.*?)```", piece, text, flags=re.S)
 if accept:
     open(page, "w").write(result)

@@ -58,6 +58,16 @@ contains
         text = text(:scan(text, ",}]"//new_line("a")) - 1)
     end function value
 
+    function whole(film, key) result(number)
+        !! A whole number behind a key.
+        character(*), intent(in) :: film, key
+        integer :: number
+        character(:), allocatable :: text
+
+        text = value(film, key)
+        read (text, *) number
+    end function whole
+
     function series(film, which) result(values)
         !! A channel of a film, from 0.
         character(*), intent(in) :: film
@@ -104,7 +114,7 @@ contains
         call scene_film(plan, film, error)
         call assertFalse(allocated(error), "the film")
         if (anyExceptions()) return
-        read (value(film, "count"), *) n
+        n = whole(film, "count")
         call assertEqual("20.0", value(film, "end"))
         call assertEqual("false", value(film, "conserved"))
         call record_frames(plan%settled, plan%system, plan%closed_form, 20.0_dp, n - 1, frames, error)
@@ -134,14 +144,14 @@ contains
         real(dp), allocatable :: ghost(:), distance(:), expected(:)
         integer :: n, which
 
-        call plan_scene("pendulum", ["scene%dt=0.2      ", "scene%method=rk4  "], one)
-        call plan_scene("pendulum", ["scene%dt=0.1      ", "scene%method=verlet"], other)
+        call plan_scene("pendulum", [character(20) :: "scene%dt=0.2", "scene%method=rk4"], one)
+        call plan_scene("pendulum", [character(20) :: "scene%dt=0.1", "scene%method=verlet"], other)
         if (anyExceptions()) return
         call scene_film(one, film, error, other)
         call assertFalse(allocated(error), "the film")
         if (anyExceptions()) return
         call assertEqual('"verlet"', value(film, "reference"))
-        read (value(film, "count"), *) n
+        n = whole(film, "count")
         call record_frames(one%settled, one%system, one%closed_form, 20.0_dp, n - 1, frames(1), error)
         call record_frames(other%settled, other%system, other%closed_form, 20.0_dp, n - 1, &
                            frames(2), error)
@@ -151,8 +161,7 @@ contains
         if (anyExceptions()) return
         call assertEqual(frames(2)%q(1, :n), ghost, 0.51_dp*(maxval(ghost) - minval(ghost))/ &
                          262143.0_dp, "the second's angle")
-        read (value(film, "distance"), *) which
-        distance = series(film, which)
+        distance = series(film, whole(film, "distance"))
         expected = 2.4_dp*abs(sin(0.5_dp*(frames(1)%q(1, :n) - frames(2)%q(1, :n))))
         call assertEqual(log10(max(expected, 1e-18_dp)), distance, 1e-4_dp, "2 l |sin| of half")
         folder = new_folder("film")
@@ -180,9 +189,9 @@ contains
         nobody => null()
         folder = new_folder("report")
         do i = 1, 2
-            call plan_scene("pendulum", ["scene%title='a < "//to_text(i)//" & b'", &
-                                         "scene%output='s"//to_text(i)//"'     ", &
-                                         "scene%duration=1           "], plan)
+            call plan_scene("pendulum", [character(40) :: "scene%title='a < "//to_text(i)// &
+                                         " & b'", "scene%output='s"//to_text(i)//"'", &
+                                         "scene%duration=1"], plan)
             if (anyExceptions()) return
             call run_scene(plan, folder, "text", nobody, outcome, error)
             call assertFalse(allocated(error), "it runs")
