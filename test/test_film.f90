@@ -2,6 +2,7 @@ module test_film
     !! Films and reports: what a page holds is the motion, its energies, and what stands beside it.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_animation, only: animate_both, scene_film
+    use lagrangia_changed_scene, only: make_own_scene
     use lagrangia_channels, only: unpacked
     use lagrangia_errors, only: error_t
     use lagrangia_frames, only: frames_t, record_frames
@@ -9,8 +10,11 @@ module test_film
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_t
     use lagrangia_report_page, only: report_page_t
-    use lagrangia_run_plan, only: read_run_plan, run_plan_t
+    use lagrangia_run_plan, only: new_run_plan, run_plan_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_scene_reader, only: read_scene
     use lagrangia_scene_run, only: run_scene
+    use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text, word_t
     use test_scratch, only: contents, new_folder, remove_file, write_file
     implicit none (type, external)
@@ -35,12 +39,16 @@ contains
         type(run_plan_t), intent(out) :: plan
         type(error_t), allocatable :: error
         type(word_t) :: words(size(overrides))
+        class(system_t), allocatable :: system
+        type(scene_t) :: scene
         integer :: i
 
         do i = 1, size(words)
             words(i)%text = trim(overrides(i))
         end do
-        call read_run_plan(plan, "data/scenes/"//name//".nml", words, error)
+        call read_scene("data/scenes/"//name//".nml", words, scene, system, error)
+        if (.not. allocated(error)) call make_own_scene(scene, words)
+        if (.not. allocated(error)) call new_run_plan(plan, scene, system, error)
         call assertFalse(allocated(error), name)
     end subroutine plan_scene
 
@@ -93,11 +101,22 @@ contains
         !! Of `"energy": {"c": 3}`.
         character(*), intent(in) :: film, key
         real(dp), allocatable :: values(:)
-        integer :: which
 
-        read (film(index(film, '"'//key//'": {"c": ') + len(key) + 10:), *) which
-        values = series(film, which)
+        values = series(film, number_behind(film, '"'//key//'": {"c": '))
     end function channel_of
+
+    function number_behind(film, text) result(number)
+        !! `text` is before it, a curly bracket behind it.
+        character(*), intent(in) :: film, text
+        integer :: number
+        character(:), allocatable :: rest
+
+        number = 0
+        call assertTrue(index(film, text) > 0, text)
+        if (index(film, text) == 0) return
+        rest = film(index(film, text) + len(text):)
+        read (rest(:index(rest, "}") - 1), *) number
+    end function number_behind
 
     subroutine a_film_is_the_motion()
         !! A damped pendulum's angles and kinetic energies are those of its frames, to the half step
@@ -105,9 +124,10 @@ contains
         type(run_plan_t) :: plan
         type(frames_t) :: frames
         type(error_t), allocatable :: error
-        character(:), allocatable :: film
+        character(:), allocatable :: film, text
         real(dp), allocatable :: angle(:), energy(:), kinetic(:)
-        integer :: n, which
+        real(dp) :: last
+        integer :: n
 
         call plan_scene("pendulum", ["pendulum%b=0.1"], plan)
         if (anyExceptions()) return
@@ -115,12 +135,13 @@ contains
         call assertFalse(allocated(error), "the film")
         if (anyExceptions()) return
         n = whole(film, "count")
-        call assertEqual("20.0", value(film, "end"))
+        text = value(film, "end")
+        read (text, *) last
+        call assertEqual(20.0_dp, last, 0.0_dp, "the scene's duration")
         call assertEqual("false", value(film, "conserved"))
         call record_frames(plan%settled, plan%system, plan%closed_form, 20.0_dp, n - 1, frames, error)
         call assertFalse(allocated(error), "the frames")
-        read (film(index(film, '"states": [[{"c": ') + 18:), *) which
-        angle = series(film, which)
+        angle = series(film, number_behind(film, '"states": [[{"c": '))
         call assertEqual(n, size(angle))
         if (anyExceptions()) return
         call assertEqual(frames%q(1, :n), angle, 0.51_dp*(maxval(angle) - minval(angle))/ &
@@ -142,7 +163,7 @@ contains
         type(error_t), allocatable :: error
         character(:), allocatable :: film, folder, page
         real(dp), allocatable :: ghost(:), distance(:), expected(:)
-        integer :: n, which
+        integer :: n
 
         call plan_scene("pendulum", [character(20) :: "scene%dt=0.2", "scene%method=rk4"], one)
         call plan_scene("pendulum", [character(20) :: "scene%dt=0.1", "scene%method=verlet"], other)
@@ -155,8 +176,7 @@ contains
         call record_frames(one%settled, one%system, one%closed_form, 20.0_dp, n - 1, frames(1), error)
         call record_frames(other%settled, other%system, other%closed_form, 20.0_dp, n - 1, &
                            frames(2), error)
-        read (film(index(film, '"ghost_states": [[{"c": ') + 24:), *) which
-        ghost = series(film, which)
+        ghost = series(film, number_behind(film, '"ghost_states": [[{"c": '))
         call assertEqual(n, size(ghost))
         if (anyExceptions()) return
         call assertEqual(frames(2)%q(1, :n), ghost, 0.51_dp*(maxval(ghost) - minval(ghost))/ &
@@ -184,14 +204,16 @@ contains
         type(error_t), allocatable :: error
         class(observer_t), pointer :: nobody
         character(:), allocatable :: film, folder, page, picture
+        character(40) :: settings(3)
         integer :: i
 
         nobody => null()
         folder = new_folder("report")
         do i = 1, 2
-            call plan_scene("pendulum", [character(40) :: "scene%title='a < "//to_text(i)// &
-                                         " & b'", "scene%output='s"//to_text(i)//"'", &
-                                         "scene%duration=1"], plan)
+            settings(1) = "scene%title='a < "//to_text(i)//" & b'"
+            settings(2) = "scene%output='s"//to_text(i)//"'"
+            settings(3) = "scene%duration=1"
+            call plan_scene("pendulum", settings, plan)
             if (anyExceptions()) return
             call run_scene(plan, folder, "text", nobody, outcome, error)
             call assertFalse(allocated(error), "it runs")
@@ -215,7 +237,8 @@ contains
                          message="its link")
         call assertEqual(2, times("<section id="), message="sections")
         call assertEqual(2, times("</section>"), message="which end")
-        call assertEqual(2, times('class="film-data"'), message="films")
+        call assertEqual(2, times('<script type="application/json" class="film-data">'), &
+                         message="films")
         call assertEqual(1, times("id='p1-a'/><use xlink:href='#p1-a'"), message="the first's names")
         call assertEqual(1, times("id='p2-a'/><use xlink:href='#p2-a'"), message="the second's")
         call assertEqual(2, times('<svg role="img" width='), message="pictures")

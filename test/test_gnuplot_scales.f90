@@ -84,7 +84,7 @@ contains
         call assertTrue(index(script("", ["x", "y"]), "size 1000,668 ") > 0, "two")
         call assertTrue(index(script("", ["x", "y", "x"]), "size 1000,770 ") > 0, "three")
         call assertTrue(index(script("", ["x", "y", "x"]), "size 100,90 ") > 0, "three, in letters")
-        call assertTrue(index(path_in_plane(1.0_dp, 1.0_dp), "size 1060,") > 0, "beside")
+        call assertTrue(index(path_in_plane(1.0_dp, 1.0_dp), "size 1120,") > 0, "beside")
         call assertTrue(index(path_in_plane(3.0_dp, 1.0_dp), "size 1000,") > 0, "below")
     end subroutine pictures_have_a_size
 

@@ -10,7 +10,8 @@ module lagrangia_gnuplot
     use lagrangia_kinds, only: dp
     use lagrangia_names, only: advice
     use lagrangia_plot_label, only: is_small, plain_label
-    use lagrangia_plot_panel, only: aspect, has_legend, is_space, most_curves, panel_t, series_t
+    use lagrangia_plot_panel, only: aspect, is_space, most_curves, panel_t, series_t, &
+                                    shape_legend
     use lagrangia_text, only: quoted, to_text
     use lagrangia_value_range, only: value_range_t
     implicit none (type, external)
@@ -24,9 +25,10 @@ module lagrangia_gnuplot
     real(dp), parameter :: below = 76.0_dp       !! below an axis with a label
     real(dp), parameter :: gap = 22.0_dp         !! between panels on one time axis
     real(dp), parameter :: legend = 26.0_dp      !! above a panel
+    real(dp), parameter :: legend_row = 22.0_dp  !! each further row of a legend
     real(dp), parameter :: column = 1000.0_dp    !! width of panels below each other
     real(dp), parameter :: narrow = 560.0_dp     !! of those that have others beside them
-    real(dp), parameter :: side = 500.0_dp       !! width of those drawn to scale, beside them
+    real(dp), parameter :: side = 560.0_dp       !! width of those drawn to scale, beside them
     real(dp), parameter :: wide = 0.45_dp        !! aspect of what is drawn across the picture
     real(dp), parameter :: tallest = 760.0_dp    !! pixels of one panel
 
@@ -229,7 +231,7 @@ contains
         y = height - top
         do i = 1, size(panels)
             k = merge(1, 2, beside(i))
-            if (has_legend(series, panels(i), i)) y(k) = y(k) - legend
+            y(k) = y(k) - legend_height(i)
             frames(i)%left = merge(0.0_dp, edge, beside(i)) + left
             frames(i)%right = merge(side, real(width, dp), beside(i)) - right
             frames(i)%top = y(k)
@@ -242,8 +244,18 @@ contains
             integer, intent(in) :: which
             real(dp) :: pixels
 
-            pixels = merge(below, gap, frames(which)%below)
-            if (has_legend(series, panels(which), which)) pixels = pixels + legend
+            pixels = merge(below, gap, frames(which)%below) + legend_height(which)
         end function around
+
+        pure function legend_height(which) result(pixels)
+            !! Of all its rows; nothing where there is none.
+            integer, intent(in) :: which
+            real(dp) :: pixels
+            integer :: columns, rows
+
+            call shape_legend(series, panels(which), which, &
+                              merge(side, width - edge, beside(which)) - left - right, columns, rows)
+            pixels = legend*min(rows, 1) + legend_row*max(rows - 1, 0)
+        end function legend_height
     end subroutine lay_out
 end module lagrangia_gnuplot

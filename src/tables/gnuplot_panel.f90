@@ -6,7 +6,7 @@ module lagrangia_gnuplot_panel
     use lagrangia_kinds, only: dp, i8
     use lagrangia_plot_label, only: is_small, label, plain_label
     use lagrangia_plot_panel, only: find_traces, has_envelope, has_legend, is_space, panel_t, &
-                                    ranges_of, series_t, told_apart, trace_t
+                                    ranges_of, series_t, shape_legend, told_apart, trace_t
     use lagrangia_text, only: to_text
     use lagrangia_value_range, only: value_range_t
     implicit none (type, external)
@@ -38,7 +38,7 @@ contains
         character(*), intent(in) :: style  !! `curves` or `dots`
         type(trace_t), allocatable :: traces(:)
         type(value_range_t), allocatable :: x(:), y(:)
-        integer :: edge, first
+        integer :: columns, edge, first, rows
         logical :: logarithmic, turned
 
         call find_traces(series, panel, traces)
@@ -64,19 +64,20 @@ contains
         turned = turns_over(series(1), panel, x)
         if (turned) call add_turn(script)
         call add_labels(script, series(1), panel, frame, logarithmic)
-        call add_legend(script, has_legend(series, panel, number))
+        call shape_legend(series, panel, number, frame%right - frame%left, columns, rows)
+        call add_legend(script, columns)
         call add_curves(script, series, panel, traces, number, style, logarithmic, first, edge, &
                         turned)
     end subroutine draw_panel
 
-    pure subroutine add_legend(script, shown)
+    pure subroutine add_legend(script, columns)
         !! Above the panel, clear of its curves and of the title.
         type(lines_t), intent(inout) :: script  !! gets the lines
-        logical, intent(in) :: shown
+        integer, intent(in) :: columns          !! 0: there is none
 
-        if (shown) then
+        if (columns > 0) then
             call script%add("set key at graph 1, graph 1.02 right bottom horizontal Left "// &
-                            "reverse samplen 2 font ',14'")
+                            "reverse samplen 2 font ',14' maxcols "//to_text(columns))
         else
             call script%add("unset key")
         end if

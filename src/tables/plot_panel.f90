@@ -5,7 +5,7 @@ module lagrangia_plot_panel
     implicit none (type, external)
     private
     public :: panel_t, series_t, trace_t
-    public :: aspect, find_traces, has_envelope, has_legend, is_space, ranges_of
+    public :: aspect, find_traces, has_envelope, has_legend, is_space, ranges_of, shape_legend
     public :: most_curves, told_apart
 
     integer, parameter :: most_curves = 8
@@ -131,4 +131,33 @@ contains
         yes = panel%curves > 1 .and. size(series) == 1
         if (size(series) > 1) yes = number == 1 .and. size(series) <= most_curves
     end function has_legend
+
+    pure subroutine shape_legend(series, panel, number, pixels, columns, rows)
+        !! Its entries side by side, as many as there is room for; gnuplot makes all as wide as the
+        !! widest.
+        type(series_t), intent(in) :: series(:)  !! data files
+        type(panel_t), intent(in) :: panel  !! of columns of the first data file
+        integer, intent(in) :: number  !! of the panel
+        real(dp), intent(in) :: pixels  !! of the panel's width
+        integer, intent(out) :: columns, rows  !! 0: there is no legend
+        real(dp), parameter :: letter = 10.5_dp  !! pixels, of 14 pt
+        integer, parameter :: sample = 6         !! letters that the line in front takes, and gaps
+        integer :: entries, i, length, longest
+
+        columns = 0
+        rows = 0
+        if (.not. has_legend(series, panel, number)) return
+        entries = merge(size(series), panel%curves, size(series) > 1)
+        longest = 1
+        do i = 1, entries
+            if (size(series) > 1) then
+                length = len(series(i)%name)
+            else
+                length = index(trim(series(1)%names(panel%y(i)))//"_drift", "_drift") - 1
+            end if
+            longest = max(longest, length)
+        end do
+        columns = max(1, min(entries, int(pixels/(letter*(longest + sample)))))
+        rows = (entries + columns - 1)/columns
+    end subroutine shape_legend
 end module lagrangia_plot_panel
