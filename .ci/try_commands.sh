@@ -243,6 +243,7 @@ run run --help
 check "run --help" eval '[ $status -eq 0 ] && grep -q "^usage: lagrangia run SCENE" "$work/out"'
 run --version
 check "--version: version, compiler, build" eval '[ $status -eq 0 ] && grep -qE "^lagrangia [0-9.]+$" "$work/out" && grep -qE "GCC version .*optimised$" "$work/out"'
+check "--version: that of fpm.toml, of the newest section of the changelog and of the manual" eval '[ "$(head -n 1 "$work/out")" = "lagrangia $(sed -n "s/^version = \"\(.*\)\"/\1/p" "fpm.toml")" ] && [ "$(sed -n "s/^## \([0-9.]*\),.*/lagrangia \1/p" "CHANGELOG.md" | head -n 1)" = "$(head -n 1 "$work/out")" ] && "$program" manual | grep -qF "$(head -n 1 "$work/out")"'
 if [ "$(uname -m)" = x86_64 ]; then # FMA4 was in AMD's processors of 2011 to 2015 only
     echo 'int main(void) { return 0; }' >"$work/main.c"
     gcc -mfma4 src/core/processor.c "$work/main.c" -o "$work/foreign" && "$work/foreign" 2>"$work/err" >"$work/out"

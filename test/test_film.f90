@@ -139,7 +139,8 @@ contains
         read (text, *) last
         call assertEqual(20.0_dp, last, 0.0_dp, "the scene's duration")
         call assertEqual("false", value(film, "conserved"))
-        call record_frames(plan%settled, plan%system, plan%closed_form, 20.0_dp, n - 1, frames, error)
+        call record_frames(plan%settled, plan%system, plan%closed_form, 20.0_dp, n - 1, frames, &
+                           error)
         call assertFalse(allocated(error), "the frames")
         angle = series(film, number_behind(film, '"states": [[{"c": '))
         call assertEqual(n, size(angle))
@@ -173,7 +174,8 @@ contains
         if (anyExceptions()) return
         call assertEqual('"verlet"', value(film, "reference"))
         n = whole(film, "count")
-        call record_frames(one%settled, one%system, one%closed_form, 20.0_dp, n - 1, frames(1), error)
+        call record_frames(one%settled, one%system, one%closed_form, 20.0_dp, n - 1, frames(1), &
+                           error)
         call record_frames(other%settled, other%system, other%closed_form, 20.0_dp, n - 1, &
                            frames(2), error)
         ghost = series(film, number_behind(film, '"ghost_states": [[{"c": '))
@@ -239,7 +241,7 @@ contains
         call assertEqual(2, times("</section>"), message="which end")
         call assertEqual(2, times('<script type="application/json" class="film-data">'), &
                          message="films")
-        call assertEqual(1, times("id='p1-a'/><use xlink:href='#p1-a'"), message="the first's names")
+        call assertEqual(1, times("id='p1-a'/><use xlink:href='#p1-a'"), message="its names")
         call assertEqual(1, times("id='p2-a'/><use xlink:href='#p2-a'"), message="the second's")
         call assertEqual(2, times('<svg role="img" width='), message="pictures")
         call assertEqual(2, times("<title>its motion</title>"), message="which say what they are")

@@ -61,8 +61,8 @@ contains
         else if (line%has("methods") .eqv. line%has("starts")) then
             call fail(error, "compare by what? --methods rk4,verlet or --starts ""0.5 1 2""")
         else if (line%has("animate") .and. .not. line%has("methods")) then
-            call fail(error, "--animate: a film shows two methods of one motion; --methods names "// &
-                      "them")
+            call fail(error, "--animate: a film shows two methods of one motion; --methods "// &
+                      "names them")
         end if
         if (allocated(error)) return
         format = line%value_of("format", "text")
@@ -122,8 +122,8 @@ contains
             call split(line%value_of("starts", ""), " ", "--starts", words, error)
         end if
         if (allocated(error)) return
-        if (line%has("animate") .and. size(words) /= 2) call fail(error, "--animate: a film shows "// &
-            "two methods, not "//to_text(size(words)))
+        if (line%has("animate") .and. size(words) /= 2) call fail(error, "--animate: a film "// &
+            "shows two methods, not "//to_text(size(words)))
         if (.not. allocated(error)) call find_scene(line%arguments(1)%text, path, error)
         if (allocated(error)) return
         allocate (runs(size(words)))

@@ -61,7 +61,8 @@ contains
     end subroutine observe
 
     subroutine tick(self, done, steps)
-        !! Rewrite the line when it is time, `33 %, 4 s, 8 s left`; or announce, once, how long it will be.
+        !! Rewrite the line when it is time, `33 %, 4 s, 8 s left`; or announce, once, how long it
+        !! will be.
         class(progress_t), intent(inout) :: self
         integer(i8), intent(in) :: done, steps  !! how many of how many
         integer(i8) :: now

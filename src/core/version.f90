@@ -6,7 +6,7 @@ module lagrangia_version
     private
     public :: version, build_text, is_optimised, vector_unit
 
-    character(*), parameter :: version = "0.1.0"
+    character(*), parameter :: version = "0.2.0"
 
     interface
         pure function c_vector_unit(i) result(letter) bind(c, name="lagrangia_vector_unit")

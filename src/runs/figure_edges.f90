@@ -82,6 +82,8 @@ contains
             call add_way(ring(at(:, 1), first, first([2, 1, 3])), edges)
         case ("circle", "wheel")
             call add_way(ring(at(:, 1), at(:, 2) - at(:, 1), at(:, 3) - at(:, 1)), edges)
+        case default
+            return  ! it has no edge, or only stands by
         end select
     end subroutine add_part
 

@@ -254,7 +254,8 @@ contains
             integer :: columns, rows
 
             call shape_legend(series, panels(which), which, &
-                              merge(side, width - edge, beside(which)) - left - right, columns, rows)
+                              merge(side, width - edge, beside(which)) - left - right, &
+                              columns, rows)
             pixels = legend*min(rows, 1) + legend_row*max(rows - 1, 0)
         end function legend_height
     end subroutine lay_out
