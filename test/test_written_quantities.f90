@@ -124,25 +124,27 @@ contains
 
     subroutine constraints_are_kept()
         !! On a circle \(x\dot x + y\dot y = 0\) holds, and the energy is conserved where the
-        !! velocities keep it; the angular momentum only without weight.
+        !! velocities keep it; the angular momentum only without weight. That \(x^2 + y^2\) stays is
+        !! due to the constraint alone.
         character(*), parameter :: circle = plane//"constraint = 'x^2 + y^2 = 1' quantities = "// &
             spin// &
-            ", 'E = m/2 (x_dot^2 + y_dot^2) + c x + k/2 (x^2 + y^2)'"
+            ", 'E = m/2 (x_dot^2 + y_dot^2) + c x + k/2 (x^2 + y^2)', 'R = x^2 + y^2'"
         class(system_t), allocatable :: system
         type(description_t) :: d
 
         call own(circle, round_values, system, d)
         if (anyExceptions()) return
         call assertEqual("L_z", trim(d%quantities(3)%name))
-        call assertEqual("lambda1", trim(d%quantities(5)%name))
-        call assertTrue(all(d%quantities(3:4)%conserved), "both, without weight")
+        call assertEqual("lambda1", trim(d%quantities(6)%name))
+        call assertTrue(all(d%quantities(3:5)%conserved), "all three, without weight")
         call assertEqual(2.0_dp, system%quantity(3, 0.0_dp, [1.0_dp, 0.0_dp], [0.0_dp, 1.0_dp]), &
                          0.0_dp)
-        call assertEqual(0.0_dp, system%quantity(6, 0.0_dp, [1.0_dp, 0.0_dp], [0.0_dp, 1.0_dp]), &
+        call assertEqual(0.0_dp, system%quantity(7, 0.0_dp, [1.0_dp, 0.0_dp], [0.0_dp, 1.0_dp]), &
                          0.0_dp)
         call own(circle, "m = 2 k = 3 c = 9.81", system, d)
         call assertFalse(d%quantities(3)%conserved, "the weight turns it")
         call assertTrue(d%quantities(4)%conserved, "the energy stays")
+        call assertTrue(d%quantities(5)%conserved, "the radius stays")
     end subroutine constraints_are_kept
 
     subroutine drift_has_a_size()
