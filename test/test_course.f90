@@ -136,6 +136,7 @@ contains
         integer :: at, i, k, which
         logical :: found
 
+        allocate (typed(count([(text(i:i) == " ", i=1, len(text))]) + 1))
         call split(text, typed)
         call parse_words(typed, options, line, error)
         call assertFalse(allocated(error), text)
@@ -162,11 +163,10 @@ contains
     subroutine split(text, words)
         !! At its blanks.
         character(*), intent(in) :: text
-        type(word_t), allocatable, intent(out) :: words(:)
+        type(word_t), intent(inout) :: words(:)
         character(:), allocatable :: rest
         integer :: i
 
-        allocate (words(count([(text(i:i) == " ", i=1, len(text))]) + 1))
         rest = text//" "
         do i = 1, size(words)
             words(i)%text = rest(:index(rest, " ") - 1)

@@ -246,7 +246,7 @@ contains
         if (allocated(error)) return
         reached = action_of(pendulum, 0.0_dp, time/n, path)
         call report%equal("from a straight line: S of a path of index 0", reached, &
-                          nearest(reached), same)
+                          least_near(reached), same)
         do i = 1, size(indices)
             if (indices(i) == 0) cycle
             path(1, :) = paths(:, i)
@@ -258,14 +258,14 @@ contains
                 reached = action_of(pendulum, 0.0_dp, time/n, path)
                 call report%equal("from path "//to_text(i)//trim(merge(", up:  ", ", down:", &
                                   side == 1))//" S of a path of index 0", reached, &
-                                  nearest(reached), same)
+                                  least_near(reached), same)
             end do
             call report%equal("is path "//to_text(i)//" least?  S, the least S", actions(i), &
                               least, &
                               same, control=.true.)
         end do
     contains
-        pure function nearest(s) result(action)
+        pure function least_near(s) result(action)
             !! Of the paths of index 0.
             real(dp), intent(in) :: s
             real(dp) :: action
@@ -273,7 +273,7 @@ contains
 
             of = merge(actions, huge(1.0_dp), indices == 0)
             action = of(minloc(abs(of - s), 1))
-        end function nearest
+        end function least_near
     end subroutine descents
 
     subroutine oscillators(report, error)

@@ -148,10 +148,12 @@ contains
         real(dp), intent(out) :: turned
         type(error_t), allocatable, intent(out) :: error
         type(charged_particle_t) :: bob
-        real(dp) :: q(3, samples), v(3, samples), rate, step, change
+        real(dp), allocatable :: q(:, :), v(:, :)
+        real(dp) :: rate, step, change
         integer :: i
 
         turned = 0.0_dp
+        allocate (q(3, samples), v(3, samples))
         rate = -2.0_dp*pi/day*sin(latitude*pi/180.0_dp)  ! of the plane, Larmor's -e B/2m
         call bob%configure([m, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, -2.0_dp*m*rate, &
                             stiffness], error)

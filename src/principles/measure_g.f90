@@ -93,9 +93,11 @@ contains
         real(dp), intent(in) :: share
         real(dp) :: sigma
         type(random_t) :: random
-        real(dp) :: m1, m2, t, height, values(trials), mean
+        real(dp), allocatable :: values(:)
+        real(dp) :: m1, m2, t, height, mean
         integer :: i
 
+        allocate (values(trials))
         call random%start(1)
         t = sqrt(2.0_dp*h/(share*g))
         do i = 1, trials
@@ -143,10 +145,14 @@ contains
         !! The lowest of many, and the formula.
         type(report_t), intent(inout) :: report
         integer, parameter :: tried = 20000
-        real(dp) :: errors(tried), share
+        real(dp), allocatable :: errors(:)
+        real(dp) :: share
         integer :: i
 
-        errors = [(relative_error(0.2_dp*i/tried), i=1, tried)]
+        allocate (errors(tried))
+        do i = 1, tried
+            errors(i) = relative_error(0.2_dp*i/tried)
+        end do
         share = 0.2_dp*minloc(errors, 1)/tried
         call report%section("the best difference of the masses")
         call report%equal("(m1 - m2)/M = (2 h s_m^2/(M^2 g s_t^2))^(1/3)", share, best_share(), &
