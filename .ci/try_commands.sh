@@ -394,6 +394,31 @@ for words in "sweep bifurcation --set sweep%strobe=w0" "sweep section --set swee
     run $words --output "$work/sweep"
     check "$words: one line, status 2" eval '[ $status -eq 2 ] && [ "$(wc -l <"$work/err")" -eq 1 ] && [ ! -s "$work/out" ]'
 done
+cat >"$work/double_pendulum_chaos.nml" <<'END'
+&scene
+  title = 'How chaotic is a double pendulum? One exponent, from twenty starts of one energy'
+  system = 'double_pendulum'
+  method = 'gauss16'
+  tolerance = 1e-8, duration = 400.0, samples = 100
+  q = 0.0, 0.0
+  v = 7.0, 0.0
+/
+&double_pendulum m1 = 1.0, m2 = 1.0, l1 = 1.0, l2 = 1.0, g = 9.81 /
+&sweep
+  over = 'theta2_dot = -4:4:20:random'
+  keep = 'lyapunov', 'lyapunov error'
+  energy_by = 'theta1_dot'
+  after = 40.0
+/
+END
+for tolerance in 1e-8 1e-6; do
+    run sweep "$work/double_pendulum_chaos.nml" --set scene%tolerance=$tolerance --set scene%output=chaos_$tolerance --seed ${tolerance#1e-} --output "$work/sweep"
+done
+check "sweep: twenty starts at either of two tolerances agree about the double pendulum's exponent, as far as their errors say" python3 -c 'import sys
+rows = [[float(x) for x in line.split()] for name in sys.argv[1:] for line in open(name) if line[:1] not in "#\n"]
+mean = sum(r[1]/r[2]**2 for r in rows)/sum(1/r[2]**2 for r in rows)
+z = [(r[1] - mean)/r[2] for r in rows]
+sys.exit(not (len(rows) == 40 and abs(mean - 1.446) < 0.03 and max(map(abs, z)) < 5 and 0.5 < (sum(x*x for x in z)/39)**0.5 < 1.6))  # Student t of 15' "$work/sweep/chaos_1e-8_sweep.dat" "$work/sweep/chaos_1e-6_sweep.dat"
 run sweep pendulum --over q=0:1:1000000 --over v=0:1:1000000 --keep theta --output "$work/sweep"
 check "sweep: 1e12 trajectories are refused with their size" eval '[ $status -eq 2 ] && [ "$(wc -l <"$work/err")" -eq 1 ] && grep -q "TB on the disk and .* MB of memory, and only .* are free" "$work/err"'
 run describe scene

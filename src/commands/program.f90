@@ -16,6 +16,7 @@ module lagrangia_program
     use lagrangia_errors, only: error_t, fail, status_ok
     use lagrangia_grade, only: grade_command
     use lagrangia_help, only: help_command, help_text
+    use lagrangia_images, only: image_count, wait_for_all
     use lagrangia_interrupt, only: catch_interrupts, interrupt_status
     use lagrangia_kinds, only: dp
     use lagrangia_list, only: list_command
@@ -45,6 +46,9 @@ contains
         !! Run the command that was typed, with all systems that were registered, and stop. Where
         !! something `failed` before, say so and stop with the status of that: what
         !! `register_system` returned may be handed on, allocated or not.
+        !!
+        !! Of several images each waits for the others, for a STOP of OpenCoarrays ends them all,
+        !! whatever they are at; where nothing failed the caller is to come to its end.
         type(error_t), intent(in), optional :: failed  !! what went wrong before
         type(error_t), allocatable :: error
         integer :: status
@@ -64,6 +68,10 @@ contains
         if (allocated(error)) then
             status = error%status
             if (len(error%message) > 0) call note(error%message)
+        end if
+        if (image_count() > 1) then
+            call wait_for_all()
+            if (status == status_ok) return
         end if
         stop status, quiet=.true.
     end subroutine lagrangia_main

@@ -2,9 +2,11 @@ module lagrangia_images
     !! Coarray images: how many there are, blocks of work dealt to whoever is free, and what all
     !! agree on. In a plain build there is one image and nothing is sent.
     !!
-    !! The blocks are counted by an atomic number on image 1, which an image asks without anybody
-    !! else having to take part. Not to be called by several threads of an image at a time.
-    use, intrinsic :: iso_fortran_env, only: atomic_int_kind
+    !! The blocks are counted by a number on image 1, which an image locks, reads and raises without
+    !! anybody else having to take part. Not to be called by several threads of an image at a time.
+    !! (`atomic_fetch_add` would do it in one, but the old number does not come back from
+    !! OpenCoarrays 2.9 and 2.10 as Debian builds them.)
+    use, intrinsic :: iso_fortran_env, only: lock_type
     use lagrangia_kinds, only: i8
     implicit none (type, external)
     private
@@ -46,17 +48,19 @@ contains
         !! need not be compiled for them.
         integer(i8), intent(in) :: count
         integer(i8), intent(out) :: first
-        integer(atomic_int_kind), save :: next[*]
-        integer(atomic_int_kind) :: old
+        integer(i8), save :: next[*]
+        type(lock_type), save :: turn[*]
 
         first = 1
         if (count == 0) then
             sync all
-            if (this_image() == 1) call atomic_define(next, 0)
+            next = 1
             sync all
         else
-            call atomic_fetch_add(next[1], int(count, atomic_int_kind), old)
-            first = old + 1_i8
+            lock (turn[1])
+            first = next[1]
+            next[1] = first + count
+            unlock (turn[1])
         end if
     end subroutine dealt
 

@@ -19,6 +19,7 @@ module lagrangia_sweep_store
     public :: sweep_store_t, part_name
 
     integer, parameter :: word = 8   !! bytes
+    integer, parameter :: would_block = 11  !! EWOULDBLOCK of Linux
     integer, parameter :: before = 3 !! words of a record before its numbers
     character(*), parameter :: mark = "lagrangia sweep, blocks of trajectories, format 1"
 
@@ -146,7 +147,9 @@ contains
         if (allocated(error)) return
         self%own = image
         associate (part => self%parts(image))
-            if (c_flock(c_fileno(part%stream), 6_c_int) /= 0) then
+            status = int(c_flock(c_fileno(part%stream), 6_c_int))
+            if (status /= 0) status = last_error()
+            if (status == would_block) then  ! all else: the file system has no locks
                 call fail(error, "another sweep is writing '"//part%name//"' at this moment", &
                           status_file)
             else if (.not. facts%found) then
