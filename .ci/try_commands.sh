@@ -178,6 +178,22 @@ blocked report pendulum
 for principle in action constraints least-time; do blocked principle $principle; done
 blocked bench precision --quick --problems P1 --methods rk4,gauss16
 
+# --quiet: not a word, whichever command; --json: JSON and nothing else, but remarks on stderr
+for words in "--output $work/q" "run pendulum --output $work/q" "compare pendulum --methods rk4,verlet --output $work/q" "report pendulum --output $work/q" \
+    "modes pendulum --output $work/q" "bench output --quick" "stress elastic" "grade data/homework/right.txt" "sweep flip_map --over theta1=0.5:3:3 --output $work/q"; do
+    run $words --quiet
+    check "$words --quiet: not a word" eval '[ $status -eq 0 ] && [ ! -s "$work/out" ] && [ ! -s "$work/err" ]'
+    [ "${words%% *}" = report ] && continue
+    run $words --json
+    check "$words --json: JSON, not empty" json 'len(d) > 0'
+done
+run grade data/homework/wedge.txt --quiet
+check "grade --quiet: one line and the status say that something is wrong" eval '[ $status -eq 1 ] && [ ! -s "$work/out" ] && one_line'
+for words in "check pendulum" "errata" "errata E9" "principle gauge" "derive pendulum" "modes pendulum"; do
+    run $words --json
+    check "$words --json: JSON, not empty" json 'len(d) > 0'
+done
+
 # run, its options
 run run cart_pendulum pendulum --output "$work/a b'c"
 check "run: two scenes, a folder with blank and quote" eval '[ $status -eq 0 ] && [ -s "$work/a b'"'"'c/pendulum.dat" ]'
@@ -313,6 +329,7 @@ refuses 2 "greater than 0.0 is needed" modes cart_pendulum --set cart_pendulum%m
 refuses 4 "other units are needed" modes pendulum --set pendulum%g=1e308 --set pendulum%l=1e-300
 run check pendulum rolling_disk --json
 check "check: every claim holds" json 'len(d) == 78 and all(row["holds"] for row in d)'
+check "check: no word of time where it takes none" [ ! -s "$work/err" ]
 cp "$work/out" "$work/rows"
 run check pendulum rolling_disk
 check "check: the text's remarks are the JSON's" python3 -c 'import json, sys

@@ -3,13 +3,16 @@ module test_cross_check
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertGreaterThan, &
                      assertLessThan, assertLessThanOrEqual, assertTrue
     use lagrangia_command_line, only: word_t
+    use lagrangia_dop853, only: dop853_t
     use lagrangia_errors, only: error_t
     use lagrangia_final_values, only: final_value_t, final_values_line
     use lagrangia_kinds, only: dp
     use lagrangia_outcome, only: from_closed_form, from_half_step, outcome_t
+    use lagrangia_pendulum, only: pendulum_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scorecard, only: scorecard_legend
     use lagrangia_system, only: system_t
+    use lagrangia_tolerance_floor, only: sensible_tolerance
     use scene_runs, only: plan_and_run, read_and_plan
     use stated_text, only: read_concise
     implicit none (type, external)
@@ -29,6 +32,7 @@ contains
         call suite%addTest(TestMethod("a_late_clock", a_late_clock))
         call suite%addTest(TestMethod("the_time_of_a_slow_event", the_time_of_a_slow_event))
         call suite%addTest(TestMethod("no_tolerance_below_the_noise", no_tolerance_below_the_noise))
+        call suite%addTest(TestMethod("the_tolerance_that_is_named", the_tolerance_that_is_named))
         call suite%addTest(TestMethod("an_estimate_has_the_rounding_in_it", &
                                       an_estimate_has_the_rounding_in_it))
         call suite%addTest(TestMethod("an_error_is_of_coordinates", an_error_is_of_coordinates))
@@ -218,6 +222,34 @@ contains
                      "tolerance = 1e-14, duration = 3.0, samples = 10 / &oscillator /", outcome)
         call assertLessThan(int(outcome%steps), 1000, message="relative to what is large")
     end subroutine no_tolerance_below_the_noise
+
+    subroutine the_tolerance_that_is_named()
+        !! For a pendulum at \(\theta = 10^8\), whose last digit shakes the acceleration by
+        !! \(\epsilon\theta D\), \(D = g/l\,|\cos\theta|\), and the velocity by that over
+        !! \(\sqrt D\): what a step bears of it, and up to 1.1 times that, half a second digit. No
+        !! more than 0.1, and not less than the method can.
+        type(pendulum_t) :: pendulum
+        type(dop853_t) :: method
+        type(error_t), allocatable :: error
+        real(dp), parameter :: theta = 1e8_dp
+        real(dp) :: least, noise, slope
+
+        call pendulum%configure([1.0_dp, 50.0_dp, 9.81_dp, 0.0_dp], error)
+        call assertFalse(allocated(error), "a pendulum")
+        slope = 9.81_dp/50.0_dp*abs(cos(theta))
+        noise = epsilon(noise)*theta*sqrt(slope)/method%noise_margin
+        call assertLessThan(9.81_dp/50.0_dp/sqrt(slope), 1.0_dp, message="below 1 rad/s")
+        least = sensible_tolerance(method, pendulum, 0.0_dp, 1.0_dp, [theta], [0.3_dp])
+        call assertGreaterThan(least, noise)
+        call assertLessThan(least, 1.1_dp*1.05_dp*noise)
+        call assertEqual(noise, sensible_tolerance(method, pendulum, 0.0_dp, 1.0_dp, &
+                         [theta], [110.0_dp])*110.0_dp/1.1_dp, 0.05_dp*noise, "beside v")
+        call assertEqual(method%least_tolerance, sensible_tolerance(method, pendulum, 0.0_dp, &
+                         1.0_dp, [1.0_dp], [0.3_dp]), 0.0_dp, "at least")
+        method%noise_margin = 1e-9_dp
+        call assertEqual(0.1_dp, sensible_tolerance(method, pendulum, 0.0_dp, 1.0_dp, [theta], &
+                         [0.3_dp]), 0.0_dp, "at most")
+    end subroutine the_tolerance_that_is_named
 
     subroutine an_estimate_has_the_rounding_in_it()
         !! A hoop at rest is a pendulum, whose motion is known; its own error is an estimate. So

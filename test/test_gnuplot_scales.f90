@@ -120,6 +120,8 @@ contains
         call assertTrue(y(1) < -1.0_dp .and. y(2) > 1.0_dp, "all of y: "//text)
         call assertEqual(0, index(script("", ["y"]), "ratio -1"), "over the time")
         call assertEqual(0, index(script("", [character(7) :: "x:theta"]), "ratio -1"), "an angle")
+        call assertEqual(0, index(script("", [character(9) :: "theta:x"]), "ratio -1"), "over it")
+        call assertEqual(0, index(script("", [character(9) :: "x:y+theta"]), "ratio -1"), "with it")
     end subroutine lengths_share_a_scale
 
     subroutine a_constant_has_a_range()

@@ -174,7 +174,9 @@ contains
             call put_wrapped(trim(d%equations(i)))
         end do
         if (size(d%equations) == 0) then
-            call put_line("  d/dt dL/dq_dot - dL/dq = 0, by exact derivatives of L")
+            call put_line("  d/dt dL/dq_dot - dL/dq = "// &
+                          merge("Q", "0", allocated(d%generalised_forces))// &
+                          ", by exact derivatives of L")
         end if
         if (allocated(d%accelerations)) then
             call put_line("solved")

@@ -290,7 +290,7 @@ contains
             associate (kept => sweep%kept(i))
                 if (found > 0) then
                     call put_line("  "//kept%text(:width)//scientific(least, 6)//" to "// &
-                                  scientific(largest, 6)//" "//unit(kept%unit)// &
+                                  scientific(largest, 6)//trim(" "//unit(kept%unit))// &
                                   missing(found))
                 else
                     call put_line("  "//kept%text(:width)//"none of them has it")
