@@ -436,6 +436,8 @@ rows = [[float(x) for x in line.split()] for name in sys.argv[1:] for line in op
 mean = sum(r[1]/r[2]**2 for r in rows)/sum(1/r[2]**2 for r in rows)
 z = [(r[1] - mean)/r[2] for r in rows]
 sys.exit(not (len(rows) == 40 and abs(mean - 1.446) < 0.03 and max(map(abs, z)) < 5 and 0.5 < (sum(x*x for x in z)/39)**0.5 < 1.6))  # Student t of 15' "$work/sweep/chaos_1e-8_sweep.dat" "$work/sweep/chaos_1e-6_sweep.dat"
+run bench sweep --quick --json --output "$work/bench"
+check "bench sweep: ours and GSL's, on one thread and on all, right to what each promises" json '(lambda r: {x["method"] for x in r} == {"rk4", "gsl_rk4", "gauss16", "dop853", "gsl_rk8pd"} and all(x["error"] < (1e-5 if "rk4" in x["method"] else 1e-8) and x["us_each"] > 0 for x in r))([x for x in d if x["table"] == "sweep"])'
 run sweep pendulum --over q=0:1:1000000 --over v=0:1:1000000 --keep theta --output "$work/sweep"
 check "sweep: 1e12 trajectories are refused with their size" eval '[ $status -eq 2 ] && [ "$(wc -l <"$work/err")" -eq 1 ] && grep -q "TB on the disk and .* MB of memory, and only .* are free" "$work/err"'
 run describe scene

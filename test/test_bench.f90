@@ -223,9 +223,9 @@ contains
         call refused("--methods="//repeat("m", 33), "unknown method '"//repeat("m", 31)// &
                      "?'; there are", begins=.true.)
         call refused("step", "unknown part 'step'; did you mean 'steps'?")
-        call refused("speed", "unknown part 'speed'; there are precision, samples, steps, "// &
-            "energy, "// &
-                     "growth, modes, output")
+        call refused("velocity", "unknown part 'velocity'; there are precision, samples, "// &
+                     "steps, energy, "// &
+                     "growth, modes, output, sweep")
         call refused("--output=", "option '--output' needs the name of a folder")
         call refused("--tolerances=0", "tolerance 0.0 is not allowed: a number from 1e-16 to "// &
                      "below 1 is needed")

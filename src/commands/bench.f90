@@ -18,6 +18,7 @@ module lagrangia_bench
     use lagrangia_progress, only: progress_t
     use lagrangia_sampled_bench, only: measure_samples
     use lagrangia_step_cost, only: measure_steps
+    use lagrangia_sweep_bench, only: measure_sweeps
     use lagrangia_version, only: build_text, is_optimised
     use lagrangia_work_precision, only: curve_t, measure_curves, points_table, times_table
     implicit none (type, external)
@@ -75,6 +76,10 @@ contains
                 call output%show(table, progress)
             case ("growth")
                 call measure_growth(options%folder, options%plan, table, error)
+                if (allocated(error)) exit
+                call output%show(table, progress)
+            case ("sweep")
+                call measure_sweeps(options%plan, table, error)
                 if (allocated(error)) exit
                 call output%show(table, progress)
             case ("modes")

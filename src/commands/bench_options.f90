@@ -18,7 +18,7 @@ module lagrangia_bench_options
     public :: bench_options_t, parts, read_options
 
     character(name_length), parameter :: parts(*) = [character(name_length) :: "precision", &
-        "samples", "steps", "energy", "growth", "modes", "output"]
+        "samples", "steps", "energy", "growth", "modes", "output", "sweep"]
     real(dp), parameter :: least_tolerance = 1e-16_dp
 
     type :: bench_options_t

@@ -1,0 +1,202 @@
+module lagrangia_sweep_bench
+    !! Many double pendulums: a sweep beside a loop over GSL's driver that OpenMP shares out, one
+    !! driver a thread, with C's right-hand side.
+    use, intrinsic :: iso_c_binding, only: c_loc, c_null_funptr
+    use lagrangia_description, only: default_values, description_t, name_length
+    use lagrangia_direct_rates, only: direct_context_t, direct_rates
+    use lagrangia_errors, only: error_t
+    use lagrangia_gsl_odeiv, only: gsl_driver_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_observer, only: observer_t
+    use lagrangia_precision_curve, only: median
+    use lagrangia_printed_table, only: count_cell, number_cell, printed_table_t, word_cell
+    use lagrangia_scene, only: scene_t
+    use lagrangia_scene_reader, only: parse_scene
+    use lagrangia_stopwatch, only: effort_t, seconds_since, ticks_now
+    use lagrangia_sweep, only: new_sweep, sweep_t
+    use lagrangia_sweep_grid, only: compute_grid, sweep_result_t, thread_count
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text, word_t
+    implicit none (type, external)
+    private
+    public :: measure_sweeps
+
+    real(dp), parameter :: duration = 10.0_dp                 !! s
+    integer(i8), parameter :: steps = 1000                    !! of rk4
+    real(dp), parameter :: start(4) = [0.5_dp, 0.8_dp, 0.0_dp, 0.0_dp]  !! q, v
+    real(dp), parameter :: from = 0.45_dp, to = 0.55_dp       !! rad: the first angle
+    real(dp), parameter :: microseconds = 1e6_dp
+
+    type :: way_t
+        !! How they are computed.
+        character(name_length) :: name = ""
+        logical :: gsl = .false.
+        character(8) :: method = ""
+        real(dp) :: tolerance = 0.0_dp        !! 0: steps of fixed length
+    end type way_t
+
+contains
+
+    subroutine measure_sweeps(plan, table, error)
+        !! Microseconds a trajectory of 10 s; with 1000 steps of rk4, nanoseconds a step. The error
+        !! is the largest of the first angle at the end, against gauss16 at 1e-13.
+        type(effort_t), intent(in) :: plan                !! how much is measured
+        type(printed_table_t), intent(out) :: table       !! the result
+        type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
+        type(way_t), parameter :: ways(*) = [ &
+            way_t("rk4", .false., "rk4", 0.0_dp), way_t("gsl_rk4", .true., "rk4", 0.0_dp), &
+            way_t("gauss16", .false., "gauss16", 1e-10_dp), &
+            way_t("dop853", .false., "dop853", 1e-10_dp), &
+            way_t("gsl_rk8pd", .true., "rk8pd", 1e-10_dp)]
+        real(dp), allocatable :: angles(:), reference(:)
+        real(dp) :: seconds(plan%rounds, size(ways)), gsl, worst(size(ways))
+        integer :: count, i, pass, round, threads
+
+        count = merge(256, 1024, plan%quick)
+        allocate (angles(count), reference(count))
+        call table%begin("sweep", to_text(count)//" double pendulums over 10 s; rk4 by 1000 "// &
+                         "steps, so us_each is ns a step; over_gsl: GSL's time by ours", &
+                         [character(name_length) :: "method", "threads", "error", "us_each", &
+                          "over_gsl"])
+        call take(way_t("", .false., "gauss16", 1e-13_dp), 1, reference, gsl, error)
+        do pass = 1, merge(1, 2, thread_count(0) == 1)
+            threads = merge(1, thread_count(0), pass == 1)
+            do round = 1, plan%rounds
+                do i = 1, size(ways)
+                    if (allocated(error)) return
+                    call take(ways(i), threads, angles, seconds(round, i), error)
+                    worst(i) = maxval(abs(angles - reference))
+                end do
+            end do
+            if (allocated(error)) return
+            do i = 1, size(ways)
+                gsl = median(seconds(:, merge(2, size(ways), ways(i)%method == "rk4")))
+                call table%add([word_cell(ways(i)%name), count_cell(int(threads, i8)), &
+                                number_cell(worst(i), 2), &
+                                number_cell(median(seconds(:, i))/count*microseconds, 3), &
+                                number_cell(gsl/median(seconds(:, i)), 2)])
+            end do
+        end do
+    end subroutine measure_sweeps
+
+    subroutine take(way, threads, angles, seconds, error)
+        !! All of them, one way.
+        type(way_t), intent(in) :: way
+        integer, intent(in) :: threads
+        real(dp), intent(out) :: angles(:), seconds
+        type(error_t), allocatable, intent(out) :: error
+
+        if (way%gsl) then
+            call take_gsl(way, threads, angles, seconds, error)
+        else
+            call take_sweep(way, threads, angles, seconds, error)
+        end if
+    end subroutine take
+
+    subroutine take_sweep(way, threads, angles, seconds, error)
+        !! As the command does it, in memory.
+        type(way_t), intent(in) :: way
+        integer, intent(in) :: threads
+        real(dp), intent(out) :: angles(:), seconds
+        type(error_t), allocatable, intent(out) :: error
+        class(system_t), allocatable :: system
+        type(scene_t) :: scene
+        type(sweep_t) :: sweep
+        type(sweep_result_t) :: result
+        class(observer_t), pointer :: nobody
+        type(word_t) :: none(0)
+        real(dp), allocatable :: values(:, :)
+        character(:), allocatable :: steps_of
+        integer(i8) :: block
+
+        nullify (nobody)
+        steps_of = "tolerance = "//to_text(way%tolerance)//", samples = 1"
+        if (way%tolerance <= 0.0_dp) steps_of = "dt = "//to_text(duration/steps)
+        call parse_scene("&scene system = 'double_pendulum', method = '"//trim(way%method)// &
+                         "', "//steps_of//", duration = "//to_text(duration)//", q = "// &
+                         to_text(start(1))//", "//to_text(start(2))//" /", "bench", none, scene, &
+                         system, error)
+        if (.not. allocated(error)) call new_sweep(sweep, scene, system, &
+            ["theta1 = "//to_text(from)//":"//to_text(to)//":"//to_text(size(angles))], &
+            ["theta1"], 1, 0.0_dp, error)
+        if (.not. allocated(error)) call compute_grid(sweep, threads, nobody, result, error)
+        if (allocated(error)) return
+        seconds = result%seconds
+        do block = 1, result%store%blocks
+            call result%read_block(sweep, block, values, error)
+            if (allocated(error)) return
+            angles(result%store%first_of(block):result%store%last_of(block)) = values(1, :)
+        end do
+    end subroutine take_sweep
+
+    subroutine take_gsl(way, threads, angles, seconds, error)
+        !! One driver a thread.
+        type(way_t), intent(in) :: way
+        integer, intent(in) :: threads
+        real(dp), intent(out) :: angles(:), seconds
+        type(error_t), allocatable, intent(out) :: error
+        real(dp), allocatable :: parameters(:)
+        integer(i8) :: begun
+
+        call default_parameters(parameters, error)
+        if (allocated(error)) return
+        begun = ticks_now()
+        !$omp parallel num_threads(threads) default(none) shared(way, angles, parameters, error)
+        call take_share(way, parameters, angles, error)
+        !$omp end parallel
+        seconds = seconds_since(begun)
+    end subroutine take_gsl
+
+    subroutine take_share(way, parameters, angles, error)
+        !! What falls to one thread, by a driver of its own.
+        type(way_t), intent(in) :: way
+        real(dp), intent(in) :: parameters(:)
+        real(dp), intent(inout) :: angles(:)
+        type(error_t), allocatable, intent(inout) :: error
+        type(gsl_driver_t) :: driver
+        type(direct_context_t), target :: context
+        type(error_t), allocatable :: failure
+        real(dp) :: t, y(4)
+        integer :: i
+
+        context%parameters(:size(parameters)) = parameters
+        call driver%start(trim(way%method), 4, direct_rates("double_pendulum"), c_null_funptr, &
+                          c_loc(context), duration/steps, max(way%tolerance, 1e-12_dp), failure)
+        !$omp do schedule(dynamic, 8)
+        do i = 1, size(angles)
+            if (allocated(failure)) cycle
+            y = start
+            y(1) = from + (to - from)*(i - 1)/(size(angles) - 1)
+            t = 0.0_dp
+            call driver%restart(duration/steps, failure)
+            if (allocated(failure)) cycle
+            if (way%tolerance > 0.0_dp) then
+                call driver%integrate(t, duration, y, failure)
+            else
+                call driver%fixed_steps(t, duration/steps, steps, y, failure)
+            end if
+            angles(i) = y(1)
+        end do
+        !$omp end do
+        call driver%free()
+        !$omp critical (lagrangia_sweep_bench)
+        if (allocated(failure)) error = failure
+        !$omp end critical (lagrangia_sweep_bench)
+    end subroutine take_share
+
+    subroutine default_parameters(values, error)
+        !! Of the double pendulum.
+        real(dp), allocatable, intent(out) :: values(:)
+        type(error_t), allocatable, intent(out) :: error
+        class(system_t), allocatable :: system
+        type(scene_t) :: scene
+        type(description_t) :: d
+        type(word_t) :: none(0)
+
+        call parse_scene("&scene system = 'double_pendulum', dt = 1, duration = 1, q = 0, 0 /", &
+                         "bench", none, scene, system, error)
+        if (allocated(error)) return
+        call system%describe(d)
+        values = default_values(d)
+    end subroutine default_parameters
+end module lagrangia_sweep_bench
