@@ -24,6 +24,11 @@ HONEST = [
     r"he mass matrix d2L/dv dv is singular",                       # a mass or a length of zero
     r"a derivative of the Lagrangian is not finite",                # tanh(x_dot/0)
     r"the state is not finite at t = ",                             # m1 = 0 below a lower bob
+    r"constraint 1 is not kept: it gives .*; start elsewhere",      # another rod, the start as it was
+    r"v does not keep the constraints",
+    r"is no finite number at t = .*; start elsewhere",              # a start beyond a shorter rod
+    r"no step is small enough at t = ",                             # a fall into the centre
+    r"column '\w+' is not finite at t = ",                         # thrown out to infinity
 ]
 
 
