@@ -61,7 +61,14 @@ contains
     subroutine beyond_its_range()
         !! There libm answers, lane by lane; what is not finite is NaN.
         real(dp) :: x(lanes), s(lanes), c(lanes)
+        integer :: i
 
+        do i = 1, lanes
+            x = 0.5_dp
+            x(i) = 1e22_dp
+            call sine_cosine(x, s, c)
+            call assertEqual([sin(x(i)), cos(x(i))], [s(i), c(i)], message="alone in its lane")
+        end do
         x = [1e5_dp, -1e22_dp, huge(x), 0.5_dp, largest_angle*(1 + epsilon(x)), 0.0_dp, 0.0_dp, &
              -0.5_dp]
         x(6) = ieee_value(x(6), ieee_positive_inf)
