@@ -144,7 +144,8 @@ contains
     end subroutine which_accelerations_follow
 
     subroutine examples_have_four_digits()
-        !! Those of a number times a power of ten are the same; beyond 10^-4 and 10^6 with an exponent.
+        !! Those of a number times a power of ten are the same; with an exponent beyond 10^-4
+        !! and 10^6.
         class(system_t), allocatable :: system
         type(error_t), allocatable :: none
 

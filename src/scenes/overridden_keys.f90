@@ -44,7 +44,8 @@ contains
         character(name_length) :: method
         character(:), allocatable :: gone
         type(error_t), allocatable :: error
-        logical :: steps  !! in the file: of dt
+        logical :: adaptive  !! a method that takes only a tolerance
+        logical :: steps     !! in the file: of dt
 
         gone = ""
         steps = has_key(tree, group, "dt") .and. .not. is_overridden(tree, group, "dt")
@@ -59,7 +60,9 @@ contains
         else if (steps .and. is_overridden(tree, group, "method")) then
             call get_string(tree, group, "method", method, error)
             if (.not. allocated(error)) then
-                if (any(adaptive_names() == method) .and. .not. any(method_names() == method)) then
+                adaptive = any(adaptive_names() == method)
+                if (any(method_names() == method)) adaptive = .false.
+                if (adaptive) then
                     call drop("every")
                     call drop("dt")
                 end if
