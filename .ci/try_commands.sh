@@ -431,11 +431,13 @@ END
 for tolerance in 1e-8 1e-6; do
     run sweep "$work/double_pendulum_chaos.nml" --set scene%tolerance=$tolerance --set scene%output=chaos_$tolerance --seed ${tolerance#1e-} --output "$work/sweep"
 done
+# Each error is from 16 windows of time: z is Student's t of 15, whose rms over 40 is 1.07 +- 0.13 (four of these are
+# allowed), and of 40 the largest is beyond 6 once in 1000.
 check "sweep: twenty starts at either of two tolerances agree about the double pendulum's exponent, as far as their errors say" python3 -c 'import sys
 rows = [[float(x) for x in line.split()] for name in sys.argv[1:] for line in open(name) if line[:1] not in "#\n"]
 mean = sum(r[1]/r[2]**2 for r in rows)/sum(1/r[2]**2 for r in rows)
 z = [(r[1] - mean)/r[2] for r in rows]
-sys.exit(not (len(rows) == 40 and abs(mean - 1.446) < 0.03 and max(map(abs, z)) < 5 and 0.5 < (sum(x*x for x in z)/39)**0.5 < 1.6))  # Student t of 15' "$work/sweep/chaos_1e-8_sweep.dat" "$work/sweep/chaos_1e-6_sweep.dat"
+sys.exit(not (len(rows) == 40 and abs(mean - 1.446) < 0.03 and max(map(abs, z)) < 6 and 0.53 < (sum(x*x for x in z)/39)**0.5 < 1.61))' "$work/sweep/chaos_1e-8_sweep.dat" "$work/sweep/chaos_1e-6_sweep.dat"
 run bench sweep --quick --json --output "$work/bench"
 check "bench sweep: ours and GSL's, on one thread and on all, right to what each promises" json '(lambda r: {x["method"] for x in r} == {"rk4", "gsl_rk4", "gauss16", "dop853", "gsl_rk8pd"} and all(x["error"] < (1e-5 if "rk4" in x["method"] else 1e-8) and x["us_each"] > 0 for x in r))([x for x in d if x["table"] == "sweep"])'
 run sweep pendulum --over q=0:1:1000000 --over v=0:1:1000000 --keep theta --output "$work/sweep"

@@ -31,7 +31,7 @@ module lagrangia_modes_command
         "oscillation", "zero mode", "unstable"]
     real(dp), parameter :: pi = acos(-1.0_dp)
     integer, parameter :: widest = 8  !! matrices beyond are not printed
-    integer, parameter :: many = 300  !! modes: more take a second and longer
+    integer, parameter :: many = 300  !! more modes take a second and longer
 
 contains
 

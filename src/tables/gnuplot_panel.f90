@@ -73,7 +73,7 @@ contains
     pure subroutine add_legend(script, columns)
         !! Above the panel, clear of its curves and of the title.
         type(lines_t), intent(inout) :: script  !! gets the lines
-        integer, intent(in) :: columns          !! 0: there is none
+        integer, intent(in) :: columns          !! of the legend; 0 if there is none
 
         if (columns > 0) then
             call script%add("set key at graph 1, graph 1.02 right bottom horizontal Left "// &
