@@ -105,6 +105,8 @@ contains
 
     subroutine names_that_cannot_be()
         character(*), parameter :: behind = " T = 'r_dot^2'"
+        character(*), parameter :: a_name = "a name, its unit and a few words are written "// &
+                                            "'r [m] length of the spring'"
 
         call refused("coordinates = 'r', 'r'"//behind, "a.nml:2:32: &lagrangian: coordinates = "// &
                      "'r': the name 'r' is given twice; take another one")
@@ -136,6 +138,10 @@ contains
         call refused("coordinates = 'r, theta'"//behind, "a.nml:2:27: &lagrangian: coordinates "// &
                      "= 'r, theta': 'r,' is no name for a formula; write letters, digits and "// &
                      "underscores, a letter first, as in theta1")
+        call refused("coordinates = '[m] place'"//behind, "a.nml:2:27: &lagrangian: "// &
+                     "coordinates = '[m] place': "//a_name)
+        call refused("coordinates = '"//repeat("r", 33)//"'"//behind, "a.nml:2:27: "// &
+                     "&lagrangian: coordinates = '"//repeat("r", 33)//"': "//a_name)
     end subroutine names_that_cannot_be
 
     subroutine energies_that_are_no_system()
