@@ -142,6 +142,7 @@ def main():
         if not sys.argv[2:]:
             for system in ("cart_pendulum", "double_pendulum", "hanging_chain", "charged_trap", "rotating_hoop"):
                 make(program, folder, ["modes", system])
+            make(program, folder, ["compare", "pendulum", "--methods", "rk4,verlet", "--set", "scene%dt=0.1"])
             nasty = os.path.join(folder, "nasty.nml")
             text = open("data/scenes/pendulum.nml", encoding="utf-8").read()
             lines = ["  title = '" + NASTY.replace("'", "''").replace("''''", "''") + "'" if "title =" in line else line

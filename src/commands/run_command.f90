@@ -89,11 +89,11 @@ contains
             call run_one(chosen(i)%plan, warnings(i)%text, scene_error)
             call progress%clear()
             if (allocated(scene_error)) then
-                call scene_error%add_context(chosen(i)%path%text)
                 if (is_signal(scene_error)) then
                     call move_alloc(scene_error, error)
                     return
                 end if
+                call scene_error%add_context(chosen(i)%path%text)
             end if
             if (json) then
                 call put_line(outcome_json(outcome)//trim(merge(",", " ", i < size(chosen))))

@@ -129,7 +129,7 @@ contains
         character(*), intent(in) :: films             !! objects with commas between them
         character(:), allocatable :: json, facts
         type(description_t) :: d
-        character(:), allocatable :: values
+        character(:), allocatable :: name, values
         integer :: i, k
 
         call system%describe(d)
@@ -145,8 +145,9 @@ contains
                 facts = facts//", "//json_string(trim(p%name)//" ="//values)
             end associate
         end do
-        json = json_object(json_pair("title", title)// &
-                           json_pair("system", trim(d%name)//": "//d%title)// &
+        name = trim(d%name)
+        if (d%title /= title) name = name//": "//d%title
+        json = json_object(json_pair("title", title)//json_pair("system", name)// &
                            json_item("facts", "["//facts//"]")// &
                            json_item("films", "["//films//"]"))
     end function page_of_films

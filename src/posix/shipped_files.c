@@ -1495,7 +1495,7 @@ static const char *const files[][2] = {
         "  title = 'Order and chaos of a driven pendulum: its largest Lyapunov exponent'\n"
         "  system = 'forced_pendulum'\n"
         "  method = 'gauss16'\n"
-        "  tolerance = 1e-6, duration = 600.0, samples = 100\n"
+        "  tolerance = 1e-6, duration = 300.0, samples = 100\n"
         "  q = 0.5\n"
         "/\n"
         "&lagrangian\n"
@@ -1506,9 +1506,9 @@ static const char *const files[][2] = {
         "/\n"
         "&forced_pendulum c = 0.5, f = 1.0, W = 0.6666666666666667 /\n"
         "&sweep\n"
-        "  over = 'W = 0.3:1:100', 'f = 0.9:1.6:100'\n"
+        "  over = 'W = 0.3:1:60', 'f = 0.9:1.6:60'\n"
         "  keep = 'lyapunov'\n"
-        "  after = 100.0\n"
+        "  after = 60.0\n"
         "/\n"
     },
     {"data/sweeps/period_of_amplitude.nml",
