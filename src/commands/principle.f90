@@ -40,13 +40,13 @@ contains
         if (allocated(error)) return
         call take_picture(line, kind, error)
         if (allocated(error)) return
-        if (any(principles%name == line%arguments(1)%text .and. principles%drawn)) then
+        if (any(principles%name == line%arguments(1)%text)) then
             call check_files(picture_name(line%arguments(1)%text), folder, error)
             if (allocated(error)) return
         end if
         call principle_report(line%arguments(1)%text, report, error)
         if (allocated(error)) return
-        if (report%picture%file /= "") report%picture%file = picture_name(line%arguments(1)%text)
+        report%picture%file = picture_name(line%arguments(1)%text)
         call write_picture(report%picture, folder, file, error)
         if (allocated(error)) return
         if (line%has("json")) then
@@ -54,7 +54,7 @@ contains
         else
             call put_report(report, file)
         end if
-        if (line%has("plot") .and. file /= "") call draw(file, kind, error)
+        if (line%has("plot")) call draw(file, kind, error)
         if (allocated(error)) return
         if (report%broken() > 0) call fail(error, to_text(report%broken())//" of "// &
             to_text(size(report%rows))//" statements are not as they must be", status_not_held)

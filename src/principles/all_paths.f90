@@ -78,9 +78,10 @@ contains
         if (allocated(error)) return
         call draw_paths(paths(:, :found), indices(:found), report)
         call report%note("Conjugate points: where neighbours of the path from the start meet "// &
-                         "it "// &
-                         "again.")
-        call report%note("Descent: step by step against the slope of S, the ends held.")
+                         "it again.")
+        call report%note("Descent: step by step against the slope of S, the ends held; down "// &
+                         "and up begin")
+        call report%note("along the variation that lowers S most, the lowest eigenvector.")
     end subroutine all_paths_principle
 
     pure subroutine swing(rate, t, theta, theta_dot)

@@ -36,7 +36,6 @@ contains
         x = q0
         x_dot = v0
         call integrator%start(system, t0, x, x_dot)
-        call integrator%start(system, t0, x, x_dot)
         do k = 1, size(q, 2)
             q(:, k) = x
             v(:, k) = x_dot

@@ -193,7 +193,30 @@ contains
         other = along_path(gauged, 0.3_dp)
         call report%equal("the same on a path that is not actual", other, &
                           plain + last%re - first%re, rounding)
+        call draw_actions(last%re - first%re)
     contains
+        subroutine draw_actions(shift)
+            !! The picture: both actions on neighbours of the actual path, and S + F(2) - F(1).
+            real(dp), intent(in) :: shift  !! J s
+            integer, parameter :: samples = 81
+            real(dp) :: bulge
+            integer :: k
+
+            report%picture%file = "principle_gauge"
+            report%picture%title = "With dF/dt in L the action is shifted, and least on the same path"
+            report%picture%nested = .true.
+            report%picture%names = [character(32) :: "bulge of the path", "S'", &
+                                    "S shifted", "S"]
+            report%picture%units = [character(16) :: "m", "J s", "J s", "J s"]
+            report%picture%panels = [character(98) :: "bulge of the path:S'+S shifted+S"]
+            allocate (report%picture%values(4, samples))
+            do k = 1, samples
+                bulge = 0.0125_dp*(k - (samples + 1)/2)
+                plain = along_path(oscillator, bulge)
+                report%picture%values(:, k) = [bulge, along_path(gauged, bulge), plain + shift, plain]
+            end do
+        end subroutine draw_actions
+
         pure function along_path(system, bulge) result(s)
             class(system_t), intent(in) :: system
             real(dp), intent(in) :: bulge  !! m, of a half sine on top of the actual path

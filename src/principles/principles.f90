@@ -31,40 +31,30 @@ module lagrangia_principles
     type :: principle_t
         character(16) :: name = ""
         character(76) :: meaning = ""
-        logical :: drawn = .false.  !! there is a picture to it
     end type principle_t
 
     type(principle_t), parameter :: principles(*) = [ &
-        principle_t("action", "Hamilton: the actual path makes the action stationary", .true.), &
-        principle_t("constraints", "holonomic or not, fixed or moving; degrees of freedom", &
-                    .true.), &
+        principle_t("action", "Hamilton: the actual path makes the action stationary"), &
+        principle_t("constraints", "holonomic or not, fixed or moving; degrees of freedom"), &
         principle_t("gauge", "uniqueness: L and L + dF/dt tell the same motion"), &
-        principle_t("least-time", "Hero, Fermat: light takes a path of stationary time", .true.), &
+        principle_t("least-time", "Hero, Fermat: light takes a path of stationary time"), &
         principle_t("virtual-work", "d'Alembert: constraint forces do no virtual work; Q_j"), &
-        principle_t("dalembert", "from d'Alembert to Lagrange, term by term; why dT/dq is there", &
-                    .true.), &
-        principle_t("small-angle", "why theta_dot^2 theta is dropped, and what that costs", &
-                    .true.), &
-        principle_t("reactions", "the forces of constraint along a motion, by 3n equations", &
-                    .true.), &
+        principle_t("dalembert", "from d'Alembert to Lagrange, term by term; why dT/dq is there"), &
+        principle_t("small-angle", "why theta_dot^2 theta is dropped, and what that costs"), &
+        principle_t("reactions", "the forces of constraint along a motion, by 3n equations"), &
         principle_t("noether", &
-                    "conserved quantities found: what leaves L as it is but for dF/dt", .true.), &
-        principle_t("same-motion", "L's that differ by more than a dF/dt, and the same motion", &
-                    .true.), &
-        principle_t("vakonomic", "why a nonholonomic constraint is not put into L", .true.), &
-        principle_t("maupertuis", "Maupertuis: with one energy int p dq is stationary", .true.), &
-        principle_t("gauss-hertz", "Gauss: least constraint; Hertz: the straightest path", &
-                    .true.), &
+                    "conserved quantities found: what leaves L as it is but for dF/dt"), &
+        principle_t("same-motion", "L's that differ by more than a dF/dt, and the same motion"), &
+        principle_t("vakonomic", "why a nonholonomic constraint is not put into L"), &
+        principle_t("maupertuis", "Maupertuis: with one energy int p dq is stationary"), &
+        principle_t("gauss-hertz", "Gauss: least constraint; Hertz: the straightest path"), &
         principle_t("geometric-phase", &
-                    "around a loop and back, and not where it was: disk, Foucault", .true.), &
-        principle_t("measure-g", "g from a slow fall: which masses for a given stop watch", &
-                    .true.), &
+                    "around a loop and back, and not where it was: disk, Foucault"), &
+        principle_t("measure-g", "g from a slow fall: which masses for a given stop watch"), &
         principle_t("all-paths", &
-                    "every path between two events, its S, its index; where descent ends", &
-                    .true.), &
-        principle_t("helmholtz", "which forces have an L: Helmholtz' conditions", .true.), &
-        principle_t("phase-space", "H from L, areas that stay, periods, neighbours that part", &
-                    .true.)]
+                    "every path between two events, its S, its index; where descent ends"), &
+        principle_t("helmholtz", "which forces have an L: Helmholtz' conditions"), &
+        principle_t("phase-space", "H from L, areas that stay, periods, neighbours that part")]
 
 contains
 

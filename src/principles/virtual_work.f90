@@ -21,6 +21,8 @@ module lagrangia_virtual_work
 
     real(dp), parameter :: rounding = 1e-13_dp  !! of a few dozen operations on numbers up to 20
     real(dp), parameter :: relative = 1e-12_dp  !! the same, relative to the largest term
+    real(dp), parameter :: wire_mass = 0.6_dp   !! of the bead, kg
+    real(dp), parameter :: wire_rate = 1.5_dp   !! W, rad/s
 
 contains
 
@@ -84,12 +86,12 @@ contains
         !! A moving constraint's force does work, but no virtual work.
         type(report_t), intent(inout) :: report
         type(error_t), allocatable, intent(out) :: error
-        real(dp), parameter :: m = 0.6_dp, w = 1.5_dp, t = 0.7_dp, r(1) = 0.5_dp, v(1) = 0.8_dp
+        real(dp), parameter :: t = 0.7_dp, r(1) = 0.5_dp, v(1) = 0.8_dp
         type(rotating_wire_t) :: wire
         type(point_motion_t) :: motion
         real(dp) :: a(1), n(3)
 
-        call wire%configure([m, w], error)
+        call wire%configure([wire_mass, wire_rate], error)
         if (allocated(error)) return
         call report%section("bead on a rotating wire: the wire pushes, N = m x_ddot - F")
         call wire%accelerations(t, r, v, a)
@@ -98,10 +100,44 @@ contains
         call report%equal("virtual work, N.dx/dr: none  [N]", &
                           dot_product(n, motion%jacobian(:, 1)), 0.0_dp, rounding)
         call report%equal("power, N.dx/dt = 2 m W^2 r r_dot  [W]", &
-                          dot_product(n, motion%velocity), 2.0_dp*m*w**2*r(1)*v(1), rounding)
+                          dot_product(n, motion%velocity), &
+                          2.0_dp*wire_mass*wire_rate**2*r(1)*v(1), rounding)
         call report%equal("is there no power either?  [W]", dot_product(n, motion%velocity), &
                           0.0_dp, rounding, control=.true.)
+        call draw_power(wire, report, error)
     end subroutine moving_wire
+
+    subroutine draw_power(wire, report, error)
+        !! The picture: what the wire's force does on the actual path, and along the wire alone.
+        type(rotating_wire_t), intent(in) :: wire
+        type(report_t), intent(inout) :: report
+        type(error_t), allocatable, intent(out) :: error
+        integer, parameter :: samples = 151
+        real(dp), parameter :: step = 0.01_dp
+        real(dp) :: q(1, samples), v(1, samples), a(1), n(3)
+        type(point_motion_t) :: motion
+        integer :: k
+
+        call compute_path("gauss16", wire, 0.0_dp, step, [0.2_dp], [0.0_dp], q, v, error)
+        if (allocated(error)) return
+        report%picture%file = "principle_virtual_work"
+        report%picture%title = "A wire that turns does work on its bead, but no virtual work"
+        report%picture%nested = .true.
+        report%picture%names = [character(32) :: "t", "N.dx/dt", "2 m W^2 r r_dot", &
+                                "N.(dx/dr) r_dot"]
+        report%picture%units = [character(16) :: "s", "W", "W", "W"]
+        report%picture%panels = [character(98) :: "t:N.dx/dt+2 m W^2 r r_dot+N.(dx/dr) r_dot"]
+        allocate (report%picture%values(4, samples))
+        do k = 1, samples
+            call wire%accelerations((k - 1)*step, q(:, k), v(:, k), a)
+            call expand_points(wire, (k - 1)*step, q(:, k), v(:, k), a, motion)
+            n = motion%mass*motion%acceleration - motion%force
+            report%picture%values(:, k) = &
+                [(k - 1)*step, dot_product(n, motion%velocity), &
+                 2.0_dp*wire_mass*wire_rate**2*q(1, k)*v(1, k), &
+                 dot_product(n, motion%jacobian(:, 1))*v(1, k)]
+        end do
+    end subroutine draw_power
 
     subroutine along_motions(systems, report, error)
         !! D'Alembert's sum on computed motions, for each displacement that the constraints allow.
