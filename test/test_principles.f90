@@ -192,10 +192,16 @@ contains
             "a:oscillator_wT_2+oscillator_wT_4, "// &
             "a_theta:pendulum_0.45_periods+pendulum_0.70_periods", &
             "A disk rolls, steers, rolls back, steers back, and is elsewhere | t [s], x [m], "// &
-            "y [m], phi [rad], theta [rad] | x:y, t:phi+theta", "", &
+            "y [m], phi [rad], theta [rad] | x:y, t:phi+theta", &
+            "With dF/dt in L the action is shifted, and least on the same path | "// &
+            "bulge of the path [m], S' [J s], S shifted [J s], S [J s] | "// &
+            "bulge of the path:S'+S shifted+S", &
             "Optical path of rays that touch elsewhere, less the actual one | offset [m], "// &
             "flat_mirror [m], concave_mirror [m], elliptic_mirror [m], into_glass [m] | "// &
-            "offset:flat_mirror+concave_mirror+elliptic_mirror+into_glass", ""]
+            "offset:flat_mirror+concave_mirror+elliptic_mirror+into_glass", &
+            "A wire that turns does work on its bead, but no virtual work | t [s], "// &
+            "N.dx/dt [W], 2 m W^2 r r_dot [W], N.(dx/dr) r_dot [W] | "// &
+            "t:N.dx/dt+2 m W^2 r r_dot+N.(dx/dr) r_dot"]
         character(16), allocatable :: names(:)
         character(:), allocatable :: text
         type(report_t) :: report

@@ -229,7 +229,7 @@ contains
         end if
         numerator = numerator%shifted(ratio(1_i8, 1_i8), powers)
         denominator = denominator%shifted(ratio(1_i8, 1_i8), powers)
-        if (denominator%terms == 1) then
+        if (denominator%terms == 1 .and. numerator%terms > 0) then
             quotient = numerator%shifted(ratio(1_i8, 1_i8)/denominator%coefficient(1), &
                                          -denominator%power(:, 1))
             if (any(minval(quotient%power(:, :quotient%terms), 1) >= 0)) then

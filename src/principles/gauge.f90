@@ -203,7 +203,8 @@ contains
             integer :: k
 
             report%picture%file = "principle_gauge"
-            report%picture%title = "With dF/dt in L the action is shifted, and least on the same path"
+            report%picture%title = "With dF/dt in L the action is shifted, and least on the "// &
+                                   "same path"
             report%picture%nested = .true.
             report%picture%names = [character(32) :: "bulge of the path", "S'", &
                                     "S shifted", "S"]
@@ -213,7 +214,8 @@ contains
             do k = 1, samples
                 bulge = 0.0125_dp*(k - (samples + 1)/2)
                 plain = along_path(oscillator, bulge)
-                report%picture%values(:, k) = [bulge, along_path(gauged, bulge), plain + shift, plain]
+                report%picture%values(:, k) = &
+                    [bulge, along_path(gauged, bulge), plain + shift, plain]
             end do
         end subroutine draw_actions
 

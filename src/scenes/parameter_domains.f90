@@ -1,6 +1,6 @@
 module lagrangia_parameter_domains
     !! What a scene allows of the parameters of its formulas: `domain = 'm > 0', 'e < 1'`.
-    use lagrangia_description, only: parameter_t
+    use lagrangia_description, only: name_length, parameter_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_expression, only: expression_t
     use lagrangia_formula_parser, only: parse_formula
@@ -20,6 +20,7 @@ contains
         character(*), intent(in) :: text                    !! `m > 0`, with >, >=, < or <=
         type(parameter_t), intent(inout) :: parameters(:)   !! of which one gets a bound
         type(error_t), allocatable, intent(out) :: error    !! what is wrong with the text
+        character(name_length) :: names(size(parameters))
         character(:), allocatable :: name, near
         real(dp) :: bound
         logical :: above, open
@@ -38,7 +39,8 @@ contains
         if (allocated(error)) return
         i = findloc(parameters%name == name, .true., 1)
         if (i == 0) then
-            near = nearest_name(name, parameters%name)
+            names = parameters%name
+            near = nearest_name(name, names)
             if (near /= "") near = "; did you mean "//quoted(near)//"?"
             call fail(error, "there is no parameter "//quoted(name)//near)
             return
