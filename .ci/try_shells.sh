@@ -75,6 +75,8 @@ for shell in bash zsh; do
         echo "not tried: typing to $shell, for there is no pseudo-terminal: $(tail -n 1 "$work/log")"
         continue
     fi
+    [ $shell = bash ] && check "bash: --plot= and Tab: what there is" bash -c '. "$1"; COMP_WORDS=(lagrangia run pendulum --plot =)
+        COMP_CWORD=4; _lagrangia; [ "${#COMPREPLY[@]}" -gt 1 ] && [[ " ${COMPREPLY[*]} " == *" svg "* && ${COMPREPLY[*]} != *pendulum* ]]' - "$work/completion.bash"
     while IFS='|' read -r typed expected; do
         check "$shell: $typed" completes $shell "$typed" "$expected"
     done <<'END_OF_WORDS'

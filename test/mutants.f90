@@ -15,7 +15,7 @@ module mutants
     private
     public :: new_mutant, mutants_known
 
-    integer, parameter :: mutants_known = 16
+    integer, parameter :: mutants_known = 17
 
     type, extends(pendulum_t) :: pendulum_mutant_t
         integer :: slip = 1
@@ -128,6 +128,9 @@ contains
         case (15)
             allocate (driven_mutant_t :: system)
             expected = "theta_ddot is not that of L"
+        case (16)
+            allocate (system, source=double_mutant_t(slip=3))
+            expected = "theta2_ddot is not that of L; others are wrong too"
         case default
             allocate (system, source=pendulum_mutant_t(slip=2))
             expected = "theta_ddot is not that of L: its generalised force counts l times in it"
@@ -175,7 +178,8 @@ contains
     end subroutine cart_slip
 
     pure subroutine double_slip(self, t, q, v, a)
-        !! 1: a lost centrifugal term. 2: half of a weight.
+        !! 1: a lost centrifugal term. 2: half of a weight. 3: one that is much too small always,
+        !! the other 1 % too large.
         class(double_mutant_t), intent(in) :: self
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
         real(dp), intent(out) :: a(self%ndof)
@@ -192,6 +196,9 @@ contains
             part = merge(0.5_dp, 1.0_dp, self%slip == 2)
             a(2) = (m*l1*v(1)**2*s + m2*l2*v(2)**2*s*c + m*g*(part*sin(q(1))*c - sin(q(2)))) &
                    /(l2*d)
+            if (self%slip /= 3) return
+            a(1) = 1.01_dp*a(1)
+            a(2) = -1e3_dp*(m*l1*v(1)**2 + m2*l2*v(2)**2 + 2.0_dp*m*g)/(l2*d)
         end associate
     end subroutine double_slip
 

@@ -12,6 +12,7 @@ module test_derivation_algebra
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_page_layout, only: lay_out, role_coordinate, role_mass, role_parameter
+    use lagrangia_parameter_sums, only: split
     use lagrangia_polynomial, only: operator(==), polynomial_t
     use lagrangia_symbols, only: symbols_t
     use lagrangia_trigonometry, only: shorten, tidy
@@ -31,6 +32,8 @@ contains
         call suite%addTest(TestMethod("what_is_laid_out_keeps_its_value", layout_keeps_values))
         call suite%addTest(TestMethod("sines_and_cosines_are_joined", sines_are_joined))
         call suite%addTest(TestMethod("long_formulas_are_broken", long_formulas_are_broken))
+        call suite%addTest(TestMethod("products_of_sums_are_recognised", &
+                                      products_of_sums_are_recognised))
     end function derivation_algebra_suite
 
     subroutine three_names(symbols, algebra, roles)
@@ -178,4 +181,43 @@ contains
                         message=text)
         call assertTrue(index(text, " - \left(m^{2} \ell + x\right)") > 0, message=text)
     end subroutine long_formulas_are_broken
+
+    subroutine products_of_sums_are_recognised()
+        !! A sum without masses times a sum of masses, and what only looks like one.
+        call try("a m + b m + a M + b M", "a + b", "m + M")
+        call try("2 a m - 2 b m + 6 a M - 6 b M", "2 a - 2 b", "m + 3 M")
+        call try("a m + b m + a M", "", "")
+        call try("a m + b m + a M + 2 b M", "", "")
+        call try("a m + b m + a M + b M + a b", "", "")
+        call try("a m + a M", "", "")
+        call try("a m + b m", "", "")
+    contains
+        subroutine try(text, without, masses)
+            !! The factors of `text`; empty ones where it is no product.
+            character(*), intent(in) :: text, without, masses
+            type(symbols_t) :: symbols
+            type(algebra_t) :: algebra
+            type(expression_t) :: e
+            type(polynomial_t) :: p, factors(2), expected
+            type(error_t), allocatable :: error
+            logical :: product
+
+            call symbols%add("a")
+            call symbols%add("b")
+            call symbols%add("m")
+            call symbols%add("M")
+            call algebra%begin(4)
+            call parse_formula(text, symbols, e, error)
+            call algebra%from_expression(e, p)
+            call split([role_parameter, role_parameter, role_mass, role_mass], p, factors, product)
+            call assertTrue(product .eqv. without /= "", text)
+            if (.not. product .or. without == "") return
+            call parse_formula(without, symbols, e, error)
+            call algebra%from_expression(e, expected)
+            call assertTrue(factors(1) == expected, text//": without masses")
+            call parse_formula(masses, symbols, e, error)
+            call algebra%from_expression(e, expected)
+            call assertTrue(factors(2) == expected, text//": masses")
+        end subroutine try
+    end subroutine products_of_sums_are_recognised
 end module test_derivation_algebra

@@ -2,10 +2,15 @@ module test_outcome
     !! Verdicts, and the JSON that programs read.
     use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_quiet_nan, ieee_value
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_catalogue, only: new_system
+    use lagrangia_errors, only: error_t
     use lagrangia_json, only: json_list, json_number, json_string
     use lagrangia_kinds, only: dp, i8
     use lagrangia_ledger, only: claim_t
+    use lagrangia_measures, only: take_modes
     use lagrangia_outcome, only: from_closed_form, from_half_step, outcome_json, outcome_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_system, only: system_t
     implicit none (type, external)
     private
     public :: outcome_suite
@@ -29,6 +34,8 @@ contains
         call suite%addTest(TestMethod("json_strings_are_escaped", json_strings_are_escaped))
         call suite%addTest(TestMethod("json_has_what_stderr_says", json_has_what_stderr_says))
         call suite%addTest(TestMethod("json_numbers_have_17_digits", json_numbers_have_17_digits))
+        call suite%addTest(TestMethod("modes_are_taken_where_there_are_any", &
+                                      modes_are_taken_where_there_are_any))
     end function outcome_suite
 
     subroutine set_up(outcome)
@@ -199,6 +206,39 @@ contains
         call assertEqual("9223372036854775807", json_number(huge(1_i8)))
         call assertEqual("[]", json_list([real(dp) ::]))
     end subroutine json_numbers_have_17_digits
+
+    subroutine modes_are_taken_where_there_are_any()
+        !! \(\omega = \sqrt{g/l}\) where the scene asks; nothing where it does not, where nothing
+        !! oscillates, and where there is no equilibrium.
+        type(scene_t) :: scene
+        type(outcome_t) :: outcome
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+
+        call new_system("pendulum", system, error)
+        call set_up(outcome)
+        call take_modes(scene, system, outcome)
+        call assertEqual(0.0_dp, outcome%omega, 0.0_dp, "the scene does not ask")
+        scene%modes = .true.
+        call take_modes(scene, system, outcome)
+        call assertEqual(sqrt(9.81_dp), outcome%omega, 4*epsilon(1.0_dp), "g = 9.81, l = 1")
+        call assertEqual("omega^2 = g/l", outcome%omega_formula)
+        call assertEqual(0.0_dp, outcome%omega_error, 4*epsilon(1.0_dp), "as derived by hand")
+        call new_system("driven_pendulum", system, error)
+        call set_up(outcome)
+        call take_modes(scene, system, outcome)
+        call assertEqual(0.0_dp, outcome%omega, 0.0_dp, "L contains the time")
+        call assertFalse(allocated(outcome%omega_formula), "no formula")
+        call assertTrue(outcome%omega_error < 0.0_dp, "nothing to compare")
+        call new_system("charged_particle", system, error)
+        call set_up(outcome)
+        call take_modes(scene, system, outcome)
+        call assertEqual(0.0_dp, outcome%omega, 0.0_dp, "a force at every place")
+        call new_system("cart_pendulum", system, error)
+        call set_up(outcome)
+        call take_modes(scene, system, outcome)
+        call assertEqual("omega^2 = (m1 + m2) g/(m1 l)", outcome%omega_formula, "not the cart's 0")
+    end subroutine modes_are_taken_where_there_are_any
 
     subroutine starts(text, expected)
         !! Assert that `text` begins with `expected`.

@@ -45,6 +45,7 @@ contains
         call suite%addTest(TestMethod("fixed_steps_meet_the_stroboscope", &
                                       fixed_steps_meet_the_stroboscope))
         call suite%addTest(TestMethod("a_section_is_a_period_apart", a_section_is_a_period_apart))
+        call suite%addTest(TestMethod("contacts_are_no_points", contacts_are_no_points))
         call suite%addTest(TestMethod("all_starts_have_one_energy", all_starts_have_one_energy))
         call suite%addTest(TestMethod("angles_are_wrapped", angles_are_wrapped))
         call suite%addTest(TestMethod("attractors_are_the_two_wells", &
@@ -183,6 +184,23 @@ contains
             k = pi/(2*a)
         end function agm_quarter
     end subroutine a_section_is_a_period_apart
+
+    subroutine contacts_are_no_points()
+        !! Of a ball at the top of its bounces: \(h\), \(e^2h\), \(e^4h\), never the floor.
+        type(sweep_numbers_t) :: result
+        type(sweep_t) :: sweep
+        type(error_t), allocatable :: error
+        real(dp) :: height
+
+        call compute("&scene system='bouncing_ball', method='gauss16', tolerance=1e-11, "// &
+                     "duration=9, samples=7, q=0.5, v=3 / &bouncing_ball restitution=0.8 / "// &
+                     "&sweep section='y_dot = 0 falling', points=3 /", ["y=0.5:1:2"], ["y"], &
+                     result, error, sweep)
+        call assertFalse(allocated(error), "it can be computed")
+        height = 1.0_dp + 9.0_dp/(2*9.81_dp)
+        call assertEqual(height*[1.0_dp, 0.64_dp, 0.64_dp**2], result%values(:, 2), 1e-12_dp, &
+                         "from 1 m, upwards with 3 m/s")
+    end subroutine contacts_are_no_points
 
     subroutine all_starts_have_one_energy()
         !! That of the scene's own, by the velocity that is left free; who cannot have it fails.

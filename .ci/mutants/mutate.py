@@ -13,10 +13,14 @@ with the other objects of an ordinary build. A mutant whose object file is the o
 
 It dies if a suite of the unit tests fails, crashes or uses ten times the processor's time: first those
 that use the module, then all from which it can be reached, the quickest first. What survives them
-meets what users run: the main job, .ci/try_pages.sh and .ci/try_commands.sh. Survivors are
+meets what users run: the main job, .ci/try_pages.sh and .ci/try_commands.sh, and .ci/try_shells.sh
+where the change is in what the completion and the manual page are made of. Survivors are
 printed with their change: each is either a hole in the tests or the same program in other words,
 which a person decides. `--again` tries the survivors of an earlier list once more. Not part of the
 gate: most mutants take seconds, a survivor as long as all that looks at it.
+
+Before the first mutant all this is tried without any: what fails there would "kill" every mutant, so
+the first failure is printed and nothing is begun. `--quick` leaves out what users run, there and later.
 """
 import argparse
 import gzip
@@ -45,6 +49,8 @@ SWAPS = {
                  ("sqrt(", "("), ("maxval(", "minval("), ("minval(", "maxval("), ("any(", "all("),
                  ("all(", "any("), ("trim(", "(")],
 }
+OF_SHELLS = tuple(f"src/commands/{name}.f90" for name in ("completion", "manual", "registry", "vocabulary",
+                                                           "command_pages"))  # what try_shells.sh looks at
 HEAVY = ("audit", "principles", "scenes", "runs", "commands", "bench", "stress")  # drawn twice as often
 NUMBER = re.compile(r"(?<![\w.])(\d+\.\d+(?:e-?\d+)?_dp|\d+(?!\.\d)(?:_i8)?)(?![\w.])")
 DECLARATION = re.compile(r"^\s*(use|import|implicit|public|private|end|module|submodule|contains|type|class|real|integer|"
@@ -228,7 +234,6 @@ class Build:
         status, text = run(["fpm", "build", "--tests", "--flag", FLAGS], root, GENEROUS)
         if status != 0:
             sys.exit(text[-3000:])
-        self.unit = self.newest("unit")
         self.objects = os.path.dirname(self.newest("app_main.f90.o"))
         self.library = self.newest("liblagrangia.a")
         manifest = tomllib.load(open(os.path.join(root, "fpm.toml"), "rb"))
@@ -314,20 +319,29 @@ class Build:
         return output if status == 0 else None
 
 
-def suite_times(build):
+def noticed_by_suite(unit, root, suite, limits):
+    """The first test of a suite that fails, or how the suite ended; "" if all is well."""
+    status, text = run([unit, "--filter", suite + "."], root, limits, stop_at="Failure in: ")
+    if status == 0:
+        return ""
+    found = re.search(r"^(?:Failure|Error) in:? (.*)$", text, re.M)
+    return found.group(1) if found else suite + (": time-out" if status in (-9, -24) else f": crash {status}")
+
+
+def suite_times(unit, build):
     """Seconds of the processor that each suite takes; ends the program if one fails."""
-    kept = os.path.join(build.root, "build", "suite_times.json")
-    if os.path.exists(kept) and os.path.getmtime(kept) > os.path.getmtime(build.unit):
-        return json.load(open(kept))
     times = {}
     for suite in build.sources.suites:
         used = processor_time()
-        status, text = run([build.unit, "--filter", suite + "."], build.root, GENEROUS)
-        if status != 0:
-            sys.exit(f"without any mutant suite {suite} fails:\n" + text[-2000:])
+        refuse(noticed_by_suite(unit, build.root, suite, GENEROUS))
         times[suite] = processor_time() - used
-    json.dump(times, open(kept, "w"))
     return times
+
+
+def refuse(noticed):
+    """End the program if something is noticed where there is no mutant."""
+    if noticed:
+        sys.exit(f"mutate.py: nothing begun: without any mutant this fails: {noticed}")
 
 
 def noticed_by_tests(unit, build, source, times):
@@ -336,17 +350,18 @@ def noticed_by_tests(unit, build, source, times):
     near = lambda suite: name in build.sources.uses[build.sources.suites[suite]]
     reaching = [suite for suite, path in build.sources.suites.items() if source in build.sources.reached(path)]
     for suite in sorted(reaching, key=lambda suite: (not near(suite), times[suite])):
-        status, text = run([unit, "--filter", suite + "."], build.root, Limits(10*times[suite] + 5), stop_at="Failure in: ")
-        if status != 0:
-            found = re.search(r"^(?:Failure|Error) in:? (.*)$", text, re.M)
-            return found.group(1) if found else suite + (": time-out" if status in (-9, -24) else f": crash {status}")
+        noticed = noticed_by_suite(unit, build.root, suite, Limits(10*times[suite] + 5))
+        if noticed:
+            return noticed
     return ""
 
 
-def noticed_by_users(program, root, work, limits):
-    """The first of the things that users run which does not end well; "" if all do."""
-    for command in ([program, "--output", os.path.join(work, "data")], ["bash", ".ci/try_pages.sh", program],
-                    ["bash", ".ci/try_commands.sh", program]):
+def noticed_by_users(program, root, work, limits, shells):
+    """The first of the things that users run which does not end well, with a Tab in `shells` or
+    without; "" if all do."""
+    scripts = ["try_pages.sh"] + ["try_shells.sh"]*shells + ["try_commands.sh"]
+    for command in ([program, "--output", os.path.join(work, "data")],
+                    *(["bash", ".ci/" + script, program] for script in scripts)):
         status, text = run(command, root, limits)
         if status != 0:
             claim = re.search(r"^FAILED +(.*)$", text, re.M)
@@ -403,7 +418,7 @@ def main():
     words.add_argument("--only", default="src")
     words.add_argument("--skip", default="")
     words.add_argument("--output", default="mutants.jsonl")
-    words.add_argument("--quick", action="store_true", help="users' commands are not tried without a mutant first")
+    words.add_argument("--quick", action="store_true", help="unit tests only, not what users run")
     words.add_argument("--again", default="", metavar="LIST", help="the survivors of an earlier output")
     words = words.parse_args()
     root = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
@@ -412,14 +427,10 @@ def main():
     os.mkdir(os.environ["TMPDIR"])
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     build = Build(root, work)
-    build.link("unit", {})  # ends the program where it cannot link
-    times = suite_times(build)
-    limits = Limits(300)
+    times = suite_times(build.link("unit", {}), build)
     if not words.quick:
         used = processor_time()
-        noticed = noticed_by_users(build.newest("lagrangia"), root, work, GENEROUS)
-        if noticed:
-            sys.exit("without any mutant this fails: " + noticed)
+        refuse(noticed_by_users(build.link("lagrangia", {}), root, work, GENEROUS, True))
         limits = Limits(10*(processor_time() - used))
     tally = {"died": 0, "died in use": 0, "survived": 0}
     with open(words.output, "a") as log:
@@ -432,9 +443,10 @@ def main():
             unit = objects and build.link("unit", objects)
             if not unit:
                 continue
-            fate, by = "died", noticed_by_tests(unit, build, source, times)
-            if not by:
-                by = noticed_by_users(build.link("lagrangia", objects), root, work, limits)
+            by = noticed_by_tests(unit, build, source, times)
+            fate = "died" if by else "survived"
+            if not by and not words.quick:
+                by = noticed_by_users(build.link("lagrangia", objects), root, work, limits, source in OF_SHELLS)
                 fate = "died in use" if by else "survived"
             tally[fate] += 1
             row = {"seed": words.seed, "file": source, "line": k + 1, "kind": kind, "old": old.strip(),

@@ -16,7 +16,7 @@ contains
         !! Is it a product of a sum without masses and a sum of masses?
         integer, intent(in) :: roles(:)  !! of each name
         type(polynomial_t), intent(in) :: p  !! of parameters
-        type(polynomial_t), intent(out) :: factors(2)  !! the masses come first
+        type(polynomial_t), intent(out) :: factors(2)  !! without masses, of masses
         logical, intent(out) :: product                !! if not, they are no factors
         logical :: heavy(most_atoms)
         integer :: i
