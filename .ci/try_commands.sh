@@ -250,6 +250,11 @@ if command -v gnuplot >/dev/null; then
     run run "$work/it's a swing.nml" --set scene%output=swing --output "$work/o" --plot=svg
     check "--plot: a picture" eval '[ $status -eq 0 ] && grep -q "</svg>" "$work/o/swing.svg"'
     check "--plot: a title is no command" [ ! -e "$work/owned" ]
+    for words in "principle least-time" "compare pendulum --methods rk4,verlet" "modes double_pendulum" "sweep flip_map --over theta1=0.5:3:3" \
+        "bench precision --quick --problems P1 --methods rk4"; do
+        run $words --plot=svg --output "$work/pictures/${words%% *}"
+        check "$words --plot=svg: a picture" eval '[ $status -eq 0 ] && grep -q "</svg>" "$work/pictures/${words%% *}"/*.svg'
+    done
 fi
 
 # words about

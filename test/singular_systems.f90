@@ -5,7 +5,7 @@ module singular_systems
                          operator(*), operator(**), operator(+), operator(-)
     implicit none (type, external)
     private
-    public :: blind_t, fading_t, light_t, skew_t
+    public :: blind_t, fading_t, light_t, skew_t, steep_t
 
     type, abstract, extends(lagrangian_system_t) :: two_t
         !! Coordinates x and y, no parameters.
@@ -37,6 +37,12 @@ module singular_systems
         procedure :: lagrangian => blind_lagrangian
         procedure :: accelerations => no_accelerations
     end type blind_t
+
+    type, extends(two_t) :: steep_t
+        !! The force on x overflows long before L: \(L = (\dot x^2 + \dot y^2)/2 - 10^{400}x^2\).
+    contains
+        procedure :: lagrangian => steep_lagrangian
+    end type steep_t
 
 contains
 
@@ -72,6 +78,14 @@ contains
 
         l = 0.5_dp*(v(1)**2 + (1.0_dp - q(1))*v(2)**2) - q(2)
     end function fading_lagrangian
+
+    pure function steep_lagrangian(self, t, q, v) result(l)
+        class(steep_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
+        type(hyperdual_t) :: l
+
+        l = 0.5_dp*(v(1)**2 + v(2)**2) - (1e200_dp*q(1))**2
+    end function steep_lagrangian
 
     pure function blind_lagrangian(self, t, q, v) result(l)
         class(blind_t), intent(in) :: self

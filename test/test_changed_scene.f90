@@ -299,6 +299,7 @@ contains
         call refused(start//"/ &pendulum b=0.1 /", "scene%expect_energy_drift=1", "not conserved")
         call refused(start//"/", "pendulum%b=0.1;scene%columns=t,energy_drift", "not conserved")
         call refused(start//"tolerance=1 /", "pendulum%b=0.1", "method 'rk4' takes steps of dt")
+        call refused(start//"every=0 /", "scene%dt=0.01", "every = 0")
     end subroutine slips_are_still_refused
 
     subroutine refused(text, settings, reason)

@@ -185,6 +185,7 @@ contains
     subroutine products_of_sums_are_recognised()
         !! A sum without masses times a sum of masses, and what only looks like one.
         call try("a m + b m + a M + b M", "a + b", "m + M")
+        call try("a m + 2 b m + a M + 2 b M", "a + 2 b", "m + M")
         call try("2 a m - 2 b m + 6 a M - 6 b M", "2 a - 2 b", "m + 3 M")
         call try("a m + b m + a M", "", "")
         call try("a m + b m + a M + 2 b M", "", "")
@@ -193,24 +194,34 @@ contains
         call try("a m + b m", "", "")
     contains
         subroutine try(text, without, masses)
-            !! The factors of `text`; empty ones where it is no product.
+            !! The factors of `text`, whichever names come first; empty ones where it is no product.
             character(*), intent(in) :: text, without, masses
+
+            call try_order(text, without, masses, "abmM", &
+                           [role_parameter, role_parameter, role_mass, role_mass])
+            call try_order(text, without, masses, "mMab", &
+                           [role_mass, role_mass, role_parameter, role_parameter])
+        end subroutine try
+
+        subroutine try_order(text, without, masses, names, roles)
+            character(*), intent(in) :: text, without, masses, names
+            integer, intent(in) :: roles(:)
             type(symbols_t) :: symbols
             type(algebra_t) :: algebra
             type(expression_t) :: e
             type(polynomial_t) :: p, factors(2), expected
             type(error_t), allocatable :: error
             logical :: product
+            integer :: i
 
-            call symbols%add("a")
-            call symbols%add("b")
-            call symbols%add("m")
-            call symbols%add("M")
-            call algebra%begin(4)
+            do i = 1, len(names)
+                call symbols%add(names(i:i))
+            end do
+            call algebra%begin(len(names))
             call parse_formula(text, symbols, e, error)
             call algebra%from_expression(e, p)
-            call split([role_parameter, role_parameter, role_mass, role_mass], p, factors, product)
-            call assertTrue(product .eqv. without /= "", text)
+            call split(roles, p, factors, product)
+            call assertTrue(product .eqv. without /= "", text//" of "//names)
             if (.not. product .or. without == "") return
             call parse_formula(without, symbols, e, error)
             call algebra%from_expression(e, expected)
@@ -218,6 +229,6 @@ contains
             call parse_formula(masses, symbols, e, error)
             call algebra%from_expression(e, expected)
             call assertTrue(factors(2) == expected, text//": masses")
-        end subroutine try
+        end subroutine try_order
     end subroutine products_of_sums_are_recognised
 end module test_derivation_algebra

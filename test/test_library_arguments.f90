@@ -11,7 +11,7 @@ module test_library_arguments
     use lagrangia_ledger, only: ledger_t
     use lagrangia_run, only: run
     use lagrangia_time_grid, only: new_sample_times, new_time_grid, time_grid_t
-    use singular_systems, only: blind_t, fading_t, light_t, skew_t
+    use singular_systems, only: blind_t, fading_t, light_t, skew_t, steep_t
     implicit none (type, external)
     private
     public :: library_arguments_suite, refused
@@ -215,8 +215,10 @@ contains
     end subroutine singular_mass_matrices
 
     subroutine a_lagrangian_of_nan()
-        !! Refused by `run` although its accelerations, by hand, are numbers.
+        !! Refused by `run` although its accelerations, by hand, are numbers; so is one of whose
+        !! derivatives one is infinite.
         type(blind_t) :: blind
+        type(steep_t) :: steep
         type(modes_t) :: modes
         type(error_t), allocatable :: error
         real(dp) :: q(2), v(2)
@@ -229,6 +231,13 @@ contains
                      "finite number", status_numbers)
         call find_modes(blind, q, .true., modes, error)
         call assertTrue(allocated(error), message="modes of NaN")
+        call steep%configure([real(dp) ::], error)
+        call try_run(steep, q, v, error)
+        call assertFalse(allocated(error), message="no force at 0")
+        q(1) = 1e-60_dp
+        call try_run(steep, q, v, error)
+        call refused(error, "at t = 0.0, q = 1e-60, 0.0, v = 0.0, 0.0: a derivative of the "// &
+                     "Lagrangian is not finite", status_numbers)
     end subroutine a_lagrangian_of_nan
 
     subroutine a_mass_that_fades()

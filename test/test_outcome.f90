@@ -3,17 +3,27 @@ module test_outcome
     use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_quiet_nan, ieee_value
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_catalogue, only: new_system
+    use lagrangia_command_line, only: word_t
     use lagrangia_errors, only: error_t
     use lagrangia_json, only: json_list, json_number, json_string
     use lagrangia_kinds, only: dp, i8
     use lagrangia_ledger, only: claim_t
+    use lagrangia_linearised, only: linearised_t
     use lagrangia_measures, only: take_modes
     use lagrangia_outcome, only: from_closed_form, from_half_step, outcome_json, outcome_t
+    use lagrangia_pendulum, only: pendulum_t
     use lagrangia_scene, only: scene_t
+    use lagrangia_scene_reader, only: parse_scene
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
     public :: outcome_suite
+
+    type, extends(pendulum_t) :: slow_pendulum_t
+        !! Half of omega in its closed form.
+    contains
+        procedure :: linearise
+    end type slow_pendulum_t
 
 contains
 
@@ -238,7 +248,38 @@ contains
         call set_up(outcome)
         call take_modes(scene, system, outcome)
         call assertEqual("omega^2 = (m1 + m2) g/(m1 l)", outcome%omega_formula, "not the cart's 0")
+        call take_modes_of("(x_dot^2 + x^2)/2 + (y_dot^2 - y^2/4)/2", outcome)
+        call assertEqual(0.5_dp, outcome%omega, 4*epsilon(1.0_dp), "x is unstable")
+        call take_modes_of("(x_dot^2 - 4 x^2)/2 + (y_dot^2 - y^2/4)/2", outcome)
+        call assertEqual(0.5_dp, outcome%omega, 4*epsilon(1.0_dp), "the slower one")
+        call set_up(outcome)
+        call take_modes(scene, slow_pendulum_t(ndof=1), outcome)
+        call assertEqual(sqrt(9.81_dp), outcome%omega, 4*epsilon(1.0_dp), "of L")
+        call assertEqual(0.5_dp, outcome%omega_error, 4*epsilon(1.0_dp), "half of it by hand")
+    contains
+        subroutine take_modes_of(lagrangian, outcome)
+            character(*), intent(in) :: lagrangian
+            type(outcome_t), intent(out) :: outcome
+            type(word_t) :: none(0)
+
+            call parse_scene("&scene system='two', method='rk4', dt=0.1, duration=1, q=0, 0 / "// &
+                             "&lagrangian coordinates='x', 'y', L='"//lagrangian//"' /", "two", &
+                             none, scene, system, error)
+            call assertFalse(allocated(error), lagrangian)
+            scene%modes = .true.
+            call set_up(outcome)
+            call take_modes(scene, system, outcome)
+        end subroutine take_modes_of
     end subroutine modes_are_taken_where_there_are_any
+
+    pure subroutine linearise(self, q, analytic)
+        class(slow_pendulum_t), intent(in) :: self
+        real(dp), intent(in) :: q(self%ndof)
+        type(linearised_t), intent(out) :: analytic
+
+        call self%pendulum_t%linearise(q, analytic)
+        analytic%omega2 = 0.25_dp*analytic%omega2
+    end subroutine linearise
 
     subroutine starts(text, expected)
         !! Assert that `text` begins with `expected`.

@@ -33,6 +33,7 @@ contains
         call suite%addTest(TestMethod("gauge_functions_are_as_printed", &
                                       gauge_functions_are_as_printed))
         call suite%addTest(TestMethod("action_page", action_page))
+        call suite%addTest(TestMethod("same_motion_page", same_motion_page))
         call suite%addTest(TestMethod("errata_pages", errata_pages))
     end function page_formulae_suite
 
@@ -196,6 +197,24 @@ contains
         call assertEqual(3, read_of, "the action, and two differences")
     end subroutine action_page
 
+    subroutine same_motion_page()
+        !! In the plane and with friction; off the motion y_ddot = 1.1.
+        type(names_t) :: letters
+        integer :: read_of
+
+        read_of = 0
+        call put(letters, "w x y x_dot y_dot", [2.0_dp, 0.7_dp, -0.4_dp, -0.9_dp, 1.6_dp])
+        call letters%set("y_ddot", 1.1_dp)
+        call try("same-motion", "oscillator in the plane", letters, read_of)
+        call assertEqual(5, read_of, "accelerations, p_x', h', off the motion")
+        call put(letters, "m k gamma p", [0.5_dp, 2.0_dp, 0.6_dp, -0.45_dp])
+        call letters%set("exp(gamma t)", exp(0.78_dp))
+        call try("same-motion", "damped oscillator", letters, read_of)
+        call assertEqual(7, read_of, "with friction")
+        call try("same-motion", "L, 2 L and L + 3 J", letters, read_of)
+        call assertEqual(8, read_of, "twice L")
+    end subroutine same_motion_page
+
     subroutine errata_pages()
         !! Frequencies and equations of the cart-pendulum, the wedge and the driven pendulum.
         type(slip_t), allocatable :: slips(:)
@@ -256,6 +275,7 @@ contains
             text = text(:index(text//"  [", "  [") - 1)
             if (index(text, "is that ") == 1) text = " = "//text(9:index(text, "?") - 1)
             if (text(len(text):) == "?") cycle
+            text = text(:index(text//": after", ": after") - 1)
             do
                 cut = index(text, " = ")
                 if (cut == 0) cut = index(text, ": ") - 1
