@@ -86,6 +86,8 @@ for system in $systems atwood_lift double_pendulum_formulas; do page plain descr
 for system in $systems; do page plain modes "$system"; done
 for principle in $("$program" principle | awk '{ print $1 }'); do page statements principle "$principle"; done
 page plain course
+page plain principle
+page plain principle --json
 for slip in "" $("$program" errata | grep -oE "\bE[0-9]+\b" | sort -u); do page plain errata $slip; done
 for system in pendulum cart_pendulum rotating_hoop; do page shapes derive "$system" --json; done
 page shapes derive cart_pendulum --slip E1 --json

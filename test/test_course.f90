@@ -1,14 +1,16 @@
 module test_course
     !! The lecture's notes line by line: no line is left out, every quote stands where the table
-    !! says, and every command that is named can be typed.
+    !! says, every command that is named can be typed; pages of `principle` are in this order.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_command_line, only: command_line_t, parse_words
     use lagrangia_course_command, only: next_command
     use lagrangia_course_table, only: course_of_the_notes, statement_t
     use lagrangia_errors, only: error_t
     use lagrangia_files, only: read_whole_file
+    use lagrangia_principles, only: find_first_line, principle_names, principle_report
     use lagrangia_registry, only: check_line, commands, options
-    use lagrangia_text, only: to_text, word_t
+    use lagrangia_report, only: citation_t, report_t
+    use lagrangia_text, only: join, to_text, word_t
     use lagrangia_vocabulary, only: words_of
     implicit none (type, external)
     private
@@ -39,6 +41,8 @@ contains
         call suite%addTest(TestMethod("quotes_are_word_for_word", quotes_are_word_for_word))
         call suite%addTest(TestMethod("commands_can_be_typed", commands_can_be_typed))
         call suite%addTest(TestMethod("what_is_not_shown", what_is_not_shown))
+        call suite%addTest(TestMethod("pages_quote_their_lines", pages_quote_their_lines))
+        call suite%addTest(TestMethod("in_the_lectures_order", in_the_lectures_order))
     end function course_suite
 
     subroutine every_line_is_there()
@@ -184,4 +188,81 @@ contains
             call assertTrue(course(i)%nothing == "" .neqv. course(i)%shows == "", course(i)%says)
         end do
     end subroutine what_is_not_shown
+
+    subroutine pages_quote_their_lines()
+        !! Each line that a page quotes is in a statement that names it.
+        character(16), allocatable :: names(:)
+        type(report_t) :: report
+        type(error_t), allocatable :: error
+        integer :: i
+
+        allocate (names, source=principle_names())
+        do i = 1, size(names)
+            call principle_report(trim(names(i)), report, error)
+            call assertFalse(allocated(error), trim(names(i)))
+            if (anyExceptions()) return
+            call course_has(names(i), report%citations)
+        end do
+    end subroutine pages_quote_their_lines
+
+    subroutine course_has(name, citations)
+        !! Each of these lines lies in a statement of the course that names this page.
+        character(*), intent(in) :: name
+        type(citation_t), intent(in) :: citations(:)
+        type(statement_t), allocatable :: course(:)
+        character(:), allocatable :: rest, command
+        logical, allocatable :: named(:), there(:)
+        character(2) :: scan
+        integer :: i, line
+
+        allocate (course, source=course_of_the_notes())
+        allocate (named(size(course)))
+        do i = 1, size(course)
+            named(i) = .false.
+            rest = trim(course(i)%shows)
+            do while (rest /= "")
+                call next_command(rest, command)
+                named(i) = named(i) .or. command == "principle "//trim(name)
+            end do
+        end do
+        call find_first_line(name, scan, line)
+        do i = 1, size(citations)
+            there = named .and. course%scan == citations(i)%scan .and. &
+                    course%line <= citations(i)%line .and. course%last >= citations(i)%line
+            call assertTrue(any(there), trim(name)//": the course names it at "// &
+                            trim(citations(i)%scan)//" "//to_text(citations(i)%line))
+            if (i > 1) cycle
+            call assertTrue(any(there .and. course%scan == scan .and. course%line == line), &
+                            trim(name)//": its first quote is on the line of the list")
+        end do
+    end subroutine course_has
+
+    subroutine in_the_lectures_order()
+        !! The list's lines are those at which `course` comes to a page first, one behind the other.
+        type(statement_t), allocatable :: course(:)
+        character(16), allocatable :: names(:)
+        character(:), allocatable :: rest, command, met
+        character(2) :: scan
+        integer :: i, line
+
+        allocate (names, source=principle_names())
+        allocate (course, source=course_of_the_notes())
+        met = ""
+        do i = 1, size(course)
+            rest = trim(course(i)%shows)
+            do while (rest /= "")
+                call next_command(rest, command)
+                if (index(command, "principle ") /= 1) cycle
+                command = command(len("principle ") + 1:)
+                if (index(" "//met//" ", " "//command//" ") > 0) cycle
+                met = trim(adjustl(met//" "//command))
+                call find_first_line(command, scan, line)
+                call assertEqual(course(i)%scan, scan, command//": lecture")
+                call assertEqual(course(i)%line, line, command//": line")
+            end do
+        end do
+        call assertEqual(met, join(names, " "), "the pages in the order of the course")
+        call find_first_line("actions", scan, line)
+        call assertEqual(0, line, "no such page")
+    end subroutine in_the_lectures_order
 end module test_course

@@ -46,8 +46,9 @@ module lagrangia_command_pages
                "line as derived, and in numbers what each slip would do.", &
                [character(76) :: "lagrangia errata", "lagrangia errata E1", "", ""]), &
         page_t("principle", "Puts both sides of a principle of the lecture into numbers, with "// &
-               "controls that must differ. Without a name it lists them. Each takes less than "// &
-               "a second.", &
+               "controls that must differ. Without a name it lists them in the order of the "// &
+               "notes, each with the lecture and line where course comes to it. Each takes "// &
+               "less than a second.", &
                [character(76) :: "lagrangia principle", "lagrangia principle least-time --plot", &
                 "", ""]), &
         page_t("course", "Walks through both lectures line by line: what stands there, what it "// &

@@ -7,12 +7,13 @@ module lagrangia_principle
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_gnuplot, only: gnuplot_script, new_panels, new_series, panel_t, &
                                  series_t
+    use lagrangia_json, only: json_object, json_pair
     use lagrangia_ledger, only: group_length
     use lagrangia_ledger_text, only: statement_head, statement_json, statement_line
     use lagrangia_output_file, only: commit_both, output_file_t, refuse_unwritable
     use lagrangia_output_options, only: take_folder, take_picture
     use lagrangia_places, only: places_t
-    use lagrangia_principles, only: principle_report, principles
+    use lagrangia_principles, only: find_first_line, principle_report, principles
     use lagrangia_report, only: picture_t, report_t
     use lagrangia_scene_claims, only: claim_table
     use lagrangia_text, only: to_text
@@ -33,7 +34,7 @@ contains
         type(report_t) :: report
 
         if (size(line%arguments) == 0) then
-            call list_principles()
+            call list_principles(line%has("json"))
             return
         end if
         call take_folder(line, folder, error)
@@ -72,13 +73,30 @@ contains
         end do
     end function picture_name
 
-    subroutine list_principles()
-        !! One a line.
-        integer :: i
+    subroutine list_principles(as_json)
+        !! One a line: its name, the line of the notes where `course` comes to it, what it shows.
+        logical, intent(in) :: as_json
+        character(5) :: place
+        character(2) :: scan
+        integer :: i, line
 
+        if (as_json) call put_line("[")
         do i = 1, size(principles)
-            call put_line(principles(i)%name//trim(principles(i)%meaning))
+            associate (page => principles(i))
+                call find_first_line(page%name, scan, line)
+                if (as_json) then
+                    call put_line(json_object(json_pair("name", page%name)// &
+                                              json_pair("lecture", scan)// &
+                                              json_pair("line", line)// &
+                                              json_pair("meaning", page%meaning))// &
+                                  trim(merge(",", " ", i < size(principles))))
+                else
+                    place = trim(scan)//" "//to_text(line)
+                    call put_line(page%name//place//"  "//trim(page%meaning))
+                end if
+            end associate
         end do
+        if (as_json) call put_line("]")
     end subroutine list_principles
 
     subroutine put_report(report, file)

@@ -40,6 +40,7 @@ contains
         type(pendulum_t) :: pendulum
 
         call report%begin("action: the actual path makes S = int L dt stationary, not always least")
+        call report%cite("II", 3, "Hamilton's Principle")
         call report%cite("II", 18, &
                          "the actual path followed is that which minimizes the time integral")
         call oscillator%configure([m, k], error)

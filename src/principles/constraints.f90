@@ -29,6 +29,8 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
 
         call report%begin("constraints: which can be integrated to f(q, t) = c, and which move")
+        call report%cite("I", 3, "3 n contesion coordinates for n particles {x;} 3 n-k "// &
+                         "generalized coordinates (q; }")
         call report%cite("I", 13, "one variable becomes irrelevant for each holonomic constraint")
         call report%cite("II", 66, "moving constraints are rheonomic")
         call exactness(report)

@@ -15,7 +15,7 @@ module lagrangia_course_table
         integer :: last = 0           !! and where it ends
         character(120) :: quote = ""  !! a part of these lines, word for word
         character(90) :: says = ""    !! in our words
-        character(64) :: shows = ""   !! commands without `lagrangia`, with `; ` between them
+        character(80) :: shows = ""   !! commands without `lagrangia`, with `; ` between them
         character(60) :: nothing = "" !! why nothing shows it
     end type statement_t
 
@@ -102,7 +102,7 @@ contains
         call add(course, "I", 34, 34, &
                  "generalized forces Q_{i}", &
                  "the generalized force: Q = sum of F dx/dq", &
-                 "principle virtual-work")
+                 "principle virtual-work; principle dalembert")
         call add(course, "I", 36, 43, &
                  "(\dot{p}_{i} - F_{i}) \delta x_{i} = \sum_{i}^{3m} (\dot{p}_{i} - F_{i}) "// &
                  "\underbrace{\sum_{i}^{3m-k}", &
@@ -188,11 +188,11 @@ contains
         call add(course, "I", 126, 130, &
                  "$A_{\varphi} = -R\sin\theta$, $A_0 = 0$ for \dot{x}", &
                  "the rolling disk: dx - R sin(theta) dphi = 0", &
-                 "run rolling_disk; principle geometric-phase")
+                 "run rolling_disk; principle geometric-phase; principle vakonomic")
         call add(course, "I", 132, 132, &
                  "\frac{\partial A_{\varphi}}{\partial \theta} = -R\cos\theta", &
                  "unequal mixed partials; what really makes it nonholonomic", &
-                 "principle constraints; errata E9")
+                 "principle constraints; principle geometric-phase; errata E9")
         call add(course, "I", 134, 136, &
                  "m_2 l \dot{x} \dot{\theta} \cos \theta + m_2 q l \cos \theta", &
                  "L of the cart with a pendulum", &
@@ -263,7 +263,7 @@ contains
         call add(course, "II", 20, 24, &
                  "\delta \int_{t_1}^{t_2} (T - U) dt = 0", &
                  "delta S = 0, solved for the path itself", &
-                 "principle action")
+                 "principle action; principle all-paths")
         call add(course, "II", 26, 26, &
                  "\frac{\partial L}{\partial x_i} - \frac{d}{dt} \frac{\partial L}{\partial "// &
                  "\dot{x}_i} = 0", &

@@ -35,8 +35,8 @@ contains
 
         call report%begin("phase-space: H from L; a cloud of starts keeps its area; "// &
                           "neighbours part")
-        call report%cite("II", 26, "\frac{\partial L}{\partial x_i} - \frac{d}{dt} "// &
-                         "\frac{\partial L}{\partial \dot{x}_i} = 0")
+        call report%cite("II", 58, "\frac{d}{dt} \frac{\partial \mathcal{L}}{\partial "// &
+                         "\dot{q}_j} = 0 \quad j = 1, 2, \dots, s")
         call legendre(report, error)
         if (.not. allocated(error)) call clouds(report, error)
         if (allocated(error)) return

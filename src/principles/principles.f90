@@ -1,9 +1,10 @@
 module lagrangia_principles
-    !! The pages of `lagrangia principle`, as data, and the report of each.
+    !! The pages of `lagrangia principle` in the order of the lecture, and the report of each.
     use lagrangia_action, only: action_principle
     use lagrangia_all_paths, only: all_paths_principle
     use lagrangia_catalogue, only: built_in, nth_system
     use lagrangia_constraints, only: constraints_principle
+    use lagrangia_course_table, only: course_of_the_notes, statement_t
     use lagrangia_dalembert, only: dalembert_principle
     use lagrangia_errors, only: error_t
     use lagrangia_gauge, only: gauge_principle
@@ -26,7 +27,7 @@ module lagrangia_principles
     implicit none (type, external)
     private
     public :: principle_t, principles
-    public :: principle_names, principle_report
+    public :: find_first_line, principle_names, principle_report
 
     type :: principle_t
         character(16) :: name = ""
@@ -34,27 +35,25 @@ module lagrangia_principles
     end type principle_t
 
     type(principle_t), parameter :: principles(*) = [ &
-        principle_t("action", "Hamilton: the actual path makes the action stationary"), &
         principle_t("constraints", "holonomic or not, fixed or moving; degrees of freedom"), &
-        principle_t("gauge", "uniqueness: L and L + dF/dt tell the same motion"), &
-        principle_t("least-time", "Hero, Fermat: light takes a path of stationary time"), &
         principle_t("virtual-work", "d'Alembert: constraint forces do no virtual work; Q_j"), &
-        principle_t("dalembert", "from d'Alembert to Lagrange, term by term; why dT/dq is there"), &
-        principle_t("small-angle", "why theta_dot^2 theta is dropped, and what that costs"), &
         principle_t("reactions", "the forces of constraint along a motion, by 3n equations"), &
-        principle_t("noether", &
-                    "conserved quantities found: what leaves L as it is but for dF/dt"), &
-        principle_t("same-motion", "L's that differ by more than a dF/dt, and the same motion"), &
         principle_t("vakonomic", "why a nonholonomic constraint is not put into L"), &
-        principle_t("maupertuis", "Maupertuis: with one energy int p dq is stationary"), &
-        principle_t("gauss-hertz", "Gauss: least constraint; Hertz: the straightest path"), &
+        principle_t("dalembert", "from d'Alembert to Lagrange, term by term; why dT/dq is there"), &
+        principle_t("same-motion", "L's that differ by more than a dF/dt, and the same motion"), &
+        principle_t("gauge", "uniqueness: L and L + dF/dt tell the same motion"), &
+        principle_t("noether", "conserved quantities found: what changes L by a dF/dt only"), &
         principle_t("geometric-phase", &
                     "around a loop and back, and not where it was: disk, Foucault"), &
-        principle_t("measure-g", "g from a slow fall: which masses for a given stop watch"), &
-        principle_t("all-paths", &
-                    "every path between two events, its S, its index; where descent ends"), &
+        principle_t("small-angle", "why theta_dot^2 theta is dropped, and what that costs"), &
+        principle_t("action", "Hamilton: the actual path makes the action stationary"), &
+        principle_t("least-time", "Hero, Fermat: light takes a path of stationary time"), &
+        principle_t("maupertuis", "Maupertuis: with one energy int p dq is stationary"), &
+        principle_t("gauss-hertz", "Gauss: least constraint; Hertz: the straightest path"), &
+        principle_t("all-paths", "every path between two events, its S, its index"), &
+        principle_t("phase-space", "H from L, areas that stay, periods, neighbours that part"), &
         principle_t("helmholtz", "which forces have an L: Helmholtz' conditions"), &
-        principle_t("phase-space", "H from L, areas that stay, periods, neighbours that part")]
+        principle_t("measure-g", "g from a slow fall: which masses for a given stop watch")]
 
 contains
 
@@ -66,44 +65,44 @@ contains
         type(system_box_t), allocatable :: systems(:)
 
         select case (name)
-        case ("action")
-            call action_principle(report, error)
         case ("constraints")
             call constraints_principle(report, error)
-        case ("gauge")
-            call every_system(systems)
-            call gauge_principle(systems, report, error)
-        case ("least-time")
-            call least_time_principle(report, error)
         case ("virtual-work")
             call every_system(systems)
             call virtual_work_principle(systems, report, error)
-        case ("dalembert")
-            call dalembert_principle(report, error)
-        case ("small-angle")
-            call small_angle_principle(report, error)
         case ("reactions")
             call reactions_principle(report, error)
-        case ("noether")
-            call noether_principle(report, error)
-        case ("same-motion")
-            call same_motion_principle(report, error)
         case ("vakonomic")
             call vakonomic_principle(report, error)
+        case ("dalembert")
+            call dalembert_principle(report, error)
+        case ("same-motion")
+            call same_motion_principle(report, error)
+        case ("gauge")
+            call every_system(systems)
+            call gauge_principle(systems, report, error)
+        case ("noether")
+            call noether_principle(report, error)
+        case ("geometric-phase")
+            call geometric_phase_principle(report, error)
+        case ("small-angle")
+            call small_angle_principle(report, error)
+        case ("action")
+            call action_principle(report, error)
+        case ("least-time")
+            call least_time_principle(report, error)
         case ("maupertuis")
             call maupertuis_principle(report, error)
         case ("gauss-hertz")
             call gauss_hertz_principle(report, error)
-        case ("geometric-phase")
-            call geometric_phase_principle(report, error)
-        case ("measure-g")
-            call measure_g_principle(report, error)
         case ("all-paths")
             call all_paths_principle(report, error)
-        case ("helmholtz")
-            call which_forces_principle(report, error)
         case ("phase-space")
             call phase_space_principle(report, error)
+        case ("helmholtz")
+            call which_forces_principle(report, error)
+        case ("measure-g")
+            call measure_g_principle(report, error)
         case default
             call refuse_name("principle", name, principle_names(), error)
         end select
@@ -119,6 +118,25 @@ contains
             call nth_system(i, systems(i)%item)
         end do
     end subroutine every_system
+
+    pure subroutine find_first_line(name, scan, line)
+        !! The first statement of `lagrangia course` that names this page.
+        character(*), intent(in) :: name  !! of the page
+        character(2), intent(out) :: scan  !! I or II; blank if no statement names it
+        integer, intent(out) :: line       !! of the scan's text; 0 if no statement names it
+        type(statement_t), allocatable :: course(:)
+        integer :: i
+
+        scan = ""
+        line = 0
+        allocate (course, source=course_of_the_notes())
+        do i = 1, size(course)
+            if (index("; "//trim(course(i)%shows)//";", "; principle "//trim(name)//";") == 0) cycle
+            scan = course(i)%scan
+            line = course(i)%line
+            return
+        end do
+    end subroutine find_first_line
 
     pure function principle_names() result(names)
         !! All of them.
