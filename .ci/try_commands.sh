@@ -668,6 +668,11 @@ refuses 2 "L has no theta_dot in it" modes "$spring" --set "lagrangian%T=m/2 r_d
 refuses 2 "give either L, or T and V" check "$spring" --set "lagrangian%L=r_dot^2"
 refuses 2 "unknown name 'thetadot'; did you mean 'theta_dot'?" describe "$spring" --set "lagrangian%T=m thetadot^2"
 refuses 2 "--set goes with one scene" check "$spring" pendulum --set spring_pendulum%k=2
+refuses 2 "--set goes with one scene" check methods --set pendulum%l=2
+refuses 2 "--set pendulum%l=-1: &pendulum: l = -1: greater than 0.0 is needed" check pendulum --set pendulum%l=-1
+refuses 2 "&pendulum: unknown key 'zz'; allowed: m, l, g, b" check pendulum --set pendulum%zz=1
+refuses 2 "unknown group 'pendulum'; allowed: wedge" check wedge --set pendulum%l=1
+refuses 2 "unknown system 'pendlum'; did you mean 'pendulum'?" check pendlum
 refuses 5 "no such file" modes "$work/nothing.nml"
 check "formulas: nothing refused left a file" [ ! -e "$work/none" ]
 

@@ -73,6 +73,8 @@ contains
         call refuse("z > 1", "there is no parameter 'z'")
         call refuse("e > x", "column 5: unknown name 'x'; there are pi")
         call refuse("e > 1/0", "the bound is no finite number")
+        call refuse("e > -1/0", "the bound is no finite number")
+        call refuse("e > 0/0", "the bound is no finite number")
         call refuse("e < 0", "leaves no value for e")
         call refuse("e <= 0.5", "leaves no value for e")
     end subroutine no_domains

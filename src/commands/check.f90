@@ -149,12 +149,6 @@ contains
             is_scene(i) = names_scene(line%arguments(i)%text) &
                           .and. line%arguments(i)%text /= "methods"
         end do
-        if (any(is_scene)) then
-            if (size(is_scene) > 1 .and. line%has("set")) then
-                call fail(error, "--set goes with one scene, or with systems by their names")
-                return
-            end if
-        end if
         methods = size(line%arguments) == 0
         if (methods) then
             allocate (names, source=system_names())
@@ -169,8 +163,8 @@ contains
             methods = any(names == "methods")
             names = pack(names, names /= "methods" .and. .not. is_scene)
         end if
-        if (any(is_scene)) then
-            call read_audited(names, [word_t ::], named, error)
+        if (line%has("set") .and. merge(size(is_scene) > 1, size(names) == 0, any(is_scene))) then
+            call fail(error, "--set goes with one scene, or with systems by their names")
         else
             call read_audited(names, line%values_of("set"), named, error)
         end if
