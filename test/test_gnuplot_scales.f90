@@ -5,6 +5,7 @@ module test_gnuplot_scales
     use lagrangia_errors, only: error_t
     use lagrangia_gnuplot, only: gnuplot_script, new_panels, new_series, panel_t, series_t
     use lagrangia_kinds, only: dp
+    use lagrangia_plot_panel, only: aspect
     use lagrangia_value_range, only: range_of
     implicit none (type, external)
     private
@@ -26,6 +27,7 @@ contains
         call suite%addTest(TestMethod("several_files_in_one_picture", several_files_in_one_picture))
         call suite%addTest(TestMethod("only_what_is_seen_is_to_scale", &
                                       only_what_is_seen_is_to_scale))
+        call suite%addTest(TestMethod("all_curves_have_one_size", all_curves_have_one_size))
         call suite%addTest(TestMethod("ticks_are_round", ticks_are_round))
         call suite%addTest(TestMethod("pictures_have_a_size", pictures_have_a_size))
     end function gnuplot_scales_suite
@@ -55,6 +57,28 @@ contains
         call assertEqual(0, index(path_in_plane(0.0_dp, 1.0_dp), "ratio -1"), "a line")
         call assertEqual(0, index(path_in_plane(0.0_dp, 0.0_dp), "ratio -1"), "a point")
     end subroutine only_what_is_seen_is_to_scale
+
+    subroutine all_curves_have_one_size()
+        !! From the lowest of all to the highest of all: 6 m wide, 5 m high.
+        type(panel_t), allocatable :: panels(:)
+        type(series_t), allocatable :: series(:)
+        type(error_t), allocatable :: error
+        integer :: first, k
+
+        call new_panels(["x:y"], ["t", "x", "y"], ["s", "m", "m"], panels, error)
+        allocate (series(2))
+        do first = 1, 2
+            k = 3 - first
+            call new_series(series(first), "a.dat", "a", ["t", "x", "y"], ["s", "m", "m"], &
+                            [range_of([0.0_dp, 1.0_dp]), range_of([-1.0_dp, 3.0_dp]), &
+                             range_of([0.0_dp, 3.0_dp])])
+            call new_series(series(k), "b.dat", "b", ["t", "x", "y"], ["s", "m", "m"], &
+                            [range_of([0.0_dp, 1.0_dp]), range_of([1.0_dp, 5.0_dp]), &
+                             range_of([1.0_dp, 5.0_dp])])
+            call assertEqual(5.0_dp/6.0_dp, aspect(series, panels(1)), epsilon(1.0_dp), &
+                             "whichever is the first")
+        end do
+    end subroutine all_curves_have_one_size
 
     subroutine ticks_are_round()
         !! 1, 2 or 5 times a power of ten, three to seven of them, up to each of the ranges; of the

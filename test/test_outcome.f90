@@ -1,6 +1,7 @@
 module test_outcome
     !! Verdicts, and the JSON that programs read.
-    use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_quiet_nan, ieee_value
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_positive_inf, ieee_quiet_nan, &
+                                               ieee_value
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_catalogue, only: new_system
     use lagrangia_command_line, only: word_t
@@ -9,9 +10,12 @@ module test_outcome
     use lagrangia_kinds, only: dp, i8
     use lagrangia_ledger, only: claim_t
     use lagrangia_linearised, only: linearised_t
-    use lagrangia_measures, only: take_modes
+    use lagrangia_measures, only: take_measures, take_modes
     use lagrangia_outcome, only: from_closed_form, from_half_step, outcome_json, outcome_t
     use lagrangia_pendulum, only: pendulum_t
+    use lagrangia_period, only: period_t
+    use lagrangia_record, only: sample_record_t
+    use lagrangia_reference, only: reference_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene
     use lagrangia_system, only: system_t
@@ -44,6 +48,7 @@ contains
         call suite%addTest(TestMethod("json_strings_are_escaped", json_strings_are_escaped))
         call suite%addTest(TestMethod("json_has_what_stderr_says", json_has_what_stderr_says))
         call suite%addTest(TestMethod("json_numbers_have_17_digits", json_numbers_have_17_digits))
+        call suite%addTest(TestMethod("periods_differ_either_way", periods_differ_either_way))
         call suite%addTest(TestMethod("modes_are_taken_where_there_are_any", &
                                       modes_are_taken_where_there_are_any))
     end function outcome_suite
@@ -216,6 +221,49 @@ contains
         call assertEqual("9223372036854775807", json_number(huge(1_i8)))
         call assertEqual("[]", json_list([real(dp) ::]))
     end subroutine json_numbers_have_17_digits
+
+    subroutine periods_differ_either_way()
+        !! Shorter and longer than it should be; where none was measured, by NaN.
+        type(scene_t) :: scene
+        type(outcome_t) :: outcome
+        type(sample_record_t) :: record
+        type(period_t) :: period
+        class(reference_t), allocatable :: reference
+        type(pendulum_t) :: system
+        type(error_t), allocatable :: error
+        real(dp) :: q(1), v(1), t, exact
+        integer :: k
+
+        call system%configure([1.0_dp, 1.0_dp, 9.81_dp], error)
+        call system%closed_form(0.0_dp, [1.0_dp], [0.0_dp], reference)
+        exact = reference%period
+        do k = 0, 640
+            t = 5*exact*k/640
+            call reference%state_at(t, q, v)
+            call period%follow(system, t, q, v)
+        end do
+        scene%period_of = "theta"
+        reference%period = 2*exact
+        reference%small_period = 1.5_dp*exact
+        call set_up(outcome)
+        call take_measures(scene, record, period, reference, outcome)
+        ! Turning points of a quintic over 128 samples a period: (2 pi/128)^6/720 = 2e-11.
+        call assertEqual(0.5_dp, outcome%others(1)%value, 1e-10_dp, "half of it")
+        call assertEqual(1.0_dp/3.0_dp, outcome%others(2)%value, 1e-10_dp, "two thirds of it")
+        reference%period = 2*exact/3
+        reference%small_period = exact/2
+        call set_up(outcome)
+        call take_measures(scene, record, period, reference, outcome)
+        call assertEqual(0.5_dp, outcome%others(1)%value, 1e-10_dp, "half as long again")
+        call assertEqual(1.0_dp, outcome%others(2)%value, 1e-10_dp, "twice as long")
+        call assertEqual(exact, outcome%period, 1e-10_dp*exact, "as measured")
+        call assertEqual(2*exact/3, outcome%exact_period, 0.0_dp, "as it should be")
+        call assertEqual(exact/2, outcome%small_period, 0.0_dp, "and of small swings")
+        call set_up(outcome)
+        call take_measures(scene, record, period_t(), reference, outcome)
+        call assertTrue(ieee_is_nan(outcome%others(1)%value), "none was measured")
+        call assertTrue(ieee_is_nan(outcome%others(2)%value), "nor of small swings")
+    end subroutine periods_differ_either_way
 
     subroutine modes_are_taken_where_there_are_any()
         !! \(\omega = \sqrt{g/l}\) where the scene asks; nothing where it does not, where nothing

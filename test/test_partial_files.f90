@@ -35,6 +35,7 @@ contains
                                       a_good_run_removes_what_is_stale))
         call suite%addTest(TestMethod("no_row_no_file", no_row_no_file))
         call suite%addTest(TestMethod("events_are_kept_too", events_are_kept_too))
+        call suite%addTest(TestMethod("no_rows_without_their_events", no_rows_without_their_events))
     end function partial_files_suite
 
     subroutine a_partial_file_has_its_own_name()
@@ -211,4 +212,24 @@ contains
                         "removed: "//folder//"/s.dat.partial")
         call assertTrue(remove_file(folder), "something was left")
     end subroutine events_are_kept_too
+
+    subroutine no_rows_without_their_events()
+        !! A folder stands where the part of the events should: nothing is left, and both are said.
+        type(outcome_t) :: outcome
+        type(error_t), allocatable :: error
+        character(:), allocatable :: folder, inner
+
+        folder = new_folder("blocked")
+        inner = new_folder("blocked/s_events.dat.partial")
+        call perform(exploding(:len(exploding) - 1)//"event='x' /", folder, "text", outcome, error)
+        call assertTrue(allocated(error), "it explodes")
+        if (anyExceptions()) return
+        call assertEqual(status_numbers, error%status, "still of the numbers")
+        call assertTrue(index(error%message, "the state is not finite") > 0, error%message)
+        call assertTrue(index(error%message, "s_events.dat") > 0, error%message)
+        call assertEqual("", outcome%file, "no part of the rows")
+        call assertEqual("(no file)", contents(folder//"/s.dat.partial"))
+        call assertTrue(remove_file(inner), "removed: "//inner)
+        call assertTrue(remove_file(folder), "something was left")
+    end subroutine no_rows_without_their_events
 end module test_partial_files
