@@ -230,6 +230,8 @@ sed "s/output = .*//; s/title = .*/title = '<\/script><b>', output = 'pendulum.h
 refuses 2 "pendulum.html" run pendulum "$work/page.nml" --animate --output "$work/film"
 run run "$work/page.nml" --set scene%output=page --animate --quiet --output "$work/film"
 check "--animate: a title ends no script" eval '[ $status -eq 0 ] && ! grep -q "</script><b>" "$work/film/page.html" && grep -q "&lt;/script&gt;&lt;b&gt;" "$work/film/page.html"'
+run run pendulum_slack --animate --quiet --output "$work/film"
+check "--animate: the symbols of a title" eval '[ $status -eq 0 ] && [ "$(grep -c "v₀² = 3.5 g l, at θ = 120 degrees" "$work/film/pendulum_slack.html")" -eq 3 ]'
 run run hanging_chain --set "hanging_chain%n=1000" --set "scene%q=1000*0.1" --set scene%columns=t --set scene%plot=t --set scene%duration=1e-3 --animate --quiet --output "$work/film"
 check "--animate: too many parts for a page" eval '[ $status -eq 2 ] && one_line && grep -q "no film of so many moving parts" "$work/err"'
 mkdir -p "$work/film/taken/pendulum.html"

@@ -225,7 +225,7 @@ contains
             picture = folder//"/p.svg"
             call write_file(picture, "<?xml?><svg width='1'><title>Gnuplot</title>"// &
                             "<g id='a'/><use xlink:href='#a'/></svg>")
-            call report%add_picture(picture, "its motion", error)
+            call report%add_picture(picture, "its theta", error)
             call assertFalse(allocated(error), "a picture")
             call report%add_lecture(plan)
         end do
@@ -244,7 +244,8 @@ contains
         call assertEqual(1, times("id='p1-a'/><use xlink:href='#p1-a'"), message="its names")
         call assertEqual(1, times("id='p2-a'/><use xlink:href='#p2-a'"), message="the second's")
         call assertEqual(2, times('<svg role="img" width='), message="pictures")
-        call assertEqual(2, times("<title>its motion</title>"), message="which say what they are")
+        call assertEqual(2, times("<title>its "//char(206)//char(184)//"</title>"), &
+                         message="which say what they are")
         call assertEqual(1, times('as of <a href="#scene-1">the first scene of this system'), &
                          message="the lecture, once")
         call assertEqual(2, times(new_line("a")//"pendulum                 rk4 "), message="rows")

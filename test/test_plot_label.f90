@@ -1,7 +1,9 @@
 module test_plot_label
     !! Names and units as a picture shows them.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
-    use lagrangia_plot_label, only: is_small, label, labels, symbol
+    use lagrangia_plot_label, only: is_small, label, labels
+    use lagrangia_plot_symbol, only: symbol
+    use lagrangia_plot_words, only: text_label, unicode_text, with_symbols
     implicit none (type, external)
     private
     public :: plot_label_suite
@@ -22,6 +24,9 @@ contains
         call suite%addTest(TestMethod("odd_texts_are_not_read", odd_texts_are_not_read))
         call suite%addTest(TestMethod("an_axis_of_several", an_axis_of_several))
         call suite%addTest(TestMethod("small_ones", small_ones))
+        call suite%addTest(TestMethod("words_of_a_title", words_of_a_title))
+        call suite%addTest(TestMethod("titles_without_symbols", titles_without_symbols))
+        call suite%addTest(TestMethod("titles_of_pages", titles_of_pages))
     end function plot_label_suite
 
     subroutine letters_dots_and_indices()
@@ -108,4 +113,55 @@ contains
         call assertFalse(is_small("energy"), "an energy")
         call assertFalse(is_small("drift"), "a name")
     end subroutine small_ones
+
+    subroutine words_of_a_title()
+        !! Letters, dots, indices and powers, as on the axes; other words stay.
+        character(*), parameter :: omega = char(207)//char(137), pi = char(207)//char(128)
+
+        call assertEqual("at "//theta//"_{1} = 2 "//pi//"/"//omega//"_{0}, v_{0}^{2} = 3 g l", &
+                         with_symbols("at theta1 = 2 pi/omega0, v0^2 = 3 g l"))
+        call assertEqual(theta//dot//"^{2} "//theta//" falls", &
+                         with_symbols("theta_dot^2 theta falls"))
+        call assertEqual("dT/d"//theta//", d"//phi//dot, with_symbols("dT/dtheta, dphi_dot"))
+        call assertEqual("p_{"//theta//"} swings, p_{x} t - M x_{com}", &
+                         with_symbols("p_theta swings, p_x t - M x_com"))
+        call assertEqual("1/r^{3}, e^{-t}, (a + b)^{-12} 2^{"//theta//"}", &
+                         with_symbols("1/r^3, e^-t, (a + b)^-12 2^theta"))
+        call assertEqual("""cart\\_pendulum: "//theta//", 2"//pi//"""", &
+                         text_label("cart_pendulum: theta, 2pi"))
+        call assertEqual("""m g cos("//theta//")""", label("m g cos(theta)", "1"))
+        call assertEqual("""m x"//ddot//" dx/d"//theta//" (N m^{2})""", &
+                         label("m x_ddot dx/dtheta", "N m^2"))
+        call assertEqual("""m x_dot (m&)"" noenhanced", label("m x_dot", "m&"))
+        call assertEqual("x\^ "//theta, with_symbols("x^ theta"))
+    end subroutine words_of_a_title
+
+    subroutine titles_without_symbols()
+        !! Words, names of methods and files, capitals that look Latin; what might be read as more
+        !! than a text.
+        character(*), parameter :: texts(*) = [character(32) :: "Alpha, Beta, Tau and rk4", &
+            "cart_pendulum by blanes_moan6", "energy_drift, gauss16", "a b c = d", "thetas, dpis", &
+            "theta {1}", "theta & x", "theta @x", "~theta", "theta\n", "theta`x`", "x_, x__1, ^", &
+            "3 m/s, T = 2"]
+        integer :: i
+
+        do i = 1, size(texts)
+            call assertEqual("", with_symbols(trim(texts(i))), texts(i))
+            call assertEqual(trim(texts(i)), unicode_text(trim(texts(i))), texts(i))
+        end do
+        call assertEqual("", with_symbols("theta"//char(27)), "a control character")
+        call assertEqual("""mean_speed"" noenhanced", text_label("mean_speed"))
+    end subroutine titles_without_symbols
+
+    subroutine titles_of_pages()
+        !! By characters of Unicode; an index that has none stays as it is.
+        character(*), parameter :: two = char(194)//char(178), under = char(226)//char(130)
+        character(*), parameter :: minus = char(226)//char(129)//char(187)
+
+        call assertEqual("v"//under//char(128)//two//" = 3.5 g l, "//theta//dot//under//char(129), &
+                         unicode_text("v0^2 = 3.5 g l, theta1_dot"))
+        call assertEqual("r"//minus//char(226)//char(129)//char(180)//"x"//char(194)//char(185)// &
+                         char(194)//char(179), unicode_text("r^-4x^13"))
+        call assertEqual("p_"//theta//", x_com; e^x", unicode_text("p_theta, x_com; e^x"))
+    end subroutine titles_of_pages
 end module test_plot_label

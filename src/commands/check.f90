@@ -16,7 +16,7 @@ module lagrangia_check
                                   parse_namelist, refuse_unknown_groups, refuse_unknown_keys, &
                                   refuse_value
     use lagrangia_names, only: refuse_name
-    use lagrangia_progress, only: about
+    use lagrangia_progress, only: about, progress_t, stage
     use lagrangia_scene_reader, only: names_scene, read_named_system
     use lagrangia_system, only: check_parameter, default_values, system_t
     use lagrangia_text, only: to_text
@@ -40,12 +40,14 @@ contains
         type(audited_t), allocatable :: audited(:)
         type(ledger_t) :: audit
         type(description_t) :: d
-        logical :: json, methods
+        type(progress_t) :: progress
+        logical :: json, methods, quiet
         integer :: i, shown
 
         call choose(line, audited, methods, error)
         if (allocated(error) .or. .not. allocated(audited)) return
         json = line%has("json")
+        quiet = line%has("quiet")
         shown = 0
         if (json) call put_line("[")
         call audit%section("")
@@ -53,13 +55,15 @@ contains
             call audited(i)%system%describe(d)
             call put_head(trim(d%name))
             if (console_failed()) return
-            call announce(audited(i)%system, audited(i)%given)
+            if (.not. quiet) call announce(audited(i)%system, audited(i)%given)
+            call begin_part(trim(d%name), i)
             call audit_system(audited(i)%system, audit, audited(i)%fixed, audited(i)%given)
             call put_rows()
         end do
         if (methods) then
             call put_head("methods")
             if (console_failed()) return
+            call begin_part("methods", size(audited) + 1)
             call audit_methods(audit)
             call put_rows()
         end if
@@ -69,7 +73,7 @@ contains
                               trim(merge(",", " ", i < size(audit%rows))))
             end do
             call put_line("]")
-        else
+        else if (.not. quiet) then
             call put_summary(audit)
         end if
         if (audit%broken() > 0) call fail(error, to_text(audit%broken())//" of "// &
@@ -80,16 +84,28 @@ contains
             !! noticed here.
             character(*), intent(in) :: name
 
-            if (.not. json .and. shown > 0) call put_line("")
-            if (.not. json) call put_line(residual_head(name))
+            if (.not. (json .or. quiet)) then
+                if (shown > 0) call put_line("")
+                call put_line(residual_head(name))
+            end if
             call flush_console()
         end subroutine put_head
+
+        subroutine begin_part(name, number)
+            !! Say on a terminal what is audited now.
+            character(*), intent(in) :: name
+            integer, intent(in) :: number
+
+            if (.not. quiet) call progress%say(stage("check", name, number, size(audited) + &
+                                                     merge(1, 0, methods)))
+        end subroutine begin_part
 
         subroutine put_rows()
             !! The rows that are new.
             integer :: k
 
-            do k = shown + 1, merge(shown, size(audit%rows), json)
+            call progress%clear()
+            do k = shown + 1, merge(shown, size(audit%rows), json .or. quiet)
                 call put_line(residual_line(audit%rows(k)))
                 if (audit%rows(k)%remark /= "") call put_line("      "//trim(audit%rows(k)%remark))
             end do

@@ -10,7 +10,7 @@ module lagrangia_progress
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: about, pace, progress_t
+    public :: about, pace, progress_line, progress_t, stage
 
     real(dp), parameter :: patience = 2.0_dp   !! s before anything is shown
     real(dp), parameter :: interval = 0.2_dp   !! s between two updates
@@ -37,7 +37,7 @@ contains
         !! A new run begins.
         class(progress_t), intent(inout) :: self
         character(*), intent(in) :: label       !! what runs, in one word
-        logical, intent(in), optional :: quiet  !! say nothing where there is no terminal
+        logical, intent(in), optional :: quiet  !! say nothing, neither on a terminal nor off it
         character(*), intent(in), optional :: counted
         !! the plural of what is counted: its rate and the time that is left are shown too
 
@@ -48,7 +48,7 @@ contains
         self%shown = .false.
         call system_clock(self%start, self%rate)
         self%terminal = is_terminal(error_unit)
-        if (self%terminal .or. .not. present(quiet)) return
+        if (.not. present(quiet)) return
         if (quiet) self%next = huge(patience)
     end subroutine restart
 
@@ -66,7 +66,7 @@ contains
         class(progress_t), intent(inout) :: self
         integer(i8), intent(in) :: done, steps  !! how many of how many
         integer(i8) :: now
-        real(dp) :: seconds, percent
+        real(dp) :: seconds
 
         call system_clock(now)
         seconds = real(now - self%start, dp)/real(self%rate, dp)
@@ -80,10 +80,32 @@ contains
         end if
         self%next = seconds + interval
         self%shown = .true.
-        percent = 100.0_dp*real(done, dp)/real(max(steps, 1_i8), dp)
-        call show_progress(self%label//": "//to_text(int(percent))//" %, "// &
-                           to_text(int(seconds))//" s"//pace(self%counted, seconds, done, steps))
+        call show_progress(progress_line(self%label, self%counted, seconds, done, steps))
     end subroutine tick
+
+    pure function progress_line(label, counted, seconds, done, all) result(text)
+        !! `pendulum: 33 %, 4 s, 8 s left`.
+        character(*), intent(in) :: label     !! what runs
+        character(*), intent(in) :: counted   !! the plural of what is counted, or ""
+        real(dp), intent(in) :: seconds       !! since the start, above 0
+        integer(i8), intent(in) :: done, all  !! how many of how many
+        character(:), allocatable :: text
+        real(dp) :: percent
+
+        percent = 100.0_dp*real(done, dp)/real(max(all, 1_i8), dp)
+        text = label//": "//to_text(int(percent))//" %, "//to_text(int(seconds))//" s"// &
+               pace(counted, seconds, done, all)
+    end function progress_line
+
+    pure function stage(command, name, number, all) result(text)
+        !! `check pendulum, 2 of 14`: of work in several parts.
+        character(*), intent(in) :: command, name  !! what is done, and to what
+        integer, intent(in) :: number, all         !! the part that is done now, of how many
+        character(:), allocatable :: text
+
+        text = command//" "//trim(name)
+        if (all > 1) text = text//", "//to_text(number)//" of "//to_text(all)
+    end function stage
 
     pure function pace(counted, seconds, done, all) result(text)
         !! `, 5.30E+03 trajectories/s, 12 s left`; without the first where nothing is counted.

@@ -68,7 +68,7 @@ module lagrangia_registry
         command_t("modes", "SYSTEM", "or a scene's: small oscillations, frequencies, shapes", 1, &
                   "set at output plot animate json quiet", takes="systems scenes"), &
         command_t("check", "[SYSTEM...]", "the audit: equations, invariants, structure, Gauss, "// &
-                  "orders", -1, "set json", takes="systems scenes methods"), &
+                  "orders", -1, "set json quiet", takes="systems scenes methods"), &
         command_t("errata", "[ID]", "the slips in the lecture notes, and what each would do", 1, &
                   "json", takes="slips"), &
         command_t("principle", "[NAME]", "both sides of Hamilton's, d'Alembert's, Fermat's", 1, &

@@ -7,7 +7,7 @@ module lagrangia_stress
     use lagrangia_ledger_text, only: measured_json, measured_line
     use lagrangia_names, only: refuse_name
     use lagrangia_observer, only: observer_t
-    use lagrangia_progress, only: progress_t
+    use lagrangia_progress, only: progress_t, stage
     use lagrangia_stress_rows, only: measure_row, row_t, rows
     use lagrangia_text, only: to_text
     use lagrangia_version, only: build_text
@@ -24,6 +24,7 @@ contains
         type(ledger_t) :: verdicts
         type(progress_t), target :: progress
         class(observer_t), pointer :: watcher
+        character(:), allocatable :: now
         logical :: chosen(size(rows)), json, quiet
         integer :: i, last
 
@@ -32,6 +33,7 @@ contains
         json = line%has("json")
         quiet = line%has("quiet") .and. .not. json
         watcher => progress
+        if (line%has("quiet")) watcher => null()
         if (json) then
             call put_line("[")
         else if (.not. quiet) then
@@ -42,7 +44,9 @@ contains
             if (.not. chosen(i)) cycle
             call flush_console()
             if (console_failed()) return  ! nobody would see the rest
-            call progress%restart("stress "//trim(rows(i)%name))
+            now = stage("stress", rows(i)%name, count(chosen(:i)), count(chosen))
+            call progress%restart(now, line%has("quiet"))
+            if (.not. line%has("quiet")) call progress%say(now)
             call measure_row(trim(rows(i)%name), line%has("long"), watcher, verdicts, error)
             call progress%clear()
             if (allocated(error)) return

@@ -4,7 +4,9 @@ module lagrangia_sweep_picture
     use lagrangia_gnuplot_script, only: begin_script, gnuplot_string, lines_t
     use lagrangia_kept, only: keeps_attractor, keeps_wrapped, kept_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_plot_label, only: label, plain_label, symbol
+    use lagrangia_plot_label, only: label
+    use lagrangia_plot_symbol, only: symbol
+    use lagrangia_plot_words, only: plain_label, text_label
     use lagrangia_sweep, only: sweep_t
     use lagrangia_sweep_grid, only: sweep_result_t
     use lagrangia_text, only: to_text
@@ -40,7 +42,7 @@ contains
         call script%add("data = folder."//gnuplot_string(file))
         if (index(reading, "skip") == 1) call script%add("set datafile separator comma")
         call script%add("set multiplot layout "//to_text(n)//",1 title "// &
-                        gnuplot_string(trim(sweep%scene%title))//" noenhanced")
+                        text_label(trim(sweep%scene%title)))
         call script%add("set tics out nomirror; unset key")
         do i = 1, n
             if (sweep%keeps_points) then

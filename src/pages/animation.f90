@@ -10,6 +10,7 @@ module lagrangia_animation
     use lagrangia_html, only: html_text, script_json, write_template
     use lagrangia_json, only: json_item, json_object, json_pair, json_string
     use lagrangia_kinds, only: dp
+    use lagrangia_plot_words, only: unicode_text
     use lagrangia_run_files, only: method_text
     use lagrangia_run_plan, only: run_plan_t
     use lagrangia_shipped_files, only: shipped_text
@@ -142,12 +143,13 @@ contains
                     values = values//" "//to_text(p%value(k))
                 end do
                 if (p%unit /= "1") values = values//" "//trim(p%unit)
-                facts = facts//", "//json_string(trim(p%name)//" ="//values)
+                facts = facts//", "//json_string(unicode_text(trim(p%name)//" ="//values))
             end associate
         end do
         name = trim(d%name)
         if (d%title /= title) name = name//": "//d%title
-        json = json_object(json_pair("title", title)//json_pair("system", name)// &
+        json = json_object(json_pair("title", unicode_text(title))// &
+                           json_pair("system", unicode_text(name))// &
                            json_item("facts", "["//facts//"]")// &
                            json_item("films", "["//films//"]"))
     end function page_of_films
@@ -159,7 +161,7 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! status 5: it cannot be written
         type(word_t) :: texts(4)
 
-        texts(1)%text = html_text(title)
+        texts(1)%text = html_text(unicode_text(title))
         call shipped_text("data/templates/film.css", texts(2)%text)
         call shipped_text("data/templates/film.js", texts(3)%text)
         texts(4)%text = script_json(json)

@@ -7,6 +7,7 @@ module lagrangia_report_page
     use lagrangia_html, only: html_text, replaced, script_json, write_template
     use lagrangia_lecture_text, only: derivation_html, errata_html, lecture_html
     use lagrangia_outcome, only: outcome_t
+    use lagrangia_plot_words, only: unicode_text
     use lagrangia_run_plan, only: run_plan_t
     use lagrangia_scorecard, only: scorecard_head, scorecard_legend, scorecard_lines, scorecard_row
     use lagrangia_shipped_files, only: shipped_text
@@ -58,9 +59,9 @@ contains
         self%scenes = self%scenes + 1
         self%scores = self%scores//html_text(scorecard_row(outcome))//newline
         self%contents = self%contents//'<li><a href="#'//anchor(self%scenes)//'">'// &
-                        html_text(title)//"</a></li>"//newline
+                        html_text(unicode_text(title))//"</a></li>"//newline
         self%sections = self%sections//'<section id="'//anchor(self%scenes)//'">'//newline// &
-                        "<h2>"//html_text(title)//"</h2>"//newline
+                        "<h2>"//html_text(unicode_text(title))//"</h2>"//newline
         call self%add_remark(trim(outcome%scene)//": "//outcome%verdict())
         call scorecard_lines(outcome, .true., lines)
         if (size(lines) == 0) return
@@ -96,7 +97,8 @@ contains
         svg = replaced(svg, 'id="', 'id="'//mark)
         svg = replaced(svg, "'#", "'#"//mark)
         svg = replaced(svg, "url(#", "url(#"//mark)
-        svg = replaced(svg, "<title>Gnuplot</title>", "<title>"//html_text(title)//"</title>")
+        svg = replaced(svg, "<title>Gnuplot</title>", "<title>"// &
+                       html_text(unicode_text(title))//"</title>")
         self%sections = self%sections//'<svg role="img"'//svg(5:)//newline
     end subroutine add_picture
 

@@ -4,7 +4,8 @@ module lagrangia_mode_script
     use lagrangia_gnuplot_script, only: begin_script, gnuplot_string, lines_t
     use lagrangia_kinds, only: dp
     use lagrangia_number_text, only: fixed, scientific
-    use lagrangia_plot_label, only: plain_label, symbol
+    use lagrangia_plot_symbol, only: symbol
+    use lagrangia_plot_words, only: text_label
     use lagrangia_small_oscillations, only: is_oscillation, is_unstable, modes_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -48,7 +49,7 @@ contains
         call begin_script(script, trim(d%name)//"_modes.dat", width, height, 30*down)
         call script%add("data = folder."//gnuplot_string(trim(d%name)//"_modes.dat"))
         call script%add("set multiplot")
-        call script%add("set label 1 "//plain_label(trim(d%name)//": "//shown_modes())// &
+        call script%add("set label 1 "//text_label(trim(d%name)//": "//shown_modes())// &
                         " at screen 0.5, screen "//fixed(1.0_dp - 24.0_dp/height, 4)// &
                         " center font ',16'")
         call script%add("set label 2 ""grey: at rest, and the way of each mass; blue, orange: "// &

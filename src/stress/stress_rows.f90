@@ -137,14 +137,20 @@ contains
     contains
         subroutine measure_methods()
             !! A row of all methods of fixed step.
-            integer :: i
+            integer :: i, methods
 
+            methods = 0
+            do
+                call nth_integrator(methods + 1, method)
+                if (.not. allocated(method)) exit
+                methods = methods + 1
+            end do
             i = 0
             do
                 i = i + 1
                 call nth_integrator(i, method)
                 if (.not. allocated(method)) return
-                call look_around(watcher, min(i, 20), 20, error)
+                call look_around(watcher, min(i, methods) - 1, methods, error)
                 if (allocated(error)) return
                 select case (name)
                 case ("step_limits"); call stress_step_limit(method, 100000_i8, verdicts)
@@ -167,7 +173,7 @@ contains
             integer :: i
 
             do i = 1, merge(2, 1, long)
-                call look_around(watcher, i, 2, error)
+                call look_around(watcher, i - 1, merge(2, 1, long), error)
                 if (allocated(error)) return
                 call new_integrator(name, variant, error)
                 call stress_rounding(variant, "plain", steps(i), verdicts)

@@ -9,9 +9,10 @@ module lagrangia_gnuplot
     use lagrangia_gnuplot_script, only: begin_script, gnuplot_string, lines_t
     use lagrangia_kinds, only: dp
     use lagrangia_names, only: advice
-    use lagrangia_plot_label, only: is_small, plain_label
+    use lagrangia_plot_label, only: is_small
     use lagrangia_plot_panel, only: aspect, is_space, most_curves, panel_t, series_t, &
                                     shape_legend
+    use lagrangia_plot_words, only: text_label
     use lagrangia_text, only: quoted, to_text
     use lagrangia_value_range, only: value_range_t
     implicit none (type, external)
@@ -147,11 +148,11 @@ contains
             if (how == curves) call add_envelopes(script, series, panels(i), i)
         end do
         call script%add("set multiplot")
-        call script%add("set label 1 "//plain_label(trim(title))//" at screen 0.5, "// &
+        call script%add("set label 1 "//text_label(trim(title))//" at screen 0.5, "// &
                         "screen "//part_of(height - 24, height)//" center font ',"// &
                         to_text(max(7, min(16, 16*text_width*width/1000/ &
                                            max(1, len_trim(title)))))//"'")
-        if (remark /= "") call script%add("set label 2 "//plain_label(trim(remark))// &
+        if (remark /= "") call script%add("set label 2 "//text_label(trim(remark))// &
             " at screen 0.5, screen "//part_of(height - 52, height)//" center font ',14'")
         do i = 1, size(panels)
             call draw_panel(script, series, panels(i), i, frames(i), width, height, how)

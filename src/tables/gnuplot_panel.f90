@@ -4,9 +4,10 @@ module lagrangia_gnuplot_panel
                                       add_range, frame_t
     use lagrangia_gnuplot_script, only: lines_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_plot_label, only: is_small, label, plain_label
+    use lagrangia_plot_label, only: is_small, label
     use lagrangia_plot_panel, only: find_traces, has_envelope, has_legend, is_space, panel_t, &
                                     ranges_of, series_t, shape_legend, told_apart, trace_t
+    use lagrangia_plot_words, only: text_label
     use lagrangia_text, only: to_text
     use lagrangia_value_range, only: value_range_t
     implicit none (type, external)
@@ -166,9 +167,9 @@ contains
             else if (size(series) == 1) then
                 text = " title "//label(name, unit)
             else if (panel%curves == 1) then
-                text = " title "//plain_label(from%name)
+                text = " title "//text_label(from%name)
             else
-                text = " title "//plain_label(from%name//": "//name)
+                text = " title "//text_label(from%name//": "//name)
             end if
         end associate
     end function curve_title
