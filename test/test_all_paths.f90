@@ -94,6 +94,6 @@ contains
             call assertEqual(0.0_dp, maxval(abs(values(2:, 1))), 1e-15_dp, "start")
             call assertEqual(0.0_dp, maxval(abs(values(2:, last) - 1.0_dp)), 1e-15_dp, "end")
         end associate
-        call assertTrue(index(page%picture%title, "Every path of a pendulum") == 1, "title")
+        call assertTrue(index(page%picture%title, "Paths of a pendulum from 0 to 1 rad") == 1, "title")
     end subroutine the_picture
 end module test_all_paths

@@ -76,7 +76,8 @@ contains
         call descents(pendulum, paths(:, :found), actions(:found), indices(:found), report, error)
         if (.not. allocated(error)) call oscillators(report, error)
         if (allocated(error)) return
-        call draw_paths(paths(:, :found), indices(:found), report)
+        call draw_paths(pendulum, paths(:, :found), indices(:found), report, error)
+        if (allocated(error)) return
         call report%note("Conjugate points: where neighbours of the path from the start meet "// &
                          "it again.")
         call report%note("Descent: step by step against the slope of S, the ends held; down "// &
@@ -307,31 +308,39 @@ contains
         end do
     end subroutine oscillators
 
-    subroutine draw_paths(paths, indices, report)
-        !! The picture: each path with its index.
+    subroutine draw_paths(pendulum, paths, indices, report, error)
+        !! The picture: each path with its index, and the variation that bends S least.
+        class(system_t), intent(in) :: pendulum
         real(dp), intent(in) :: paths(:, :)
         integer, intent(in) :: indices(:)
         type(report_t), intent(inout) :: report
-        integer :: i, j
+        type(error_t), allocatable, intent(out) :: error
+        real(dp) :: eta(n + 1), path(1, n + 1)
+        integer :: i, j, k
 
         report%picture%file = "principle_all_paths"
-        report%picture%title = "Every path of a pendulum from 0 to 1 rad in the same time; "// &
-                               "index 0: least S"
-        allocate (report%picture%names(size(indices) + 1), &
-                  report%picture%units(size(indices) + 1), &
-                  report%picture%panels(1), report%picture%values(size(indices) + 1, n + 1))
+        report%picture%title = "Paths of a pendulum from 0 to 1 rad in one time; eta lowers S most"
+        k = size(indices)
+        allocate (report%picture%names(2*k + 1), report%picture%units(2*k + 1), &
+                  report%picture%panels(2), report%picture%values(2*k + 1, n + 1))
         report%picture%names(1) = "t"
         report%picture%units(1) = "s"
         report%picture%units(2:) = "rad"
-        report%picture%panels(1) = "t:"
-        do i = 1, size(indices)
+        report%picture%panels = "t:"
+        do i = 1, k
             report%picture%names(i + 1) = to_text(i)//", index "//to_text(indices(i))
-            report%picture%panels(1) = trim(report%picture%panels(1))// &
-                                       trim(report%picture%names(i + 1))
-            if (i < size(indices)) report%picture%panels(1) = trim(report%picture%panels(1))//"+"
+            report%picture%names(i + k + 1) = "eta of "//to_text(i)
+            do j = 1, 2
+                report%picture%panels(j) = trim(report%picture%panels(j))// &
+                                           trim(report%picture%names(i + 1 + (j - 1)*k))
+                if (i < k) report%picture%panels(j) = trim(report%picture%panels(j))//"+"
+            end do
+            path(1, :) = paths(:, i)
+            call lowest_variation(pendulum, 0.0_dp, time/n, path, eta, error)
+            if (allocated(error)) return
+            report%picture%values(i + 1, :) = paths(:, i)
+            report%picture%values(i + k + 1, :) = eta
         end do
-        do j = 0, n
-            report%picture%values(:, j + 1) = [j*time/n, paths(j + 1, :)]
-        end do
+        report%picture%values(1, :) = [(j*time/n, j=0, n)]
     end subroutine draw_paths
 end module lagrangia_all_paths

@@ -141,7 +141,7 @@ contains
         real(dp), intent(in) :: pixels  !! of the panel's width
         integer, intent(out) :: columns, rows  !! 0: there is no legend
         real(dp), parameter :: letter = 10.5_dp  !! pixels, of 14 pt
-        integer, parameter :: sample = 6         !! letters that the line in front takes, and gaps
+        integer, parameter :: sample = 8         !! letters that the line in front takes, and gaps
         integer :: entries, i, length, longest
 
         columns = 0
