@@ -65,10 +65,16 @@ begin_sweep() { # begin_sweep BYTES WORDS...: in the background; returns when so
         sleep 0.02
     done
 }
+workers() { # the processes that compute for it
+    cat "/proc/$child/task/$child/children"
+}
 run "${diagram[@]}" --output "$work/whole"
 check "a sweep that nobody ends" eval '[ $status -eq 0 ] && leftovers "$work/whole" && [ ! -e "$work/whole/bifurcation_sweep.dat.part" ]'
 begin_sweep 20000 --threads 2
+others=$(workers)
 ended KILL
+for _ in $(seq 100); do kill -0 $others 2>/dev/null || break; sleep 0.1; done
+check "sweep: the processes that compute end with it" eval '[ -n "$others" ] && ! kill -0 $others 2>/dev/null'
 check "sweep: kill -9 leaves what is complete" eval '[ $status -eq 137 ] && [ -s "$work/sweep/bifurcation_sweep.dat.part" ] && [ ! -e "$work/sweep/bifurcation_sweep.dat" ]'
 run "${diagram[@]}" --output "$work/sweep"
 check "sweep: not begun anew over that" eval '[ $status -eq 5 ] && one_line && grep -q -- --resume "$work/err"'
@@ -76,6 +82,12 @@ run sweep bifurcation --over f=1:1.5:301 --output "$work/sweep" --resume
 check "sweep: --resume of another sweep is refused" eval '[ $status -eq 5 ] && one_line && grep -q "another sweep" "$work/err"'
 begin_sweep 60000 --resume --threads 1
 ended KILL
+begin_sweep 75000 --resume --threads 2
+others=$(workers)
+kill -KILL ${others%% *}
+wait $child
+status=$?
+check "sweep: a process that computes is killed" eval '[ $status -eq 4 ] && one_line && grep -q "signal 9: .* trajectories are kept in .*--resume" "$work/err"'
 begin_sweep 90000 --resume --threads 3
 ended INT
 check "sweep: SIGINT says what is kept" eval '[ $status -eq 130 ] && one_line && grep -q "trajectories are kept in" "$work/err"'

@@ -6,6 +6,8 @@
 #   < commands < app. src/lagrangia.f90 uses what it likes; nobody uses it.
 # - integrators and observers name no concrete system, observers no concrete integrator.
 # - only app/ and src/commands/ print or stop; lagrangia_console, which knows how, is theirs.
+# - no threads in src/ but those of src/bench: gfortran keeps the lengths of texts that functions return in static
+#   variables. lagrangia_workers shares work among processes.
 # - fpm.toml has the preprocessor read all sources: no line ends in a backslash, none has a slash and an
 #   asterisk in a row. It would join lines, or take what follows for a comment.
 # - src/ROOM/NAME.f90 holds one module, lagrangia_NAME, in at most 450 lines; app/main.f90 in 100.
@@ -92,7 +94,7 @@ function examine(statement, head, word, used) {
         sub(/^(, *non_intrinsic *)?(:: *)?/, "", used)
         sub(/[^a-z0-9_].*$/, "", used)
         if (used == "omp_lib") return
-        if (used == "lagrangia_c_library" && expected != "lagrangia_console" && statement ~ /[ ,]c_(write|fdopen)( |,|$)/)
+        if (used == "lagrangia_c_library" && expected != "lagrangia_console" && expected != "lagrangia_workers" && statement ~ /[ ,]c_(write|fdopen)( |,|$)/)
             complain("only app/ and src/commands/ print: " statement)
         if (!(used in room_defining)) {
             complain("no file here defines the module " used)
@@ -147,6 +149,7 @@ FNR == 1 {
     if (pass == 1) {
         lines[name] = FNR
         if ($0 ~ /\\$/) complain("the preprocessor joins a line that ends in a backslash")
+        if (tolower($0) ~ /^ *!\$omp/ && room != "bench" && room != "test") complain("threads share the lengths of texts: use lagrangia_workers")
         if (index($0, "/" "*")) complain("the preprocessor takes this for a comment: /" "*")
     }
     line = code($0)

@@ -108,6 +108,8 @@ module core kinds '!! data/*.nml';                                  refuses "tak
 : >"$house/src/core/empty.f90";                                     refuses "no module here"
 yes "! long" | head -n 451 >>"$house/src/core/kinds.f90";           refuses "more than 450 lines"
 yes "! long" | head -n 100 >>"$house/app/main.f90";                 refuses "more than 100 lines"
+module ensembles sweep "!\$omp parallel do"
+refuses "threads share"
 
 [ "$failures" -eq 0 ] && echo "every planted violation was seen"
 exit $((failures > 0))

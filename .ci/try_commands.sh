@@ -393,14 +393,14 @@ run bench precision --quick --json --problems P1 --methods rk4,gauss16,gsl_rk4 -
 check "bench precision: points and times of the methods asked for" json 'all({r["method"] for r in d if r["table"] == t} == {"rk4", "gauss16", "gsl_rk4"} for t in ("work_precision", "time_to_error"))'
 
 # Every key of a scene
-# Many trajectories: numbers that are known, a picture of each kind, the same file by any number of threads
+# Many trajectories: numbers that are known, a picture of each kind, the same file by any number of processes
 for sweep in flip_map period_of_amplitude; do
     run sweep $sweep --over theta$([ $sweep = flip_map ] && echo 1)=0.5:3:20 --output "$work/sweep" --plot --threads 1
     check "sweep $sweep: a table and a picture" eval '[ $status -eq 0 ] && [ ! -s "$work/err" ] && [ -s "$work/sweep/${sweep}_sweep.png" ] &&
         [ "$(grep -vc "^#" "$work/sweep/${sweep}_sweep.dat")" -eq 20 ]'
     cp "$work/sweep/${sweep}_sweep.dat" "$work/one"
     run sweep $sweep --over theta$([ $sweep = flip_map ] && echo 1)=0.5:3:20 --output "$work/sweep" --threads 3 --json
-    check "sweep $sweep: the same by three threads, and JSON" eval 'cmp "$work/one" "$work/sweep/${sweep}_sweep.dat" &&
+    check "sweep $sweep: the same by three processes, and JSON" eval 'cmp "$work/one" "$work/sweep/${sweep}_sweep.dat" &&
         python3 -c "import json, sys; r = json.load(open(sys.argv[1])); assert r[\"trajectories\"] == 20 and r[\"failed\"] == 0" "$work/out"'
 done
 check "sweep: the measured period is the exact one" awk '!/^#/ { d = $2/$3 - 1; if (d*d > 1e-18) exit 1 }' "$work/sweep/period_of_amplitude_sweep.dat"

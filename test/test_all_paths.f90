@@ -90,10 +90,13 @@ contains
         call new_page("all-paths", page)
         if (anyExceptions()) return
         associate (values => page%picture%values, last => size(page%picture%values, 2))
-            call assertEqual(6, size(values, 1), "time and five paths")
+            call assertEqual(11, size(values, 1), "time, five paths, and a variation of each")
             call assertEqual(0.0_dp, maxval(abs(values(2:, 1))), 1e-15_dp, "start")
-            call assertEqual(0.0_dp, maxval(abs(values(2:, last) - 1.0_dp)), 1e-15_dp, "end")
+            call assertEqual(0.0_dp, maxval(abs(values(2:6, last) - 1.0_dp)), 1e-15_dp, "end")
+            call assertEqual(0.0_dp, maxval(abs(values(7:, last))), 1e-15_dp, "eta ends at 0")
+            call assertTrue(all(maxval(abs(values(7:, :)), dim=2) > 0.0_dp), "eta is not 0")
         end associate
-        call assertTrue(index(page%picture%title, "Paths of a pendulum from 0 to 1 rad") == 1, "title")
+        call assertTrue(index(page%picture%title, "Paths of a pendulum from 0 to 1 rad") == 1, &
+                        "title")
     end subroutine the_picture
 end module test_all_paths

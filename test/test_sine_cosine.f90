@@ -59,7 +59,8 @@ contains
     end subroutine next_to_multiples_of_half_pi
 
     subroutine beyond_its_range()
-        !! There libm answers, lane by lane; what is not finite is NaN.
+        !! There libm answers, lane by lane; what is not finite is NaN. To the last bit but one:
+        !! of constants the compiler may know the sine better than libm.
         real(dp) :: x(lanes), s(lanes), c(lanes)
         integer :: i
 
@@ -67,16 +68,16 @@ contains
             x = 0.5_dp
             x(i) = 1e22_dp
             call sine_cosine(x, s, c)
-            call assertEqual([sin(x(i)), cos(x(i))], [s(i), c(i)], message="alone in its lane")
+            call assertEqual([sin(x(i)), cos(x(i))], [s(i), c(i)], epsilon(x), "alone in its lane")
         end do
         x = [1e5_dp, -1e22_dp, huge(x), 0.5_dp, largest_angle*(1 + epsilon(x)), 0.0_dp, 0.0_dp, &
              -0.5_dp]
         x(6) = ieee_value(x(6), ieee_positive_inf)
         x(7) = ieee_value(x(7), ieee_quiet_nan)
         call sine_cosine(x, s, c)
-        call assertEqual(sin(x(1:3)), s(1:3))
-        call assertEqual(cos(x(1:3)), c(1:3))
-        call assertEqual(sin(x(5)), s(5))
+        call assertEqual(sin(x(1:3)), s(1:3), epsilon(x))
+        call assertEqual(cos(x(1:3)), c(1:3), epsilon(x))
+        call assertEqual(sin(x(5)), s(5), epsilon(x))
         call assertTrue(all(ieee_is_nan(s(6:7))) .and. all(ieee_is_nan(c(6:7))), "NaN")
         call assertEqual(s(4), -s(8))
         call assertEqual(c(4), c(8))

@@ -1,5 +1,5 @@
 module test_sweep
-    !! Many trajectories of one scene: their axes, what is kept, lanes, threads, failures, files.
+    !! Many trajectories of one scene: their axes, what is kept, lanes, processes, failures, files.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_command_line, only: word_t
@@ -45,7 +45,7 @@ contains
                                       resonance_is_that_of_the_closed_form))
         call suite%addTest(TestMethod("lanes_are_single_trajectories", &
                                       lanes_are_single_trajectories))
-        call suite%addTest(TestMethod("threads_change_no_byte", threads_change_no_byte))
+        call suite%addTest(TestMethod("processes_change_no_byte", processes_change_no_byte))
         call suite%addTest(TestMethod("a_failure_is_nan_and_counted", &
                                       a_failure_is_nan_and_counted))
         call suite%addTest(TestMethod("least_and_largest_after_a_time", &
@@ -280,8 +280,8 @@ contains
         call assertFalse(fits_lanes(sweep), "not with different systems")
     end subroutine lanes_are_single_trajectories
 
-    subroutine threads_change_no_byte()
-        !! In lanes and alone, with more blocks than threads.
+    subroutine processes_change_no_byte()
+        !! In lanes and alone, with more blocks than processes.
         type(sweep_numbers_t) :: one, three
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
@@ -294,7 +294,7 @@ contains
         call compute(double, ["m1=0.5:1:200"], ["theta2"], 3, three, error, sweep)
         call assertFalse(one%in_lanes, "alone")
         call assertEqual(one%values(1, :), three%values(1, :), 0.0_dp, "alone")
-    end subroutine threads_change_no_byte
+    end subroutine processes_change_no_byte
 
     subroutine a_failure_is_nan_and_counted()
         !! Rods of no length are refused, the others go on; where all fail that is an error.

@@ -72,7 +72,7 @@ contains
     end subroutine make
 
     subroutine compute(text, over, keep, result, error, sweep)
-        !! What a sweep gives, on three threads.
+        !! What a sweep gives, by three processes.
         character(*), intent(in) :: text, over(:), keep(:)
         type(sweep_numbers_t), intent(out) :: result
         type(error_t), allocatable, intent(out) :: error

@@ -43,7 +43,7 @@ module lagrangia_registry
         option_t("keep", needs_value, "COLUMN|period|...", "what is kept of each trajectory", &
                  repeatable=.true., any_text=.true.), &
         option_t("seed", needs_value, "N", "of a sweep's random values (default 1)"), &
-        option_t("threads", needs_value, "N", "of a sweep (default: one a processor)"), &
+        option_t("threads", needs_value, "N", "processes of a sweep (default: one a processor)"), &
         option_t("resume", no_value, "", "go on with a sweep that was interrupted"), &
         option_t("any-size", no_value, "", "a sweep that the disk may not hold"), &
         option_t("numbers", no_value, "", "each line of a derivation at a random state, twice"), &

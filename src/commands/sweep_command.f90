@@ -4,7 +4,7 @@ module lagrangia_sweep_command
     use lagrangia_console, only: note, put_line
     use lagrangia_data_files, only: check_format, data_path, draw, path_beside
     use lagrangia_disk_space, only: free_space, short, space_warning
-    use lagrangia_errors, only: error_t, fail
+    use lagrangia_errors, only: error_t, fail, status_library
     use lagrangia_images, only: image_count, image_number
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_json, only: json_item, json_object, json_pair
@@ -99,17 +99,17 @@ contains
     end subroutine sweep_command
 
     subroutine leave(result, path, error)
-        !! What is complete stays, if there is any; who interrupts a sweep is told.
+        !! What is complete stays, if there is any; who interrupts a sweep is told, and whose memory
+        !! was not enough.
         type(sweep_result_t), intent(inout) :: result
         character(*), intent(in) :: path
         type(error_t), intent(inout) :: error
 
         call result%store%release()
-        if (error%status /= interrupt_status()) return
-        if (result%store%there == 0) then
+        if (result%store%there == 0 .or. result%store%there == result%store%blocks) then
             call result%store%remove()
-        else
-            error%message = "interrupted: "//to_text(result%store%trajectories_there())// &
+        else if (any(error%status == [interrupt_status(), status_library])) then
+            error%message = error%message//": "//to_text(result%store%trajectories_there())// &
                 " trajectories are kept in '"//part_name(path, image_number())// &
                 "', '--resume' goes on"
         end if
@@ -277,7 +277,7 @@ contains
         integer(i8) :: found
         integer :: i, width
 
-        how = " on "//to_text(threads)//" thread"//trim(merge(" ", "s", threads == 1))
+        how = " by "//to_text(threads)//" process"//trim(merge("  ", "es", threads == 1))
         if (image_count() > 1) how = how//" each of "//to_text(image_count())//" images"
         if (result%in_lanes) how = how//", in lanes"
         if (result%resumed > 0) how = how//"; "//to_text(result%resumed)//" were there already"

@@ -3,7 +3,7 @@ module lagrangia_images
     !! agree on. In a plain build there is one image and nothing is sent.
     !!
     !! The blocks are counted by a number on image 1, which an image locks, reads and raises without
-    !! anybody else having to take part. Not to be called by several threads of an image at a time.
+    !! anybody else having to take part.
     !! (`atomic_fetch_add` would do it in one, but the old number does not come back from
     !! OpenCoarrays 2.9 and 2.10 as Debian builds them.)
     use, intrinsic :: iso_fortran_env, only: lock_type

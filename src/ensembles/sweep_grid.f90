@@ -1,5 +1,5 @@
 module lagrangia_sweep_grid
-    !! All trajectories of a sweep, on as many images and threads as there are: blocks of them are
+    !! All trajectories of a sweep, on as many images and processes as there are: blocks of them are
     !! dealt to whoever is free, and each trajectory gives the same bytes whoever computes it.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_attractor, only: attractors_t
@@ -14,6 +14,7 @@ module lagrangia_sweep_grid
     use lagrangia_sweep_lanes, only: compute_lanes, fits_lanes
     use lagrangia_sweep_store, only: part_name, sweep_store_t
     use lagrangia_sweep_trajectory, only: compute_one
+    use lagrangia_workers, only: is_deserted, share_work, work_t
 !$  use omp_lib, only: omp_get_max_threads
     implicit none (type, external)
     private
@@ -36,11 +37,23 @@ module lagrangia_sweep_grid
         procedure :: range_of
     end type sweep_result_t
 
+    type, extends(work_t) :: blocks_t
+        !! The blocks of a sweep as work that is shared.
+        type(sweep_t), pointer :: sweep => null()
+        type(sweep_result_t), pointer :: result => null()
+        class(observer_t), pointer :: progress => null()
+        integer(i8) :: done = 0  !! trajectories so far; of many images about
+    contains
+        procedure :: next => next_block
+        procedure :: compute => compute_block
+        procedure :: take => take_block
+    end type blocks_t
+
 contains
 
     function thread_count(wanted) result(threads)
-        !! How many threads there are to be: as `wanted`, or for 0 one for each processor; of many
-        !! images each has one.
+        !! How many processes there are to be: as `wanted`, or for 0 one for each processor; of
+        !! many images each has one.
         integer, intent(in) :: wanted  !! not negative
         integer :: threads
 
@@ -50,8 +63,8 @@ contains
     end function thread_count
 
     pure function block_size(sweep) result(n)
-        !! Trajectories that a thread takes at a time, and that a killed program loses at most: the
-        !! same for any number of threads; few where there are few, or each has many numbers; more
+        !! Trajectories that a process takes at a time, and that a killed program loses at most: the
+        !! same for any number of processes; few where there are few, or each has many numbers; more
         !! where there would be over a million blocks.
         type(sweep_t), intent(in) :: sweep  !! as `new_sweep` made it
         integer(i8) :: n
@@ -66,16 +79,17 @@ contains
     subroutine compute_grid(sweep, threads, progress, result, error, path, told, resume)
         !! Compute every trajectory. One that fails leaves NaN, and the others go on. To be called
         !! on all images; image 1 has the result.
-        type(sweep_t), intent(in) :: sweep                       !! as `new_sweep` made it
-        integer, intent(in) :: threads                           !! of this image, at least 1
+        type(sweep_t), intent(in), target :: sweep               !! as `new_sweep` made it
+        integer, intent(in) :: threads                           !! processes of this image
         class(observer_t), pointer, intent(in) :: progress       !! hears how far it is; may be null
-        type(sweep_result_t), intent(out) :: result              !! the numbers, and what they took
+        type(sweep_result_t), intent(out), target :: result      !! the numbers, and what they took
         type(error_t), allocatable, intent(out) :: error
         !! interrupted; no memory; a file; all trajectories fail, then for the first one's reason;
         !! without a message where another image has one
         character(*), intent(in), optional :: path  !! of the data file: blocks wait beside it
         character(*), intent(in), optional :: told  !! what makes one sweep another
         logical, intent(in), optional :: resume     !! go on with the blocks that are there
+        type(blocks_t) :: blocks
         integer(i8) :: finish, rate, start, total
 
         total = sweep%trajectories()
@@ -93,7 +107,11 @@ contains
         if (allocated(error)) return
         result%resumed = result%store%trajectories_there()
         call system_clock(start, rate)
-        call compute_blocks(sweep, threads, progress, result, error)
+        blocks%sweep => sweep
+        blocks%result => result
+        blocks%progress => progress
+        call begin_dealing()
+        call share_work(blocks, threads, error)
         call agree(error)
         if (.not. allocated(error) .and. image_count() > 1) then
             if (image_number() == 1) call result%store%take_parts(error)
@@ -139,72 +157,71 @@ contains
         if (allocated(error)) call store%release()
     end subroutine open_parts
 
-    subroutine compute_blocks(sweep, threads, progress, result, error)
-        !! Those that are not there yet: a few at a time where there are other images.
-        type(sweep_t), intent(in) :: sweep
-        integer, intent(in) :: threads
-        class(observer_t), pointer, intent(in) :: progress
-        type(sweep_result_t), intent(inout) :: result
-        type(error_t), allocatable, intent(out) :: error
-        integer(i8) :: blocks, chunk, done, first, k, last
+    subroutine next_block(self, number)
+        !! One that is not there yet, and that no other image takes.
+        class(blocks_t), intent(inout) :: self
+        integer(i8), intent(out) :: number  !! 0: there are no more
 
-        blocks = result%store%blocks
-        chunk = blocks
-        if (image_count() > 1) chunk = merge(1, 4*threads, threads == 1)
-        done = 0
-        call begin_dealing()
         do
-            call deal(chunk, first)
-            if (first > blocks .or. allocated(error)) exit
-            last = min(blocks, first + chunk - 1)
-            if (image_count() > 1) done = result%store%last_of(first) - result%resumed
-            !$omp parallel do schedule(dynamic) num_threads(threads) default(none) private(k) &
-            !$omp shared(sweep, result, first, last, done, progress, error)
-            do k = first, last
-                if (interrupt_status() /= 0 .or. result%store%has(k)) cycle
-                call compute_block(sweep, k, progress, result, done, error)
-            end do
-            !$omp end parallel do
-            if (interrupt_status() /= 0) call fail(error, "interrupted", interrupt_status())
+            call deal(1_i8, number)
+            if (number > self%result%store%blocks) number = 0
+            if (number == 0) return
+            if (image_count() > 1) self%done = self%result%store%last_of(number) - &
+                                               self%result%resumed
+            if (.not. self%result%store%has(number)) return
         end do
-    end subroutine compute_blocks
+    end subroutine next_block
 
-    subroutine compute_block(sweep, block, progress, result, done, error)
-        !! Compute the trajectories of one block, on one thread.
-        type(sweep_t), intent(in) :: sweep
-        integer(i8), intent(in) :: block               !! its number
-        class(observer_t), pointer, intent(in) :: progress
-        type(sweep_result_t), intent(inout) :: result  !! gets their numbers
-        integer(i8), intent(inout) :: done             !! trajectories so far
-        type(error_t), allocatable, intent(inout) :: error  !! they cannot be kept
+    subroutine compute_block(self, number, answer)
+        !! The trajectories of one block.
+        class(blocks_t), intent(inout) :: self
+        integer(i8), intent(in) :: number  !! from 1
+        real(dp), allocatable, intent(out) :: answer(:)
+        !! how many failed, number of the first of these or 0, and all that is kept, in order
         real(dp), allocatable :: values(:, :)
         type(error_t), allocatable :: failure
         integer(i8) :: failures, first, first_failed, i, last
 
-        first = result%store%first_of(block)
-        last = result%store%last_of(block)
-        allocate (values(sweep%width(), last - first + 1))
+        first = self%result%store%first_of(number)
+        last = self%result%store%last_of(number)
+        allocate (values(self%sweep%width(), last - first + 1))
         failures = 0
         first_failed = huge(first_failed)
-        if (result%in_lanes) then
-            call compute_lanes(sweep, first, last, values, failures, first_failed)
+        if (self%result%in_lanes) then
+            call compute_lanes(self%sweep, first, last, values, failures, first_failed)
         else
             do i = first, last
-                if (interrupt_status() /= 0) return
-                call compute_one(sweep, i, values(:, i - first + 1), failure)
+                if (interrupt_status() /= 0) exit
+                if (is_deserted()) exit
+                call compute_one(self%sweep, i, values(:, i - first + 1), failure)
                 if (.not. allocated(failure)) cycle
                 failures = failures + 1
                 first_failed = min(first_failed, i)
             end do
         end if
-        if (interrupt_status() /= 0) return  ! a trajectory that was interrupted has not failed
-        !$omp critical (lagrangia_sweep_block)
-        if (.not. allocated(error)) call result%store%put(block, values, failures, first_failed, &
-                                                          error)
-        done = done + last - first + 1
-        if (associated(progress)) call progress%tick(done, sweep%trajectories() - result%resumed)
-        !$omp end critical (lagrangia_sweep_block)
+        if (failures == 0) first_failed = 0
+        allocate (answer(2 + size(values)))
+        answer(:2) = real([failures, first_failed], dp)
+        answer(3:) = reshape(values, [size(values)])
     end subroutine compute_block
+
+    subroutine take_block(self, number, answer, error)
+        !! It goes into the store.
+        class(blocks_t), intent(inout) :: self
+        integer(i8), intent(in) :: number  !! from 1
+        real(dp), intent(in) :: answer(:)  !! as `compute_block` has it
+        type(error_t), allocatable, intent(out) :: error  !! it cannot be kept
+        integer(i8) :: first_failed, n
+
+        n = self%result%store%last_of(number) - self%result%store%first_of(number) + 1
+        first_failed = nint(answer(2), i8)
+        if (first_failed == 0) first_failed = huge(first_failed)
+        call self%result%store%put(number, reshape(answer(3:), [self%sweep%width(), int(n)]), &
+                                   nint(answer(1), i8), first_failed, error)
+        if (image_count() == 1) self%done = self%done + n
+        if (associated(self%progress)) call self%progress%tick( &
+            self%done, self%sweep%trajectories() - self%result%resumed)
+    end subroutine take_block
 
     subroutine explain(sweep, result, error)
         !! Why the first trajectory that failed did: it is computed again. Where all failed that is

@@ -316,7 +316,7 @@ contains
     end function trajectories_there
 
     subroutine put(self, block, values, failures, first_failed, error)
-        !! A block is finished. One thread at a time.
+        !! A block is finished.
         class(sweep_store_t), intent(inout) :: self
         integer(i8), intent(in) :: block         !! its number, from 1
         real(dp), intent(in) :: values(:, :)     !! (width, trajectories of the block)

@@ -2,14 +2,22 @@ module lagrangia_c_library
     !! The C library, declared here and nowhere else. Every function has a fixed list of arguments;
     !! variadic ones (printf, open, fcntl) cannot be called portably through `bind(c)`.
     use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int, c_long, c_ptr, &
-        c_size_t
+        c_short, c_size_t
     implicit none (type, external)
     private
     public :: c_access, c_alarm, c_chmod, c_close, c_dlsym, c_dup, c_errno, c_execvp, c_exit, &
-              c_fclose, c_fdopen, c_fflush, c_fileno, c_flock, c_fopen, c_fork, c_fread, c_free, &
-              c_fseek, c_fwrite, c_fwrite_reals, c_getpid, c_getrlimit, c_isatty, c_kill, c_lstat, &
-              c_malloc, c_mkdir, c_realpath, c_remove, c_rename, c_signal, c_stat, c_statvfs, &
-              c_strerror, c_strlen, c_waitpid, c_write
+              c_fclose, c_fdopen, c_fflush, c_fileno, c_flock, c_fopen, c_fork, c_fread, &
+              c_fread_reals, c_free, c_fseek, c_fwrite, c_fwrite_reals, c_getpid, c_getppid, &
+              c_getrlimit, c_isatty, c_kill, c_lstat, c_malloc, c_mkdir, c_pipe, c_poll, &
+              c_realpath, c_remove, c_rename, c_signal, c_stat, c_statvfs, c_strerror, c_strlen, &
+              c_waitpid, c_write, poll_t
+
+    type, bind(c) :: poll_t
+        !! C's `struct pollfd`.
+        integer(c_int) :: descriptor = -1   !! negative: nothing is waited for
+        integer(c_short) :: events = 0      !! what is waited for
+        integer(c_short) :: happened = 0    !! what has come
+    end type poll_t
 
     ! allow(assumed-size): C takes the address of the first element
     interface
@@ -45,6 +53,15 @@ module lagrangia_c_library
             type(c_ptr), value :: stream
             integer(c_size_t) :: got
         end function c_fread
+
+        function c_fread_reals(values, size, count, stream) bind(c, name="fread") result(got)
+            import :: c_double, c_ptr, c_size_t
+            implicit none (type, external)
+            real(c_double), intent(out) :: values(*)
+            integer(c_size_t), value :: size, count
+            type(c_ptr), value :: stream
+            integer(c_size_t) :: got
+        end function c_fread_reals
 
         function c_fwrite(bytes, size, count, stream) bind(c, name="fwrite") result(written)
             import :: c_char, c_ptr, c_size_t
@@ -236,6 +253,29 @@ module lagrangia_c_library
             implicit none (type, external)
             integer(c_int) :: pid
         end function c_fork
+
+        function c_getppid() bind(c, name="getppid") result(pid)
+            import :: c_int
+            implicit none (type, external)
+            integer(c_int) :: pid
+        end function c_getppid
+
+        function c_pipe(descriptors) bind(c, name="pipe") result(status)
+            import :: c_int
+            implicit none (type, external)
+            integer(c_int), intent(out) :: descriptors(2)  !! to read from, to write to
+            integer(c_int) :: status
+        end function c_pipe
+
+        function c_poll(polled, count, milliseconds) bind(c, name="poll") result(ready)
+            import :: c_int, c_long, poll_t
+            implicit none (type, external)
+            ! allow(assumed-size-character-intent): C fills it
+            type(poll_t), intent(inout) :: polled(*)
+            integer(c_long), value :: count
+            integer(c_int), value :: milliseconds  !! negative: wait for ever
+            integer(c_int) :: ready                !! -1 on failure, a signal among others
+        end function c_poll
 
         function c_execvp(file, arguments) bind(c, name="execvp") result(status)
             import :: c_char, c_int, c_ptr

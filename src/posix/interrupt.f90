@@ -7,7 +7,7 @@ module lagrangia_interrupt
     use lagrangia_errors, only: status_of_signal, status_ok
     implicit none (type, external)
     private
-    public :: catch_interrupts, interrupt_status, run_beside
+    public :: catch_interrupts, end_by_signals, interrupt_status, run_beside
 
     integer(c_int), parameter :: sighup = 1    !! these numbers are the same on every Unix
     integer(c_int), parameter :: sigint = 2
@@ -48,6 +48,18 @@ contains
         call install(sigpipe, c_funloc(do_nothing))
         call install(sigxfsz, c_funloc(do_nothing))
     end subroutine catch_interrupts
+
+    subroutine end_by_signals()
+        !! Undo `catch_interrupts` in a copy of this process that has nothing to tidy up: a signal
+        !! that asks to end ends it. What was ignored stays so.
+        type(c_funptr) :: old
+        integer :: i
+
+        do i = 1, size(endings)
+            old = c_signal(endings(i), c_null_funptr)
+            if (transfer(old, ignored) == ignored) old = c_signal(endings(i), old)
+        end do
+    end subroutine end_by_signals
 
     function interrupt_status() result(status)
         !! 0, or the exit status due to a signal, 128 + its number. Costs a load.

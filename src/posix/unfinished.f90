@@ -110,7 +110,6 @@ contains
         type(word_t), allocatable :: longer(:)
         integer :: i, count
 
-        !$omp critical (lagrangia_unfinished)
         if (.not. allocated(unfinished)) allocate (unfinished(0))
         count = size(unfinished)
         do i = 1, count
@@ -125,7 +124,6 @@ contains
             i = count + 1
         end if
         unfinished(i)%text = name//c_null_char
-        !$omp end critical (lagrangia_unfinished)
     end subroutine remember
 
     subroutine forget(name)
@@ -133,11 +131,9 @@ contains
         character(*), intent(in) :: name  !! as `create` had it
         integer :: i
 
-        !$omp critical (lagrangia_unfinished)
         do i = 1, size(unfinished)
             if (.not. allocated(unfinished(i)%text)) cycle
             if (unfinished(i)%text == name//c_null_char) deallocate (unfinished(i)%text)
         end do
-        !$omp end critical (lagrangia_unfinished)
     end subroutine forget
 end module lagrangia_unfinished

@@ -32,7 +32,7 @@ module lagrangia_scene
         integer :: points = 100                    !! of a trajectory at most
         character(sweep_text_length) :: energy_by = ""  !! velocity that keeps all at one energy
         integer :: seed = 1                        !! of values drawn at random
-        integer :: threads = 0                     !! 0: as many as there are processors
+        integer :: threads = 0                     !! processes; 0: as many as processors
     end type sweep_group_t
 
     type :: scene_t

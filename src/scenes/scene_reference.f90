@@ -137,8 +137,8 @@ module lagrangia_scene_reference
         entry_t("sweep", "energy_by", "", absent, "a velocity, chosen so that every start has "// &
                 "the energy of the scene's own", "energy_by = 'theta1_dot'"), &
         entry_t("sweep", "seed", "", "1", "of values drawn at random", "seed = 7"), &
-        entry_t("sweep", "threads", "", "one a processor", "that compute at a time, a number "// &
-                "up to 10000", "threads = 2")]
+        entry_t("sweep", "threads", "", "one a processor", "processes that compute at a "// &
+                "time, a number up to 10000", "threads = 2")]
 
 contains
 
