@@ -3,7 +3,7 @@
 
 A ```console block is `$ command` and what it prints; a ```python block is followed by an ```output block.
 Pieces of Python share one interpreter. Times are not compared, nor digits that are only rounding. With
---accept the page gets what was printed. Of a scorecard or a scene in a plain block each line is printed. A notebook's cells are run the same way, its outputs compared."""
+--accept the page gets what was printed. Of a scorecard or a scene in a plain block each line is printed; docs/stress.md has the tables of one run. A notebook's cells are run the same way, its outputs compared."""
 import contextlib
 import io
 import json
@@ -62,6 +62,43 @@ def lines_of(command, block):
     compare("some lines of $ " + command, "", missing)
 
 
+def stress_rows(text):
+    """The tables of docs/stress.md are those of one run: a section a row, in the order of the rows."""
+    section = re.compile(r"^## `(\w+)`: (.*)\n\n(.*)\n\n((?:    .*\n)+)", re.M)
+    printed = re.split(r"\n\n", shell("lagrangia stress"))
+    tables = {table.split(":")[0]: table.rstrip("\n") + "\n" for table in printed[1:-1]}
+    compare("rows of $ lagrangia stress", "\n".join(m[1] for m in section.finditer(text)), "\n".join(tables))
+    said = re.search(r"all rows: (\d+) lines", text)
+    compare("lines of $ lagrangia stress", f"{said and said[1]} lines, 0 do not hold", printed[-1])
+
+    def row(m):
+        expected = f"{m[1]}: {m[2]}\n  {m[3]}\n" + re.sub("^  ", "", m[4], flags=re.M)
+        got = tables.get(m[1], "")
+        compare(f"$ lagrangia stress {m[1]}", rounded(expected), rounded(got))
+        lines = got.splitlines()
+        if len(lines) < 3:
+            return m[0]
+        head = lines[0].split(": ", 1)[1]
+        return f"## `{m[1]}`: {head}\n\n{lines[1].strip()}\n\n" + "".join("  " + line + "\n" for line in lines[2:])
+    return section.sub(row, text)
+
+
+def rounded(table):
+    """Without values that are rounding, which stand before the bound, and digits that hang on those."""
+    table = re.sub(r" +\S+(  (?:<= \S+|= \S+) +holds)", lambda m: " ~" + m[1] if rounding(m[0], m[1]) else m[0], table)
+    table = re.sub(r" +\S+(  <= \S+ +holds .*: rounding$)", r" ~\1", table, flags=re.M)  # a slope of rounding
+    table = re.sub(r"(<= \S+)e-(\d+)", r"\1(-\2)", table)  # bounds stay
+    table = re.sub(r"(last digits) +\S+", r"\1 ~", table)
+    table = re.sub(r"^(  Lyapunov's exponent .*1/s) +\S+ (.*)\+- .*(, from .*), .*;", r"\1 ~ \2 +- ~\3, ~;", table, flags=re.M)
+    table = re.sub(r"(sqrt N|bounded|linear): \S+e-1\d after", r"\1: ~ after", table)
+    return re.sub(r" +", " ", table)
+
+
+def rounding(cell, bound):
+    value, most = float(cell[:len(cell) - len(bound)]), float(re.search(r"= (\S+)", bound)[1])
+    return value < 1e-7 or most < 1e-7
+
+
 page, accept = sys.argv[1], "--accept" in sys.argv
 names, count, bad = {}, 0, 0
 if page.endswith(".ipynb"):
@@ -83,6 +120,8 @@ else:
         lines_of("lagrangia", block)
     for block in re.findall(r"^```fortran\n((?:!.*\n)?&scene.*?)```", text, re.M | re.S):
         lines_of("lagrangia show cart_pendulum", block)
+    if page.endswith("stress.md"):
+        text = stress_rows(text)
     result = re.sub(r"```console\n(.*?)```|```python\n(.*?)```\n```output\n(.*?)```", piece, text, flags=re.S)
 if accept:
     open(page, "w").write(result)
