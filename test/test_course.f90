@@ -2,14 +2,18 @@ module test_course
     !! The lecture's notes line by line: no line is left out, every quote stands where the table
     !! says, every command that is named can be typed; pages of `principle` are in this order.
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
+    use lagrangia_catalogue, only: built_in, nth_system
     use lagrangia_command_line, only: command_line_t, parse_words
     use lagrangia_course_command, only: next_command
     use lagrangia_course_table, only: course_of_the_notes, statement_t
+    use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_files, only: read_whole_file
     use lagrangia_principles, only: find_first_line, principle_names, principle_report
     use lagrangia_registry, only: check_line, commands, options
     use lagrangia_report, only: citation_t, report_t
+    use lagrangia_system, only: system_t
+    use lagrangia_system_lines, only: line_of_system
     use lagrangia_text, only: join, to_text, word_t
     use lagrangia_vocabulary, only: words_of
     implicit none (type, external)
@@ -43,6 +47,7 @@ contains
         call suite%addTest(TestMethod("what_is_not_shown", what_is_not_shown))
         call suite%addTest(TestMethod("pages_quote_their_lines", pages_quote_their_lines))
         call suite%addTest(TestMethod("in_the_lectures_order", in_the_lectures_order))
+        call suite%addTest(TestMethod("systems_have_their_line", systems_have_their_line))
     end function course_suite
 
     subroutine every_line_is_there()
@@ -265,4 +270,35 @@ contains
         call find_first_line("actions", scan, line)
         call assertEqual(0, line, "no such page")
     end subroutine in_the_lectures_order
+
+    subroutine systems_have_their_line()
+        !! Each system of the lectures quotes a statement, whole, of the lecture that its source
+        !! names; the statements are compared with the notes above.
+        character(*), parameter :: first = "Phys 601, 1 September 2011: "
+        type(statement_t), allocatable :: course(:)
+        class(system_t), allocatable :: system
+        type(description_t) :: d
+        character(:), allocatable :: quote, text
+        integer :: i
+
+        allocate (course, source=course_of_the_notes())
+        do i = 1, built_in
+            call nth_system(i, system)
+            call system%describe(d)
+            text = line_of_system(trim(d%name))
+            if (index(d%source, first) == 1) then
+                call assertEqual(1, index(text, "the notes, I "), d%name)
+            else
+                call assertEqual(1, index(d%source, "Hamilton's Principle: "), d%name)
+                call assertEqual(1, index(text, "the notes, II "), d%name)
+            end if
+            quote = text(index(text, ": ") + 2:)
+            call assertTrue(quote /= "" .and. any(course%quote == quote), text)
+        end do
+        call assertEqual("", line_of_system("spring_pendulum"), "a system of one's own")
+        call assertEqual("the notes, I 134-136: m_2 l \dot{x} \dot{\theta} \cos \theta "// &
+                         "+ m_2 q l \cos \theta", line_of_system("cart_pendulum"))
+        call assertEqual("the notes, II 72: contains time explicitly: rheonomic", &
+                         line_of_system("rotating_hoop"))
+    end subroutine systems_have_their_line
 end module test_course

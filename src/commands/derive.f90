@@ -19,6 +19,7 @@ module lagrangia_derive
     use lagrangia_random_draws, only: random_t
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_system, only: system_t
+    use lagrangia_system_lines, only: line_of_system
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -77,6 +78,9 @@ contains
 
         digits = merge(16, 6, numbers)
         call put_line(trim(derivation%d%name)//": "//trim(derivation%d%title))
+        if (line_of_system(trim(derivation%d%name)) /= "") then
+            call put_line(line_of_system(trim(derivation%d%name)))
+        end if
         if (numbers) call put_state(derivation, values)
         step = 0
         slipped = .false.

@@ -15,6 +15,7 @@ module lagrangia_describe
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_scene_reference, only: reference_lines
     use lagrangia_system, only: system_t
+    use lagrangia_system_lines, only: line_of_system
     use lagrangia_text, only: to_text, word_t
     implicit none (type, external)
     private
@@ -44,6 +45,7 @@ contains
         call describe_fresh(trim(d%name), fresh)
         call put_line(trim(d%name)//": "//trim(d%title))
         call put_line("source: "//trim(d%source))
+        if (line_of_system(trim(d%name)) /= "") call put_line(line_of_system(trim(d%name)))
         call put_line("")
         call put_line("coordinates")
         do i = 1, size(d%coordinates)

@@ -10,6 +10,7 @@ module lagrangia_lecture_text
     use lagrangia_html, only: html_text
     use lagrangia_random_draws, only: random_t
     use lagrangia_system, only: system_t
+    use lagrangia_system_lines, only: line_of_system
     use lagrangia_text, only: lower, to_text
     implicit none (type, external)
     private
@@ -29,6 +30,9 @@ contains
         call system%describe(d)
         html = "<h3>What the lecture has</h3>"//newline
         if (d%source /= "") html = html//paragraph(d%source)
+        if (line_of_system(trim(d%name)) /= "") then
+            html = html//paragraph(line_of_system(trim(d%name)))
+        end if
         if (allocated(d%lagrangian)) html = html//code("L = "//d%lagrangian)
         if (allocated(d%equations)) then
             do i = 1, size(d%equations)
