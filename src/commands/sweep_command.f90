@@ -278,7 +278,7 @@ contains
         integer :: i, width
 
         how = " by "//to_text(threads)//" process"//trim(merge("  ", "es", threads == 1))
-        if (image_count() > 1) how = how//" each of "//to_text(image_count())//" images"
+        if (image_count() > 1) how = how//" on each of "//to_text(image_count())//" images"
         if (result%in_lanes) how = how//", in lanes"
         if (result%resumed > 0) how = how//"; "//to_text(result%resumed)//" were there already"
         call put_line(trim(sweep%scene%name)//": "//to_text(sweep%trajectories())// &
