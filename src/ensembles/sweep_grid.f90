@@ -160,7 +160,7 @@ contains
     subroutine next_block(self, number)
         !! One that is not there yet, and that no other image takes.
         class(blocks_t), intent(inout) :: self
-        integer(i8), intent(out) :: number  !! 0: there are no more
+        integer(i8), intent(out) :: number  !! from 1, or 0 where there are no more
 
         do
             call deal(1_i8, number)
