@@ -242,6 +242,7 @@ contains
             call reference%state_at(t, q, v)
             call period%follow(system, t, q, v)
         end do
+        allocate (scene%expectations(0))
         scene%period_of = "theta"
         reference%period = 2*exact
         reference%small_period = 1.5_dp*exact

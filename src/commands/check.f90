@@ -181,9 +181,9 @@ contains
         end if
         if (line%has("set") .and. merge(size(is_scene) > 1, size(names) == 0, any(is_scene))) then
             call fail(error, "--set goes with one scene, or with systems by their names")
-        else
-            call read_audited(names, line%values_of("set"), named, error)
+            return
         end if
+        call read_audited(names, line%values_of("set"), named, error)
         if (allocated(error)) return
         allocate (audited(size(named) + count(is_scene)))
         do i = 1, size(named)

@@ -40,6 +40,7 @@ contains
             call put_line("build: "//build_text())
         end if
         last = 0
+        now = ""
         do i = 1, size(rows)
             if (.not. chosen(i)) cycle
             call flush_console()
