@@ -56,11 +56,15 @@ check "four runs into one file: it is whole" eval 'diff -r "$work/alone" "$work/
 
 # A sweep: what is complete stays, and --resume gives the bytes of a sweep that nobody ended
 diagram=(sweep bifurcation --over f=1:1.5:300)
-begin_sweep() { # begin_sweep BYTES WORDS...: in the background; returns when so much is kept
-    ${heard[@]+"${heard[@]}"} "$program" "${diagram[@]}" --output "$work/sweep" "${@:2}" >"$work/out" 2>"$work/err" </dev/null &
+kept() { # how many bytes of the sweep
+    stat -c %s "$work/sweep/bifurcation_sweep.dat.part" 2>/dev/null || echo 0
+}
+begin_sweep() { # begin_sweep WORDS...: in the background; returns when 20,000 bytes more are kept, of some 340,000
+    local before=$(kept)
+    ${heard[@]+"${heard[@]}"} "$program" "${diagram[@]}" --output "$work/sweep" "$@" >"$work/out" 2>"$work/err" </dev/null &
     child=$!
     for _ in $(seq 1000); do
-        [ "$(stat -c %s "$work/sweep/bifurcation_sweep.dat.part" 2>/dev/null || echo 0)" -gt "$1" ] && return
+        [ "$(kept)" -gt $((before + 20000)) ] && return
         kill -0 $child 2>/dev/null || return
         sleep 0.02
     done
@@ -70,7 +74,7 @@ workers() { # the processes that compute for it
 }
 run "${diagram[@]}" --output "$work/whole"
 check "a sweep that nobody ends" eval '[ $status -eq 0 ] && leftovers "$work/whole" && [ ! -e "$work/whole/bifurcation_sweep.dat.part" ]'
-begin_sweep 20000 --threads 2
+begin_sweep --threads 2
 others=$(workers)
 ended KILL
 for _ in $(seq 100); do kill -0 $others 2>/dev/null || break; sleep 0.1; done
@@ -80,15 +84,15 @@ run "${diagram[@]}" --output "$work/sweep"
 check "sweep: not begun anew over that" eval '[ $status -eq 5 ] && one_line && grep -q -- --resume "$work/err"'
 run sweep bifurcation --over f=1:1.5:301 --output "$work/sweep" --resume
 check "sweep: --resume of another sweep is refused" eval '[ $status -eq 5 ] && one_line && grep -q "another sweep" "$work/err"'
-begin_sweep 60000 --resume --threads 1
+begin_sweep --resume --threads 1
 ended KILL
-begin_sweep 75000 --resume --threads 2
+begin_sweep --resume --threads 2
 others=$(workers)
 kill -KILL ${others%% *}
 wait $child
 status=$?
 check "sweep: a process that computes is killed" eval '[ $status -eq 4 ] && one_line && grep -q "signal 9: .* trajectories are kept in .*--resume" "$work/err"'
-begin_sweep 90000 --resume --threads 3
+begin_sweep --resume --threads 3
 ended INT
 check "sweep: SIGINT says what is kept" eval '[ $status -eq 130 ] && one_line && grep -q "trajectories are kept in" "$work/err"'
 cp "$work/sweep/bifurcation_sweep.dat.part" "$work/part"
