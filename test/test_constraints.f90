@@ -83,7 +83,7 @@ contains
         type(lecture_constraint_t) :: constraint
         type(error_t), allocatable :: error
         character(26) :: verdict
-        integer :: i, growth
+        integer :: growth(3), i
 
         call assertEqual(11, size(examples))
         do i = 1, size(examples)

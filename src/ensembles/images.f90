@@ -30,36 +30,35 @@ contains
 
     subroutine begin_dealing()
         !! All images: from now on the first block is the next.
-        integer(i8) :: first
+        integer(i8) :: number
 
-        call dealt(0_i8, first)
+        call dealt(.true., number)
     end subroutine begin_dealing
 
-    subroutine deal(count, first)
-        !! Take the next blocks.
-        integer(i8), intent(in) :: count   !! how many, at least 1
-        integer(i8), intent(out) :: first  !! number of the first, from 1
+    subroutine deal(number)
+        !! Take the next block.
+        integer(i8), intent(out) :: number  !! from 1
 
-        call dealt(count, first)
+        call dealt(.false., number)
     end subroutine deal
 
-    subroutine dealt(count, first)
+    subroutine dealt(anew, number)
         !! The counter is local, so that no module file tells of a coarray: who uses this module
         !! need not be compiled for them.
-        integer(i8), intent(in) :: count
-        integer(i8), intent(out) :: first
+        logical, intent(in) :: anew  !! the first is the next, instead of taking one
+        integer(i8), intent(out) :: number
         integer(i8), save :: next[*]
         type(lock_type), save :: turn[*]
 
-        first = 1
-        if (count == 0) then
+        number = 1
+        if (anew) then
             sync all
             next = 1
             sync all
         else
             lock (turn[1])
-            first = next[1]
-            next[1] = first + count
+            number = next[1]
+            next[1] = number + 1
             unlock (turn[1])
         end if
     end subroutine dealt

@@ -163,7 +163,7 @@ contains
         integer(i8), intent(out) :: number  !! from 1, or 0 where there are no more
 
         do
-            call deal(1_i8, number)
+            call deal(number)
             if (number > self%result%store%blocks) number = 0
             if (number == 0) return
             if (image_count() > 1) self%done = self%result%store%last_of(number) - &

@@ -52,12 +52,10 @@ contains
     subroutine end_by_signals()
         !! Undo `catch_interrupts` in a copy of this process that has nothing to tidy up: a signal
         !! that asks to end ends it. What was ignored stays so.
-        type(c_funptr) :: old
         integer :: i
 
         do i = 1, size(endings)
-            old = c_signal(endings(i), c_null_funptr)
-            if (transfer(old, ignored) == ignored) old = c_signal(endings(i), old)
+            call install(endings(i), c_null_funptr)
         end do
     end subroutine end_by_signals
 
@@ -77,7 +75,7 @@ contains
     end subroutine run_beside
 
     subroutine install(number, handler)
-        !! Let `handler` answer a signal, unless it was ignored so far.
+        !! Let `handler` answer a signal, or for null the system, unless it was ignored so far.
         integer(c_int), intent(in) :: number
         type(c_funptr), intent(in) :: handler
         type(c_funptr) :: old

@@ -15,7 +15,8 @@ module lagrangia_stress_rows
                                            stress_weak_field
     use lagrangia_method_promises, only: stress_bytes, stress_reversal, stress_scaling, &
                                          stress_symplectic, stress_text
-    use lagrangia_methods, only: new_adaptive, new_integrator, nth_integrator
+    use lagrangia_methods, only: method_names, new_adaptive, new_integrator, &
+                                  nth_integrator
     use lagrangia_observer, only: observer_t
     use lagrangia_pendulum_extremes, only: stress_large_angles, stress_mass_ratios, &
                                            stress_massless, stress_separatrix
@@ -139,12 +140,7 @@ contains
             !! A row of all methods of fixed step.
             integer :: i, methods
 
-            methods = 0
-            do
-                call nth_integrator(methods + 1, method)
-                if (.not. allocated(method)) exit
-                methods = methods + 1
-            end do
+            methods = size(method_names())
             i = 0
             do
                 i = i + 1

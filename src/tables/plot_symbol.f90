@@ -3,7 +3,7 @@ module lagrangia_plot_symbol
     !! the index 1.
     implicit none (type, external)
     private
-    public :: is_letter, symbol
+    public :: is_letter, symbol, utf8
 
     character(*), parameter :: digits = "0123456789"
     character(7), parameter :: greek(*) = [character(7) :: "alpha", "beta", "gamma", "delta", &
@@ -98,8 +98,21 @@ contains
             if (code == 0) return
             code = capital_alpha + code - 1
         end if
-        text = char(192 + code/64)//char(128 + mod(code, 64))//part(length + 1:)
+        text = utf8(code)//part(length + 1:)
     end function glyph
+
+    pure function utf8(code) result(bytes)
+        !! A character of two or three bytes.
+        integer, intent(in) :: code  !! from 128 to 65535
+        character(:), allocatable :: bytes
+
+        if (code < 2048) then
+            bytes = char(192 + code/64)//char(128 + mod(code, 64))
+        else
+            bytes = char(224 + code/4096)//char(128 + mod(code/64, 64))// &
+                    char(128 + mod(code, 64))
+        end if
+    end function utf8
 
     pure function is_letter(part) result(yes)
         !! One letter, Latin or Greek, with its digits.

@@ -7,7 +7,7 @@ module lagrangia_plot_words
     !! behind `^`. All other words stay as they are, and so does a whole text without symbols.
     use lagrangia_characters, only: printable
     use lagrangia_gnuplot_script, only: gnuplot_string
-    use lagrangia_plot_symbol, only: is_letter, symbol
+    use lagrangia_plot_symbol, only: is_letter, symbol, utf8
     implicit none (type, external)
     private
     public :: plain_label, text_label, unicode_text, with_symbols
@@ -183,17 +183,4 @@ contains
             plain = plain//utf8(code)
         end do
     end function moved
-
-    pure function utf8(code) result(bytes)
-        !! Of two or three bytes.
-        integer, intent(in) :: code  !! from 128 to 65535
-        character(:), allocatable :: bytes
-
-        if (code < 2048) then
-            bytes = char(192 + code/64)//char(128 + mod(code, 64))
-        else
-            bytes = char(224 + code/4096)//char(128 + mod(code/64, 64))// &
-                    char(128 + mod(code, 64))
-        end if
-    end function utf8
 end module lagrangia_plot_words
