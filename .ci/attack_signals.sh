@@ -59,12 +59,12 @@ diagram=(sweep bifurcation --over f=1:1.5:300)
 kept() { # how many bytes of the sweep
     stat -c %s "$work/sweep/bifurcation_sweep.dat.part" 2>/dev/null || echo 0
 }
-begin_sweep() { # begin_sweep WORDS...: in the background; returns when 20,000 bytes more are kept, of some 340,000
+begin_sweep() { # begin_sweep WORDS...: in the background; returns when 10,000 bytes more are kept, of some 170,000
     local before=$(kept)
     ${heard[@]+"${heard[@]}"} "$program" "${diagram[@]}" --output "$work/sweep" "$@" >"$work/out" 2>"$work/err" </dev/null &
     child=$!
     for _ in $(seq 1000); do
-        [ "$(kept)" -gt $((before + 20000)) ] && return
+        [ "$(kept)" -gt $((before + 10000)) ] && return
         kill -0 $child 2>/dev/null || return
         sleep 0.02
     done
