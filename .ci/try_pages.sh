@@ -106,7 +106,7 @@ page plain list
 for list in scenes sweeps; do page plain list $list; done
 page plain help
 for command in $("$program" completion bash | sed -n "s/^        '') words='\(.*\) --set.*/\1/p"); do page plain help "$command"; done
-for system in $systems spring_pendulum sphere dry_friction; do page plain derive "$system"; done
+for system in $systems spring_pendulum sphere dry_friction pendulum_in_x_and_y; do page plain derive "$system"; done
 for system in cart_pendulum double_pendulum rotating_hoop wedge; do page plain derive "$system" --latex; done
 page shapes derive cart_pendulum --numbers
 for sheet in data/homework/*.txt; do page plain grade "$sheet"; done
@@ -131,6 +131,7 @@ page plain modes rotating_hoop --set rotating_hoop%r=0.5 --set rotating_hoop%ome
 page plain modes charged_particle --set charged_particle%trap=3 --set charged_particle%magnetic=0,0,2
 page plain modes hanging_chain --set hanging_chain%n=7
 page plain modes pendulum --at 3.141592653589793
+page plain modes pendulum_in_x_and_y
 page claims check methods
 
 # Files

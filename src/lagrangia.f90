@@ -36,7 +36,7 @@ module lagrangia
                                      quantity, quantity_t, real_number, real_vector, whole_number
     use lagrangia_eigen, only: residual_ratio
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_generalised_forces, only: energy_rate, momentum_rates
+    use lagrangia_generalised_forces, only: momentum_rates
     use lagrangia_hyperdual, only: abs, assignment(=), atan, cos, cosh, dot_product, exp, &
                                    hyperdual, hyperdual_t, log, operator(*), operator(**), &
                                    operator(+), operator(-), operator(/), operator(<), &
@@ -44,7 +44,7 @@ module lagrangia
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_lagrange, only: accelerations_from_lagrangian, energy_from_lagrangian, &
-                                  euler_lagrange_t, expand_lagrangian
+                                  energy_rate, euler_lagrange_t, expand_lagrangian
     use lagrangia_lagrangian_system, only: lagrangian_system_t
     use lagrangia_methods, only: method_names, new_integrator
     use lagrangia_normal_modes, only: is_oscillation, is_unstable, is_zero_mode, normal_modes, &

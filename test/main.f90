@@ -28,6 +28,7 @@ module suites
     use test_concise, only: concise_suite
     use test_console, only: console_suite
     use test_constant_accelerations, only: constant_accelerations_suite
+    use test_constrained_modes, only: constrained_modes_suite
     use test_constrained_system, only: constrained_system_suite
     use test_constraints, only: constraints_suite
     use test_coupled_orders, only: coupled_orders_suite
@@ -43,6 +44,7 @@ module suites
     use test_dense_run, only: dense_run_suite
     use test_derivation, only: derivation_suite
     use test_derivation_algebra, only: derivation_algebra_suite
+    use test_derivation_rest, only: derivation_rest_suite
     use test_derivative, only: derivative_suite
     use test_docs_formulae, only: docs_formulae_suite
     use test_dop853, only: dop853_suite
@@ -87,6 +89,7 @@ module suites
     use test_helmholtz, only: helmholtz_suite
     use test_help, only: help_suite
     use test_hyperdual, only: hyperdual_suite
+    use test_indexed_names, only: indexed_names_suite
     use test_integrator_orders, only: integrator_orders_suite
     use test_lanes, only: lanes_suite
     use test_lapack, only: lapack_suite
@@ -168,6 +171,7 @@ module suites
     use test_stress_systems, only: stress_systems_suite
     use test_stress_texts, only: stress_texts_suite
     use test_sweep, only: sweep_suite
+    use test_sweep_lanes, only: sweep_lanes_suite
     use test_sweep_points, only: sweep_points_suite
     use test_sweep_store, only: sweep_store_suite
     use test_swings, only: swings_suite
@@ -178,6 +182,7 @@ module suites
     use test_unfinished, only: unfinished_suite
     use test_vakonomic, only: vakonomic_suite
     use test_value_range, only: value_range_suite
+    use test_variational, only: variational_suite
     use test_virtual_work, only: virtual_work_suite
     use test_walls, only: walls_suite
     use test_which_forces, only: which_forces_suite
@@ -226,6 +231,7 @@ contains
         call suite%addTest(concise_suite())
         call suite%addTest(console_suite())
         call suite%addTest(constant_accelerations_suite())
+        call suite%addTest(constrained_modes_suite())
         call suite%addTest(constrained_system_suite())
         call suite%addTest(constraints_suite())
         call suite%addTest(coupled_orders_suite())
@@ -235,6 +241,7 @@ contains
         call suite%addTest(dense_run_suite())
         call suite%addTest(derivation_suite())
         call suite%addTest(derivation_algebra_suite())
+        call suite%addTest(derivation_rest_suite())
         call suite%addTest(docs_formulae_suite())
         call suite%addTest(dop853_suite())
         call suite%addTest(dop853_coefficients_suite())
@@ -287,6 +294,7 @@ contains
         call suite%addTest(hanging_chain_suite())
         call suite%addTest(helmholtz_suite())
         call suite%addTest(hyperdual_suite())
+        call suite%addTest(indexed_names_suite())
         call suite%addTest(integrator_orders_suite())
         call suite%addTest(lanes_suite())
         call suite%addTest(lapack_suite())
@@ -366,6 +374,7 @@ contains
         call suite%addTest(solve_suite())
         call suite%addTest(statement_suite())
         call suite%addTest(sweep_suite())
+        call suite%addTest(sweep_lanes_suite())
         call suite%addTest(sweep_points_suite())
         call suite%addTest(sweep_store_suite())
         call suite%addTest(swings_suite())
@@ -374,6 +383,7 @@ contains
         call suite%addTest(text_suite())
         call suite%addTest(unfinished_suite())
         call suite%addTest(value_range_suite())
+        call suite%addTest(variational_suite())
         call suite%addTest(virtual_work_suite())
         call suite%addTest(walls_suite())
         call suite%addTest(whole_file_suite())

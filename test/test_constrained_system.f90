@@ -3,8 +3,11 @@ module test_constrained_system
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_audit, only: audit_system
     use lagrangia_catalogue, only: new_system
+    use lagrangia_constrained_system, only: constrained_system_t
+    use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
+    use lagrangia_lagrange, only: energy_rate
     use lagrangia_ledger, only: ledger_t
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_t
@@ -42,6 +45,8 @@ contains
         call suite%addTest(TestMethod("the_audit_passes", the_audit_passes))
         call suite%addTest(TestMethod("a_run_keeps_them", a_run_keeps_them))
         call suite%addTest(TestMethod("t_of_the_points", t_of_the_points))
+        call suite%addTest(TestMethod("a_wire_that_turns", a_wire_that_turns))
+        call suite%addTest(TestMethod("long_runs_stay_on_them", long_runs_stay_on_them))
         call suite%addTest(TestMethod("refusals", refusals))
         call suite%addTest(TestMethod("nonsense_is_refused_in_one_line", &
                                       nonsense_is_refused_in_one_line))
@@ -105,8 +110,16 @@ contains
     end subroutine a_disk_that_rolls
 
     subroutine the_audit_passes()
+        !! With the time in a constraint as well.
+        integer :: at
+
         call audited("system = 'rod', q = 0.0, -1.3, v = 1.0, 0.0", rod)
         call audited("system = 'disk', q = 0.1, -0.2, 0.3, 0.5", disk)
+        at = index(rod, "x^2 + y^2 = l^2")
+        call audited("system = 'rod', q = 0.0, -1.3, v = 0.6", rod(:at - 1)// &
+                     "(x - sin(3 t)/5)^2 + y^2 = l^2"//rod(at + 15:))
+        call audited("system = 'rod', q = 0.0, -1.3, v = 0.6", rod(:at - 1)// &
+                     "y_dot + t x_dot = x + t^2 l"//rod(at + 15:))
     contains
         subroutine audited(keys, group)
             character(*), intent(in) :: keys, group
@@ -189,6 +202,99 @@ contains
             "masses") > 0, error%message)
     end subroutine t_of_the_points
 
+    subroutine a_wire_that_turns()
+        !! A bead on a straight wire that turns with w: \(r = r_0\cosh wt\) from rest on the wire,
+        !! which pushes across with \(2mw\dot r\), a power of that times \(wr\). As a constraint on
+        !! places, as one on velocities, and in the coordinate r. A wire that stands does nothing.
+        character(*), parameter :: head = "&lagrangian coordinates = 'x', 'y' "// &
+            "parameters = 'm', 'w' T = 'm/2 (x_dot^2 + y_dot^2)' constraint = '", &
+            tail = "' /"//line_feed//"&wire m = 2.0, w = 0.7 /"
+        character(80), parameter :: links(2) = [character(80) :: "y cos(w t) = x sin(w t)", &
+            "y_dot cos(w t) - x_dot sin(w t) = w (y sin(w t) + x cos(w t))"]
+        character(*), parameter :: in_r = "&lagrangian coordinates = 'r' parameters = 'm', 'w' "// &
+            "T = 'm/2 (r_dot^2 + r^2 w^2)"//tail
+        real(dp), parameter :: m = 2.0_dp, w = 0.7_dp, r0 = 0.5_dp, t = 2.3_dp
+        class(system_t), allocatable :: system, along
+        type(scene_t) :: scene
+        type(error_t), allocatable :: error
+        type(description_t) :: d
+        real(dp) :: q(2), v(2), r(1), r_dot(1), a(2), r_ddot(1), push
+        integer :: k
+
+        call read_system("system = 'wire', q = 0.5", in_r, along, scene, error)
+        call assertFalse(allocated(error), "in r")
+        do k = 1, 2
+            call read_system("system = 'wire', q = 0.5, 0.0, v = 0.0", head//trim(links(k))//tail, &
+                             system, scene, error)
+            call assertFalse(allocated(error), trim(links(k)))
+            if (allocated(error)) return
+            call system%describe(d)
+            call assertTrue(index(d%constraint, ", rheonomic") > 0, d%constraint)
+            call assertEqual([0.0_dp, w*r0], scene%v, 4*epsilon(w), "the velocity of the wire")
+            call assertFalse(system%conserves_energy(), "the wire does work")
+            r = r0*cosh(w*t)
+            r_dot = w*r0*sinh(w*t)
+            q = r(1)*[cos(w*t), sin(w*t)]
+            v = r_dot(1)*[cos(w*t), sin(w*t)] + w*r(1)*[-sin(w*t), cos(w*t)]
+            call system%accelerations(t, q, v, a)
+            call along%accelerations(t, r, r_dot, r_ddot)
+            call assertEqual((r_ddot(1) - w**2*r(1))*[cos(w*t), sin(w*t)] + 2*w*r_dot(1) &
+                             *[-sin(w*t), cos(w*t)], a, 1e-14_dp, "as in the coordinate r")
+            call assertEqual(w**2*r, r_ddot, 1e-15_dp, "r0 cosh(w t)")
+            push = 2*m*w*r_dot(1)
+            call assertEqual(push, system%quantity(3, t, q, v), 1e-14_dp, "the push")
+            call assertEqual(push*w*r(1), energy_rate(system, t, q, v), 1e-13_dp, "its power")
+        end do
+        call system%configure([m, 0.0_dp], error)
+        call assertEqual(0.0_dp, energy_rate(system, t, [r0, 0.0_dp], [1.0_dp, 0.0_dp]), &
+                         0.0_dp, "a wire that stands")
+    end subroutine a_wire_that_turns
+
+    subroutine long_runs_stay_on_them()
+        !! Thirty thousand steps of rk4, 23 a swing, and the bead on a turning wire by tolerances of
+        !! 1e-6. What rounding may leave of f: four epsilon of its terms, and as much of the time.
+        character(*), parameter :: wire = "&lagrangian coordinates = 'x', 'y' "// &
+            "parameters = 'm', 'w' T = 'm/2 (x_dot^2 + y_dot^2)' V = 'm x^2 + 3 m y^2' "// &
+            "constraint = 'y cos(w t) = x sin(w t)' /"//line_feed//"&wire m = 2.0, w = 0.7 /"
+
+        call stays("system = 'rod', dt = 0.1, duration = 3e3, q = 0.0, -1.3, v = 2.0, "// &
+                   "columns = 't', 'constraint1_drift'", rod)
+        call stays("system = 'rod', dt = 0.1, duration = 1e2, q = 0.0, -1.3, v = 2.0, "// &
+                   "columns = 't', 'constraint1_drift', compensated = .true.", rod)
+        call stays("system = 'rod', method = 'gauss16', dt = 0.2, duration = 1e2, "// &
+                   "q = 0.0, -1.3, v = 2.0, columns = 't', 'constraint1_drift'", rod)
+        call stays("system = 'wire', method = 'dop853', tolerance = 1e-6, samples = 10, "// &
+                   "duration = 3e2, q = 0.5, 0.0, columns = 't', 'constraint1_drift'", wire)
+        call stays("system = 'wire', method = 'gauss16', tolerance = 1e-6, samples = 10, "// &
+                   "duration = 3e2, q = 0.5, 0.0, columns = 't', 'constraint1_drift'", wire)
+    contains
+        subroutine stays(keys, group)
+            character(*), intent(in) :: keys, group
+            type(run_plan_t), allocatable :: plan
+            type(outcome_t) :: outcome
+            type(error_t), allocatable :: error
+            class(observer_t), pointer :: nobody
+            type(word_t) :: none(0)
+            real(dp) :: left(1), a(2), sizes(1)
+
+            nobody => null()
+            allocate (plan)
+            call parse_run_plan(plan, "&scene "//keys//" /"//line_feed//group//line_feed, &
+                                "scene", none, error)
+            if (.not. allocated(error)) call run_scene(plan, "", "text", nobody, outcome, error)
+            call assertFalse(allocated(error), keys)
+            if (allocated(error)) return
+            select type (system => plan%system)
+            type is (constrained_system_t)
+                call system%residuals(outcome%t, outcome%q, left, sizes)
+                call assertEqual(0.0_dp, left(1)/sizes(1), 8*epsilon(left), keys)
+                a = outcome%v
+                call system%complete_velocities(outcome%t, outcome%q, outcome%v, a, error)
+                call assertFalse(allocated(error), "velocities, too: "//keys)
+            end select
+        end subroutine stays
+    end subroutine long_runs_stay_on_them
+
     subroutine nonsense_is_refused_in_one_line()
         !! 2000 texts of what constraints are made of: refused with a place, or a system whose
         !! accelerations are finite, or no number, at a state.
@@ -227,10 +333,13 @@ contains
     end subroutine nonsense_is_refused_in_one_line
 
     subroutine refusals()
-        call refused("", "x^2 + y^2 = l^2 + t", "contains the time")
+        call refused("", "t = 1", "contains no coordinate and no velocity")
+        call refused("", "x^2 + y^2 = l^2 + (1 + t)^2", "not 0; start elsewhere, such as "// &
+                     "q = 0.0, -1.640121946685672")
         call refused("", "l = 1", "contains no coordinate and no velocity")
         call refused("", "x_dot^2 + y_dot^2 = 1", "is not linear in x_dot")
-        call refused("", "x_dot + y = 0", "a term without a velocity")
+        call refused("q = 0.0, -1.3, v = 0.0, 0.0", "x_dot + y = 0", "v does not keep the "// &
+                     "constraints; give those of y_dot only")
         call refused("", "x + y', 'x - y", "leave nothing that moves")
         call refused("", "x^2 + y^2 = k", "column 13: unknown name 'k'")
         call refused("", "x^2 + y^2 =", "column 12")

@@ -34,6 +34,7 @@ contains
         call suite%addTest(TestMethod("Foucault's pendulum", foucault))
         call suite%addTest(TestMethod("a skate on sloping ice", skate))
         call suite%addTest(TestMethod("a rod is a constraint", rod))
+        call suite%addTest(TestMethod("a wire that turns does work", turning_wire))
     end function course_motions_suite
 
     function period_of(system, event, q0, duration) result(period)
@@ -314,6 +315,36 @@ contains
             value = value_of(system, "pull", times(k), q(:, k), v(:, k))
         end function pull_at
     end subroutine rod
+
+    subroutine turning_wire()
+        !! From rest on the wire \(r = r_0\cosh wt\); the wire pushes with \(2mw\dot r\), and what
+        !! it has done is \(m w^2 r_0^2\sinh^2 wt\), which is also the energy that was gained.
+        real(dp), parameter :: times(3) = [0.0_dp, 0.7_dp, 3.0_dp], w = 1.2_dp, m = 0.5_dp, &
+                               r0 = 0.1_dp
+        class(system_t), allocatable :: system
+        type(scene_t) :: scene
+        real(dp), allocatable :: q(:, :), v(:, :)
+        real(dp) :: gained
+        integer :: i
+
+        call open_scene("turning_wire", as_shipped, scene, system)
+        if (anyExceptions()) return
+        call assertFalse(system%conserves_energy(), "the wire does work")
+        call follow(system, times, scene%q, scene%v, q, v)
+        do i = 1, 3
+            associate (t => times(i))
+                call assertEqual(r0*cosh(w*t)*[cos(w*t), sin(w*t)], q(:, i), 10*near, "along it")
+                call assertEqual(2*m*w**2*r0*sinh(w*t), value_of(system, "lambda1", t, q(:, i), &
+                                                                 v(:, i)), 10*near, "the push")
+                gained = system%energy(t, q(:, i), v(:, i)) - m/2*(w*r0)**2
+                call assertEqual(m*(w*r0*sinh(w*t))**2, gained, 10*near, "its work")
+            end associate
+        end do
+        call open_scene("turning_wire", "turning_wire%w=0;", scene, system)
+        if (anyExceptions()) return
+        call follow(system, times, scene%q, scene%v, q, v)
+        call assertEqual(scene%q, q(:, 3), 0.0_dp, "a wire that stands")
+    end subroutine turning_wire
 
     subroutine foucault()
         !! Let go at rest on the ground, seen by who does not turn: \(x = a\cos\Omega t\), \(y =

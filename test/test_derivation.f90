@@ -104,7 +104,10 @@ contains
         type(word_t), allocatable :: overrides(:)
         type(error_t), allocatable :: error
         character(24), parameter :: names(*) = [character(24) :: &
-            "spring_pendulum", "double_pendulum_formulas", "atwood_lift"]
+            "spring_pendulum", "double_pendulum_formulas", "atwood_lift", "beads_on_a_cycloid", &
+            "coupled_oscillators", "damped_oscillator", "dry_friction", "duffing", "foucault", &
+            "kepler", "pendulum_in_x_and_y", "rotating_frame", "skate", "spherical_pendulum", &
+            "symmetric_top", "turning_wire", "two_bodies"]
         integer :: i, lines
 
         allocate (overrides(0))

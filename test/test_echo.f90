@@ -89,7 +89,8 @@ contains
     end subroutine check_echo
 
     subroutine every_echo_is_the_scene()
-        !! Bit for bit. A default does not show whether it is echoed: so `t0` is another.
+        !! Bit for bit. A default does not show whether it is echoed: so `t0` is another, after a
+        !! whole turn of `turning_wire`, which must start on its wire.
         type(word_t), allocatable :: paths(:)
         type(word_t) :: later(1)
         type(error_t), allocatable :: error
@@ -97,7 +98,7 @@ contains
         type(scene_t) :: scene, again
         integer :: i
 
-        later(1)%text = "scene%t0=0.3"
+        later(1)%text = "scene%t0=5.235987755982989"
         call shipped_scenes(paths)
         do i = 1, size(paths)
             call read_scene(paths(i)%text, later, scene, system, error)

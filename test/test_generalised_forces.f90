@@ -4,8 +4,9 @@ module test_generalised_forces
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertLessThan, assertTrue
     use lagrangia_audit, only: audit_system
     use lagrangia_errors, only: error_t
-    use lagrangia_generalised_forces, only: energy_rate, momentum_rates
+    use lagrangia_generalised_forces, only: momentum_rates
     use lagrangia_kinds, only: dp
+    use lagrangia_lagrange, only: energy_rate
     use lagrangia_ledger, only: ledger_t
     implicit none (type, external)
     private

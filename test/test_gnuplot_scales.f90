@@ -29,6 +29,7 @@ contains
                                       only_what_is_seen_is_to_scale))
         call suite%addTest(TestMethod("all_curves_have_one_size", all_curves_have_one_size))
         call suite%addTest(TestMethod("ticks_are_round", ticks_are_round))
+        call suite%addTest(TestMethod("low_panels_have_few_ticks", low_panels_have_few_ticks))
         call suite%addTest(TestMethod("pictures_have_a_size", pictures_have_a_size))
     end function gnuplot_scales_suite
 
@@ -99,16 +100,26 @@ contains
         end do
     end subroutine ticks_are_round
 
+    subroutine low_panels_have_few_ticks()
+        !! From 200 pixels of three panels on; two have room for gnuplot's own.
+        call assertEqual(3, occurrences(script("", ["x", "y", "x"]), "; set ytics autofreq"), &
+                         "each begins anew")
+        call assertTrue(index(script("", ["x", "y", "x"]), new_line("a")//"set ytics ") > 0, "low")
+        call assertEqual(0, index(script("", ["x", "y"]), new_line("a")//"set ytics "), "high")
+    end subroutine low_panels_have_few_ticks
+
     subroutine pictures_have_a_size()
         !! A panel over the time has 430 pixels alone, 260 of two, 200 of more; with 50 for the
         !! title, 76 below the lowest and 22 below each other one. Lines of text alike. What is as
-        !! high as wide stands beside, and makes the picture wider.
+        !! high as wide stands beside; all are 1000 wide, so that letters have one size on slides.
         call assertTrue(index(script("", ["x"]), "size 1000,556 ") > 0, "one")
         call assertTrue(index(script("", ["x"]), "size 100,30 ") > 0, "one, in letters")
         call assertTrue(index(script("", ["x", "y"]), "size 1000,668 ") > 0, "two")
         call assertTrue(index(script("", ["x", "y", "x"]), "size 1000,770 ") > 0, "three")
         call assertTrue(index(script("", ["x", "y", "x"]), "size 100,90 ") > 0, "three, in letters")
-        call assertTrue(index(path_in_plane(1.0_dp, 1.0_dp), "size 1120,") > 0, "beside")
+        call assertTrue(index(path_in_plane(1.0_dp, 1.0_dp), "size 1000,") > 0, "beside")
+        call assertTrue(index(path_in_plane(1.0_dp, 1.0_dp), "rmargin at screen 0.4750") > 0, &
+                        "the left half")
         call assertTrue(index(path_in_plane(3.0_dp, 1.0_dp), "size 1000,") > 0, "below")
     end subroutine pictures_have_a_size
 

@@ -7,7 +7,9 @@ module test_grading
     use lagrangia_grading, only: grade, grade_t
     use lagrangia_homework, only: homework_t, parse_homework
     use lagrangia_judgement, only: is_consequence, is_right, is_unreadable, is_wrong
+    use lagrangia_scene_reader, only: read_named_system
     use lagrangia_system, only: system_t
+    use lagrangia_text, only: word_t
     use tried_responses, only: graded, printed_statements
     implicit none (type, external)
     private
@@ -25,6 +27,7 @@ contains
         call suite%addTest(TestMethod("slips_are_named", slips_are_named))
         call suite%addTest(TestMethod("every_printed_statement_is_right", &
                                       every_printed_statement_is_right))
+        call suite%addTest(TestMethod("statements_about_scenes", statements_about_scenes))
         call suite%addTest(TestMethod("which_accelerations_follow", which_accelerations_follow))
         call suite%addTest(TestMethod("examples_have_four_digits", examples_have_four_digits))
         call suite%addTest(TestMethod("lines_that_follow", lines_that_follow))
@@ -99,6 +102,37 @@ contains
             end do
         end do
     end subroutine every_printed_statement_is_right
+
+    subroutine statements_about_scenes()
+        !! Where a constraint with the time holds, and about the scene's own equilibrium.
+        call judged("turning_wire", "x sin(w t) = y cos(w t)", is_right)
+        call judged("turning_wire", "x sin(w t) = -y cos(w t)", is_wrong)
+        call judged("turning_wire", "m x_ddot = -lambda1 sin(w t)", is_right)
+        call judged("turning_wire", "m x_ddot = lambda1 sin(w t)", is_wrong)
+        call judged("pendulum_in_x_and_y", "x^2 + y^2 = l^2", is_right)
+        call judged("pendulum_in_x_and_y", "x^2 - y^2 = l^2", is_wrong)
+        call judged("spring_pendulum", "omega^2 = g/(l0 + m g/k)", is_right)
+        call judged("spring_pendulum", "omega^2 = g/l0", is_wrong)
+    contains
+        subroutine judged(scene, statement, expected)
+            character(*), intent(in) :: scene, statement
+            integer, intent(in) :: expected
+            class(system_t), allocatable :: system
+            type(homework_t) :: homework
+            type(grade_t) :: result
+            type(error_t), allocatable :: error
+            type(word_t) :: none(0)
+
+            call read_named_system(scene, none, system, error)
+            call assertFalse(allocated(error), scene)
+            if (allocated(error)) return
+            call parse_homework("system: "//scene//line_feed//statement, "sheet", homework, error)
+            call grade(homework, system, result, error)
+            call assertFalse(allocated(error), statement)
+            if (allocated(error)) return
+            call assertEqual(expected, result%of(1)%verdict, statement//": "//result%of(1)%remark)
+        end subroutine judged
+    end subroutine statements_about_scenes
 
     subroutine which_accelerations_follow()
         class(system_t), allocatable :: system

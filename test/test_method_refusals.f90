@@ -36,7 +36,7 @@ contains
                            "work: rk4, stormer_verlet, midpoint, gauss16, verlet, ")
         call check_refusal("midpoint", "rolling_disk", &
                            "midpoint is for systems with a Hamiltonian, and "// &
-                           "here there are non-holonomic constraints; these methods work: rk4")
+                           "here there are constraints beside L; these methods work: rk4")
         call check_absence("midpoint", .true., "compensated", "midpoint has no compensated sums;")
         call check_absence("boris", .true., "compensated", "boris has no compensated sums; "// &
                            "these have: rk4, verlet, velocity_verlet, ")

@@ -127,7 +127,13 @@ contains
             call assertEqual(masses(4, 1) + 0.2_dp, maxval(edges(4, :4)), 1e-14_dp, "its right")
             call assertEqual(masses(5, 1) + 0.08_dp, maxval(edges(5, :4)), 1e-14_dp, "its top")
         end do
+        call assertTrue(index(script, """cart pendulum: small oscillations""") > 0, "in words")
+        call assertEqual(0, index(script, "? $4 + ") + index(script, "($5 + "), "none is shifted")
         call draw("oscillator", [0.0_dp], rows, script)
+        ! The spring would cover itself: one side is drawn as far above as the other is below.
+        call assertTrue(index(script, "($5 + 0.") > 0, "above: "//script)
+        call assertTrue(index(script, "($5 + -0.") > 0, "below: "//script)
+        call assertEqual(0, index(script, "? $4 + "), "not along the spring")
         if (anyExceptions()) return
         do side = -1, 1
             edges = chosen(rows, 1, side, is_rod)

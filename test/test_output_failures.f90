@@ -3,7 +3,8 @@ module test_output_failures
     use, intrinsic :: iso_c_binding, only: c_int, c_null_char
     use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertFalse, assertTrue
     use lagrangia_c_library, only: c_access, c_chmod
-    use lagrangia_data_files, only: ends_well, new_table
+    use lagrangia_data_files, only: new_table
+    use lagrangia_drawing, only: bytes_to_read, ends_well
     use lagrangia_errors, only: error_t, fail, message_length, status_file, status_usage
     use lagrangia_interrupt, only: catch_interrupts
     use lagrangia_kinds, only: i8
@@ -33,6 +34,7 @@ contains
         call suite%addTest(TestMethod("a_full_disk_is_reported", a_full_disk_is_reported))
         call suite%addTest(TestMethod("a_picture_ends_as_its_kind_does", &
                                       a_picture_ends_as_its_kind_does))
+        call suite%addTest(TestMethod("a_script_says_what_is_read", a_script_says_what_is_read))
         call suite%addTest(TestMethod("a_full_disk_is_seen_early", a_full_disk_is_seen_early))
         call suite%addTest(TestMethod("a_header_is_sent_before_the_run", &
                                       a_header_is_sent_before_the_run))
@@ -292,6 +294,22 @@ contains
         if (table%file%is_open() .neqv. status == 0) status = 99
         call table%file%abandon()
     end function header_status
+
+    subroutine a_script_says_what_is_read()
+        !! Each file as often as its name is used: what gnuplot's progress is measured against.
+        character(:), allocatable :: folder
+
+        folder = new_folder("to_be_read")
+        call write_file(folder//"/a.dat", repeat("1 2"//new_line("a"), 25))
+        call write_file(folder//"/b.dat", "1 2"//new_line("a"))
+        call write_file(folder//"/a.gp", "picture = folder.""a"""//new_line("a")// &
+            "data = folder.""a.dat"""//new_line("a")//"data2 = folder.""b.dat"""//new_line("a")// &
+            "data3 = folder.""none.dat"""//new_line("a")//"stats data using 1"//new_line("a")// &
+            "plot data using 1:2, data2 using 1:2, \"//new_line("a")//"     data using 1:3"// &
+            new_line("a"))
+        call assertEqual(304_i8, bytes_to_read(folder//"/a.gp"), "three of 100, one of 4")
+        call assertEqual(0_i8, bytes_to_read(folder//"/none.gp"), "no script")
+    end subroutine a_script_says_what_is_read
 
     subroutine a_full_disk_is_seen_early()
         !! A long run can stop at the first row that is lost.

@@ -187,11 +187,11 @@ contains
         !! Title, columns with their units, panels: all of them, as they are printed.
         character(*), parameter :: names(5) = [character(16) :: "action", "constraints", &
             "gauge", "least-time", "virtual-work"]
-        character(*), parameter :: expected(5) = [character(300) :: &
+        character(*), parameter :: expected(5) = [character(340) :: &
             "Action of q + a eta, less that of the actual path q; eta: what lowers it most | "// &
-            "a [m], oscillator_wT_2 [J s], oscillator_wT_4 [J s], a_theta [rad], "// &
+            "a [m], oscillator(omega T=2) [J s], oscillator(omega T=4) [J s], a_theta [rad], "// &
             "pendulum_0.45_periods [J s], pendulum_0.70_periods [J s] | "// &
-            "a:oscillator_wT_2+oscillator_wT_4, "// &
+            "a:oscillator(omega T=2)+oscillator(omega T=4), "// &
             "a_theta:pendulum_0.45_periods+pendulum_0.70_periods", &
             "A disk rolls, steers, rolls back, steers back, and is elsewhere | t [s], x [m], "// &
             "y [m], phi [rad], theta [rad] | x:y, t:phi+theta", &
@@ -202,8 +202,8 @@ contains
             "flat_mirror [m], concave_mirror [m], elliptic_mirror [m], into_glass [m] | "// &
             "offset:flat_mirror+concave_mirror+elliptic_mirror+into_glass", &
             "A wire that turns does work on its bead, but no virtual work | t [s], "// &
-            "N.dx/dt [W], 2 m W^2 r r_dot [W], N.(dx/dr) r_dot [W] | "// &
-            "t:N.dx/dt+2 m W^2 r r_dot+N.(dx/dr) r_dot"]
+            "N.dx/dt [W], 2 m omega^2 r r_dot [W], N.(dx/dr) r_dot [W] | "// &
+            "t:N.dx/dt+2 m omega^2 r r_dot+N.(dx/dr) r_dot"]
         character(:), allocatable :: text
         type(report_t) :: report
         type(error_t), allocatable :: error

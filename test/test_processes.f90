@@ -6,8 +6,9 @@ module test_processes
     use lagrangia_console, only: finish_console, put_line
     use lagrangia_errors, only: error_t, status_file, status_interrupted, status_terminated
     use lagrangia_interrupt, only: catch_interrupts, interrupt_status
+    use lagrangia_kinds, only: i8
     use lagrangia_output_file, only: output_file_t
-    use lagrangia_processes, only: run_program
+    use lagrangia_processes, only: await_program, bytes_read_by, run_program, start_program
     use lagrangia_program, only: give_up
     use lagrangia_text, only: word_t
     use test_scratch, only: c_dup2, c_raise, contents, exit_status, new_folder, remove_file, &
@@ -34,6 +35,7 @@ contains
         call suite%addTest(TestMethod("who_does_not_look_is_ended", who_does_not_look_is_ended))
         call suite%addTest(TestMethod("ignored_signals_stay_ignored", ignored_signals_stay_ignored))
         call suite%addTest(TestMethod("programs_return_their_status", programs_return_their_status))
+        call suite%addTest(TestMethod("a_program_is_watched", a_program_is_watched))
         call suite%addTest(TestMethod("arguments_reach_no_shell", arguments_reach_no_shell))
         call suite%addTest(TestMethod("a_missing_program_is_an_error", &
                                       a_missing_program_is_an_error))
@@ -207,6 +209,27 @@ contains
         call run_program(words, status, error)
         call assertEqual(0, status)
     end subroutine programs_return_their_status
+
+    subroutine a_program_is_watched()
+        !! It has not ended when it is looked at first; what it reads itself is counted.
+        type(error_t), allocatable :: error
+        type(word_t) :: words(3)
+        integer :: pid, status
+        logical :: ended
+
+        words(1)%text = "sh"
+        words(2)%text = "-c"
+        words(3)%text = "exec sleep 1"
+        call start_program(words, pid, error)
+        call assertFalse(allocated(error), "no error: a program is started")
+        call await_program("sh", pid, 200, ended, status, error)
+        call assertFalse(ended, "still running after 0.2 s")
+        call assertTrue(bytes_read_by(pid) > 0_i8, "programs read their libraries")
+        call await_program("sh", pid, 10000, ended, status, error)
+        call assertTrue(ended, "ended within 10 s")
+        call assertEqual(0, status)
+        call assertEqual(0_i8, bytes_read_by(pid), "it is gone")
+    end subroutine a_program_is_watched
 
     subroutine arguments_reach_no_shell()
         !! One argument stays one argument, byte for byte, blanks at its end too.

@@ -1,11 +1,23 @@
 module test_progress
     !! How long something takes, in words.
-    use funit, only: TestMethod, TestSuite, assertEqual
+    use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
+    use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_observer, only: observer_t
+    use lagrangia_part, only: part_t
     use lagrangia_progress, only: about, pace, progress_line, stage
+    use lagrangia_system, only: system_t
     implicit none (type, external)
     private
     public :: progress_suite
+
+    type, extends(observer_t) :: listener_t
+        !! Keeps the last share that it was told.
+        real(dp) :: share = -1.0_dp
+    contains
+        procedure :: observe
+        procedure :: tick
+    end type listener_t
 
 contains
 
@@ -17,6 +29,7 @@ contains
         call suite%addTest(TestMethod("durations_have_their_unit", durations_have_their_unit))
         call suite%addTest(TestMethod("lines_say_how_far_it_is", lines_say_how_far_it_is))
         call suite%addTest(TestMethod("parts_have_numbers", parts_have_numbers))
+        call suite%addTest(TestMethod("a_part_counts_as_its_share", a_part_counts_as_its_share))
     end function progress_suite
 
     subroutine durations_have_their_unit()
@@ -41,7 +54,8 @@ contains
                          progress_line("basins", "trajectories", 400.0_dp, 9999_i8, 10000_i8))
         call assertEqual("p: 0 %, 3 s", progress_line("p", "x", 3.9_dp, 0_i8, 7_i8))
         call assertEqual("p: 100 %, 3 s", progress_line("p", "x", 3.0_dp, 7_i8, 7_i8))
-        call assertEqual("p: 0 %, 3 s", progress_line("p", "x", 3.0_dp, 0_i8, 0_i8))
+        call assertEqual("p: 3 s", progress_line("p", "x", 3.0_dp, 7_i8, 0_i8))
+        call assertEqual("p: 100 %, 3 s", progress_line("p", "", 3.0_dp, 8_i8, 7_i8))
         call assertEqual(", 2 h left", pace("", 7200.0_dp, 1_i8, 2_i8))
     end subroutine lines_say_how_far_it_is
 
@@ -50,4 +64,45 @@ contains
         call assertEqual("check pendulum, 2 of 14", stage("check", "pendulum  ", 2, 14))
         call assertEqual("stress zeno", stage("stress", "zeno", 1, 1))
     end subroutine parts_have_numbers
+
+    subroutine a_part_counts_as_its_share()
+        !! The second of four parts, half done, is three eighths of the whole; a part of a part as
+        !! well. Nobody needs to listen.
+        type(listener_t), target :: listener
+        type(part_t), target :: part
+        type(part_t) :: alone, inner
+
+        part%whole => listener
+        call part%tick(1_i8, 2_i8)
+        call assertEqual(0.5_dp, listener%share, 1e-5_dp, "all of it")
+        part%from = 0.25_dp
+        part%to = 0.5_dp
+        call part%tick(1_i8, 2_i8)
+        call assertEqual(0.375_dp, listener%share, 1e-5_dp, "half of the second of four")
+        call part%tick(0_i8, 0_i8)
+        call assertEqual(0.25_dp, listener%share, 1e-5_dp, "begun")
+        inner%whole => part
+        inner%from = 0.5_dp
+        call inner%tick(7000000000_i8, 7000000000_i8)
+        call assertEqual(0.5_dp, listener%share, 1e-5_dp, "the end of the part in the part")
+        listener%share = -1.0_dp
+        call alone%tick(1_i8, 2_i8)
+        call assertTrue(listener%share < 0.0_dp, "told to nobody")
+    end subroutine a_part_counts_as_its_share
+
+    subroutine observe(self, system, t, q, v, error)
+        !! The states don't matter.
+        class(listener_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)
+        type(error_t), allocatable, intent(out) :: error
+    end subroutine observe
+
+    subroutine tick(self, done, steps)
+        !! What share that is.
+        class(listener_t), intent(inout) :: self
+        integer(i8), intent(in) :: done, steps
+
+        self%share = real(done, dp)/real(steps, dp)
+    end subroutine tick
 end module test_progress

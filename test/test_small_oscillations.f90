@@ -272,7 +272,8 @@ contains
         ! a zero mode: the stiffness is singular, and where the cart stands is as it was
         call no_modes("cart_pendulum", [0.3_dp, 0.1_dp], "the nearest is --at 0.3,0.0")
         call no_modes("pendulum", [0.0_dp, 1.0_dp], "--at takes 1 value for pendulum, not 2")
-        call no_modes("rolling_disk", [0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], "non-holonomic constraints")
+        call no_modes("rolling_disk", [0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], &
+                      "its constraints are nonholonomic: steady motions")
         call no_modes("driven_pendulum", [0.0_dp], "contains the time")
     end subroutine bad_points_are_refused
 

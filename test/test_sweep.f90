@@ -9,10 +9,10 @@ module test_sweep
     use lagrangia_random_draws, only: random_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene
-    use lagrangia_sweep, only: new_sweep, sweep_t
+    use lagrangia_sweep, only: fits_lanes, new_sweep, sweep_t
     use lagrangia_sweep_axis, only: new_sweep_axis, sweep_axis_t
     use lagrangia_sweep_files, only: write_sweep
-    use lagrangia_sweep_lanes, only: compute_lanes, fits_lanes
+    use lagrangia_sweep_lanes, only: compute_lanes
     use lagrangia_sweep_trajectory, only: compute_one
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
@@ -361,6 +361,13 @@ contains
         call assertEqual([-0.15_dp, -0.075_dp], result%values(1, :), 5e-3_dp, "damped")
         call assertTrue(all(abs(result%values(1, :) - [-0.15_dp, -0.075_dp]) < &
                             4*result%values(2, :) + 1e-4_dp), "within four errors")
+        call compute("&scene system='oscillator', "//times//"duration=40000, q=1 / &oscillator "// &
+                     "b=0.3 /", ["m=1:1:1"], both, 1, result, error, sweep)
+        call assertEqual(-0.15_dp, result%values(1, 1), 1e-4_dp, "a displacement of e^-6000")
+        call compute("&scene system='top', "//times//"duration=12000, q=0 / &lagrangian "// &
+                     "coordinates='x', L='x_dot^2/2 + 50 x^2' / &sweep after=100 /", ["x=0:0:1"], &
+                     both, 1, result, error, sweep)
+        call assertEqual(10.0_dp, result%values(1, 1), 1e-8_dp, "and of e^120000")
         call compute("&scene system='pendulum', "//times//"duration=400, q=1 /", &
                      ["theta=0.5:2:2"], ["lyapunov"], 1, result, error, sweep)
         call assertEqual(0.0_dp, maxval(abs(result%values)), 0.03_dp, "ln(t)/t of a shear")

@@ -9,9 +9,9 @@ module test_sweep_points
     use lagrangia_kinds, only: dp, i8
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene
-    use lagrangia_sweep, only: new_sweep, sweep_t
+    use lagrangia_sweep, only: fits_lanes, new_sweep, sweep_t
     use lagrangia_sweep_files, only: write_sweep
-    use lagrangia_sweep_lanes, only: compute_lanes, fits_lanes
+    use lagrangia_sweep_lanes, only: compute_lanes
     use lagrangia_sweep_trajectory, only: compute_one
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text

@@ -5,7 +5,7 @@ module test_text
     use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
     use lagrangia_kinds, only: dp, i8
     use lagrangia_names, only: abbreviation, advice, nearest_name
-    use lagrangia_text, only: escaped, join, lower, quoted, shortened, to_text
+    use lagrangia_text, only: escaped, in_words, join, listed, lower, quoted, shortened, to_text
     use random_states, only: restart_random, uniform
     implicit none (type, external)
     private
@@ -19,6 +19,8 @@ contains
 
         suite = TestSuite("text")
         call suite%addTest(TestMethod("lower_leaves_other_bytes", lower_leaves_other_bytes))
+        call suite%addTest(TestMethod("long_lists_say_where_all_stand", &
+                                      long_lists_say_where_all_stand))
         call suite%addTest(TestMethod("join_trims_and_separates", join_trims_and_separates))
         call suite%addTest(TestMethod("shown_text_is_plain_and_bounded", &
                                       shown_text_is_plain_and_bounded))
@@ -35,6 +37,18 @@ contains
         call assertEqual("az09_@[`{"//char(195)//char(132), &
                          lower("AZ09_@[`{"//char(195)//char(132)))
     end subroutine lower_leaves_other_bytes
+
+    subroutine long_lists_say_where_all_stand()
+        !! No name is cut; and names become words.
+        character(5), parameter :: names(3) = ["alpha", "b    ", "gamma"]
+
+        call assertEqual("alpha, b, gamma", listed(names, 15, "show"))
+        call assertEqual("alpha, b, ...; 'show' has all", listed(names, 14, "show"))
+        call assertEqual("alpha, ...; 'show' has all", listed(names, 8, "show"))
+        call assertEqual("...; 'show' has all", listed(names, 4, "show"))
+        call assertEqual("double pendulum", in_words("double_pendulum   "))
+        call assertEqual("_", listed(["_"], 1, "show"))
+    end subroutine long_lists_say_where_all_stand
 
     subroutine join_trims_and_separates()
         !! No separator at the ends.

@@ -14,8 +14,11 @@ import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import chromium  # noqa: E402
+import drawing  # noqa: E402
 
 NASTY = "</script><script>hacked = 1</script><img src=x onerror=hacked=1> \"q\" <!-- & ''q'' \\u003c"
+DRAWN = ("pendulum", "cart_pendulum", "rolling_disk", "double_pendulum_modes", "kepler",
+         "coupled_oscillators", "charged_particle", "pendulum_dt_0.1_methods")  # every call to the canvas is read
 WAIT = "new Promise(done => setTimeout(done, 250))"
 failed = 0
 
@@ -158,6 +161,9 @@ def main():
             pages = sorted(glob.glob(os.path.join(folder, "*.html")))
             check("every scene has its page", len(pages) >= len(scenes))
             for path in pages:
+                name = os.path.basename(path)[:-5]
+                if sys.argv[2:] or name in DRAWN:
+                    drawing.examine_drawing(browser, path, name, check)
                 examine(browser, path, NASTY.replace("''", "'") if path.endswith("nasty.html") else None)
             if not sys.argv[2:]:
                 examine_report(browser, os.path.join(folder, "report", "report.html"))

@@ -15,10 +15,11 @@ module lagrangia_audit
     use lagrangia_description, only: description_t
     use lagrangia_diagnosis, only: diagnose
     use lagrangia_errors, only: error_t
-    use lagrangia_kinds, only: dp
+    use lagrangia_kinds, only: dp, i8
     use lagrangia_lagrange, only: euler_lagrange_t
     use lagrangia_ledger, only: ledger_t
     use lagrangia_mass_matrix, only: check_mass_matrix, list_of
+    use lagrangia_observer, only: observer_t
     use lagrangia_random_draws, only: random_t
     use lagrangia_system, only: default_values, system_t
     use lagrangia_term_sizes, only: motion_t, nearby_t, new_nearby, solve_motion
@@ -31,12 +32,13 @@ module lagrangia_audit
 
 contains
 
-    subroutine audit_system(system, audit, fixed, given)
+    subroutine audit_system(system, audit, fixed, given, watcher)
         !! Add a row for each claim. On return `system` has the parameters of the last draw.
         class(system_t), intent(inout) :: system  !! its parameters are set as needed
         type(ledger_t), intent(inout) :: audit  !! gets the rows
         logical, intent(in), optional :: fixed(:)    !! parameters that stay as `given`
         real(dp), intent(in), optional :: given(:)  !! all parameters; needed with `fixed`
+        class(observer_t), intent(inout), optional :: watcher  !! told how far it is
         type(random_t) :: random
         type(description_t) :: d
         type(error_t), allocatable :: error
@@ -50,6 +52,7 @@ contains
         all_free = .true.
         if (present(fixed)) all_free = .not. any(fixed)
         do i = 1, draws
+            if (present(watcher)) call watcher%tick(i - 1_i8, int(draws, i8))
             call random%parameters(system, mod(i, 2) == 0, values, error, fixed, given)
             if (.not. allocated(error)) then
                 call audit_state(system, values, random, mod(i, 2) == 1, all_free, audit, error)

@@ -29,6 +29,7 @@ contains
         logical, intent(in) :: generic  !! no parameter is on the edge of its domain or given
         type(euler_lagrange_t) :: terms, later
         type(hyperdual_t), dimension(system%ndof) :: qq, vv, now, then
+        type(hyperdual_t) :: rows(system%constraints, system%ndof), b(system%constraints)
         real(dp) :: by_velocity, by_time
         logical :: bound
 
@@ -62,9 +63,13 @@ contains
             call verdict(abs(later%l - terms%l) <= 0.0_dp, "time_dependent", &
                          "time_dependent is false, yet L depends on the time")
         else if (generic) then
-            call verdict(abs(later%l - terms%l) > 0.0_dp .or. any(abs(then%re - now%re) > 0.0_dp), &
+            call verdict(abs(later%l - terms%l) > 0.0_dp .or. any(abs(then%re - now%re) > 0.0_dp) &
+                         .or. by_time > 0.0_dp, &
                          "time_dependent", "time_dependent is true, yet L has no time in it")
         end if
+        call system%constraint_rows(hyperdual_t(re=t), qq, rows, b)
+        if (.not. system%constraints_work .and. any(abs(b%re) > 0.0_dp)) call verdict(.false., &
+            "constraints_work", "constraints_work is false, yet a constraint A v + b = 0 has a b")
     contains
         subroutine verdict(good, flag, remark)
             logical, intent(in) :: good

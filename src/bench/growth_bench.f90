@@ -12,7 +12,7 @@ module lagrangia_growth_bench
     use lagrangia_machine, only: forget_peak_memory, peak_memory
     use lagrangia_methods, only: new_integrator
     use lagrangia_npy, only: npy_table_t
-    use lagrangia_observer, only: observer_box_t
+    use lagrangia_observer, only: observer_box_t, observer_t
     use lagrangia_precision_curve, only: median
     use lagrangia_printed_table, only: count_cell, number_cell, printed_table_t, word_cell
     use lagrangia_record, only: sample_record_t
@@ -22,6 +22,7 @@ module lagrangia_growth_bench
     use lagrangia_table, only: table_t
     use lagrangia_text_table, only: text_table_t
     use lagrangia_time_grid, only: new_time_grid, time_grid_t
+    use lagrangia_work_precision, only: look_around
     implicit none (type, external)
     private
     public :: measure_growth, measure_output
@@ -34,10 +35,11 @@ module lagrangia_growth_bench
 
 contains
 
-    subroutine measure_growth(folder, plan, table, error)
+    subroutine measure_growth(folder, plan, watcher, table, error)
         !! RK4: 10^4 to 10^7 steps of a pendulum unseen, then 10^3 to 10^6 rows written.
         character(*), intent(in) :: folder  !! for the rows; nothing stays there
         type(effort_t), intent(in) :: plan  !! how much is measured
+        class(observer_t), pointer, intent(in) :: watcher  !! told how far it is; may be null
         type(printed_table_t), intent(out) :: table  !! the result
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         integer :: i, last
@@ -51,6 +53,8 @@ contains
             if (allocated(error)) return
         end do
         do i = 3, last - 1
+            call look_around(watcher, i, last, error)
+            if (allocated(error)) return
             call write_rows(folder, 10_i8**i, table, error)
             if (allocated(error)) return
         end do
@@ -153,10 +157,11 @@ contains
                         number_cell(1e9_dp*seconds/count, 3), number_cell(peak_memory(), 3)])
     end subroutine add_row
 
-    subroutine measure_output(folder, plan, table, error)
+    subroutine measure_output(folder, plan, watcher, table, error)
         !! Rows of four columns; nothing stays in `folder`.
         character(*), intent(in) :: folder  !! where the files go
         type(effort_t), intent(in) :: plan  !! how much is measured
+        class(observer_t), pointer, intent(in) :: watcher  !! told how far it is; may be null
         type(printed_table_t), intent(out) :: table  !! the result
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         class(table_t), allocatable :: file
@@ -167,6 +172,9 @@ contains
                          "format", "rows_per_second", "us_a_row"])
         do round = 1, plan%rounds
             do i = 1, size(formats)
+                call look_around(watcher, (round - 1)*size(formats) + i - 1, &
+                                 plan%rounds*size(formats), error)
+                if (allocated(error)) return
                 if (allocated(file)) deallocate (file)
                 select case (i)
                 case (1); allocate (text_table_t :: file)

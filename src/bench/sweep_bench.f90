@@ -17,6 +17,7 @@ module lagrangia_sweep_bench
     use lagrangia_sweep_grid, only: compute_grid, sweep_result_t, thread_count
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text, word_t
+    use lagrangia_work_precision, only: look_around
     implicit none (type, external)
     private
     public :: measure_sweeps
@@ -37,10 +38,11 @@ module lagrangia_sweep_bench
 
 contains
 
-    subroutine measure_sweeps(plan, table, error)
+    subroutine measure_sweeps(plan, watcher, table, error)
         !! Microseconds a trajectory of 10 s; with 1000 steps of rk4, nanoseconds a step. The error
         !! is the largest of the first angle at the end, against gauss16 at 1e-13.
         type(effort_t), intent(in) :: plan                !! how much is measured
+        class(observer_t), pointer, intent(in) :: watcher  !! told how far it is; may be null
         type(printed_table_t), intent(out) :: table       !! the result
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         type(way_t), parameter :: ways(*) = [ &
@@ -50,7 +52,7 @@ contains
             way_t("gsl_rk8pd", .true., "rk8pd", 1e-10_dp)]
         real(dp), allocatable :: angles(:), reference(:)
         real(dp) :: seconds(plan%rounds, size(ways)), gsl, worst(size(ways))
-        integer :: count, i, pass, round, threads
+        integer :: count, i, pass, passes, round, threads
 
         count = merge(256, 1024, plan%quick)
         allocate (angles(count), reference(count))
@@ -59,10 +61,14 @@ contains
                          [character(name_length) :: "method", "threads", "error", "us_each", &
                           "over_gsl"])
         call take(way_t("", .false., "gauss16", 1e-13_dp), 1, reference, gsl, error)
-        do pass = 1, merge(1, 2, thread_count(0) == 1)
+        passes = merge(1, 2, thread_count(0) == 1)
+        do pass = 1, passes
             threads = merge(1, thread_count(0), pass == 1)
             do round = 1, plan%rounds
                 do i = 1, size(ways)
+                    if (.not. allocated(error)) call look_around(watcher, ((pass - 1)* &
+                        plan%rounds + round - 1)*size(ways) + i - 1, &
+                        passes*plan%rounds*size(ways), error)
                     if (allocated(error)) return
                     call take(ways(i), threads, angles, seconds(round, i), error)
                     worst(i) = maxval(abs(angles - reference))

@@ -7,13 +7,13 @@ module lagrangia_bench
     use lagrangia_console, only: console_failed, flush_console, put_line
     use lagrangia_contestant, only: contestant_box_t
     use lagrangia_contestants, only: new_contestants
-    use lagrangia_data_files, only: draw
     use lagrangia_energy_bench, only: measure_energy
     use lagrangia_errors, only: error_t, fail
     use lagrangia_growth_bench, only: measure_growth, measure_output
     use lagrangia_machine, only: processor
     use lagrangia_modes_bench, only: measure_modes
     use lagrangia_observer, only: observer_t
+    use lagrangia_output_options, only: draw_picture
     use lagrangia_printed_table, only: printed_table_t
     use lagrangia_progress, only: progress_t
     use lagrangia_sampled_bench, only: measure_samples
@@ -75,19 +75,19 @@ contains
                 if (allocated(error)) exit
                 call output%show(table, progress)
             case ("growth")
-                call measure_growth(options%folder, options%plan, table, error)
+                call measure_growth(options%folder, options%plan, watcher, table, error)
                 if (allocated(error)) exit
                 call output%show(table, progress)
             case ("sweep")
-                call measure_sweeps(options%plan, table, error)
+                call measure_sweeps(options%plan, watcher, table, error)
                 if (allocated(error)) exit
                 call output%show(table, progress)
             case ("modes")
-                call measure_modes(options%plan, table, error)
+                call measure_modes(options%plan, watcher, table, error)
                 if (allocated(error)) exit
                 call output%show(table, progress)
             case default
-                call measure_output(options%folder, options%plan, table, error)
+                call measure_output(options%folder, options%plan, watcher, table, error)
                 if (allocated(error)) exit
                 call output%show(table, progress)
             end select
@@ -119,7 +119,8 @@ contains
             call write_bench_files(options%folder, problems, curves, path, error)
             if (allocated(error)) return
             call output%say("data file and gnuplot script: "//path)
-            if (line%has("plot")) call draw(path, options%picture, error)
+            if (line%has("plot")) call draw_picture(path, options%picture, &
+                                                    line%has("quiet"), error)
         end subroutine bench_precision
 
         subroutine bench_samples()

@@ -1,10 +1,11 @@
 module lagrangia_check
     !! `lagrangia check [SYSTEM...]`: the audit of systems, also those of scenes, and of methods, a
     !! table each.
+    use, intrinsic :: iso_fortran_env, only: error_unit
     use lagrangia_audit, only: audit_system
     use lagrangia_catalogue, only: new_system, system_names
     use lagrangia_command_line, only: command_line_t, word_t
-    use lagrangia_console, only: console_failed, flush_console, note, put_line
+    use lagrangia_console, only: console_failed, flush_console, is_terminal, note, put_line
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_hyperdual, only: hyperdual_t
@@ -16,6 +17,7 @@ module lagrangia_check
                                   parse_namelist, refuse_unknown_groups, refuse_unknown_keys, &
                                   refuse_value
     use lagrangia_names, only: refuse_name
+    use lagrangia_part, only: part_t
     use lagrangia_progress, only: about, progress_t, stage
     use lagrangia_scene_reader, only: names_scene, read_named_system
     use lagrangia_system, only: check_parameter, default_values, system_t
@@ -40,7 +42,8 @@ contains
         type(audited_t), allocatable :: audited(:)
         type(ledger_t) :: audit
         type(description_t) :: d
-        type(progress_t) :: progress
+        type(progress_t), target :: progress
+        type(part_t) :: part
         logical :: json, methods, quiet
         integer :: i, shown
 
@@ -51,13 +54,14 @@ contains
         shown = 0
         if (json) call put_line("[")
         call audit%section("")
+        if (is_terminal(error_unit)) part%whole => progress  ! else `announce` has said it
         do i = 1, size(audited)
             call audited(i)%system%describe(d)
             call put_head(trim(d%name))
             if (console_failed()) return
             if (.not. quiet) call announce(audited(i)%system, audited(i)%given)
             call begin_part(trim(d%name), i)
-            call audit_system(audited(i)%system, audit, audited(i)%fixed, audited(i)%given)
+            call audit_system(audited(i)%system, audit, audited(i)%fixed, audited(i)%given, part)
             call put_rows()
         end do
         if (methods) then
@@ -95,9 +99,11 @@ contains
             !! Say on a terminal what is audited now.
             character(*), intent(in) :: name
             integer, intent(in) :: number
+            character(:), allocatable :: now
 
-            if (.not. quiet) call progress%say(stage("check", name, number, size(audited) + &
-                                                     merge(1, 0, methods)))
+            now = stage("check", name, number, size(audited) + merge(1, 0, methods))
+            call progress%restart(now, quiet)
+            if (.not. quiet) call progress%say(now)
         end subroutine begin_part
 
         subroutine put_rows()

@@ -6,14 +6,14 @@ module lagrangia_compare
     use lagrangia_changed_scene, only: make_own_scene
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: note, put_line
-    use lagrangia_data_files, only: check_format, draw, film_path, script_path
+    use lagrangia_data_files, only: check_format, film_path, script_path
     use lagrangia_errors, only: error_t, fail, is_signal
     use lagrangia_gnuplot, only: panel_t, series_t
     use lagrangia_kinds, only: dp
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_json, outcome_t
     use lagrangia_output_file, only: refuse_unwritable
-    use lagrangia_output_options, only: take_folder, take_picture
+    use lagrangia_output_options, only: draw_picture, take_folder, take_picture
     use lagrangia_overlay, only: add_to_overlay, common_panels, compare_methods, compare_starts, &
                                  overlay_path, run_name, write_overlay
     use lagrangia_places, only: places_t
@@ -97,7 +97,8 @@ contains
         call put_results(line, runs, outcomes)
         if (.not. (line%has("json") .or. line%has("quiet"))) call put_line("gnuplot script: "// &
             script_path(overlay_path(folder, name)))
-        if (line%has("plot")) call draw(overlay_path(folder, name), kind, error)
+        if (line%has("plot")) call draw_picture(overlay_path(folder, name), kind, &
+                                                line%has("quiet"), error)
         if (.not. line%has("animate") .or. allocated(error)) return
         call animate_both(runs(1)%plan, runs(2)%plan, film_path(overlay_path(folder, name)), error)
         if (allocated(error) .or. line%has("json") .or. line%has("quiet")) return

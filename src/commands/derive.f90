@@ -4,7 +4,8 @@ module lagrangia_derive
     use lagrangia_aligned_latex, only: aligned_latex
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
-    use lagrangia_derivation, only: derivation_t, line_omega2, line_words
+    use lagrangia_derivation, only: derivation_t, line_damped_omega2, line_decay, &
+                                    line_equilibrium, line_omega2, line_words
     use lagrangia_derivation_numbers, only: comparison_t, compare_lines
     use lagrangia_derivation_slips, only: find_slip
     use lagrangia_derivation_steps, only: derive, slip_in_formula_t
@@ -108,7 +109,13 @@ contains
                     cycle
                 else if (numbers) then
                     call put_line("       "//both(c, digits))
-                else if (this%kind == line_omega2) then
+                else if (this%kind == line_equilibrium .and. abs(c%program) > 0.0_dp) then
+                    call put_line("       = "//scientific(c%formula, 6)//", Newton's method "// &
+                                  scientific(c%program, 6))
+                else if (this%kind == line_decay) then
+                    call put_line("       = "//scientific(c%formula, 6)//" s^-1, LAPACK "// &
+                                  scientific(c%program, 6))
+                else if (any(this%kind == [line_omega2, line_damped_omega2])) then
                     call put_line("       = "//scientific(c%formula, 6)//" s^-2, LAPACK "// &
                                   scientific(c%program, 6))
                 end if
@@ -124,7 +131,7 @@ contains
         integer :: i
 
         text = ""
-        do i = 1, size(values) - 2
+        do i = 1, size(values) - 3
             text = text//", "//trim(derivation%symbols%names(i))//" = "//scientific(values(i), 6)
         end do
         call put_line("each line by the program and by the formula, at a state drawn at random:")
@@ -170,6 +177,9 @@ contains
 
         open = .false.
         call put_line("% needs \usepackage{amsmath}")
+        if (line_of_system(trim(derivation%d%name)) /= "") then
+            call put_line("% "//line_of_system(trim(derivation%d%name)))
+        end if
         do i = 1, derivation%count
             associate (this => derivation%lines(i))
                 if (this%heading /= "") then
@@ -213,7 +223,7 @@ contains
         !! Everything.
         type(derivation_t), intent(in) :: derivation
         type(comparison_t), intent(in) :: comparisons(:)
-        character(:), allocatable :: members, rows, step
+        character(:), allocatable :: cited, members, rows, step
         integer :: i
 
         rows = ""
@@ -234,7 +244,9 @@ contains
                 rows = rows//", "//json_object(members)
             end associate
         end do
-        call put_line(json_object(json_pair("system", trim(derivation%d%name))// &
+        cited = line_of_system(trim(derivation%d%name))
+        if (cited /= "") cited = json_pair("notes", cited)
+        call put_line(json_object(json_pair("system", trim(derivation%d%name))//cited// &
                                   json_pair("holds", all(comparisons%agrees()))// &
                                   json_item("lines", "["//rows(3:)//"]")))
     end subroutine put_json

@@ -4,7 +4,7 @@ module lagrangia_modes_command
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: note, put, put_line
     use lagrangia_damped_rates, only: damped_rates
-    use lagrangia_data_files, only: data_path, draw
+    use lagrangia_data_files, only: data_path
     use lagrangia_description, only: description_t, figure_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_interrupt, only: interrupt_status
@@ -16,7 +16,7 @@ module lagrangia_modes_command
     use lagrangia_number_list, only: read_numbers
     use lagrangia_number_text, only: scientific
     use lagrangia_output_file, only: refuse_unwritable
-    use lagrangia_output_options, only: take_folder, take_picture
+    use lagrangia_output_options, only: draw_picture, take_folder, take_picture
     use lagrangia_progress, only: progress_t
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, &
@@ -77,8 +77,8 @@ contains
         page = data_path(folder, trim(d%name)//"_modes.html", "text")
         if (line%has("animate")) call refuse_unwritable(page, error)
         if (allocated(error)) return
-        if (system%ndof > many) call progress%say(trim(d%name)//": "//to_text(system%ndof)// &
-                                                  " modes, some seconds")
+        if (system%ndof > many .and. .not. line%has("quiet")) call progress%say(trim(d%name)// &
+            ": "//to_text(system%ndof)//" modes, some seconds")
         call find_modes(system, at, line%has("at"), modes, error)
         call progress%clear()
         if (allocated(error)) return
@@ -107,7 +107,7 @@ contains
         if (allocated(error) .or. interrupt_status() /= 0 .or. .not. has_positions(system)) return
         call write_mode_picture(system, figure, modes, folder, error)
         if (allocated(error) .or. .not. line%has("plot")) return
-        call draw(mode_picture_path(system, folder), kind, error)
+        call draw_picture(mode_picture_path(system, folder), kind, line%has("quiet"), error)
     end subroutine modes_command
 
     subroutine print_modes(system, modes)
@@ -126,6 +126,7 @@ contains
             call put_matrix("K", modes%stiffness)
             if (any(abs(modes%gyroscopic) > 0.0_dp)) call put_matrix("G", modes%gyroscopic)
         end if
+        if (allocated(modes%basis)) call put_constraints(modes)
         if (modes%difference >= 0.0_dp) then
             call put_line("page against L's second derivatives, relative: "// &
                           short(modes%difference))
@@ -166,6 +167,22 @@ contains
         row = "LAPACK: "//trim(modes%method)//trim(row)//" "//short(modes%ratio)
         call put_line(trim(row))
     end subroutine print_modes
+
+    subroutine put_constraints(modes)
+        !! How many directions are left, and the multipliers of the forces of constraint.
+        type(modes_t), intent(in) :: modes
+        character(:), allocatable :: text
+        integer :: k, left
+
+        left = size(modes%basis, 2)
+        text = "constraints leave "//to_text(left)//" of "//to_text(size(modes%at))// &
+               " directions; K is with their forces:"
+        do k = 1, size(modes%multipliers)
+            text = text//" lambda"//to_text(k)//" = "//trim(number(modes%multipliers(k)))
+            if (k < size(modes%multipliers)) text = text//","
+        end do
+        call put_line(text)
+    end subroutine put_constraints
 
     subroutine put_damped(system, modes)
         !! What the drag makes of the modes: decay rates and frequencies.
@@ -321,6 +338,8 @@ contains
         else
             call put("null")
         end if
+        if (allocated(modes%multipliers)) call put(', "multipliers": '// &
+                                                   json_list(modes%multipliers))
         call put(', "residual_ratio": '//json_number(modes%ratio))
         if (system%nonconservative .and. size(modes%at) <= widest) then
             call damped_rates(system, modes, lambda, error)

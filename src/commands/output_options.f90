@@ -1,11 +1,13 @@
 module lagrangia_output_options
-    !! What commands that write files have in common: `--output`, `--plot`.
+    !! What commands that write files have in common: `--output`, `--plot`, and how it is drawn.
     use lagrangia_command_line, only: command_line_t
     use lagrangia_data_files, only: check_picture
+    use lagrangia_drawing, only: draw
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_progress, only: progress_t
     implicit none (type, external)
     private
-    public :: take_folder, take_picture
+    public :: draw_picture, take_folder, take_picture
 
 contains
 
@@ -29,4 +31,16 @@ contains
         if (kind == "") kind = "png"
         call check_picture(kind, error)
     end subroutine take_picture
+
+    subroutine draw_picture(path, kind, quiet, error)
+        !! Let gnuplot draw, and show on a terminal how far it is.
+        character(*), intent(in) :: path, kind  !! as `draw` takes them
+        logical, intent(in) :: quiet            !! show nothing
+        type(error_t), allocatable, intent(out) :: error  !! as that of `draw`
+        type(progress_t) :: progress
+
+        call progress%restart("drawing", quiet)
+        call draw(path, kind, error, progress)
+        call progress%clear()
+    end subroutine draw_picture
 end module lagrangia_output_options

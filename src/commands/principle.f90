@@ -3,7 +3,7 @@ module lagrangia_principle
     !! and its picture as files: the data, and the gnuplot script beside it.
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
-    use lagrangia_data_files, only: data_path, draw, script_path
+    use lagrangia_data_files, only: data_path, script_path
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_gnuplot, only: gnuplot_script, new_panels, new_series, panel_t, &
                                  series_t
@@ -11,7 +11,7 @@ module lagrangia_principle
     use lagrangia_ledger, only: group_length
     use lagrangia_ledger_text, only: statement_head, statement_json, statement_line
     use lagrangia_output_file, only: commit_both, output_file_t, refuse_unwritable
-    use lagrangia_output_options, only: take_folder, take_picture
+    use lagrangia_output_options, only: draw_picture, take_folder, take_picture
     use lagrangia_places, only: places_t
     use lagrangia_principles, only: find_first_line, principle_report, principles
     use lagrangia_report, only: picture_t, report_t
@@ -55,7 +55,7 @@ contains
         else
             call put_report(report, file)
         end if
-        if (line%has("plot")) call draw(file, kind, error)
+        if (line%has("plot")) call draw_picture(file, kind, line%has("quiet"), error)
         if (allocated(error)) return
         if (report%broken() > 0) call fail(error, to_text(report%broken())//" of "// &
             to_text(size(report%rows))//" statements are not as they must be", status_not_held)

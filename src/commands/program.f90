@@ -17,7 +17,7 @@ module lagrangia_program
     use lagrangia_grade, only: grade_command
     use lagrangia_help, only: help_command, help_text
     use lagrangia_images, only: image_count, wait_for_all
-    use lagrangia_interrupt, only: catch_interrupts, interrupt_status
+    use lagrangia_interrupt, only: catch_interrupts, end_by_signals, interrupt_status
     use lagrangia_kinds, only: dp
     use lagrangia_list, only: list_command
     use lagrangia_manual, only: manual_text
@@ -70,6 +70,7 @@ contains
             if (len(error%message) > 0) call note(error%message)
         end if
         if (image_count() > 1) then
+            call end_by_signals()  ! all is said: those of MPI, which ends the others, mean nothing
             call wait_for_all()
             if (status == status_ok) return
         end if

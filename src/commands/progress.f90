@@ -84,17 +84,17 @@ contains
     end subroutine tick
 
     pure function progress_line(label, counted, seconds, done, all) result(text)
-        !! `pendulum: 33 %, 4 s, 8 s left`.
+        !! `pendulum: 33 %, 4 s, 8 s left`; only how long it takes where `all` is not known.
         character(*), intent(in) :: label     !! what runs
         character(*), intent(in) :: counted   !! the plural of what is counted, or ""
         real(dp), intent(in) :: seconds       !! since the start, above 0
-        integer(i8), intent(in) :: done, all  !! how many of how many
+        integer(i8), intent(in) :: done, all  !! how many of how many; 0: of unknown
         character(:), allocatable :: text
-        real(dp) :: percent
 
-        percent = 100.0_dp*real(done, dp)/real(max(all, 1_i8), dp)
-        text = label//": "//to_text(int(percent))//" %, "//to_text(int(seconds))//" s"// &
-               pace(counted, seconds, done, all)
+        text = label//": "
+        if (all > 0) text = text//to_text(int(100.0_dp*min(real(done, dp)/real(all, dp), &
+                                                           1.0_dp)))//" %, "
+        text = text//to_text(int(seconds))//" s"//pace(counted, seconds, done, all)
     end function progress_line
 
     pure function stage(command, name, number, all) result(text)

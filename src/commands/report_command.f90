@@ -4,13 +4,15 @@ module lagrangia_report_command
     use lagrangia_animation, only: scene_film
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: note, put_line
-    use lagrangia_data_files, only: data_path, draw, script_path
+    use lagrangia_data_files, only: data_path, script_path
     use lagrangia_errors, only: error_t, fail, is_signal, status_not_held
+    use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_t
     use lagrangia_output_file, only: refuse_unwritable
-    use lagrangia_output_options, only: take_folder
-    use lagrangia_progress, only: progress_t
+    use lagrangia_output_options, only: draw_picture, take_folder
+    use lagrangia_part, only: part_t
+    use lagrangia_progress, only: progress_t, stage
     use lagrangia_report_page, only: report_page_t
     use lagrangia_run_command, only: choose_scenes, chosen_t
     use lagrangia_run_plan, only: run_plan_t
@@ -30,6 +32,7 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         type(chosen_t), allocatable :: chosen(:)
         type(progress_t), target :: progress
+        type(part_t), target :: part
         class(observer_t), pointer :: observer
         type(outcome_t) :: outcome
         type(report_page_t) :: page
@@ -44,15 +47,20 @@ contains
         call choose_scenes(line, folder, "text", chosen, error, path)
         if (.not. allocated(error)) call refuse_unwritable(path, error)
         if (allocated(error)) return
-        observer => progress
+        part%whole => progress
+        observer => part
         missed = 0
+        call progress%restart("report", line%has("quiet"))
         do i = 1, size(chosen)
-            call progress%restart(trim(chosen(i)%plan%scene%name), line%has("quiet"))
+            progress%label = stage("report", chosen(i)%plan%scene%name, i, size(chosen))
+            part%from = (i - 1.0_dp)/size(chosen)
+            part%to = real(i, dp)/size(chosen)
+            call part%tick(0_i8, 1_i8)
             call run_scene(chosen(i)%plan, folder, "text", observer, outcome, scene_error)
-            call progress%clear()
             if (.not. allocated(scene_error) .and. .not. outcome%holds()) missed = missed + 1
-            call add_scene(page, chosen(i)%plan, outcome, scene_error)
+            call add_scene(page, chosen(i)%plan, outcome, line%has("quiet"), scene_error)
             if (.not. allocated(scene_error)) cycle
+            call progress%clear()
             call scene_error%add_context(chosen(i)%path%text)
             if (is_signal(scene_error)) then
                 call move_alloc(scene_error, error)
@@ -61,6 +69,7 @@ contains
             call note(scene_error%message)
             if (.not. allocated(error)) call fail(error, "", scene_error%status)
         end do
+        call progress%clear()
         call page%write(path, page_error)
         if (allocated(page_error)) then  ! what keeps the page away has perhaps been said of a scene
             if (.not. allocated(error)) call move_alloc(page_error, error)
@@ -71,11 +80,12 @@ contains
             to_text(size(chosen))//" scenes did not hold their tolerances", status_not_held)
     end subroutine report_command
 
-    subroutine add_scene(page, plan, outcome, error)
+    subroutine add_scene(page, plan, outcome, quiet, error)
         !! The section of a scene. Without gnuplot it has no pictures, and says so.
         type(report_page_t), intent(inout) :: page
         type(run_plan_t), intent(in) :: plan
         type(outcome_t), intent(in) :: outcome
+        logical, intent(in) :: quiet
         type(error_t), allocatable, intent(inout) :: error  !! why its run, or its film, failed
         character(:), allocatable :: film
 
@@ -99,7 +109,7 @@ contains
 
             if (path == "" .or. allocated(error)) return
             script = script_path(path)
-            call draw(path, "svg", why)
+            call draw_picture(path, "svg", quiet, why)
             if (.not. allocated(why)) call page%add_picture(script(:len(script) - 2)//"svg", &
                                                             trim(plan%scene%title), why)
             if (.not. allocated(why)) return

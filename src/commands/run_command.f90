@@ -4,7 +4,7 @@ module lagrangia_run_command
     use lagrangia_changed_scene, only: make_own_scene
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: note, put, put_line
-    use lagrangia_data_files, only: check_format, data_path, draw, film_path, &
+    use lagrangia_data_files, only: check_format, data_path, film_path, &
                                     script_path
     use lagrangia_errors, only: error_t, fail, is_signal, status_not_held
     use lagrangia_final_values, only: final_values_legend, final_values_line
@@ -12,7 +12,7 @@ module lagrangia_run_command
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_json, outcome_t
     use lagrangia_output_file, only: refuse_unwritable
-    use lagrangia_output_options, only: take_folder, take_picture
+    use lagrangia_output_options, only: draw_picture, take_folder, take_picture
     use lagrangia_overlay, only: add_to_overlay, common_panels, overlay_path, write_overlay
     use lagrangia_places, only: places_t
     use lagrangia_progress, only: progress_t
@@ -122,7 +122,7 @@ contains
             call note(chosen((i + 1)/2)%path%text//": "//remarks(i)%text)
         end do
         if (line%has("overlay") .and. .not. allocated(error)) call overlay_runs(chosen, folder, &
-            kind, line%has("plot"), error)
+            kind, line%has("plot"), quiet, error)
         if (json) then
             call put_line("]")
         else if (.not. quiet) then
@@ -147,9 +147,9 @@ contains
             if (.not. allocated(error) .and. line%has("animate")) call animate_scene(plan, &
                 outcome%file, error)
             if (allocated(error) .or. .not. line%has("plot")) return
-            call draw(outcome%file, kind, error)
+            call draw_picture(outcome%file, kind, line%has("quiet"), error)
             if (allocated(error) .or. outcome%events == "") return
-            call draw(outcome%events, kind, error)
+            call draw_picture(outcome%events, kind, line%has("quiet"), error)
         end subroutine run_one
     end subroutine run_command
 
@@ -191,11 +191,11 @@ contains
         if (.not. allocated(error)) call refuse_unwritable(script_path(path), error)
     end subroutine check_overlay
 
-    subroutine overlay_runs(chosen, folder, kind, drawn, error)
+    subroutine overlay_runs(chosen, folder, kind, drawn, quiet, error)
         !! The picture of all runs, `overlay.gp` in the folder.
         type(chosen_t), intent(in) :: chosen(:)
         character(*), intent(in) :: folder, kind
-        logical, intent(in) :: drawn
+        logical, intent(in) :: drawn, quiet
         type(error_t), allocatable, intent(out) :: error
         type(series_t), allocatable :: series(:)
         type(panel_t), allocatable :: panels(:)
@@ -216,7 +216,7 @@ contains
         if (allocated(error)) return
         call write_overlay(folder, overlay, series, panels, title, "", error)
         if (allocated(error) .or. .not. drawn) return
-        call draw(overlay_path(folder, overlay), kind, error)
+        call draw_picture(overlay_path(folder, overlay), kind, quiet, error)
     end subroutine overlay_runs
 
     subroutine choose_scenes(line, folder, format, chosen, error, page)

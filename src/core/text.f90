@@ -5,7 +5,7 @@ module lagrangia_text
     implicit none (type, external)
     private
     public :: word_t
-    public :: escaped, join, lower, quoted, short_source, shortened, to_text
+    public :: escaped, in_words, join, listed, lower, quoted, short_source, shortened, to_text
     public :: source_length
 
     integer, parameter :: source_length = 100  !! of what `short_source` gives
@@ -234,4 +234,31 @@ contains
             text = digits(:exponent + 1)//"."//digits(exponent + 2:last)
         end if
     end function positional
+
+    pure function listed(names, most, whole) result(text)
+        !! The names with commas between; where they are longer than `most`, those that there is
+        !! room for, and where all of them stand: `t, x, ...; 'lagrangia describe wedge' has all`.
+        character(*), intent(in) :: names(:)  !! trailing blanks do not count
+        integer, intent(in) :: most           !! bytes of the names
+        character(*), intent(in) :: whole     !! the command that shows all
+        character(:), allocatable :: text
+        integer :: last
+
+        text = join(names, ", ")
+        if (len(text) <= most) return
+        last = index(text(:most), ", ", back=.true.)
+        text = text(:merge(last + 1, 0, last > 0))//"...; '"//whole//"' has all"
+    end function listed
+
+    pure function in_words(name) result(words)
+        !! `double pendulum` of `double_pendulum`: a name in a title.
+        character(*), intent(in) :: name  !! trailing blanks do not count
+        character(:), allocatable :: words
+        integer :: i
+
+        words = trim(name)
+        do i = 1, len(words)
+            if (words(i:i) == "_") words(i:i) = " "
+        end do
+    end function in_words
 end module lagrangia_text

@@ -21,7 +21,8 @@ module lagrangia_derivation
               line_equation, line_force, line_gyroscopic, line_kinetic, line_lagrangian, &
               line_mass, line_momentum, line_multiplier, line_omega2, line_position, &
               line_potential, line_rate, line_right_side, line_rotor, line_rotor_rate, &
-              line_stiffness, line_stated, line_velocity, line_beside, line_words, line_rest_mass
+              line_stiffness, line_stated, line_velocity, line_beside, line_words, line_rest_mass, &
+              line_damped_omega2, line_decay, line_equilibrium, line_rates
 
     integer, parameter :: line_words = 0        !! no equality: words
     integer, parameter :: line_position = 1     !! axis k of point i
@@ -45,9 +46,13 @@ module lagrangia_derivation
     integer, parameter :: line_acceleration = 19   !! of coordinate i
     integer, parameter :: line_rest_mass = 20      !! element i, k of M at rest
     integer, parameter :: line_stiffness = 21      !! of K
-    integer, parameter :: line_gyroscopic = 22     !! of G
+    integer, parameter :: line_gyroscopic = 22     !! of G, and of C where there is drag
     integer, parameter :: line_omega2 = 23         !! root i of the characteristic polynomial
     integer, parameter :: line_characteristic = 24 !! the polynomial, equal to zero
+    integer, parameter :: line_equilibrium = 25    !! where coordinate i rests
+    integer, parameter :: line_decay = 26          !! decay rate, of one coordinate
+    integer, parameter :: line_damped_omega2 = 27  !! the frequency with drag, of one coordinate
+    integer, parameter :: line_rates = 28          !! the polynomial of the rates, equal to zero
 
     type :: line_t
         !! `left = right`, or `right = 0`, or words.
@@ -65,7 +70,7 @@ module lagrangia_derivation
 
     type :: derivation_t
         !! The lines, and the names in their formulas: t, coordinates, velocities, accelerations,
-        !! parameters, multipliers, omega.
+        !! parameters, multipliers, lambda, omega.
         type(symbols_t) :: symbols
         type(algebra_t) :: algebra
         type(description_t) :: d
@@ -88,6 +93,7 @@ module lagrangia_derivation
         procedure :: line_text
         procedure :: omega
         procedure :: power_of_i
+        procedure :: rate
         procedure :: read
         procedure :: total_derivative
         procedure :: velocity
@@ -127,11 +133,12 @@ contains
         do i = 1, constraints
             call self%symbols%add(multiplier_name(d, i, constraints))
         end do
-        call self%symbols%add(free_name(self%symbols))
+        call self%symbols%add(trim(free_name(self%symbols, d, ["lambda", "Lambda", "s     "])))
+        call self%symbols%add(trim(free_name(self%symbols, d, ["omega", "Omega", "nu   "])))
         call self%symbols%add("#")
         associate (m => size(self%symbols%names))
             allocate (self%roles(m), source=role_parameter)
-            self%roles(m - 1:) = role_frequency
+            self%roles(m - 2:) = role_frequency
         end associate
         self%roles(1) = role_time
         self%roles(2:1 + self%n) = role_coordinate
@@ -139,7 +146,7 @@ contains
         self%roles(2 + 2*self%n:1 + 3*self%n) = role_acceleration
         k = 1 + 3*self%n
         do i = 1, size(d%parameters)
-            if (d%parameters(i)%unit == "kg") self%roles(k + 1) = role_mass
+            if (is_mass(d%parameters(i)%name, d%parameters(i)%unit)) self%roles(k + 1) = role_mass
             if (d%parameters(i)%name == "g") self%roles(k + 1) = role_gravity
             k = k + d%parameters(i)%count
         end do
@@ -151,6 +158,16 @@ contains
         end if
         call define_letters(self, names, error)
     end subroutine begin
+
+    pure function is_mass(name, unit) result(yes)
+        !! In kg, or without a unit and called `m`, `m2`, `M_w`.
+        character(*), intent(in) :: name, unit
+        logical :: yes
+
+        yes = unit == "kg"
+        if (unit == "1") yes = verify(name(:1), "mM") == 0 .and. &
+                               verify(name(2:2), "_0123456789 ") == 0
+    end function is_mass
 
     pure function short_name(d, name) result(short)
         !! The letter that stands for the parameter, or its own name.
@@ -184,16 +201,38 @@ contains
         end do
     end function multiplier_name
 
-    pure function free_name(symbols) result(name)
-        !! For the frequency.
+    pure function free_name(symbols, d, names) result(name)
+        !! For the frequency, or the rate: the first that is no name, and no letter that is used.
         type(symbols_t), intent(in) :: symbols
-        character(5) :: name
-        character(5), parameter :: names(3) = ["omega", "Omega", "nu   "]
-        integer :: i
+        type(description_t), intent(in) :: d
+        character(*), intent(in) :: names(:)
+        character(len(names)) :: name
+        character(:), allocatable :: said
+        integer :: i, k
 
-        do i = 1, 3
+        said = ""
+        if (allocated(d%lagrangian)) said = said//d%lagrangian
+        if (allocated(d%kinetic_energy)) said = said//d%kinetic_energy
+        if (allocated(d%potential_energy)) said = said//d%potential_energy
+        if (allocated(d%generalised_forces)) then
+            do i = 1, size(d%generalised_forces)
+                said = said//d%generalised_forces(i)
+            end do
+        end if
+        if (allocated(d%points)) then
+            do i = 1, size(d%points)
+                said = said//d%points(i)%mass_formula
+                do k = 1, 3
+                    said = said//d%points(i)%position(k)
+                end do
+            end do
+        end if
+        do i = 1, size(names)
             name = names(i)
-            if (symbols%find(trim(name)) == 0) return
+            if (symbols%find(trim(name)) > 0) cycle
+            if (.not. allocated(d%letters)) return
+            if (.not. any(d%letters%name == name)) return
+            if (index(said, trim(name)) == 0) return
         end do
     end function free_name
 
@@ -274,6 +313,14 @@ contains
         name = size(self%symbols%names) - 1
     end function omega
 
+    pure function rate(self) result(name)
+        !! The symbol of \(\lambda\) in \(e^{\lambda t}\).
+        class(derivation_t), intent(in) :: self
+        integer :: name
+
+        name = size(self%symbols%names) - 2
+    end function rate
+
     pure function power_of_i(self) result(name)
         !! A symbol for i omega, which no line shows.
         class(derivation_t), intent(in) :: self
@@ -317,7 +364,7 @@ contains
     pure subroutine add(self, kind, left, left_latex, p, i, k, e)
         !! One line more; its formula is `p`, or `e` as it is.
         class(derivation_t), intent(inout) :: self
-        integer, intent(in) :: kind                      !! `line_position` to `line_characteristic`
+        integer, intent(in) :: kind                      !! `line_position` to `line_rates`
         character(*), intent(in) :: left, left_latex     !! "": the right side is zero
         type(polynomial_t), intent(in) :: p              !! the right side
         integer, intent(in), optional :: i, k            !! which one

@@ -1,18 +1,22 @@
 module lagrangia_derivation_modes
-    !! The equations of motion linearised about the equilibrium at zero, and the frequencies that
-    !! follow, beside LAPACK's numbers.
-    use lagrangia_derivation, only: derivation_t, line_characteristic, line_gyroscopic, &
-                                    line_omega2, line_rest_mass, line_stiffness
+    !! The equations of motion linearised about the equilibrium, and the frequencies that follow,
+    !! beside LAPACK's numbers.
+    use lagrangia_derivation, only: derivation_t, line_characteristic, line_equilibrium, &
+                                    line_gyroscopic, line_omega2, line_rest_mass, line_stiffness
+    use lagrangia_derivation_drag, only: add_polynomial, add_rates
     use lagrangia_derivation_motion, only: determinant, lay_out_quotient
+    use lagrangia_derivation_place, only: linearise, read_equilibrium
     use lagrangia_errors, only: error_t
-    use lagrangia_exact_number, only: number_t, operator(-), operator(/), ratio
-    use lagrangia_expression, only: apply, expression_t, f_sqrt, operator(+), operator(-), &
-                                    operator(*), operator(**)
+    use lagrangia_exact_number, only: number_t, operator(-), ratio
+    use lagrangia_expression, only: apply, expression_t, f_sqrt, function_names, &
+                                    operator(+), operator(-), operator(*), operator(**)
+    use lagrangia_formula_latex, only: latex_name
+    use lagrangia_formula_parser, only: parse_formula
     use lagrangia_kinds, only: dp, i8
     use lagrangia_page_layout, only: lay_out, lay_out_factors, lay_out_fraction
     use lagrangia_polynomial, only: atom_power, most_atoms, operator(+), operator(-), &
                                     operator(*), polynomial_t, whole_polynomial
-    use lagrangia_small_oscillations, only: find_modes, modes_t
+    use lagrangia_small_oscillations, only: find_modes, likely_equilibrium, modes_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     use lagrangia_trigonometry, only: shorten
@@ -31,43 +35,110 @@ contains
         logical, intent(in) :: slipped             !! a formula is wrong on purpose
         type(modes_t) :: modes
         type(error_t), allocatable :: error
-        type(polynomial_t), allocatable :: mass(:, :), gyroscopic(:, :), stiffness(:, :)
+        type(polynomial_t), allocatable :: at(:), mass(:, :), gyroscopic(:, :), stiffness(:, :)
         character(:), allocatable :: turning, where_at
-        logical :: of_position, away
+        character :: letter
+        logical :: of_position, away, drag
+        integer, allocatable :: resting(:)
         integer :: i
 
         self%next_heading = "small oscillations"
-        if (system%nonconservative) then
-            call self%add_words("not linearised: there are forces beside L")
+        call find_modes(system, likely_equilibrium(system), .false., modes, error)
+        if (system%constraints > 0 .and. .not. allocated(error)) then
+            call self%add_words("'lagrangia modes' has them, in the directions that the "// &
+                                "constraints leave")
             return
         end if
-        call find_modes(system, [real(dp) :: spread(0.0_dp, 1, self%n)], .false., modes, error)
+        if (.not. allocated(error)) call read_equilibrium(self, at, resting, error)
         if (allocated(error)) then
             call self%add_words("none: "//error%message)
             return
         end if
-        call linearise(self, mass, gyroscopic, stiffness, of_position)
-        away = any(abs(modes%at) > 0.0_dp)
+        call linearise(self, at, resting, mass, gyroscopic, stiffness, of_position)
+        if (self%algebra%full) then
+            call self%add_words("not linearised: a derivative divides by zero at rest, or has "// &
+                                "too many terms")
+            return
+        end if
+        away = any(abs(modes%at) > 0.0_dp) .and. .not. any_place(at)
         if (away .and. of_position) then
             call self%add_words("the equilibrium is not at zero: 'lagrangia modes' has the numbers")
             return
         end if
+        drag = system%nonconservative .or. .not. is_antisymmetric(gyroscopic)
+        letter = merge("C", "G", drag)
+        if (drag .and. any(abs(modes%gyroscopic) > 0.0_dp)) letter = "B"
         turning = "M q_ddot + K q"
-        if (any_terms(gyroscopic)) turning = "M q_ddot + G q_dot + K q"
-        if (.not. away) then
+        if (any_terms(gyroscopic)) turning = "M q_ddot + "//letter//" q_dot + K q"
+        if (any_place(at)) then
+            call add_equilibrium(self, at, resting)
+            where_at = "about this place, from which q is counted: "
+        else if (away) then
+            where_at = "about the equilibrium: "
+        else
             where_at = ""
             do i = 1, self%n
                 where_at = where_at//", "//trim(self%d%coordinates(i)%name)//" = 0"
             end do
             where_at = "about"//where_at(2:)//": "
-            call self%add_words(where_at//turning//" = 0 with")
         end if
-        if (away) call self%add_words("about the equilibrium: "//turning//" = 0 with")
+        call self%add_words(where_at//turning//" = 0 with")
         call add_elements(self, line_rest_mass, "M", mass)
-        call add_elements(self, line_gyroscopic, "G", gyroscopic)
+        call add_elements(self, line_gyroscopic, letter, gyroscopic)
         call add_elements(self, line_stiffness, "K", stiffness)
-        call add_roots(self, mass, gyroscopic, stiffness)
+        if (drag) then
+            call add_rates(self, mass, gyroscopic, stiffness)
+        else
+            call add_roots(self, mass, gyroscopic, stiffness)
+        end if
     end subroutine add_modes
+
+    pure function any_place(at) result(yes)
+        !! Is a coordinate's place not zero?
+        type(polynomial_t), intent(in) :: at(:)
+        logical :: yes
+
+        yes = any(at%terms > 0)
+    end function any_place
+
+    subroutine add_equilibrium(self, at, resting)
+        !! A line for each coordinate.
+        type(derivation_t), intent(inout) :: self
+        type(polynomial_t), intent(in) :: at(:)
+        integer, intent(in) :: resting(:)
+        type(expression_t) :: as_typed
+        type(error_t), allocatable :: error
+        character(:), allocatable :: name, tex, text
+        integer :: i
+
+        do i = 1, self%n
+            name = trim(self%d%coordinates(i)%name)
+            tex = latex_name(name)
+            if (resting(i) > 0) then
+                tex = "\"//trim(function_names(resting(i)))//" "//tex
+                name = trim(function_names(resting(i)))//"("//name//")"
+            end if
+            text = trim(self%d%equilibrium_formulas(i))
+            call parse_formula(text(index(text, "=") + 1:), self%symbols, as_typed, error)
+            call self%add(line_equilibrium, name, tex, at(i), i, resting(i), e=as_typed)
+        end do
+    end subroutine add_equilibrium
+
+    pure function is_antisymmetric(matrix) result(yes)
+        !! As it is without drag.
+        type(polynomial_t), intent(in) :: matrix(:, :)
+        logical :: yes
+        type(polynomial_t) :: both
+        integer :: i, k
+
+        yes = .true.
+        do i = 1, size(matrix, 1)
+            do k = 1, i
+                both = matrix(i, k) + matrix(k, i)
+                yes = yes .and. both%terms == 0
+            end do
+        end do
+    end function is_antisymmetric
 
     pure function any_terms(matrix) result(yes)
         !! Is an element not zero?
@@ -82,44 +153,6 @@ contains
             end do
         end do
     end function any_terms
-
-    subroutine linearise(self, mass, gyroscopic, stiffness, of_position)
-        !! First derivatives of the equations at rest, at zero.
-        type(derivation_t), intent(inout) :: self
-        type(polynomial_t), allocatable, intent(out) :: mass(:, :), gyroscopic(:, :), &
-                                                        stiffness(:, :)
-        logical, intent(out) :: of_position
-        integer :: i, k, m
-        integer, allocatable :: moving(:)
-
-        allocate (mass(self%n, self%n), gyroscopic(self%n, self%n), stiffness(self%n, self%n))
-        allocate (moving, source=[(1 + i, i=1, 3*self%n)])
-        of_position = .false.
-        do i = 1, self%n
-            do k = 1, self%n
-                call at_rest(self%acceleration(k), mass(i, k))
-                call at_rest(self%velocity(k), gyroscopic(i, k))
-                call at_rest(self%coordinate(k), stiffness(i, k))
-            end do
-        end do
-    contains
-        subroutine at_rest(name, p)
-            integer, intent(in) :: name
-            type(polynomial_t), intent(out) :: p
-            type(polynomial_t) :: all, still
-            type(polynomial_t), allocatable :: zero(:)
-
-            allocate (zero(3*self%n))
-            call self%algebra%derivative(self%equations(i), name, all)
-            call self%algebra%substitute(all, moving(self%n + 1:), zero(self%n + 1:), still)
-            call self%algebra%substitute(still, moving(:self%n), zero(:self%n), p)
-            do m = 1, self%algebra%count
-                if (still%has(m)) of_position = of_position .or. &
-                    self%algebra%uses(m, moving(:self%n))
-            end do
-            call shorten(self%algebra, p)
-        end subroutine at_rest
-    end subroutine linearise
 
     subroutine add_elements(self, kind, letter, matrix)
         !! Those that are not zero; of a symmetric matrix above the diagonal.
@@ -158,6 +191,7 @@ contains
         type(polynomial_t), intent(in) :: mass(:, :), gyroscopic(:, :), stiffness(:, :)
         type(polynomial_t), allocatable :: matrix(:, :), c(:)
         type(polynomial_t) :: p, zero
+        logical :: one_root
         integer :: i, k
 
         if (all_diagonal()) then
@@ -180,15 +214,30 @@ contains
         end do
         call determinant(matrix, p)
         call split_powers(self, p, c)
+        one_root = .false.
+        if (self%n == 2) one_root = is_square(c)
         if (self%n == 2 .and. c(1)%terms == 0 .and. c(3)%terms > 0) then
             call add_root(zero, c(3), 1)
             call add_root(-c(2), c(3), 2)
+        else if (one_root) then
+            call add_root(-c(2), whole_polynomial(2)*c(3), 1)
+            call add_root(-c(2), whole_polynomial(2)*c(3), 2)
         else if (self%n == 2 .and. c(3)%terms > 0) then
             call add_pair(self, c)
         else
-            call add_polynomial(self, c)
+            call add_polynomial(self, line_characteristic, self%omega(), 2, c)
         end if
     contains
+        logical function is_square(c)
+            !! The two roots are one.
+            type(polynomial_t), intent(in) :: c(:)
+            type(polynomial_t) :: discriminant
+
+            discriminant = c(2)*c(2) - whole_polynomial(4)*c(1)*c(3)
+            call shorten(self%algebra, discriminant)
+            is_square = discriminant%terms == 0 .and. c(3)%terms > 0
+        end function is_square
+
         logical function all_diagonal()
             integer :: i, k
 
@@ -295,29 +344,4 @@ contains
             end where
         end subroutine square_of_common
     end subroutine add_pair
-
-    subroutine add_polynomial(self, c)
-        !! \(\sum_k c_k\,\omega^{2k} = 0\).
-        type(derivation_t), intent(inout) :: self
-        type(polynomial_t), intent(in) :: c(:)
-        type(polynomial_t) :: p
-        type(number_t) :: coefficient
-        integer :: k, powers(most_atoms)
-
-        do k = 1, size(c)
-            p = p + c(k)*atom_power(self%omega(), 2*k - 2)
-        end do
-        call p%common(coefficient, powers)
-        if (c(size(c))%terms > 0) then
-            if (c(size(c))%coefficient(1)%value*coefficient%value < 0.0_dp) then
-                coefficient = -coefficient
-            end if
-        end if
-        powers(self%omega()) = 0
-        do k = 1, self%algebra%count
-            powers(k) = min(powers(k), minval(p%power(k, :p%terms)))
-        end do
-        p = p%shifted(ratio(1_i8, 1_i8)/coefficient, -powers)
-        call self%add(line_characteristic, "", "", p)
-    end subroutine add_polynomial
 end module lagrangia_derivation_modes

@@ -2,14 +2,13 @@ module lagrangia_derivation_numbers
     !! Every line of a derivation as two numbers at one state: what the program computes, by
     !! automatic derivatives of L and the accelerations as derived by hand, and what the formula
     !! gives.
-    use lagrangia_derivation, only: derivation_t, line_acceleration, line_beside, &
-                                    line_characteristic, line_constraint, line_divided, &
-                                    line_equation, line_force, line_gyroscopic, line_kinetic, &
+    use lagrangia_derivation, only: derivation_t, line_acceleration, line_beside, line_constraint, &
+                                    line_divided, line_equation, line_force, line_kinetic, &
                                     line_lagrangian, line_mass, line_momentum, line_multiplier, &
-                                    line_omega2, line_position, line_potential, line_rate, &
-                                    line_rest_mass, line_right_side, line_rotor, &
-                                    line_rotor_rate, line_stated, line_stiffness, line_t, &
-                                    line_velocity, line_words
+                                    line_position, line_potential, line_rate, line_rates, &
+                                    line_rest_mass, line_right_side, line_rotor, line_rotor_rate, &
+                                    line_stated, line_t, line_velocity, line_words
+    use lagrangia_derivation_rest, only: compare_modes, comparison_t
     use lagrangia_description, only: default_values
     use lagrangia_errors, only: error_t
     use lagrangia_formula_size, only: evaluate
@@ -18,22 +17,12 @@ module lagrangia_derivation_numbers
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
     use lagrangia_random_draws, only: random_t
-    use lagrangia_small_oscillations, only: find_modes, modes_t
+    use lagrangia_small_oscillations, only: find_modes, likely_equilibrium, modes_t
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
     public :: comparison_t
     public :: compare_lines
-
-    type :: comparison_t
-        !! Of one line.
-        logical :: known = .false.       !! the program has this number, too
-        real(dp) :: program = 0.0_dp     !! what it computes
-        real(dp) :: formula = 0.0_dp     !! what the line says
-        real(dp) :: noise = 0.0_dp       !! that rounding may make of the difference
-    contains
-        procedure :: agrees
-    end type comparison_t
 
     type :: motion_t
         !! A state with any accelerations and multipliers, and one of the motion.
@@ -43,14 +32,6 @@ module lagrangia_derivation_numbers
 
 contains
 
-    elemental function agrees(self) result(yes)
-        !! Are both numbers equal, to rounding?
-        class(comparison_t), intent(in) :: self
-        logical :: yes
-
-        yes = abs(self%program - self%formula) <= self%noise .or. .not. self%known
-    end function agrees
-
     subroutine compare_lines(derivation, system, random, comparisons, error, values)
         !! At a state drawn at random.
         type(derivation_t), intent(in) :: derivation     !! of the system
@@ -59,16 +40,22 @@ contains
         type(comparison_t), allocatable, intent(out) :: comparisons(:)  !! one of each line
         type(error_t), allocatable, intent(out) :: error  !! no state can be drawn
         real(dp), allocatable, intent(out), optional :: values(:)  !! of the names, at that state
-        type(motion_t) :: anywhere, moving
+        type(motion_t) :: anywhere, moving, rest
         type(modes_t) :: modes
+        real(dp), allocatable :: at_rest(:)
         type(error_t), allocatable :: no_modes
         integer :: i
 
         call draw(derivation, system, random, anywhere, moving, error)
         if (allocated(error)) return
         if (present(values)) call name_values(derivation, anywhere, values)
-        call find_modes(system, [real(dp) :: spread(0.0_dp, 1, system%ndof)], .false., modes, &
-                        no_modes)
+        call find_modes(system, likely_equilibrium(system), .false., modes, no_modes)
+        rest = moving
+        rest%t = 0.0_dp
+        rest%v = 0.0_dp
+        rest%a = 0.0_dp
+        rest%lambda = 0.0_dp
+        if (.not. allocated(no_modes)) rest%q = modes%at
         allocate (comparisons(derivation%count))
         do i = 1, derivation%count
             associate (line => derivation%lines(i))
@@ -77,10 +64,10 @@ contains
                     cycle
                 case (line_acceleration, line_multiplier)
                     call compare(derivation, system, line, moving, comparisons(i))
-                case (line_rest_mass:line_characteristic)
-                    if (.not. allocated(no_modes)) then
-                        call compare_modes(derivation, modes, line, comparisons(i))
-                    end if
+                case (line_rest_mass:line_rates)
+                    if (allocated(no_modes)) cycle
+                    call name_values(derivation, rest, at_rest)
+                    call compare_modes(derivation, system, modes, at_rest, line, comparisons(i))
                 case default
                     call compare(derivation, system, line, anywhere, comparisons(i))
                 end select
@@ -151,78 +138,6 @@ contains
         c%noise = c%noise + 64.0_dp*epsilon(1.0_dp)*large
     end subroutine compare
 
-    subroutine compare_modes(derivation, modes, line, c)
-        !! A line about the equilibrium.
-        type(derivation_t), intent(in) :: derivation
-        type(modes_t), intent(in) :: modes
-        type(line_t), intent(in) :: line
-        type(comparison_t), intent(out) :: c
-        type(motion_t) :: rest
-        real(dp), allocatable :: values(:)
-        real(dp) :: noise, value
-        integer :: k
-
-        rest%q = modes%at
-        rest%v = 0.0_dp*modes%at
-        rest%a = rest%v
-        allocate (rest%lambda(derivation%constraints), source=0.0_dp)
-        call name_values(derivation, rest, values)
-        call evaluate(line%right, values, c%formula, c%noise)
-        c%known = .true.
-        select case (line%kind)
-        case (line_rest_mass)
-            c%program = modes%mass(line%i, line%k)
-        case (line_stiffness)
-            c%program = modes%stiffness(line%i, line%k)
-        case (line_gyroscopic)
-            c%program = modes%gyroscopic(line%i, line%k)
-        case (line_omega2)
-            c%program = paired(derivation, values, modes%omega2, line%i)
-            c%noise = c%noise + 256.0_dp*epsilon(1.0_dp)*maxval(abs(modes%omega2))
-        case default
-            c%noise = huge(c%noise)
-            c%formula = 0.0_dp
-            do k = 1, size(modes%omega2)
-                values(derivation%omega()) = sqrt(max(0.0_dp, modes%omega2(k)))
-                call evaluate(line%right, values, value, noise)
-                if (abs(value)*c%noise < abs(c%formula)*noise) cycle
-                c%formula = value
-                c%noise = 64.0_dp*noise
-            end do
-        end select
-        c%noise = c%noise + 64.0_dp*epsilon(1.0_dp)*abs(c%program)
-    end subroutine compare_modes
-
-    function paired(derivation, values, omega2, i) result(value)
-        !! Root `i` of LAPACK's: as large among its kind as the formula's among the formulas'.
-        type(derivation_t), intent(in) :: derivation
-        real(dp), intent(in) :: values(:), omega2(:)
-        integer, intent(in) :: i
-        real(dp) :: value
-        real(dp) :: mine, noise, other
-        logical :: left(size(omega2))
-        integer :: k, rank
-
-        rank = 1
-        mine = 0.0_dp
-        do k = 1, derivation%count
-            if (derivation%lines(k)%kind == line_omega2 .and. derivation%lines(k)%i == i) then
-                call evaluate(derivation%lines(k)%right, values, mine, noise)
-            end if
-        end do
-        do k = 1, derivation%count
-            if (derivation%lines(k)%kind /= line_omega2 .or. derivation%lines(k)%i == i) cycle
-            call evaluate(derivation%lines(k)%right, values, other, noise)
-            if (abs(other) < abs(mine) .or. (abs(other) <= abs(mine) .and. &
-                                             derivation%lines(k)%i < i)) rank = rank + 1
-        end do
-        left = .true.
-        do k = 1, rank - 1
-            left(minloc(abs(omega2), 1, left)) = .false.
-        end do
-        value = omega2(minloc(abs(omega2), 1, left))
-    end function paired
-
     subroutine name_values(derivation, s, values)
         !! In the order of the names.
         type(derivation_t), intent(in) :: derivation
@@ -230,7 +145,7 @@ contains
         real(dp), allocatable, intent(out) :: values(:)
 
         allocate (values, source=[s%t, s%q, s%v, s%a, default_values(derivation%d), s%lambda, &
-                                  0.0_dp, 0.0_dp])
+                                  0.0_dp, 0.0_dp, 0.0_dp])
     end subroutine name_values
 
     subroutine program_value(derivation, system, line, s, value, large, known)
@@ -322,6 +237,7 @@ contains
         kinetic = 0.0_dp
         known = .false.
         if (allocated(derivation%d%points)) known = size(derivation%d%points) > 0
+        if (known) known = all(derivation%d%points%mass_formula /= "")
         if (.not. known) return
         rotors = 0
         if (allocated(derivation%d%rotors)) rotors = size(derivation%d%rotors)

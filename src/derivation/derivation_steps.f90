@@ -224,6 +224,7 @@ contains
         subroutine add_energy()
             type(expression_t) :: half_mass, rate
             type(polynomial_t) :: mass, square
+            character(:), allocatable :: stated
             integer :: i, k
             logical :: has_motion
 
@@ -247,6 +248,7 @@ contains
                 end do
                 if (.not. has_motion) cycle
                 if (i <= points) then
+                    if (self%d%points(i)%mass_formula == "0") cycle
                     call self%read(trim(self%d%points(i)%mass_formula), mass, error)
                 else
                     call self%read(trim(self%d%rotors(i - points)%mass_formula), mass, error)
@@ -276,8 +278,9 @@ contains
             end if
             call self%add(line_stated, "", "", t, e=rate)
             self%lines(self%count)%is_zero = .false.
-            self%lines(self%count)%hidden = formula_text(rate, self%symbols) &
-                == formula_text(self%lines(self%count - 1)%right, self%symbols)
+            stated = formula_text(rate, self%symbols)
+            self%lines(self%count)%hidden = stated == formula_text(all_of_t, self%symbols) .or. &
+                stated == formula_text(self%lines(self%count - 1)%right, self%symbols)
         end subroutine add_energy
     end subroutine add_points
 

@@ -6,7 +6,8 @@ module lagrangia_sweep
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_kept, only: keeps_attractor, keeps_end, keeps_event, keeps_flip, keeps_largest, &
-                              keeps_smallest, keeps_wrapped, kept_t, read_kept
+                              keeps_lyapunov, keeps_lyapunov_error, keeps_smallest, &
+                              keeps_wrapped, kept_t, read_kept
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: auto, workhorse
     use lagrangia_names, only: advice
@@ -14,13 +15,13 @@ module lagrangia_sweep
     use lagrangia_scene, only: most_axes, scene_t, sweep_text_length
     use lagrangia_strobe, only: new_strobe, strobe_t
     use lagrangia_sweep_axis, only: new_sweep_axis, sweep_axis_t
-    use lagrangia_system, only: system_t
+    use lagrangia_system, only: reduced_t, system_t
     use lagrangia_text, only: quoted, to_text
+    use lagrangia_variational, only: new_variational, variational_t
     implicit none (type, external)
     private
     public :: sweep_t, sweep_box_t
-    public :: new_sweep
-
+    public :: fits_lanes, new_sweep
 
     type :: sweep_t
         !! A grid of trajectories. The first axis is the one that varies slowest.
@@ -37,6 +38,7 @@ module lagrangia_sweep
         logical :: attractors = .false.          !! they are numbered at the end
         integer :: energy_by = 0                 !! velocity that makes all energies one; 0: none
         real(dp) :: energy = 0.0_dp              !! that of the scene's own start, J
+        type(variational_t) :: variational       !! where a Lyapunov exponent is kept
     contains
         procedure :: match_energy
         procedure :: set_strobe
@@ -112,6 +114,10 @@ contains
         if (.not. allocated(error)) call plan_energy(sweep, error)
         if (allocated(error)) return
         call adapt_scene(sweep, events)
+        if (any(sweep%kept%kind == keeps_lyapunov .or. &
+                sweep%kept%kind == keeps_lyapunov_error)) then
+            call new_variational(sweep%variational, system)
+        end if
         trial = sweep%scene
         if (.not. any(sweep%axes%is_parameter())) call sweep%set_strobe(trial, time, error)
     end subroutine new_sweep
@@ -264,7 +270,10 @@ contains
 
         sweep%events = size(events)
         associate (scene => sweep%scene, kept => sweep%kept)
-            if (scene%method == auto) scene%method = workhorse
+            if (scene%method == auto) then
+                scene%method = "dop853"
+                if (.not. fits_lanes(sweep)) scene%method = workhorse
+            end if
             scene%error_estimate = .false.
             if (allocated(scene%events)) deallocate (scene%events)
             if (size(events) > 0) then
@@ -281,6 +290,28 @@ contains
             scene%every = max(1_i8, steps)
         end associate
     end subroutine adapt_scene
+
+    function fits_lanes(sweep) result(yes)
+        !! Can the trajectories be computed in lanes? They have one system, go by steps of `rk4` or
+        !! by `dop853` and a tolerance, and what is kept is seen in the steps themselves.
+        type(sweep_t), intent(in) :: sweep  !! as `new_sweep` made it
+        logical :: yes
+        class(reduced_t), allocatable :: reduced
+
+        associate (scene => sweep%scene, system => sweep%system, kept => sweep%kept)
+            yes = .not. scene%compensated .and. system%contacts == 0 .and. &
+                  system%constraints == 0 .and. .not. any(sweep%axes%is_parameter()) .and. &
+                  sweep%energy_by == 0 .and. &
+                  (sweep%strobe%given .or. .not. sweep%keeps_points) .and. &
+                  all(kept%kind == keeps_end .or. kept%kind == keeps_flip .or. &
+                      kept%kind == keeps_wrapped .or. kept%kind == keeps_attractor)
+            if (scene%method == "rk4" .and. scene%tolerance <= 0.0_dp) return
+            yes = yes .and. scene%method == "dop853" .and. scene%tolerance > 0.0_dp
+            if (.not. yes) return
+            call system%reduce(reduced)  ! a single trajectory leaves the cyclic coordinate out
+            yes = .not. allocated(reduced)
+        end associate
+    end function fits_lanes
 
     pure function stopping(events) result(texts)
         !! The same, each of which ends the run.

@@ -10,8 +10,8 @@ module lagrangia_sweep_grid
     use lagrangia_kept, only: keeps_attractor
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_t
-    use lagrangia_sweep, only: sweep_t
-    use lagrangia_sweep_lanes, only: compute_lanes, fits_lanes
+    use lagrangia_sweep, only: fits_lanes, sweep_t
+    use lagrangia_sweep_lanes, only: compute_lanes
     use lagrangia_sweep_store, only: part_name, sweep_store_t
     use lagrangia_sweep_trajectory, only: compute_one
     use lagrangia_workers, only: is_deserted, share_work, work_t
@@ -62,7 +62,7 @@ contains
         if (wanted > 0) threads = wanted
     end function thread_count
 
-    pure function block_size(sweep) result(n)
+    function block_size(sweep) result(n)
         !! Trajectories that a process takes at a time, and that a killed program loses at most: the
         !! same for any number of processes; few where there are few, or each has many numbers; more
         !! where there would be over a million blocks.

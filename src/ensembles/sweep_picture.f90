@@ -1,6 +1,7 @@
 module lagrangia_sweep_picture
     !! The gnuplot script of a sweep: curves over one axis, a map over two, points of a stroboscope
     !! or a section as a diagram.
+    use lagrangia_gnuplot_panel, only: line_colours => colours
     use lagrangia_gnuplot_script, only: begin_script, gnuplot_string, lines_t
     use lagrangia_kept, only: keeps_attractor, keeps_wrapped, kept_t
     use lagrangia_kinds, only: dp, i8
@@ -157,7 +158,8 @@ contains
             do i = 1, size(which)
                 if (i > 1) style = "lines dt 2 lw 2"
                 line = line//" data "//reading//"using 1:"//to_text(which(i) + 1)//" with "// &
-                       style//" title "//label(trim(sweep%kept(which(i))%text), "1")//","
+                       style//" lc rgb '"//line_colours(modulo(i - 1, size(line_colours)) + 1)// &
+                       "' title "//label(trim(sweep%kept(which(i))%text), "1")//","
             end do
             call script%add(line(:len(line) - 1))
         end associate

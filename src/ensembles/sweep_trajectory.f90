@@ -43,6 +43,8 @@ contains
         if (allocated(error)) return
         if (system%constraints > 0) then
             given = scene%v
+            call system%check_places(scene%t0, scene%q, error)
+            if (allocated(error)) return
             call system%complete_velocities(scene%t0, scene%q, given, scene%v, error)
             if (allocated(error)) return
         end if
@@ -174,7 +176,7 @@ contains
             call new_adaptive(workhorse, method)
         end if
         call lyapunov_exponent(system, method, scene%t0, sweep%after, scene%t0 + scene%duration, &
-                               scene%q, scene%v, exponent, uncertainty, error)
+                               scene%q, scene%v, exponent, uncertainty, error, sweep%variational)
         if (allocated(error)) return
         where (sweep%kept%kind == keeps_lyapunov) values = exponent
         where (sweep%kept%kind == keeps_lyapunov_error) values = uncertainty

@@ -6,15 +6,18 @@ module lagrangia_formula_parser
     !! function for the names in `function_names`, else a product; `sin^2(x)` is sin(x)^2, `|x|` is
     !! abs(x). What has two readings, `a^b^c` or `a*-b`, is refused.
     use lagrangia_errors, only: error_t
-    use lagrangia_exact_number, only: number_of
+    use lagrangia_exact_number, only: number_of, ratio
     use lagrangia_expression, only: expression_t, f_abs, function_names, kind_difference, &
                                     kind_function, kind_negation, kind_power, kind_product, &
                                     kind_quotient, kind_sum
-    use lagrangia_formula_reader, only: begins_factor, check_size, go_deeper, is_time_in_brackets, &
+    use lagrangia_formula_reader, only: begins_factor, check_size, go_deeper, &
+                                        is_time_in_brackets, largest, &
                                         next_is, reader_t, refuse, refuse_missing, &
                                         refuse_unknown, skip_sign, start, typed_number
     use lagrangia_formula_tokens, only: is_end, is_name, is_number, is_sign, token_t
-    use lagrangia_kinds, only: dp
+    use lagrangia_indexed_names, only: begins_sum, is_of_chain, open_sum, put_indices, &
+                                       refuse_index, skip_body
+    use lagrangia_kinds, only: dp, i8
     use lagrangia_symbols, only: symbols_t
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
@@ -278,12 +281,31 @@ contains
         character(*), intent(in) :: name
         integer, intent(out) :: node
         type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: indexed
         integer :: which
 
         node = 0
         which = findloc(function_names == name, .true., 1)
         if (which > 0) then
             call read_function(reader, symbols, which, node, error)
+            return
+        end if
+        if (begins_sum(reader) .and. symbols%find(name) == 0 .and. &
+            symbols%find_definition(name) == 0) then
+            call read_indexed_sum(reader, symbols, node, error)
+            return
+        end if
+        which = findloc(reader%index_names(:reader%indices) == name, .true., 1)
+        if (which > 0) then
+            call reader%expression%add_number(ratio(int(reader%index_values(which), i8), 1_i8), &
+                                              node)
+            reader%at = reader%at + 1
+            return
+        end if
+        call put_indices(reader, name, indexed, error)
+        if (allocated(error)) return
+        if (indexed /= name) then
+            call add_indexed(reader, symbols, name, indexed, node, error)
             return
         end if
         if (symbols%find(name) > 0) then
@@ -297,6 +319,13 @@ contains
             node = reader%root_of(which)
         else if (name == "pi") then
             call reader%expression%add_number(number_of(pi), node)
+        else if (is_of_chain(symbols, name)) then
+            call refuse_index(reader, symbols, name, name, error)
+            return
+        else if (name(1:1) == "_") then
+            call refuse(reader, "a bracket has no '"//name//"'; write that of each name in it", &
+                        error)
+            return
         else
             call refuse_unknown(reader, symbols, name, error)
             return
@@ -307,6 +336,69 @@ contains
                         quoted(name)//", or "//quoted(name//" t")//" if one is meant", error)
         end if
     end subroutine read_name
+
+    pure subroutine add_indexed(reader, symbols, name, indexed, node, error)
+        !! A name whose indices have numbers.
+        type(reader_t), intent(inout) :: reader
+        type(symbols_t), intent(in) :: symbols
+        character(*), intent(in) :: name, indexed
+        integer, intent(out) :: node
+        type(error_t), allocatable, intent(out) :: error
+        integer :: which
+
+        node = 0
+        which = symbols%find_definition(indexed)
+        if (symbols%find(indexed) > 0) then
+            call reader%expression%add_symbol(symbols%find(indexed), node)
+        else if (which > 0) then
+            call reader%expression%append(symbols%definitions(which)%meaning, node)
+        else
+            call refuse_index(reader, symbols, name, indexed, error)
+            return
+        end if
+        reader%at = reader%at + 1
+    end subroutine add_indexed
+
+    pure recursive subroutine read_indexed_sum(reader, symbols, node, error)
+        !! `sum(i, 1, 4, m/2 x_i_dot^2)`: the formula is read once for each number.
+        type(reader_t), intent(inout) :: reader
+        type(symbols_t), intent(in) :: symbols
+        integer, intent(out) :: node
+        type(error_t), allocatable, intent(out) :: error
+        integer :: bars, body, first, k, last, left, term
+
+        node = 0
+        bars = reader%bars
+        call open_sum(reader, symbols, first, last, error)
+        if (allocated(error)) return
+        body = reader%at
+        if (last < first) then
+            call skip_body(reader, error)
+            call reader%expression%add_number(ratio(0_i8, 1_i8), node)
+        end if
+        do k = first, last
+            if (allocated(error)) return
+            reader%at = body
+            reader%index_values(reader%indices) = k
+            call read_sum(reader, symbols, term, error)
+            if (allocated(error)) return
+            if (.not. next_is(reader, ")")) then
+                call refuse(reader, "the bracket of a sum is not closed; write sum(i, 1, 4, "// &
+                            "x_i^2)", error)
+            else if (reader%expression%count > largest) then
+                call refuse(reader, "the formula, with its sums written out, has more than "// &
+                            to_text(nint(largest))//" parts; shorten it", error)
+            end if
+            left = node
+            node = term
+            if (k > first) call reader%expression%add_operation(kind_sum, left, term, node)
+        end do
+        if (allocated(error)) return
+        reader%at = reader%at + 1
+        reader%bars = bars
+        reader%depth = reader%depth - 1
+        reader%indices = reader%indices - 1
+    end subroutine read_indexed_sum
 
     pure recursive subroutine read_function(reader, symbols, which, node, error)
         !! `sin(x)`, or `sin^2(x)` with a whole number.

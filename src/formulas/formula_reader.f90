@@ -11,11 +11,13 @@ module lagrangia_formula_reader
     implicit none (type, external)
     private
     public :: reader_t
+    public :: largest, most_indices
     public :: begins_factor, check_size, go_deeper, is_time_in_brackets, next_is, refuse, &
               refuse_missing, refuse_unknown, skip_sign, start, typed_number
 
     integer, parameter :: deepest = 200          !! brackets within brackets
     real(dp), parameter :: largest = 100000.0_dp !! parts, with definitions written out
+    integer, parameter :: most_indices = 4       !! sums within each other
 
     type :: reader_t
         !! How far the reading has come.
@@ -25,6 +27,9 @@ module lagrangia_formula_reader
         integer :: at = 1                   !! the next token
         integer :: depth = 0                !! brackets that are open
         integer :: bars = 0                 !! `|` that are open inside the last bracket
+        integer :: indices = 0              !! of the sums that are open
+        character(name_length) :: index_names(most_indices) = ""
+        integer :: index_values(most_indices) = 0
     end type reader_t
 
 contains

@@ -94,14 +94,16 @@ contains
         character :: letter
 
         letter = text(token%first:token%first)
-        if (scan(letter, letters) == 1) then
+        if (scan(letter, letters) == 1 .or. ends_index(text(:token%first - 1), &
+                                                       text(token%first:))) then
             token%kind = is_name
             token%last = token%first + verify(text(token%first:)//" ", inside) - 2
         else if (scan(letter, digits) == 1 .or. &
                  scan(text(token%first:)//" ", ".") == 1 .and. &
                  scan(text(token%first:)//" ", digits) == 2) then
             call take_number(text, token, error)
-        else if (scan(letter, "+-*/^()|=") == 1) then
+        else if (scan(letter, "+-*/^()|=") == 1 .or. &
+                 (letter == "," .and. index(text(:token%first), "sum") > 0)) then
             token%kind = is_sign
             token%last = token%first
             if (index(text(token%first:), "**") == 1) token%last = token%first + 1
@@ -109,6 +111,17 @@ contains
             call fail(error, "column "//to_text(token%column)//": "//advice(letter))
         end if
     end subroutine take
+
+    pure function ends_index(before, from) result(yes)
+        !! The end of `x_(i + 1)_dot`.
+        character(*), intent(in) :: before, from
+        logical :: yes
+
+        yes = .false.
+        if (len(before) == 0) return
+        if (before(len(before):) /= ")" .or. scan(from, "_") /= 1) return
+        yes = any(from(:verify(from//" ", inside) - 1) == [character(5) :: "_dot", "_ddot"])
+    end function ends_index
 
     pure subroutine take_number(text, token, error)
         !! Digits with a point, and an exponent if digits follow its letter.

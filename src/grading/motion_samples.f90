@@ -13,7 +13,7 @@ module lagrangia_motion_samples
     use lagrangia_sample_names, only: axes, draws, follow_letters, name_symbols, &
                                       role_acceleration, role_frequency, role_known, samples_t, &
                                       states
-    use lagrangia_small_oscillations, only: find_modes, modes_t
+    use lagrangia_small_oscillations, only: find_modes, likely_equilibrium, modes_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: word_t
     implicit none (type, external)
@@ -190,8 +190,8 @@ contains
     end subroutine add_states
 
     subroutine add_modes(samples, system, draw)
-        !! \(\omega^2\) of the oscillations about the equilibrium at or near zero, and about
-        !! another one that the page knows; 0 where there is none.
+        !! \(\omega^2\) of the oscillations about the equilibrium of the scene, or at or near zero,
+        !! and about another one that the page knows, or at zero; 0 where there is none.
         type(samples_t), intent(inout) :: samples
         class(system_t), intent(in) :: system  !! with the parameters of this draw
         integer, intent(in) :: draw
@@ -206,19 +206,26 @@ contains
             allocate (samples%equilibrium(n, draws), source=ieee_value(1.0_dp, ieee_quiet_nan))
             allocate (samples%stiffness(n, n, draws), samples%inertia(n, n, draws), source=0.0_dp)
         end if
-        start = 0.0_dp
+        start = likely_equilibrium(system)
         call find_modes(system, start, .true., modes, error)
         if (allocated(error)) call find_modes(system, start, .false., modes, error)
         if (allocated(error)) return
-        samples%omega2(draw, :n) = modes%omega2
+        samples%omega2(draw, :size(modes%omega2)) = modes%omega2
         if (allocated(modes%stiffness)) then
             samples%equilibrium(:, draw) = modes%at
             samples%stiffness(:, :, draw) = modes%stiffness
             samples%inertia(:, :, draw) = modes%mass
         end if
-        if (.not. allocated(modes%analytic%elsewhere)) return
-        call find_modes(system, modes%analytic%elsewhere, .true., others, error)
-        if (.not. allocated(error)) samples%omega2(draw, n + 1:) = others%omega2
+        if (allocated(modes%analytic%elsewhere)) then
+            start = modes%analytic%elsewhere
+        else if (any(abs(start) > 0.0_dp)) then
+            start = 0.0_dp
+        else
+            return
+        end if
+        call find_modes(system, start, .true., others, error)
+        if (allocated(error)) return
+        samples%omega2(draw, n + 1:n + size(others%omega2)) = others%omega2
     end subroutine add_modes
 
     subroutine move_away(samples, k)

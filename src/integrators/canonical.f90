@@ -105,7 +105,7 @@ contains
     end subroutine new_midpoint
 
     pure subroutine prepare(self, system, error)
-        !! Refuses non-holonomic constraints: their motion does not follow from a Hamiltonian.
+        !! Refuses constraints beside L: their motion does not follow from a Hamiltonian.
         class(canonical_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
@@ -113,7 +113,7 @@ contains
 
         if (system%constraints > 0) then
             call fail(error, trim(self%name)//" is for systems with a Hamiltonian, and here "// &
-                      "there are non-holonomic constraints", key="method")
+                      "there are constraints beside L", key="method")
             return
         end if
         state = 0.0_dp

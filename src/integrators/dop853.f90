@@ -5,7 +5,8 @@ module lagrangia_dop853
     !! Source: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.:
     !! secs. II.4 (starting step, PI step control), II.6 (dense output), II.10 (error estimate).
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-    use lagrangia_dop853_stages, only: extra_stages, scaled_error, slope, stages
+    use lagrangia_dop853_control, only: first_step, least_error, next_step, shorter_step
+    use lagrangia_dop853_stages, only: extra_stages, inside_step, scaled_error, slope, stages
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
@@ -15,15 +16,10 @@ module lagrangia_dop853
     private
     public :: dop853_t, new_dop853
 
-    real(dp), parameter :: safety = 0.9_dp
-    real(dp), parameter :: shrink = 0.333_dp, grow = 6.0_dp  !! limits of one change of step
-    real(dp), parameter :: beta = 0.04_dp                    !! share of the previous error
-    real(dp), parameter :: alpha = 1.0_dp/8.0_dp - 0.2_dp*beta
-
     type, extends(dense_integrator_t) :: dop853_t
         private
         real(dp) :: h = 0.0_dp                 !! step to try next, s
-        real(dp) :: last_error = 1e-4_dp       !! of the latest accepted step, in tolerances
+        real(dp) :: last_error = least_error   !! of the latest accepted step, in tolerances
         real(dp), allocatable :: y(:), y0(:)   !! states (q, v) at the ends of the step
         real(dp), allocatable :: work(:)
         real(dp), allocatable :: k(:, :)       !! its slopes at the stages
@@ -85,6 +81,7 @@ contains
             self%y0 = self%y
             call slope(system, system%ndof, t0 + i*dt, self%y0, self%k(:, 1))
             call stages(system, system%ndof, t0 + i*dt, dt, self%y0, self%k, self%y)
+            call keep(self, system, t0 + (i + 1)*dt)
         end do
         self%evaluations = self%evaluations + 12*steps
         q = self%y(:system%ndof)
@@ -92,40 +89,25 @@ contains
     end subroutine advance
 
     pure subroutine start(self, system, t0, q, v, t_end)
-        !! See `dense_integrator_t`. The first step: as long as a step of Euler's that would err
-        !! little, and as the change of the slope over it allows. Two evaluations.
+        !! See `dense_integrator_t`. Two evaluations.
         class(dop853_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t0
         real(dp), intent(in) :: q(system%ndof), v(system%ndof)
         real(dp), intent(in), optional :: t_end
-        real(dp) :: size_y, size_slope, change
         logical :: refused
 
         call self%refuse_system(system, refused)
         if (refused) return
         call self%stand(t0, t_end)
-        self%last_error = 1e-4_dp
+        self%last_error = least_error
         self%y(:system%ndof) = q
         self%y(system%ndof + 1:) = v
         self%y0 = self%y
         self%inside = 0.0_dp
         call slope(system, system%ndof, t0, self%y, self%k(:, 1))
-        size_y = norm(self%tolerance, self%y, self%y)
-        size_slope = norm(self%tolerance, self%k(:, 1), self%y)
-        self%h = 1e-6_dp
-        if (min(size_y, size_slope) > 1e-5_dp) self%h = 0.01_dp*size_y/size_slope
-        self%h = min(self%h, self%t_end - t0)
-        self%work = self%y + self%h*self%k(:, 1)
-        call slope(system, system%ndof, t0 + self%h, self%work, self%k(:, 2))
-        self%k(:, 3) = self%k(:, 2) - self%k(:, 1)
-        change = max(norm(self%tolerance, self%k(:, 3), self%y)/self%h, size_slope)
-        if (change > 1e-15_dp) then
-            self%h = min(100.0_dp*self%h, (0.01_dp/change)**(1.0_dp/8.0_dp))
-        else
-            self%h = max(1e-6_dp, 1e-3_dp*self%h)
-        end if
-        self%h = max(self%h, 1024.0_dp*spacing(t0))  ! a step that is too long will be rejected
+        call first_step(system, system%ndof, self%tolerance, t0, self%t_end, self%y, self%k(:, 1), &
+                        self%h)
         self%evaluations = self%evaluations + 2
     end subroutine start
 
@@ -154,23 +136,19 @@ contains
             scaled = scaled_error(h, self%tolerance, self%k, self%y0, self%y)
             if (scaled <= 1.0_dp) then
                 self%accepted = self%accepted + 1
+                call keep(self, system, self%t_old + h)
                 call finish(self, system, h)
                 self%t_new = self%t_old + h
                 if (last) self%t_new = self%t_end
-                h = h/max(1.0_dp/grow, min(1.0_dp/shrink, &
-                    scaled**alpha/(safety*self%last_error**beta)))
+                h = next_step(h, scaled, self%last_error)
                 if (retry) h = min(h, self%h)
                 self%h = h
-                self%last_error = max(scaled, 1e-4_dp)
+                self%last_error = max(scaled, least_error)
                 return
             end if
             self%rejected = self%rejected + 1
             retry = .true.
-            if (scaled < huge(scaled)) then
-                self%h = h/min(1.0_dp/shrink, scaled**alpha/safety)
-            else
-                self%h = 0.1_dp*h  ! no number came out
-            end if
+            self%h = shorter_step(h, scaled)
         end do
         self%y = self%y0
         self%t_new = self%t_old
@@ -179,18 +157,15 @@ contains
                   "the tolerance too small", status_numbers)
     end subroutine step
 
-    pure function norm(tolerance, x, y) result(size_x)
-        !! Root mean square of `x`, in units of the tolerance at the state `y`.
-        real(dp), intent(in) :: tolerance, x(:), y(:)
-        real(dp) :: size_x
-        integer :: i
+    pure subroutine keep(self, system, t)
+        !! The end of a step back onto the constraints.
+        class(dop853_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t
 
-        size_x = 0.0_dp
-        do i = 1, size(x)
-            size_x = size_x + (x(i)/max(1.0_dp, abs(y(i))))**2
-        end do
-        size_x = sqrt(size_x/size(x))/tolerance
-    end function norm
+        if (.not. system%is_projected) return
+        call system%keep_constraints(t, self%y(:system%ndof), self%y(system%ndof + 1:))
+    end subroutine keep
 
     pure subroutine finish(self, system, h)
         !! The slope at the end of an accepted step, and the coefficients of its dense output, if
@@ -215,8 +190,8 @@ contains
         class(dop853_t), intent(in) :: self
         real(dp), intent(in) :: t
         real(dp), intent(out) :: q(:), v(:)
-        real(dp) :: s, r, y
-        integer :: i, n
+        real(dp) :: y(2*size(q))
+        integer :: n
 
         if (self%coordinates /= size(q)) then
             q = ieee_value(q, ieee_quiet_nan)
@@ -229,18 +204,8 @@ contains
             v = self%y(n + 1:)
             return
         end if
-        s = (t - self%t_old)/(self%t_new - self%t_old)
-        r = 1.0_dp - s
-        do i = 1, 2*n
-            associate (f => self%inside(:, i))
-                y = self%y0(i) + s*(f(1) + r*(f(2) + s*(f(3) + r*(f(4) + s*(f(5) &
-                                                                 + r*(f(6) + s*f(7)))))))
-            end associate
-            if (i <= n) then
-                q(i) = y
-            else
-                v(i - n) = y
-            end if
-        end do
+        call inside_step((t - self%t_old)/(self%t_new - self%t_old), self%y0, self%inside, y)
+        q = y(:n)
+        v = y(n + 1:)
     end subroutine state_at
 end module lagrangia_dop853

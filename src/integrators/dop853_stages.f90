@@ -16,7 +16,7 @@ module lagrangia_dop853_stages
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: slope, stages, extra_stages, scaled_error
+    public :: slope, stages, extra_stages, inside_step, scaled_error
 
     real(dp), parameter :: by_stage(4, 16) = transpose(d)
 
@@ -178,6 +178,24 @@ contains
             dense(4:7, i) = h*high
         end do
     end subroutine extra_stages
+
+    pure subroutine inside_step(s, y0, dense, y)
+        !! The state at a share `s` of a step.
+        real(dp), intent(in) :: s            !! from 0 to 1
+        real(dp), intent(in) :: y0(:)        !! state at its start, `(2*n)`
+        real(dp), intent(in) :: dense(:, :)  !! coefficients of `extra_stages`, `(7, 2*n)`
+        real(dp), intent(out) :: y(:)        !! `(2*n)`
+        real(dp) :: r
+        integer :: i
+
+        r = 1.0_dp - s
+        do i = 1, size(y)
+            associate (f => dense(:, i))
+                y(i) = y0(i) + s*(f(1) + r*(f(2) + s*(f(3) + r*(f(4) + s*(f(5) &
+                                                                    + r*(f(6) + s*f(7)))))))
+            end associate
+        end do
+    end subroutine inside_step
 
     pure function scaled_error(h, tolerance, k, y0, y) result(scaled)
         !! The estimated error of a step in units of the tolerance, \(O(h^8)\): the error of an

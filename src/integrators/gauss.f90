@@ -101,6 +101,8 @@ contains
             call self%s%reach(fully=.true.)
             call self%s%finish()
             if (.not. good) exit
+            if (system%is_projected) call system%keep_constraints(t0 + (k + 1)*dt, self%s%q, &
+                                                                     self%s%v)
         end do
         q = self%s%q
         v = self%s%v

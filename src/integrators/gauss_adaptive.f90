@@ -224,6 +224,11 @@ contains
             end if
         end do
         call self%s%finish()
+        if (system%is_projected) then
+            call system%keep_constraints(to, self%s%q, self%s%v)
+            call system%accelerations(to, self%s%q, self%s%v, self%s%end)
+            self%evaluations = self%evaluations + 1
+        end if
         self%s%start(:) = self%s%end
         self%accepted = self%accepted + 1
         cut = h < 0.99_dp*self%h

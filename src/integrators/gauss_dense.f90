@@ -73,7 +73,7 @@ contains
         allocate (self%a(points, n), self%a_old(points, n), self%guess(terms, n), &
                   self%room(lanes*(n + 1), v), source=0.0_dp)
         self%first = line_start(self%room(:, 1))
-        call self%table%fill()
+        if (.not. any(self%table%x > 0.0_dp)) call self%table%fill()  ! the same for any system
     end subroutine prepare
 
     pure subroutine keep(self, t, q, v)

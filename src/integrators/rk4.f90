@@ -171,6 +171,7 @@ contains
             call stages(self, system, t0 + k*dt, dt, q, v)
             call finish(system%ndof, dt/6.0_dp, v, self%v2, self%v3, self%v4, q)
             call finish(system%ndof, dt/6.0_dp, self%a1, self%a2, self%a3, self%a4, v)
+            if (system%is_projected) call system%keep_constraints(t0 + (k + 1)*dt, q, v)
         end do
         self%evaluations = self%evaluations + 4*steps
     end subroutine advance
@@ -192,6 +193,7 @@ contains
             call add_pair(q, self%q_low, dt/6.0_dp*(v + 2.0_dp*(self%v2 + self%v3) + self%v4), &
                           dt*self%v_low)
             call add(v, self%v_low, dt/6.0_dp*(self%a1 + 2.0_dp*(self%a2 + self%a3) + self%a4))
+            if (system%is_projected) call system%keep_constraints(t0 + (k + 1)*dt, q, v)
         end do
         self%evaluations = self%evaluations + 4*steps
     end subroutine advance_compensated

@@ -5,7 +5,7 @@ module lagrangia_namelist_tree
     use lagrangia_errors, only: error_t, fail, status_usage
     use lagrangia_kinds, only: dp
     use lagrangia_names, only: abbreviation, nearest_name
-    use lagrangia_text, only: escaped, join, quoted, short_source, source_length, to_text
+    use lagrangia_text, only: escaped, listed, quoted, short_source, source_length, to_text
     implicit none (type, external)
     private
     public :: entry_t, group_t, namelist_t, value_t
@@ -20,6 +20,7 @@ module lagrangia_namelist_tree
     integer, parameter :: max_entries = 1000  !! in one file with its overrides
     integer, parameter :: max_values = 10000  !! repeats counted, in one file with its overrides
     integer, parameter :: few = 64            !! entries and values: there is room at once
+    character(*), parameter :: whole = "lagrangia describe scene"  !! shows all keys
 
     integer, parameter :: kind_number = 1  !! a finite number
     integer, parameter :: kind_string = 2  !! text between quotes
@@ -397,7 +398,8 @@ contains
                 text = advice("key ", trim(item%key), absent)
                 if (size(absent) == 0 .and. size(allowed) > 0 .and. &
                     .not. any(allowed == item%key)) text = "unknown key "// &
-                    quoted(trim(item%key))//"; there are "//escaped(join(allowed, ", "), 160)
+                    quoted(trim(item%key))//"; there are "// &
+                    escaped(listed(allowed, 130, whole), 180)
                 call fail_at(tree, item%at, "&"//escaped(trim(group), 30)//": "//text, error)
                 return
             end associate
@@ -438,7 +440,7 @@ contains
             text = "unknown "//what//quoted(name)//"; none is allowed here"
         else
             text = "unknown "//what//quoted(name)//"; allowed: "// &
-                   escaped(join(allowed, ", "), 160)
+                   escaped(listed(allowed, 130, whole), 180)
         end if
     end function advice
 end module lagrangia_namelist_tree

@@ -41,7 +41,7 @@ contains
         real(dp), intent(out) :: sine(lanes)    !! NaN where `x` is not finite; 0 of -0
         real(dp), intent(out) :: cosine(lanes)  !! likewise
         real(dp) :: turns, n, a, b, r, low, z, z3, half, p, q
-        integer(int64) :: k, bits_p, bits_q, exchange
+        integer(int64) :: k, bits_p, bits_q, exchange, beyond
         integer :: i
 
         if (digits(x) > 53) then  ! -DREAL128
@@ -49,8 +49,11 @@ contains
             cosine = cos(x)
             return
         end if
+        beyond = 0
         !GCC$ vector
         do i = 1, lanes
+            ! Doubles without their sign, NaN and infinity too, are in the order of their bits.
+            beyond = ior(beyond, transfer(largest_angle, k) - iand(transfer(x(i), k), huge(k)))
             turns = x(i)*two_over_pi + shift
             n = turns - shift
             a = x(i) - n*half_pi(1)
@@ -76,7 +79,7 @@ contains
             sine(i) = transfer(bits_p, p)
             cosine(i) = transfer(bits_q, q)
         end do
-        if (all(abs(x) <= largest_angle)) return
+        if (beyond >= 0) return
         do i = 1, lanes
             if (abs(x(i)) <= largest_angle) cycle
             sine(i) = sin(x(i))

@@ -6,7 +6,7 @@ module lagrangia_columns
     use lagrangia_kinds, only: dp, i8
     use lagrangia_names, only: nearest_name
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: join, quoted
+    use lagrangia_text, only: listed, quoted
     implicit none (type, external)
     private
     public :: columns_t, new_columns, column_names
@@ -194,6 +194,7 @@ contains
         character(:), allocatable :: text
 
         text = "L contains the time"
+        if (system%constraints_work) text = "a constraint does work"
         if (system%nonconservative) text = "generalised forces do work"
     end function why_energy_changes
 
@@ -231,7 +232,7 @@ contains
             call fail(error, "unknown column "//quoted(name)//"; did you mean '"//near//"'?")
         else
             call fail(error, "unknown column "//quoted(name)//"; "//trim(d%name)//" has "// &
-                      join(names, ", "))
+                      listed(names, 130, "lagrangia describe "//trim(d%name)))
         end if
     end subroutine refuse
 

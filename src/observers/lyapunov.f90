@@ -11,8 +11,9 @@ module lagrangia_lyapunov
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_integrator, only: dense_integrator_t
-    use lagrangia_kinds, only: dp
+    use lagrangia_kinds, only: dp, lanes
     use lagrangia_system, only: system_t
+    use lagrangia_variational, only: new_variational, variational_t
     implicit none (type, external)
     private
     public :: lyapunov_exponent
@@ -24,11 +25,13 @@ module lagrangia_lyapunov
         !! A motion and a displacement of it, as one system of twice as many coordinates: first
         !! those of the motion, then their displacements.
         class(system_t), allocatable :: of
-        real(dp) :: size = 1.0_dp  !! of the coordinates: how far is far
+        type(variational_t) :: exact  !! how the accelerations change, where that is known
+        real(dp) :: size = 1.0_dp     !! of the coordinates: how far is far
     contains
         procedure :: describe
         procedure :: configure
         procedure :: accelerations
+        procedure :: accelerations_lanes
         procedure :: lagrangian
         procedure :: energy
     end type displaced_t
@@ -36,7 +39,7 @@ module lagrangia_lyapunov
 contains
 
     subroutine lyapunov_exponent(system, method, t0, after, t_end, q0, v0, exponent, uncertainty, &
-                                 error)
+                                 error, variational)
         !! The exponent of the motion through a state, measured from `after` to `t_end`. Its
         !! uncertainty is the standard error of the mean over 16 windows: what the window would
         !! change, not what is left of a motion that has not settled.
@@ -46,10 +49,13 @@ contains
         real(dp), intent(in) :: q0(:), v0(:)                 !! the state at `t0`, (ndof)
         real(dp), intent(out) :: exponent, uncertainty       !! 1/s
         type(error_t), allocatable, intent(out) :: error     !! the method refuses, or diverges
+        type(variational_t), intent(in), optional :: variational
+        !! of a system like this one, perhaps with other parameters: it need not be derived again
         type(displaced_t) :: displaced
-        real(dp) :: q(2*size(q0)), v(2*size(v0)), growth, length, start, finish
+        real(dp) :: q(2*size(q0)), v(2*size(v0)), growth, start, finish
         real(dp) :: rates(0:windows)  ! of each window; number 0 is before `after`
         integer :: i, k, n
+        logical :: fits
 
         exponent = 0.0_dp
         uncertainty = 0.0_dp
@@ -59,6 +65,9 @@ contains
         end if
         n = size(q0)
         call new_displaced(displaced, system, q0)
+        if (present(variational)) displaced%exact = variational
+        call displaced%exact%fits(system, fits)
+        if (.not. fits) call new_variational(displaced%exact, system)
         q = [q0, [(1.0_dp/(i + 1), i=1, n)]]
         v = [v0, [((-1.0_dp)**i/(i + 2), i=1, n)]]
         call method%prepare(displaced, error)
@@ -73,17 +82,8 @@ contains
                     finish = after + (t_end - after)*((k - 1)*intervals + i)/(windows*intervals)
                 end if
                 if (.not. finish > start) cycle
-                call go_on(displaced, method, start, finish, q, v, error)
+                call go_on(displaced, method, start, finish, q, v, growth, error)
                 if (allocated(error)) return
-                length = norm2([q(n + 1:), v(n + 1:)])
-                if (.not. (ieee_is_finite(length) .and. length > 0.0_dp)) then
-                    call fail(error, "the displacement is lost: the motion diverges", &
-                              status_numbers)
-                    return
-                end if
-                growth = growth + log(length)
-                q(n + 1:) = q(n + 1:)/length
-                v(n + 1:) = v(n + 1:)/length
                 start = finish
             end do
             rates(k) = growth*windows/(t_end - after)
@@ -92,20 +92,38 @@ contains
         uncertainty = sqrt(sum((rates(1:) - exponent)**2)/(windows*(windows - 1.0_dp)))
     end subroutine lyapunov_exponent
 
-    subroutine go_on(displaced, method, t0, t_end, q, v, error)
-        !! From `t0` to `t_end`, in steps of the method's own.
+    subroutine go_on(displaced, method, t0, t_end, q, v, growth, error)
+        !! From `t0` to `t_end`, in steps of the method's own. The displacement has length 1 again
+        !! at the end, and on the way wherever it has become so short that its errors, which are
+        !! absolute below 1, count, or so long that it might overflow.
         type(displaced_t), intent(in) :: displaced
         class(dense_integrator_t), intent(inout) :: method
         real(dp), intent(in) :: t0, t_end
         real(dp), intent(inout) :: q(:), v(:)
+        real(dp), intent(inout) :: growth                 !! logarithms of its lengths are added
         type(error_t), allocatable, intent(out) :: error
+        real(dp), parameter :: shortest = 0.1_dp, longest = 1e6_dp
+        real(dp) :: length
+        integer :: n
 
+        n = displaced%of%ndof
         call method%start(displaced, t0, q, v, t_end)
-        do while (method%t_new < t_end)
+        do
             call method%step(displaced, error)
             if (allocated(error)) return
+            call method%state_at(method%t_new, q, v)
+            length = norm2([q(n + 1:), v(n + 1:)])
+            if (.not. (ieee_is_finite(length) .and. length > 0.0_dp)) then
+                call fail(error, "the displacement is lost: the motion diverges", status_numbers)
+                return
+            end if
+            if (method%t_new < t_end .and. length > shortest .and. length < longest) cycle
+            growth = growth + log(length)
+            q(n + 1:) = q(n + 1:)/length
+            v(n + 1:) = v(n + 1:)/length
+            if (method%t_new >= t_end) return
+            call method%start(displaced, method%t_new, q, v, t_end)
         end do
-        call method%state_at(t_end, q, v)
     end subroutine go_on
 
     subroutine new_displaced(self, system, q0)
@@ -148,9 +166,10 @@ contains
     end subroutine configure
 
     pure subroutine accelerations(self, t, q, v, a)
-        !! Those of the motion, and their derivative along the displacement \(\delta\) by central
-        !! differences at \(\pm h\delta\), \(h|\delta| = \epsilon^{1/3}\) of the coordinates' size:
-        !! right to about \(\epsilon^{2/3}\), 4e-11.
+        !! Those of the motion, and their derivative along the displacement \(\delta\): exact, or,
+        !! where the Lagrangian is not known as a formula, by central differences at
+        !! \(\pm h\delta\), \(h|\delta| = \epsilon^{1/3}\) of the coordinates' size: right to
+        !! about \(\epsilon^{2/3}\), 4e-11.
         class(displaced_t), intent(in) :: self
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
         real(dp), intent(out) :: a(self%ndof)
@@ -163,13 +182,46 @@ contains
         v0 = v(:n)
         dq = q(n + 1:)
         dv = v(n + 1:)
-        h = self%size*epsilon(h)**(1.0_dp/3.0_dp)/max(norm2([dq, dv]), tiny(h))
         call self%of%accelerations(t, q0, v0, forward)
         a(:n) = forward
+        if (self%exact%known) then
+            call self%exact%change(t, q0, v0, dq, dv, forward)
+            a(n + 1:) = forward
+            return
+        end if
+        h = self%size*epsilon(h)**(1.0_dp/3.0_dp)/max(norm2([dq, dv]), tiny(h))
         call self%of%accelerations(t, q0 + h*dq, v0 + h*dv, forward)
         call self%of%accelerations(t, q0 - h*dq, v0 - h*dv, backward)
         a(n + 1:) = (forward - backward)/(2.0_dp*h)
     end subroutine accelerations
+
+    pure subroutine accelerations_lanes(self, t, q, v, a)
+        !! `accelerations`, in all lanes at once.
+        class(displaced_t), intent(in) :: self
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
+        real(dp), intent(out) :: a(lanes, self%ndof)
+        real(dp), dimension(lanes, self%ndof/2) :: backward, forward, step_q, step_v
+        real(dp) :: h
+        integer :: i, n
+
+        n = self%ndof/2
+        call self%of%accelerations_lanes(t, q(:, :n), v(:, :n), a(:, :n))
+        if (self%exact%known) then
+            call self%exact%change_lanes(t, q(:, :n), v(:, :n), q(:, n + 1:), v(:, n + 1:), &
+                                         a(:, n + 1:))
+            return
+        end if
+        do i = 1, lanes
+            h = self%size*epsilon(h)**(1.0_dp/3.0_dp) &
+                /max(norm2([q(i, n + 1:), v(i, n + 1:)]), tiny(h))
+            step_q(i, :) = h*q(i, n + 1:)
+            step_v(i, :) = h*v(i, n + 1:)
+            a(i, n + 1:) = 2.0_dp*h
+        end do
+        call self%of%accelerations_lanes(t, q(:, :n) + step_q, v(:, :n) + step_v, forward)
+        call self%of%accelerations_lanes(t, q(:, :n) - step_q, v(:, :n) - step_v, backward)
+        a(:, n + 1:) = (forward - backward)/a(:, n + 1:)
+    end subroutine accelerations_lanes
 
     pure function lagrangian(self, t, q, v) result(l)
         !! See `system_t`: the displacement has none that is needed.

@@ -1,16 +1,17 @@
 module lagrangia_work
     !! The work along a run that changes the energy function,
-    !! \(W = \int(\sum_j Q_j\dot q_j - \partial L/\partial t)\,dt\): \(E - W\) is conserved.
+    !! \(W = \int(\sum_j Q_j\dot q_j - \partial L/\partial t - \sum_k\lambda_k b_k)\,dt\), of
+    !! constraints \(A\dot q + b = 0\): \(E - W\) is conserved.
     !!
     !! A method with dense output is asked inside its step, at eight Gauss-Legendre nodes of each
     !! part of it. Between two steps of another a coordinate is the quintic that has both ends'
     !! coordinate, velocity and acceleration, so that W is right to \(O(\Delta t^6)\).
     use lagrangia_errors, only: error_t
     use lagrangia_gauss_tables, only: nodes, stages, weights
-    use lagrangia_generalised_forces, only: energy_rate
     use lagrangia_hermite, only: quintic
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp
+    use lagrangia_lagrange, only: energy_rate
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private

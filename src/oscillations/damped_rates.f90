@@ -1,6 +1,8 @@
 module lagrangia_damped_rates
     !! Small oscillations with damping: \(M\ddot\delta + (C + G)\dot\delta + K\delta = 0\), where
-    !! \(C = -\partial Q/\partial\dot q\) is from the generalised forces beside L.
+    !! \(C = -\partial Q/\partial\dot q\), and \(-\partial Q/\partial q\) in K, are from the
+    !! generalised forces beside L.
+    use lagrangia_equilibrium, only: stiffness_beside
     use lagrangia_errors, only: error_t, fail, status_library
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
@@ -8,6 +10,7 @@ module lagrangia_damped_rates
     use lagrangia_lapack_eigen, only: dgeev
     use lagrangia_small_oscillations, only: modes_t
     use lagrangia_system, only: system_t
+    use lagrangia_tangent_space, only: within
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -40,24 +43,36 @@ contains
         type(modes_t), intent(in) :: modes                    !! without damping, solved
         complex(dp), allocatable, intent(out) :: lambda(:)    !! 1/s
         type(error_t), allocatable, intent(out) :: error      !! status 4: LAPACK
-        real(dp), dimension(2*size(modes%at), 2*size(modes%at)) :: a
-        real(dp), dimension(2*size(modes%at)) :: re, im
-        real(dp), dimension(size(modes%at), size(modes%at)) :: damping
-        real(dp), dimension(size(modes%at)) :: column
-        real(dp) :: none(1, 1), nothing(1, 1), work(40*size(modes%at) + 100)
-        logical :: left(2*size(modes%at))
+        real(dp), dimension(2*size(modes%omega2), 2*size(modes%omega2)) :: a
+        real(dp), dimension(2*size(modes%omega2)) :: re, im
+        real(dp), dimension(size(modes%at), size(modes%at)) :: turning, springs
+        real(dp), dimension(size(modes%omega2), size(modes%omega2)) :: mass, damping, stiffness
+        real(dp), dimension(size(modes%omega2)) :: column
+        real(dp) :: none(1, 1), nothing(1, 1), work(40*size(modes%omega2) + 100)
+        logical :: left(2*size(modes%omega2))
         integer :: j, n, info
 
-        n = size(modes%at)
-        call damping_matrix(system, modes%at, damping)
-        damping = damping + modes%gyroscopic
+        n = size(modes%omega2)
+        call damping_matrix(system, modes%at, turning)
+        turning = turning + modes%gyroscopic
+        call stiffness_beside(system, modes%at, springs)
+        springs = springs + modes%stiffness
+        if (allocated(modes%basis)) then
+            mass = within(modes%basis, modes%mass)
+            damping = within(modes%basis, turning)
+            stiffness = within(modes%basis, springs)
+        else
+            mass = modes%mass
+            damping = turning
+            stiffness = springs
+        end if
         a = 0.0_dp
         do j = 1, n
             a(j, n + j) = 1.0_dp
-            call solve_linear(modes%mass, -modes%stiffness(:, j), column, error)
+            call solve_linear(mass, -stiffness(:, j), column, error)
             if (allocated(error)) return
             a(n + 1:, j) = column
-            call solve_linear(modes%mass, -damping(:, j), column, error)
+            call solve_linear(mass, -damping(:, j), column, error)
             if (allocated(error)) return
             a(n + 1:, n + j) = column
         end do

@@ -7,19 +7,19 @@ module lagrangia_small_oscillations
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_description, only: description_t, name_length
     use lagrangia_eigen, only: modes_from_factors, residual_ratio
+    use lagrangia_equilibrium, only: expand_at_rest, force_at_rest, settle
     use lagrangia_errors, only: error_t, fail, status_library
-    use lagrangia_generalised_forces, only: add_generalised_forces
     use lagrangia_gyroscopic, only: gyroscopic_modes, gyroscopic_ratio, is_steady
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_jacobi, only: zero_modes
     use lagrangia_kinds, only: dp
-    use lagrangia_lapack, only: solve_linear
     use lagrangia_linearised, only: linearised_t
     use lagrangia_mass_matrix, only: check_mass_matrix, list_of
     use lagrangia_normal_modes, only: is_oscillation, is_unstable, is_zero_mode, normal_modes, &
                                       normal_modes_t, put_labels
     use lagrangia_resources, only: check_memory
     use lagrangia_system, only: system_t
+    use lagrangia_tangent_space, only: check_integrable, find_tangent, tangent_t, within
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -34,6 +34,8 @@ module lagrangia_small_oscillations
         type(linearised_t) :: analytic             !! as derived by hand, where it was
         real(dp), allocatable :: mass(:, :), stiffness(:, :), gyroscopic(:, :)  !! what was solved
         real(dp) :: difference = -1.0_dp           !! of `analytic` from L, relative; < 0: unknown
+        real(dp), allocatable :: basis(:, :)       !! directions that constraints leave, (n, modes)
+        real(dp), allocatable :: multipliers(:)    !! of the constraints at the equilibrium
         real(dp), allocatable :: quadrature(:, :)  !! with \(G\): shape cos - quadrature sin
         real(dp) :: ratio = -1.0_dp                !! LAPACK's residual ratio
         character(40) :: method = ""
@@ -63,7 +65,7 @@ contains
         call system%linearise(modes%at, modes%analytic)
         allocate (modes%mass(n, n), modes%stiffness(n, n), modes%gyroscopic(n, n))
         if (n <= largest_expansion .or. .not. allocated(modes%analytic%mass)) then
-            call expand(system, modes%at, modes%mass, modes%stiffness, modes%gyroscopic)
+            call expand_at_rest(system, modes%at, modes%mass, modes%stiffness, modes%gyroscopic)
             if (allocated(modes%analytic%mass)) call compare(modes)
         end if
         if (allocated(modes%analytic%mass)) then
@@ -78,6 +80,47 @@ contains
             call error%add_context("at q = "//list_of(modes%at)//", v = 0")
             return
         end if
+        if (system%constraints > 0) then
+            call solve_constrained(system, modes, error)
+        else
+            call solve(modes, error)
+        end if
+    end subroutine find_modes
+
+    subroutine solve_constrained(system, modes, error)
+        !! In the directions that the constraints leave, with the stiffness of the multipliers.
+        class(system_t), intent(in) :: system
+        type(modes_t), intent(inout) :: modes
+        type(error_t), allocatable, intent(out) :: error
+        type(tangent_t) :: tangent
+        type(modes_t) :: free
+
+        call find_tangent(system, modes%at, tangent, error)
+        if (allocated(error)) return
+        allocate (modes%multipliers(system%constraints))
+        call tangent%find_multipliers(force_at_rest(system, modes%at), modes%multipliers, error)
+        if (allocated(error)) return
+        modes%stiffness = modes%stiffness + tangent%stiffness(modes%multipliers)
+        free%mass = within(tangent%basis, modes%mass)
+        free%stiffness = within(tangent%basis, modes%stiffness)
+        free%gyroscopic = within(tangent%basis, modes%gyroscopic)
+        call solve(free, error)
+        if (allocated(error)) return
+        modes%omega2 = free%omega2
+        modes%omega = free%omega
+        modes%label = free%label
+        modes%method = free%method
+        modes%ratio = free%ratio
+        modes%shapes = matmul(tangent%basis, free%shapes)
+        if (allocated(free%quadrature)) modes%quadrature = matmul(tangent%basis, free%quadrature)
+        call move_alloc(tangent%basis, modes%basis)
+    end subroutine solve_constrained
+
+    subroutine solve(modes, error)
+        !! The eigenproblem of M, G and K.
+        type(modes_t), intent(inout) :: modes
+        type(error_t), allocatable, intent(out) :: error
+
         if (any(abs(modes%gyroscopic) > 0.0_dp)) then
             call solve_gyroscopic(modes, error)
         else if (allocated(modes%analytic%root)) then
@@ -85,7 +128,7 @@ contains
             call modes_from_factors(modes%analytic%root, modes%analytic%inverse, modes%omega2, &
                                     modes%shapes, error)
         else
-            modes%method = merge("dsygv ", "dsygvd", n <= 32)
+            modes%method = merge("dsygv ", "dsygvd", size(modes%mass, 1) <= 32)
             call normal_modes(modes%stiffness, modes%mass, modes%omega2, modes%shapes, error)
         end if
         if (allocated(error)) return
@@ -93,7 +136,7 @@ contains
             modes%ratio = residual_ratio(modes%stiffness, modes%mass, modes%omega2, modes%shapes)
         end if
         call label_modes(modes)
-    end subroutine find_modes
+    end subroutine solve
 
     pure function likely_equilibrium(system) result(q)
         !! Where an equilibrium is looked for first: where the description says, or at zero.
@@ -109,7 +152,7 @@ contains
 
     subroutine check_system(system, start, error)
         !! Refuse a system without a constant \(M\), \(G\) and \(K\): not configured, with
-        !! non-holonomic constraints, or with the time in L.
+        !! nonholonomic constraints, or with the time in L.
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: start(:)
         type(error_t), allocatable, intent(out) :: error
@@ -126,9 +169,11 @@ contains
                       trim(merge(" ", "s", system%ndof == 1))//" for "//trim(d%name)// &
                       ", not "//to_text(size(start)))
         else if (system%constraints > 0) then
-            call fail(error, trim(d%name)//" has non-holonomic constraints: steady motions, "// &
-                      "but no modes about an equilibrium")
-        else if (system%time_dependent) then
+            call check_integrable(system, start, error)
+            if (allocated(error)) call error%add_context(trim(d%name))
+        end if
+        if (allocated(error)) return
+        if (system%time_dependent) then
             if (system%nonconservative) then
                 call fail(error, "the equation of motion of this "//trim(d%name)//" contains "// &
                           "the time: it has no equilibrium to oscillate about")
@@ -138,120 +183,17 @@ contains
             end if
         end if
         if (allocated(error)) return
+        if (any(.not. ieee_is_finite(start))) then
+            call fail(error, "with these parameters the equilibrium of "//trim(d%name)// &
+                      " is no number: a sine or cosine beyond 1, or a division by zero")
+            return
+        end if
         qq%re = start
         l = system%lagrangian(hyperdual_t(), qq, vv)
         if (ieee_is_finite(l%re)) return
         call fail(error, "the Lagrangian of this "//trim(d%name)//" is not a finite number at "// &
                   "q = "//list_of(start)//", v = 0", status_library)
     end subroutine check_system
-
-    pure function force(system, q) result(f)
-        !! \(\partial L/\partial q + Q\) at rest.
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: q(:)
-        real(dp) :: f(size(q))
-        type(hyperdual_t) :: tt, qq(size(q)), vv(size(q)), l
-        integer :: i
-
-        qq%re = q
-        do i = 1, size(q)
-            qq(i)%d1 = 1.0_dp
-            l = system%lagrangian(tt, qq, vv)
-            f(i) = l%d1
-            qq(i)%d1 = 0.0_dp
-        end do
-        call add_generalised_forces(system, 0.0_dp, q, 0.0_dp*q, f)
-    end function force
-
-    subroutine settle(system, wanted, q, error)
-        !! Newton's method from `q` to an equilibrium, \(|F_i| \le 8\epsilon\sum_j|K_{ij}|
-        !! \max(1, |q_j|)\); a `wanted` one must be there already, to a relative 1e-12.
-        class(system_t), intent(in) :: system
-        logical, intent(in) :: wanted
-        real(dp), intent(inout) :: q(:)
-        type(error_t), allocatable, intent(out) :: error
-        type(error_t), allocatable :: singular
-        type(description_t) :: d
-        character(:), allocatable :: near
-        real(dp), dimension(size(q), size(q)) :: m, k, g
-        real(dp), dimension(size(q)) :: f, start, step
-        real(dp) :: damping
-        integer :: i, worst
-
-        start = q
-        f = force(system, q)
-        if (all(abs(f) <= 0.0_dp)) return
-        near = "none is near"
-        do i = 1, 50
-            call expand(system, q, m, k, g)
-            f = force(system, q)
-            if (all(abs(f) <= 8.0_dp*epsilon(f)*matmul(abs(k), max(1.0_dp, abs(q))))) then
-                near = ""
-                exit
-            end if
-            ! least squares with a damping of 1e-12 max|K^T K|: K may be singular (a zero mode)
-            m = matmul(transpose(k), k)
-            damping = 1e-12_dp*maxval(abs(m))
-            do worst = 1, size(q)
-                m(worst, worst) = m(worst, worst) + damping
-            end do
-            call solve_linear(m, matmul(transpose(k), f), step, singular)
-            if (allocated(singular)) exit
-            q = q + step
-            if (maxval(abs(step)) > 4.0_dp*epsilon(q)*max(1.0_dp, maxval(abs(q)))) cycle
-            near = ""
-            exit
-        end do
-        f = force(system, start)
-        worst = maxloc(abs(f), 1)
-        if (near == "") then
-            if (.not. wanted) return
-            if (maxval(abs(q - start)) <= 1e-12_dp*max(1.0_dp, maxval(abs(q)))) then
-                q = start
-                return
-            end if
-            where (abs(q) <= 4.0_dp*epsilon(q)) q = 0.0_dp
-            near = "the nearest is --at "//to_text(q(1))
-            do i = 2, min(size(q), 6)
-                near = near//","//to_text(q(i))
-            end do
-        end if
-        call system%describe(d)
-        call fail(error, "not an equilibrium of "//trim(d%name)//": the force on "// &
-                  trim(d%coordinates(worst)%name)//" is "//to_text(f(worst))//" "// &
-                  trim(merge("N m", "N  ", d%coordinates(worst)%unit == "rad"))//"; "//near)
-    end subroutine settle
-
-    pure subroutine expand(system, q, m, k, g)
-        !! \(M\), \(K\), \(G\) from the Lagrangian's second derivatives at rest.
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: q(:)
-        real(dp), dimension(size(q), size(q)), intent(out) :: m, k, g
-        real(dp) :: mixed(size(q), size(q))
-        type(hyperdual_t) :: tt, qq(size(q)), vv(size(q)), l
-        integer :: i, j
-
-        qq%re = q
-        do i = 1, size(q)
-            do j = 1, size(q)
-                vv(i)%d1 = 1.0_dp
-                vv(j)%d2 = 1.0_dp
-                l = system%lagrangian(tt, qq, vv)
-                m(i, j) = l%d12
-                vv(j)%d2 = 0.0_dp
-                qq(j)%d2 = 1.0_dp
-                l = system%lagrangian(tt, qq, vv)
-                mixed(i, j) = l%d12
-                vv(i)%d1 = 0.0_dp
-                qq(i)%d1 = 1.0_dp
-                l = system%lagrangian(tt, qq, vv)
-                k(i, j) = -l%d12
-                qq(i)%d1 = 0.0_dp
-                qq(j)%d2 = 0.0_dp
-            end do
-        end do
-        g = mixed - transpose(mixed)
-    end subroutine expand
 
     pure subroutine compare(modes)
         !! The derivation by hand against the Lagrangian.

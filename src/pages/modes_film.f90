@@ -10,7 +10,7 @@ module lagrangia_modes_film
     use lagrangia_kinds, only: dp
     use lagrangia_small_oscillations, only: is_oscillation, is_unstable, modes_t
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: to_text
+    use lagrangia_text, only: in_words, to_text
     implicit none (type, external)
     private
     public :: animate_modes
@@ -67,8 +67,8 @@ contains
             if (modes%label(j) == is_unstable) members = json_pair("growth", rate)//members
             films = films//json_object(json_pair("name", name)//members)
         end do
-        call write_page(path, trim(d%name)//": small oscillations", &
-                        page_of_films(system, trim(d%name)//": small oscillations", &
+        call write_page(path, in_words(d%name)//": small oscillations", &
+                        page_of_films(system, in_words(d%name)//": small oscillations", &
                                       "linear equations of motion", films), error)
     end subroutine animate_modes
 

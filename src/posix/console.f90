@@ -67,12 +67,13 @@ contains
     end subroutine say_at_once
 
     subroutine show_progress(text)
-        !! Let `text` replace the line of the terminal behind stderr; `""` clears it.
-        character(*), intent(in) :: text  !! narrower than the terminal
+        !! Let `text` replace the line of the terminal behind stderr; `""` clears it. What is wider
+        !! than the terminal is cut, for a second line would stay there.
+        character(*), intent(in) :: text  !! printable or not
         character(:), allocatable :: line
         integer(c_size_t) :: written
 
-        line = char(13)//char(27)//"[K"//printable(text)
+        line = char(13)//char(27)//"[K"//char(27)//"[?7l"//printable(text)//char(27)//"[?7h"
         written = c_write(2_c_int, line, len(line, c_size_t))
     end subroutine show_progress
 

@@ -242,10 +242,12 @@ contains
         report%picture%file = "principle_action"
         report%picture%title = "Action of q + a eta, less that of the actual path q; "// &
                                "eta: what lowers it most"
-        report%picture%names = [character(32) :: "a", "oscillator_wT_2", "oscillator_wT_4", &
-                                "a_theta", "pendulum_0.45_periods", "pendulum_0.70_periods"]
+        report%picture%names = [character(32) :: "a", "oscillator(omega T=2)", &
+                                "oscillator(omega T=4)", "a_theta", &
+                                "pendulum_0.45_periods", "pendulum_0.70_periods"]
         report%picture%units = [character(16) :: "m", "J s", "J s", "rad", "J s", "J s"]
-        report%picture%panels = [character(98) :: "a:oscillator_wT_2+oscillator_wT_4", &
+        report%picture%panels = [character(98) :: &
+                                 "a:oscillator(omega T=2)+oscillator(omega T=4)", &
                                  "a_theta:pendulum_0.45_periods+pendulum_0.70_periods"]
         allocate (report%picture%values(6, samples))
         times(:2) = [1.0_dp, 2.0_dp]

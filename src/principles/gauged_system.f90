@@ -154,6 +154,7 @@ contains
         allocate (self%gauge, source=gauge)
         self%ndof = plain%ndof
         self%constraints = plain%constraints
+        self%constraints_work = plain%constraints_work
         self%velocity_forces = plain%velocity_forces
         self%nonconservative = plain%nonconservative
         self%time_dependent = .true.

@@ -277,9 +277,9 @@ contains
         if (allocated(error)) return
         report%picture%file = "principle_phase_space"
         report%picture%title = "A cloud of starts goes round, is drawn out, and keeps its area"
-        report%picture%names = [character(32) :: "theta", "theta_dot/w0"]
+        report%picture%names = [character(32) :: "theta", "theta_dot/omega0"]
         report%picture%units = [character(16) :: "rad", "rad"]
-        report%picture%panels = [character(98) :: "theta:theta_dot/w0"]
+        report%picture%panels = [character(98) :: "theta:theta_dot/omega0"]
         allocate (report%picture%values(2, times*(points + 1) + (times - 1)*steps))
         row = 0
         do i = 1, times

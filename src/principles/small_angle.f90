@@ -196,13 +196,13 @@ contains
         report%picture%file = "principle_small_angle"
         report%picture%title = "Cart-pendulum: theta_dot^2 theta falls with the third power "// &
                                "of the swing"
-        report%picture%names = [character(32) :: "log10 of A", "theta_ddot", "theta_dot^2", &
-                                "theta_dot^2 theta", "T/T0 - 1", "3/16 A^2"]
-        report%picture%units = [character(16) :: "A in rad", "log10 of /w^2", "log10 of /w^2", &
-                                "log10 of /w^2", "log10", "log10"]
+        report%picture%names = [character(32) :: "log10(A/rad)", "theta_ddot/omega^2", &
+                                "theta_dot^2/omega^2", "theta_dot^2 theta/omega^2", &
+                                "T/T0 - 1", "3/16 A^2"]
+        report%picture%units = [character(16) :: "1", "log10", "log10", "log10", "log10", "log10"]
         report%picture%panels = [character(98) :: &
-                                 "log10 of A:theta_ddot+theta_dot^2+theta_dot^2 theta", &
-                                 "log10 of A:T/T0 - 1+3/16 A^2"]
+                                 "log10(A/rad):theta_ddot/omega^2+theta_dot^2/omega^2+"// &
+                                 "theta_dot^2 theta/omega^2", "log10(A/rad):T/T0 - 1+3/16 A^2"]
         report%picture%nested = .true.
         allocate (report%picture%values(6, size(ladder)))
         do i = 1, size(ladder)

@@ -123,10 +123,10 @@ contains
         report%picture%file = "principle_virtual_work"
         report%picture%title = "A wire that turns does work on its bead, but no virtual work"
         report%picture%nested = .true.
-        report%picture%names = [character(32) :: "t", "N.dx/dt", "2 m W^2 r r_dot", &
+        report%picture%names = [character(32) :: "t", "N.dx/dt", "2 m omega^2 r r_dot", &
                                 "N.(dx/dr) r_dot"]
         report%picture%units = [character(16) :: "s", "W", "W", "W"]
-        report%picture%panels = [character(98) :: "t:N.dx/dt+2 m W^2 r r_dot+N.(dx/dr) r_dot"]
+        report%picture%panels = [character(98) :: "t:N.dx/dt+2 m omega^2 r r_dot+N.(dx/dr) r_dot"]
         allocate (report%picture%values(4, samples))
         do k = 1, samples
             call wire%accelerations((k - 1)*step, q(:, k), v(:, k), a)

@@ -7,7 +7,7 @@ module lagrangia_mode_script
     use lagrangia_plot_symbol, only: symbol
     use lagrangia_plot_words, only: text_label
     use lagrangia_small_oscillations, only: is_oscillation, is_unstable, modes_t
-    use lagrangia_text, only: to_text
+    use lagrangia_text, only: in_words, to_text
     implicit none (type, external)
     private
     public :: mode_script
@@ -17,6 +17,8 @@ module lagrangia_mode_script
     integer, parameter :: most_panels = 12
     integer, parameter :: across = 4        !! panels beside each other
     real(dp), parameter :: side = 330.0_dp  !! pixels of a panel, at most
+    real(dp), parameter :: most_wide = 1000.0_dp  !! pixels of the whole: letters of 14 are read
+    real(dp), parameter :: flat = 0.15_dp   !! height by length, or back, of what covers itself
 
 contains
 
@@ -27,21 +29,25 @@ contains
         real(dp), intent(in) :: rows(:, :)  !! of the data file: mode, side, kind, x, y, z, dx, ...
         character(:), allocatable :: text
         type(lines_t) :: script
-        real(dp) :: centre(2), half(2, most_panels), shown(2), wide
+        real(dp) :: apart(2, most_panels), centre(2), drawn(2), half(2, most_panels)
+        real(dp) :: shown(2), wide
         real(dp), parameter :: gap = 46.0_dp, top = 84.0_dp, label = 40.0_dp
         integer :: axes(2, most_panels), beside, down, height, i, n, width
         character(200) :: line
+        character(3) :: dot
 
         n = min(size(modes%omega2), most_panels)
         do i = 1, n
             call choose_axes(rows, i, axes(:, i), centre, half(:, i))
+            call part_sides(rows, i, axes(:, i), half(:, i), apart(:, i))
         end do
         ! Half the range of both axes: that of the largest panel, a little more, not too slender.
         shown = maxval(half(:, :n), 2)
         shown = 1.15_dp*max(shown, 0.6_dp*maxval(shown))
         beside = min(n, merge(across, across + 1, n <= 2*across))
         down = (n + beside - 1)/beside
-        wide = side
+        dot = merge("1.8", "1.0", n <= across)
+        wide = min(side, ((most_wide - gap)/beside - gap)*maxval(shown)/shown(1))
         if (n == 1) wide = 1.5_dp*side
         width = nint(beside*(wide*shown(1)/maxval(shown) + gap) + gap)
         width = max(width, 800)
@@ -49,7 +55,7 @@ contains
         call begin_script(script, trim(d%name)//"_modes.dat", width, height, 30*down)
         call script%add("data = folder."//gnuplot_string(trim(d%name)//"_modes.dat"))
         call script%add("set multiplot")
-        call script%add("set label 1 "//text_label(trim(d%name)//": "//shown_modes())// &
+        call script%add("set label 1 "//text_label(in_words(d%name)//": "//shown_modes())// &
                         " at screen 0.5, screen "//fixed(1.0_dp - 24.0_dp/height, 4)// &
                         " center font ',16'")
         call script%add("set label 2 ""grey: at rest, and the way of each mass; blue, orange: "// &
@@ -57,11 +63,11 @@ contains
                         fixed(1.0_dp - 52.0_dp/height, 4)//" center font ',14'")
         call script%add("unset key; unset tics; set size ratio -1; set border lw 0.8 lc rgb "// &
                         "'#bbbbbb'")
-        call script%add("set style line 1 lc rgb '#999999' lw 2 pt 7 ps 1.8")
-        call script%add("set style line 2 lc rgb '#0072b2' lw 3 pt 7 ps 1.8")
-        call script%add("set style line 3 lc rgb '#d55e00' lw 3 pt 7 ps 1.8")
+        call script%add("set style line 1 lc rgb '#999999' lw 2 pt 7 ps "//dot)
+        call script%add("set style line 2 lc rgb '#0072b2' lw 3 pt 7 ps "//dot)
+        call script%add("set style line 3 lc rgb '#d55e00' lw 3 pt 7 ps "//dot)
         do i = 1, n
-            call choose_axes(rows, i, axes(:, i), centre, half(:, i))
+            call choose_axes(rows, i, axes(:, i), centre, drawn)
             call put_panel(i)
             if (i == 1) call script%add("unset label")
         end do
@@ -112,7 +118,8 @@ contains
 
             a = to_text(3 + axes(1, mode))
             b = to_text(3 + axes(2, mode))
-            words = "data using "//chosen(mode, which, kind, a)//":"//b//":"// &
+            words = "data using "//chosen(mode, which, kind, a, apart(1, mode))//":"// &
+                    shifted(which, b, apart(2, mode))//":"// &
                     to_text(6 + axes(1, mode))//":"//to_text(6 + axes(2, mode))// &
                     " with vectors nohead ls "//to_text(style)
         end function segments
@@ -121,20 +128,67 @@ contains
             integer, intent(in) :: mode, which, style
             character(:), allocatable :: words
 
-            words = "data using "//chosen(mode, which, is_mass, to_text(3 + axes(1, mode)))//":"// &
-                    to_text(3 + axes(2, mode))//" with points ls "//to_text(style)
+            words = "data using "//chosen(mode, which, is_mass, to_text(3 + axes(1, mode)), &
+                                          apart(1, mode))//":"// &
+                    shifted(which, to_text(3 + axes(2, mode)), apart(2, mode))// &
+                    " with points ls "//to_text(style)
         end function masses
     end function mode_script
 
-    pure function chosen(mode, which, kind, column) result(words)
-        !! The column of the rows of one mode, side and kind.
+    pure function chosen(mode, which, kind, column, apart) result(words)
+        !! The column of the rows of one mode, side and kind, a side shifted by `apart`.
         integer, intent(in) :: mode, which, kind
         character(*), intent(in) :: column
+        real(dp), intent(in) :: apart  !! m
         character(:), allocatable :: words
 
         words = "($1 == "//to_text(mode)//" && $2 == "//to_text(which)//" && $3 == "// &
-                to_text(kind)//" ? $"//column//" : NaN)"
+                to_text(kind)//" ? $"//column//moved(which, apart)//" : NaN)"
     end function chosen
+
+    pure function shifted(which, column, apart) result(words)
+        !! A column, that of a side shifted by `apart`.
+        integer, intent(in) :: which
+        character(*), intent(in) :: column
+        real(dp), intent(in) :: apart  !! m
+        character(:), allocatable :: words
+
+        words = column
+        if (moved(which, apart) /= "") words = "($"//column//moved(which, apart)//")"
+    end function shifted
+
+    pure function moved(which, apart) result(words)
+        !! ` + 0.3`, or nothing.
+        integer, intent(in) :: which
+        real(dp), intent(in) :: apart  !! m
+        character(:), allocatable :: words
+
+        words = ""
+        if (which /= 0 .and. abs(apart) > 0.0_dp) words = " + "//to_text(which*apart)
+    end function moved
+
+    pure subroutine part_sides(rows, mode, axes, half, apart)
+        !! Rods and springs that move along themselves would cover each other: the sides of such a
+        !! mode are drawn to either side of the way, and its range grows by that.
+        real(dp), intent(in) :: rows(:, :)
+        integer, intent(in) :: mode, axes(2)
+        real(dp), intent(inout) :: half(2)
+        real(dp), intent(out) :: apart(2)
+        real(dp) :: way(2)
+        integer :: across, i
+
+        apart = 0.0_dp
+        if (.not. any(nint(rows(1, :)) == mode .and. nint(rows(3, :)) == is_rod)) return
+        across = minloc(half, 1)
+        if (half(across) > flat*maxval(half)) return
+        do i = 1, 2
+            way(i) = sum(abs(rows(6 + axes(i), :)), nint(rows(1, :)) == mode .and. &
+                         nint(rows(3, :)) == is_way)
+        end do
+        if (way(across) > flat*maxval(way)) return
+        apart(across) = 2.5_dp*max(half(across), 0.05_dp*maxval(half))
+        half(across) = half(across) + apart(across)
+    end subroutine part_sides
 
     pure function side_of(part) result(which)
         !! At rest, and the two sides.

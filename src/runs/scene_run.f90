@@ -144,6 +144,9 @@ contains
             if (integrator%symplectic .and. plan%system%nonconservative) outcome%remark = &
                 outcome%remark//" (with generalised forces beside L they are not symplectic: "// &
                 "the order holds, and energy_balance_drift says the rest)"
+            if (integrator%energy_order > 0 .and. plan%system%is_projected) outcome%remark = &
+                outcome%remark//" (each step ends on the constraints, which is not reversible: "// &
+                "the order holds, the energy may drift)"
             outcome%seconds = real(finish - start, dp)/real(rate, dp)
             outcome%evaluations = integrator%evaluations
         end associate

@@ -1,7 +1,6 @@
 module lagrangia_formula_start
     !! Whether the formulas of a scene make sense at its start, and what is to blame where not.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use lagrangia_constrained_system, only: constrained_system_t
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t
     use lagrangia_formula_program, only: formula_program_t, new_formula_program
@@ -35,8 +34,6 @@ contains
 
         select type (system)
         class is (written_system_t)
-            call refuse_place(tree, system, scene, error)
-            if (allocated(error)) return
             state = "at t = "//to_text(scene%t0)//", q = "//list_of(scene%q)//", v = "// &
                     list_of(scene%v)
             call refuse_infinite(tree, system, scene, state, error)
@@ -63,21 +60,6 @@ contains
             if (has_key(tree, group, with_t)) key = with_t
         end function key_of
     end subroutine check_formulas_at_start
-
-    subroutine refuse_place(tree, system, scene, error)
-        !! A start that is not on the constraints.
-        type(namelist_t), intent(inout) :: tree
-        class(written_system_t), intent(in) :: system
-        type(scene_t), intent(in) :: scene
-        type(error_t), allocatable, intent(out) :: error
-        type(error_t), allocatable :: cause
-
-        select type (system)
-        type is (constrained_system_t)
-            call system%check_places(scene%t0, scene%q, cause)
-            if (allocated(cause)) call refuse_value(tree, "scene", "q", cause%message, error)
-        end select
-    end subroutine refuse_place
 
     subroutine refuse_infinite(tree, system, scene, state, error)
         !! Name the formula, T, V or L, that has no finite value, or a derivative that is none.

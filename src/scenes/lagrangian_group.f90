@@ -4,6 +4,7 @@ module lagrangia_lagrangian_group
     use lagrangia_description, only: check_parameter, name_length, quantity_t, real_number
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
+    use lagrangia_name_ranges, only: expand_ranges
     use lagrangia_namelist, only: get_real, get_strings, has_key, namelist_t, refuse_unknown_keys, &
                                   refuse_value
     use lagrangia_parameter_domains, only: set_domain
@@ -33,9 +34,10 @@ contains
         type(written_formulas_t), intent(inout) :: formulas  !! has its name; gets the rest
         type(error_t), allocatable, intent(out) :: error     !! a text that is missing or too long
         type(quantity_t), allocatable :: items(:)
-        character(longest_formula), allocatable :: domains(:)
+        character(longest_formula), allocatable :: domains(:), texts(:)
         type(error_t), allocatable :: found
-        character(:), allocatable :: force
+        character(:), allocatable :: force, problem
+        integer, allocatable :: from(:)
         integer :: i
 
         call read_names(tree, "coordinates", .true., formulas%coordinates, error)
@@ -56,7 +58,11 @@ contains
         end do
         call read_list("definitions", formulas%definitions)
         if (allocated(error)) return
-        call read_list("positions", formulas%positions)
+        call read_list("positions", texts)
+        if (allocated(error)) return
+        call expand_ranges(texts, formulas%positions, from, problem)
+        if (problem /= "") call refuse_value(tree, group, "positions", problem, error, &
+                                             from(size(from)))
         if (allocated(error)) return
         call read_list("equilibrium", formulas%equilibrium)
         if (allocated(error)) return
@@ -179,25 +185,28 @@ contains
     end subroutine read_values
 
     subroutine read_names(tree, key, required, items, error)
-        !! `'r [m] length of the spring'`, one text each.
+        !! `'r [m] length of the spring'`, one text each, or `'x_1 .. x_4 [m]'`.
         type(namelist_t), intent(inout) :: tree
         character(*), intent(in) :: key
         logical, intent(in) :: required
         type(quantity_t), allocatable, intent(out) :: items(:)
         type(error_t), allocatable, intent(out) :: error
         character(200), allocatable :: texts(:)
+        character(longest_formula), allocatable :: single(:)
         character(:), allocatable :: problem
+        integer, allocatable :: from(:)
         integer :: i
 
         allocate (texts(0))
         call get_strings(tree, group, key, 1, most, texts, error, required=required)
         if (allocated(error)) return
-        allocate (items(size(texts)))
-        do i = 1, size(texts)
-            call take_name(texts(i), items(i), problem)
-            if (problem == "") cycle
-            call refuse_value(tree, group, key, problem, error, i)
-            return
+        call expand_ranges(texts, single, from, problem)
+        allocate (items(size(single)))
+        if (problem /= "") call refuse_value(tree, group, key, problem, error, from(size(from)))
+        do i = 1, size(single)
+            if (allocated(error)) return
+            call take_name(trim(single(i)), items(i), problem)
+            if (problem /= "") call refuse_value(tree, group, key, problem, error, from(i))
         end do
     end subroutine read_names
 
@@ -317,11 +326,21 @@ contains
         type(namelist_t), intent(inout) :: tree  !! keys that are read are marked as used
         type(error_t), intent(in) :: found       !! with its key and element
         type(error_t), allocatable, intent(out) :: error  !! with file, line, column
-        character(longest_formula), allocatable :: texts(:)
+        character(longest_formula), allocatable :: texts(:), single(:)
+        character(:), allocatable :: problem
+        integer, allocatable :: from(:)
         integer :: element, at, i
 
         element = found%element
         at = column_of(found%message)
+        if (any(found%key == [character(11) :: "coordinates", "parameters", "positions"]) .and. &
+            element > 0) then
+            allocate (texts(0))
+            call get_strings(tree, group, found%key, 1, most, texts, error)
+            call expand_ranges(texts, single, from, problem)
+            if (element <= size(from)) element = from(element)
+            deallocate (texts)
+        end if
         if (is_formula(found%key)) then
             allocate (texts(0))
             call get_strings(tree, group, found%key, 1, most, texts, error)

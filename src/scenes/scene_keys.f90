@@ -125,7 +125,12 @@ contains
                               min(size(scene%q), system%ndof + 1))
             return
         end if
-        allocate (given(system%ndof), source=0.0_dp)
+        call system%check_places(scene%t0, scene%q, found)
+        if (allocated(found)) then
+            call refuse_value(tree, "scene", "q", found%message, error)
+            return
+        end if
+        allocate (given(system%ndof - system%constraints), source=0.0_dp)
         call get_reals(tree, "scene", "v", 1, most, given, error)
         if (allocated(error)) return
         allocate (scene%v(system%ndof))

@@ -83,7 +83,7 @@ module lagrangia_scene_reference
                 "expect_energy_drift = 1e-6"), &
         entry_t("lagrangian", "coordinates", "", "", &
                 "of a system in formulas: names, each with "// &
-                "a unit and a few words if you like", &
+                "a unit and a few words if you like; 'x_1 .. x_4 [m]' is four", &
                 "coordinates = 'r [m] length of the spring', 'theta [rad] its angle'"), &
         entry_t("lagrangian", "parameters", "", absent, "names, as coordinates; their values "// &
                 "stand in the group that has the system's name", &
@@ -104,10 +104,11 @@ module lagrangia_scene_reference
                 "perhaps z; they become columns x_bob, y_bob", &
                 "positions = 'bob, m: r sin(theta), -r cos(theta)'"), &
         entry_t("lagrangian", "equilibrium", "", "near zeros", "where small oscillations are "// &
-                "looked at, a formula for each coordinate", "equilibrium = 'l0 + m g/k', '0'"), &
-        entry_t("lagrangian", "constraint", "", absent, "up to one less than coordinates: in "// &
-                "coordinates, or linear in velocities; each has a multiplier, column lambda1", &
-                "constraint = 'r = l0'"), &
+                "looked at, for each coordinate a formula, or its cosine: 'cos(theta) = g/l0'", &
+                "equilibrium = 'l0 + m g/k', '0'"), &
+        entry_t("lagrangian", "constraint", "", absent, "up to one less than coordinates: of "// &
+                "t and coordinates, or linear in velocities; each has a multiplier, column "// &
+                "lambda1, and each step ends on it", "constraint = 'r = l0 + t/20'"), &
         entry_t("lagrangian", "quantities", "", absent, "functions of t, q, q_dot as columns, "// &
                 "each may use those before it; one that the motion conserves has a drift", &
                 "quantities = 'L_z [kg m^2/s] angular momentum = m r^2 theta_dot'"), &

@@ -7,6 +7,7 @@ module lagrangia_energy_growth
     use lagrangia_kinds, only: dp, i8
     use lagrangia_ledger, only: ledger_t
     use lagrangia_method_orders, only: new_problem, problems, refuses
+    use lagrangia_observer, only: observer_t
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_printed_table, only: short
     use lagrangia_system, only: system_t
@@ -16,6 +17,7 @@ module lagrangia_energy_growth
 
     integer(i8), parameter :: most_steps = 100000000_i8
     integer(i8), parameter :: every = 7            !! odd: it meets all phases of a swing
+    integer(i8), parameter :: tick_every = 4096    !! energies between two words to the watcher
     real(dp), parameter :: short_step = 0.02_dp, long_step = 0.05_dp  !! s
 
     type :: growth_t
@@ -31,13 +33,14 @@ module lagrangia_energy_growth
 
 contains
 
-    subroutine stress_energy_growth(method, evaluations, verdicts)
+    subroutine stress_energy_growth(method, evaluations, verdicts, watcher)
         !! On a pendulum from 2 rad, or on a charge in a trap where the method is for charges only.
         !! What declares its energy error bounded must keep it so; the rounding of so many
         !! evaluations may grow as a random walk. What declares nothing is expected to drift.
         class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
         integer(i8), intent(in) :: evaluations  !! at most, in a power of ten of steps
         type(ledger_t), intent(inout) :: verdicts  !! gets the lines
+        class(observer_t), intent(inout), optional :: watcher  !! told how far it is
         class(system_t), allocatable :: system
         real(dp), allocatable :: q(:), v(:)
         type(growth_t) :: growth
@@ -54,7 +57,8 @@ contains
         steps = min(most_steps, 10_i8**int(log10(1000.0_dp*evaluations/method%evaluations)))
         call new_problem(k, system, q, v)
         call observe_energy(method, system, merge(long_step, short_step, &
-                                                  method%energy_order > 0), steps, q, v, growth)
+                                                  method%energy_order > 0), steps, q, v, growth, &
+                            watcher)
         ! a unit in the last place a time, as a random walk; the terms are larger than their sum
         rounding = 4.0_dp*epsilon(rounding)*sqrt(real(method%evaluations, dp))
         associate (p => growth%exponent_of())
@@ -71,7 +75,7 @@ contains
         end associate
     end subroutine stress_energy_growth
 
-    subroutine observe_energy(method, system, dt, steps, q, v, growth)
+    subroutine observe_energy(method, system, dt, steps, q, v, growth, watcher)
         !! Take the steps and see the relative error of the energy.
         class(integrator_t), intent(inout) :: method  !! that is measured; prepared here
         class(system_t), intent(in) :: system  !! with its parameters
@@ -79,6 +83,7 @@ contains
         integer(i8), intent(in) :: steps  !! how many
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)  !! the start; on return the end
         type(growth_t), intent(out) :: growth  !! of the relative error
+        class(observer_t), intent(inout), optional :: watcher  !! told how far it is
         type(error_t), allocatable :: refusal
         real(dp) :: start
         integer(i8) :: k, count
@@ -90,6 +95,8 @@ contains
             count = min(every, steps - k)
             call method%advance(system, 0.0_dp, dt, k, count, q, v)
             call growth%see(k + count, abs(system%energy(0.0_dp, q, v)/start - 1.0_dp))
+            if (.not. present(watcher) .or. mod(k, every*tick_every) > 0) cycle
+            call watcher%tick(k, steps)
         end do
     end subroutine observe_energy
 
@@ -156,7 +163,7 @@ contains
                short(self%steps(size(self%steps)), 1)//" steps"
     end function remark
 
-    subroutine stress_rounding(method, sums, steps, verdicts)
+    subroutine stress_rounding(method, sums, steps, verdicts, watcher)
         !! The energy that its steps conserve exactly but for rounding,
         !! \((1-\omega^2h^2/4)v^2 + \omega^2x^2\) for drift, kick, drift. Plain sums lose it as a
         !! random walk, \(\varepsilon\sqrt N\); compensated ones keep it but for the last digits.
@@ -165,6 +172,7 @@ contains
         character(*), intent(in) :: sums     !! "plain" or "compensated"
         integer(i8), intent(in) :: steps  !! how many
         type(ledger_t), intent(inout) :: verdicts  !! gets the lines
+        class(observer_t), intent(inout), optional :: watcher  !! told how far it is
         real(dp), parameter :: h = 0.1_dp
         integer(i8), parameter :: every = 100, farthest = 10000000_i8  !! that is judged
         type(oscillator_t) :: system
@@ -182,6 +190,8 @@ contains
         do k = 0, steps - 1, every
             call method%advance(system, 0.0_dp, h, k, every, q, v)
             call growth%see(k + every, abs(energy()/start - 1.0_dp))
+            if (.not. present(watcher) .or. mod(k, every*tick_every) > 0) cycle
+            call watcher%tick(k, steps)
         end do
         scale = epsilon(h)*sqrt(real(steps, dp))
         if (steps > farthest) then

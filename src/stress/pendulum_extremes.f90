@@ -5,8 +5,9 @@ module lagrangia_pendulum_extremes
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t
-    use lagrangia_kinds, only: dp, qp
+    use lagrangia_kinds, only: dp, i8, qp
     use lagrangia_ledger, only: ledger_t
+    use lagrangia_observer, only: observer_t
     use lagrangia_pendulum, only: pendulum_t
     use lagrangia_printed_table, only: short
     use lagrangia_reference, only: reference_t
@@ -103,7 +104,7 @@ contains
         end do
     end subroutine stress_large_angles
 
-    subroutine stress_mass_ratios(system, method, fast_time, verdicts)
+    subroutine stress_mass_ratios(system, method, fast_time, verdicts, watcher)
         !! Frequencies against the formula in quadruple precision, to full relative accuracy; and
         !! the motion against the pendulum that is left where one bob weighs nothing: the heavy
         !! upper one on its rod, or, with a heavy lower one, both rods in line.
@@ -111,6 +112,7 @@ contains
         class(dense_integrator_t), intent(inout) :: method  !! with its tolerance; prepared here
         real(dp), intent(in) :: fast_time  !! s, of the motion with fast oscillations
         type(ledger_t), intent(inout) :: verdicts  !! gets the lines
+        class(observer_t), intent(inout), optional :: watcher  !! told how far it is
         integer, parameter :: powers(*) = [-12, -8, -4, 0, 4, 8, 12]
         type(error_t), allocatable :: error
         real(dp) :: phase
@@ -130,7 +132,7 @@ contains
         phase = fast_time*sqrt(maxval(exact_omega2(1e-12_dp, 1.0_dp)))
         call verdicts%judge("m1/m2 = 1e-12", "theta1 of both rods in line: from one", &
                             distance_from_pendulum(system, method, [0.8_dp, 0.8_dp], l1 + l2, &
-                                                   fast_time), &
+                                                   fast_time, watcher), &
                             most=100.0_dp*method%tolerance*phase, remark= &
                             short(phase/6.283_dp, 2)//" fast oscillations, unseen")
     end subroutine stress_mass_ratios
@@ -164,11 +166,13 @@ contains
         omega2 = real([product/larger, larger], dp)
     end function exact_omega2
 
-    function distance_from_pendulum(system, method, start, length, t_end) result(distance)
+    function distance_from_pendulum(system, method, start, length, t_end, watcher) &
+        result(distance)
         !! Of the first angle, released from rest, from a simple pendulum's.
         class(system_t), intent(in) :: system
         class(dense_integrator_t), intent(inout) :: method
         real(dp), intent(in) :: start(2), length, t_end
+        class(observer_t), intent(inout), optional :: watcher
         real(dp) :: distance, q(2), v(2), q_true(1), v_true(1)
         type(pendulum_t) :: pendulum
         class(reference_t), allocatable :: reference
@@ -176,7 +180,7 @@ contains
 
         q = start
         v = 0.0_dp
-        call move(method, system, t_end, q, v)
+        call move(method, system, t_end, q, v, watcher)
         call pendulum%configure([1.0_dp, length, g], error)
         call pendulum%closed_form(0.0_dp, start(:1), [0.0_dp], reference)
         call reference%state_at(t_end, q_true, v_true)
@@ -211,12 +215,14 @@ contains
                             1.0_dp, 1.0_dp)
     end subroutine stress_massless
 
-    subroutine move(method, system, t_end, q, v)
+    subroutine move(method, system, t_end, q, v, watcher)
         !! From time 0 to `t_end`; NaN where the method gives up.
         class(dense_integrator_t), intent(inout) :: method
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: t_end
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+        class(observer_t), intent(inout), optional :: watcher
+        integer(i8), parameter :: parts = 1000
         type(error_t), allocatable :: error
 
         call method%prepare(system, error)
@@ -224,6 +230,7 @@ contains
         do while (.not. allocated(error))
             if (method%t_new >= t_end) exit
             call method%step(system, error)
+            if (present(watcher)) call watcher%tick(int(parts*(method%t_new/t_end), i8), parts)
         end do
         if (allocated(error)) then
             q = ieee_value(t_end, ieee_quiet_nan)

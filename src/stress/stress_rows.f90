@@ -18,6 +18,7 @@ module lagrangia_stress_rows
     use lagrangia_methods, only: method_names, new_adaptive, new_integrator, &
                                   nth_integrator
     use lagrangia_observer, only: observer_t
+    use lagrangia_part, only: part_t
     use lagrangia_pendulum_extremes, only: stress_large_angles, stress_mass_ratios, &
                                            stress_massless, stress_separatrix
     use lagrangia_step_limits, only: stress_step_limit
@@ -96,8 +97,10 @@ contains
         class(system_t), allocatable :: system
         class(integrator_t), allocatable :: method
         class(dense_integrator_t), allocatable :: dense, other
+        type(part_t) :: part
 
         call verdicts%section(name)
+        part%whole => watcher
         call new_adaptive("gauss16", dense)
         dense%tolerance = 1e-13_dp
         select case (name)
@@ -109,7 +112,8 @@ contains
             if (name == "large_angles") call stress_large_angles(system, dense, verdicts)
         case ("mass_ratios", "massless", "chaos")
             call new_system("double_pendulum", system, error)
-            if (name == "mass_ratios") call stress_mass_ratios(system, dense, 0.01_dp, verdicts)
+            if (name == "mass_ratios") call stress_mass_ratios(system, dense, 0.01_dp, &
+                                                                 verdicts, part)
             if (name == "massless") call stress_massless(system, verdicts)
             if (name /= "chaos") return
             call new_adaptive("dop853", other)
@@ -146,6 +150,8 @@ contains
                 i = i + 1
                 call nth_integrator(i, method)
                 if (.not. allocated(method)) return
+                part%from = min(i - 1.0_dp, methods - 1.0_dp)/methods
+                part%to = part%from + 1.0_dp/methods
                 call look_around(watcher, min(i, methods) - 1, methods, error)
                 if (allocated(error)) return
                 select case (name)
@@ -156,7 +162,7 @@ contains
                 case ("scaling"); call stress_scaling(method, verdicts)
                 case default
                     call stress_energy_growth(method, merge(4000000000_i8, 50000000_i8, long), &
-                                             verdicts)
+                                             verdicts, part)
                 end select
             end do
         end subroutine measure_methods
@@ -166,15 +172,19 @@ contains
             character(*), intent(in) :: name
             integer(i8), parameter :: steps(2) = [10000000_i8, 100000000_i8]
             class(integrator_t), allocatable :: variant
-            integer :: i
+            character(11), parameter :: sums(2) = ["plain      ", "compensated"]
+            integer :: i, k
 
+            part%to = 0.0_dp
             do i = 1, merge(2, 1, long)
-                call look_around(watcher, i - 1, merge(2, 1, long), error)
-                if (allocated(error)) return
-                call new_integrator(name, variant, error)
-                call stress_rounding(variant, "plain", steps(i), verdicts)
-                call new_integrator(name, variant, error, compensated=.true.)
-                call stress_rounding(variant, "compensated", steps(i), verdicts)
+                do k = 1, 2
+                    part%from = part%to
+                    part%to = part%from + 0.5_dp*steps(i)/sum(steps(:merge(2, 1, long)))
+                    call look_around(watcher, nint(100*part%from), 100, error)
+                    if (allocated(error)) return
+                    call new_integrator(name, variant, error, compensated=k == 2)
+                    call stress_rounding(variant, trim(sums(k)), steps(i), verdicts, part)
+                end do
             end do
         end subroutine measure_sums
     end subroutine measure_row

@@ -2,8 +2,8 @@ module lagrangia_constrained_system
     !! A system in formulas with constraints beside L: each has a multiplier \(\lambda\),
     !! \(\frac{d}{dt}\frac{\partial L}{\partial\dot q} - \frac{\partial L}{\partial q}
     !! = Q + \lambda A\), and accelerations and multipliers follow from these equations and
-    !! \(\frac{d}{dt}(A\,\dot q) = 0\) (index 1). What drifts from the constraint is a column.
-    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    !! \(\frac{d}{dt}(A\,\dot q + b) = 0\) (index 1). What drifts from the constraint is a column.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_canonical_form, only: simplified
     use lagrangia_description, only: conserved, description_t, formula_length, name_length, &
                                      quantity, quantity_t
@@ -15,24 +15,27 @@ module lagrangia_constrained_system
     use lagrangia_kinds, only: dp, lanes
     use lagrangia_lagrange, only: accelerations_from_lagrangian
     use lagrangia_lapack, only: matrix_rank, solve_linear
+    use lagrangia_mass_matrix, only: list_of
     use lagrangia_system, only: each_lane
     use lagrangia_text, only: join, to_text
-    use lagrangia_written_constraints, only: constraint_row, is_in_velocities
+    use lagrangia_written_constraints, only: constraint_drift, constraint_row, is_in_velocities, &
+                                             is_zero
     use lagrangia_written_expressions, only: written_expressions_t
     use lagrangia_written_formulas, only: written_formulas_t
     use lagrangia_written_quantities, only: find_conserved
-    use lagrangia_written_system, only: new_written_system, of_quantity, written_system_t
+    use lagrangia_written_system, only: new_written_system, of_momentum, of_quantity, &
+                                        written_system_t
     implicit none (type, external)
     private
     public :: constrained_system_t, new_constrained_system
 
-    integer, parameter :: of_row = 1, of_value = 2   ! programs
+    integer, parameter :: of_row = 1, of_value = 2, of_drift = 3   ! programs
     real(dp), parameter :: slip = sqrt(epsilon(1.0_dp))
     !! what may be missing of a constraint at the start, relative: its square is rounding
 
     type, extends(written_system_t) :: constrained_system_t
         !! Made by `new_constrained_system`.
-        type(formula_program_t), allocatable :: links(:)   !! rows, one after the other; values
+        type(formula_program_t), allocatable :: links(:)   !! rows, one after the other; values; b
         logical, allocatable :: holonomic(:)               !! of each constraint
     contains
         procedure :: outline
@@ -44,6 +47,8 @@ module lagrangia_constrained_system
         procedure :: constraint_rows
         procedure :: complete_velocities
         procedure :: check_places
+        procedure :: residuals
+        procedure :: keep_constraints
     end type constrained_system_t
 
 contains
@@ -61,9 +66,10 @@ contains
         n = size(formulas%coordinates)
         associate (links => expressions%constraints)
             system%constraints = size(links)
+            system%is_projected = .true.
             system%holonomic = [(.not. is_in_velocities(links(i), n), i=1, size(links))]
         end associate
-        allocate (system%links(2))
+        allocate (system%links(of_drift))
         call state_constraints(expressions, system%holonomic, n, system%stated)
         call system%configure([(formulas%parameters(i)%value(1), i=1, &
                                 size(formulas%parameters))], error)
@@ -81,10 +87,12 @@ contains
 
         if (allocated(d%accelerations)) deallocate (d%accelerations)
         if (allocated(d%frequencies)) deallocate (d%frequencies)
-        d%constraint = trim(merge("holonomic   ", "nonholonomic", all(holonomic)))//", scleronomic"
+        d%constraint = trim(merge("holonomic   ", "nonholonomic", all(holonomic)))// &
+                       merge(", rheonomic  ", ", scleronomic", &
+                             any([(e%constraints(k)%depends_on(1), k=1, size(holonomic))]))
         allocate (d%constraint_equations(size(holonomic)), d%notes(size(holonomic)))
         do k = 1, size(holonomic)
-            along = whole(0)
+            along = constraint_drift(e%constraints(k), n, e%symbols)
             do i = 1, n
                 row = constraint_row(e%constraints(k), i, n, e%symbols)
                 along = along + row*symbol(1 + n + i)
@@ -157,6 +165,12 @@ contains
             end do
             call new_formula_program(self%links(of_row), rows, 1 + 2*n, fixed, values)
             call new_formula_program(self%links(of_value), e%constraints, 1 + 2*n, fixed, values)
+            deallocate (rows)
+            allocate (rows(self%constraints))
+            do k = 1, self%constraints
+                rows(k) = constraint_drift(e%constraints(k), n, e%symbols)
+            end do
+            call new_formula_program(self%links(of_drift), rows, 1 + 2*n, fixed, values)
         end associate
     end subroutine prepare
 
@@ -169,6 +183,14 @@ contains
 
         call self%written_system_t%find_structure()
         self%velocity_forces = .true.
+        self%constraints_work = .false.
+        associate (e => self%expressions)
+            do k = 1, self%constraints
+                if (e%constraints(k)%depends_on(1)) self%time_dependent = .true.
+                if (is_zero(constraint_drift(e%constraints(k), self%ndof, e%symbols))) cycle
+                self%constraints_work = .true.
+            end do
+        end associate
         do i = 1, self%ndof
             do k = 1, self%constraints
                 row = constraint_row(self%expressions%constraints(k), i, self%ndof, &
@@ -237,7 +259,7 @@ contains
         values(2:1 + self%ndof) = q
         call self%links(of_row)%evaluate(values, results)
         rows = transpose(reshape(results, [self%ndof, self%constraints]))
-        drift = hyperdual_t()
+        call self%links(of_drift)%evaluate(values, drift)
     end subroutine constraint_rows
 
     pure subroutine complete_velocities(self, t, q, given, v, error)
@@ -260,6 +282,10 @@ contains
         qq%re = q
         call self%constraint_rows(hyperdual_t(re=t), qq, rows, drift)
         a = rows%re
+        if (.not. (all(ieee_is_finite(a)) .and. all(ieee_is_finite(drift%re)))) then
+            call fail(error, "a constraint has no finite derivatives where it starts")
+            return
+        end if
         allocate (last(0))
         free = .true.
         do i = n, 1, -1
@@ -274,11 +300,12 @@ contains
             call fail(error, "the constraints are not independent where it starts")
         else if (size(given) == n) then
             v = given
-            if (any(.not. abs(matmul(a, v)) <= slip*matmul(abs(a), abs(v)))) call fail(error, &
+            if (any(.not. abs(matmul(a, v) + drift%re) &
+                    <= slip*(matmul(abs(a), abs(v)) + abs(drift%re)))) call fail(error, &
                 "v does not keep the constraints; give those of "//names_of(self, free)//" only")
         else if (size(given) == n - m) then
             v = unpack(given, free, v)
-            call solve_linear(a(:, last), -matmul(a, v), bound, error)
+            call solve_linear(a(:, last), -matmul(a, v) - drift%re, bound, error)
             if (.not. allocated(error)) v(last) = bound
         else
             call fail(error, "v takes "//to_text(n - m)//" values ("//names_of(self, free)// &
@@ -301,25 +328,113 @@ contains
     end function names_of
 
     pure subroutine check_places(self, t, q, error)
-        !! Refuse a start that is not on the holonomic constraints: beside what changes them with
-        !! coordinates of this size.
+        !! Refuse a start that is not on the holonomic constraints, and say which one is near.
         class(constrained_system_t), intent(in) :: self
-        real(dp), intent(in) :: t, q(:)                      !! s; coordinates, (ndof)
-        type(error_t), allocatable, intent(out) :: error     !! which one is not kept
+        real(dp), intent(in) :: t, q(:)
+        type(error_t), allocatable, intent(out) :: error
+        real(dp) :: values(self%constraints), sizes(self%constraints), near(size(q)), v(size(q))
+        integer :: k
+
+        call self%residuals(t, q, values, sizes)
+        do k = 1, self%constraints
+            if (abs(values(k)) <= slip*sizes(k)) cycle
+            if (.not. ieee_is_finite(values(k))) then
+                call fail(error, "constraint "//to_text(k)//" is no finite number there; start "// &
+                          "elsewhere")
+                return
+            end if
+            near = q
+            v = 0.0_dp
+            call self%keep_constraints(t, near, v)
+            call fail(error, "constraint "//to_text(k)//" is not kept: it gives "// &
+                      to_text(values(k))//", not 0; start elsewhere")
+            call self%residuals(t, near, values, sizes)
+            if (size(q) <= 4 .and. all(abs(values) <= slip*sizes)) error%message = &
+                error%message//", such as q = "//list_of(near)
+            return
+        end do
+    end subroutine check_places
+
+    pure subroutine residuals(self, t, q, values, sizes)
+        !! What the holonomic constraints give, and how large the changes of coordinates and time
+        !! of this size make them; zeros for the others.
+        class(constrained_system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(:)                    !! time, s; coordinates, (ndof)
+        real(dp), intent(out) :: values(:), sizes(:)       !! (constraints)
         type(hyperdual_t) :: rows(self%constraints, self%ndof), drift(self%constraints)
         type(hyperdual_t) :: qq(self%ndof)
-        real(dp) :: values(self%constraints), size_of
-        integer :: k
+        real(dp) :: a(self%constraints, self%ndof)
 
         qq%re = q
         call self%constraint_rows(hyperdual_t(re=t), qq, rows, drift)
         call self%links(of_value)%evaluate([t, q, 0.0_dp*q], values)
-        do k = 1, self%constraints
-            size_of = dot_product(abs(rows(k, :)%re), abs(q))
-            if (.not. self%holonomic(k) .or. abs(values(k)) <= slip*size_of) cycle
-            call fail(error, "constraint "//to_text(k)//" is not kept: it gives "// &
-                      to_text(values(k))//", not 0; start elsewhere")
-            return
+        a = abs(rows%re)
+        sizes = matmul(a, abs(q)) + abs(drift%re*t)
+        where (.not. self%holonomic)
+            values = 0.0_dp
+            sizes = 1.0_dp
+        end where
+    end subroutine residuals
+
+    pure subroutine keep_constraints(self, t, q, v)
+        !! Newton's method for the coordinates, then the velocities once: both are linear then.
+        class(constrained_system_t), intent(in) :: self
+        real(dp), intent(in) :: t
+        real(dp), intent(inout) :: q(self%ndof), v(self%ndof)
+        integer, parameter :: most = 8
+        real(dp), parameter :: rounding = 4*epsilon(1.0_dp)
+        type(hyperdual_t) :: qq(self%ndof), drift(self%constraints)
+        type(hyperdual_t) :: rows(self%constraints, self%ndof)
+        real(dp), dimension(self%constraints) :: left, sizes
+        real(dp) :: change(self%ndof), a(self%constraints, self%ndof)
+        integer :: i
+        logical :: found
+
+        do i = 1, most
+            call self%residuals(t, q, left, sizes)
+            if (all(abs(left) <= rounding*sizes)) exit
+            call find_change(self, t, q, v, left, change, found)
+            if (.not. found) return
+            q = q + change
         end do
-    end subroutine check_places
+        qq%re = q
+        call self%constraint_rows(hyperdual_t(re=t), qq, rows, drift)
+        a = rows%re
+        left = matmul(a, v) + drift%re
+        if (all(abs(left) <= rounding*(matmul(abs(a), abs(v)) + abs(drift%re)))) return
+        call find_change(self, t, q, v, left, change, found)
+        if (found) v = v + change
+    end subroutine keep_constraints
+
+    pure subroutine find_change(self, t, q, v, left, change, found)
+        !! \(\delta\) of least \(\delta^\top M\delta\) with \(A\delta = -\) `left`:
+        !! \(M\delta - A^\top\mu = 0\). Constraints that do not hold of places have no part in that
+        !! of the coordinates: they are satisfied by `left` of 0.
+        class(constrained_system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(:), v(:), left(:)
+        real(dp), intent(out) :: change(:)
+        logical, intent(out) :: found                   !! it is finite
+        type(hyperdual_t) :: qq(size(q)), rows(size(left), size(q)), drift(size(left))
+        type(error_t), allocatable :: error
+        real(dp), dimension(size(q) + size(left)) :: right, solution
+        real(dp) :: results(size(q) + size(q)**2)
+        real(dp) :: matrix(size(solution), size(solution))
+        integer :: n
+
+        n = size(q)
+        qq%re = q
+        call self%constraint_rows(hyperdual_t(re=t), qq, rows, drift)
+        call self%programs(of_momentum)%evaluate([t, q, v], results)
+        matrix = 0.0_dp
+        matrix(:n, :n) = reshape(results(n + 1:), [n, n])
+        matrix(n + 1:, :n) = rows%re
+        matrix(:n, n + 1:) = -transpose(rows%re)
+        right(:n) = 0.0_dp
+        right(n + 1:) = -left
+        call solve_linear(matrix, right, solution, error)
+        found = .not. allocated(error)
+        if (found) found = all(ieee_is_finite(solution))
+        change = 0.0_dp
+        if (found) change = solution(:n)
+    end subroutine find_change
 end module lagrangia_constrained_system

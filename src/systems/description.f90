@@ -10,7 +10,7 @@ module lagrangia_description
     public :: description_t, quantity_t, parameter_t, point_t, letter_t, frequency_t
     public :: coordinate, conserved, quantity, positive, nonnegative, between, real_number, &
               whole_number, real_vector, mass_point
-    public :: check_parameter, constraint_text, default_values, value_names
+    public :: add_zeros, check_parameter, constraint_text, default_values, value_names
     public :: figure_length, formula_length, line_length, name_length
 
     integer, parameter :: line_length = 120     !! of a line of text
@@ -96,6 +96,7 @@ module lagrangia_description
         type(frequency_t), allocatable :: frequencies(:)
         character(formula_length), allocatable :: motion(:)  !! `x = x_0 + x_dot_0 t`, from t = 0
         real(dp), allocatable :: equilibrium(:)          !! at or near one; absent: try zero
+        character(formula_length), allocatable :: equilibrium_formulas(:)  !! of each coordinate
         character(figure_length), allocatable :: figure(:)
         !! how it is drawn: `rod origin bob`; see `lagrangia_scene_figure`; absent: as its points
         character(line_length), allocatable :: notes(:)  !! slips corrected, limits, remarks
@@ -330,4 +331,23 @@ contains
             text = text//merge(": ", ", ", i == 1)//trim(d%constraint_equations(i))
         end do
     end function constraint_text
+
+    pure subroutine add_zeros(values, n, needed, all)
+        !! `values`, with zeros for the last of `n` parameters where no more than the first
+        !! `needed` must be given; as they are where there are too few or too many.
+        real(dp), intent(in) :: values(:)              !! in the order of `describe`
+        integer, intent(in) :: n, needed
+        !! all parameter values; those without a default of 0
+        real(dp), allocatable, intent(out) :: all(:)   !! (n)
+        integer :: given
+
+        given = size(values)
+        if (given < needed .or. given >= n) then
+            allocate (all(given))
+        else
+            allocate (all(n))
+        end if
+        all = 0.0_dp
+        all(:given) = values
+    end subroutine add_zeros
 end module lagrangia_description

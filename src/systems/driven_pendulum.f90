@@ -8,9 +8,9 @@ module lagrangia_driven_pendulum
     !!
     !! Signs: \(y\) and \(y_p = a\cos\Omega t\) count upwards, \(\theta\) from the downward
     !! vertical; \(g + \ddot y_p\) is the gravity that the bob feels.
-    use lagrangia_description, only: coordinate, description_t, figure_length, formula_length, &
-                                     frequency_t, letter_t, mass_point, nonnegative, positive, &
-                                     quantity, real_number
+    use lagrangia_description, only: add_zeros, coordinate, description_t, figure_length, &
+                                     formula_length, frequency_t, letter_t, mass_point, &
+                                     nonnegative, positive, quantity, real_number
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(+), &
                                    operator(-), sin
@@ -18,7 +18,7 @@ module lagrangia_driven_pendulum
     use lagrangia_linearised, only: linearised_t
     use lagrangia_reference, only: reference_t
     use lagrangia_sine_cosine, only: sine_cosine
-    use lagrangia_system, only: check_parameters, lanes, system_t, add_zeros
+    use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
     public :: driven_pendulum_t

@@ -21,7 +21,7 @@ module lagrangia_lagrange
     implicit none (type, external)
     private
     public :: euler_lagrange_t, expand_lagrangian, accelerations_from_lagrangian
-    public :: equations_of_motion, energy_from_lagrangian
+    public :: equations_of_motion, energy_from_lagrangian, energy_rate
 
     type :: euler_lagrange_t
         !! The Lagrangian's derivatives at one state, and the generalised forces.
@@ -169,4 +169,29 @@ contains
         energy = -terms%l
         if (size(v) == system%ndof) energy = dot_product(v, terms%dl_dv) - terms%l
     end function energy_from_lagrangian
+
+    pure function energy_rate(system, t, q, v) result(rate)
+        !! \(\dot E = \sum_j Q_j\dot q_j - \partial L/\partial t - \sum_k\lambda_k b_k\) of the
+        !! energy function: of constraints \(A\dot q + b = 0\) those with \(b = 0\) do no work.
+        class(system_t), intent(in) :: system                      !! with its parameters
+        real(dp), intent(in) :: t, q(system%ndof), v(system%ndof)  !! time, s; state
+        real(dp) :: rate                                           !! W
+        type(hyperdual_t) :: l, qq(system%ndof), vv(system%ndof)
+        type(hyperdual_t) :: rows(system%constraints, system%ndof), b(system%constraints)
+        type(error_t), allocatable :: error
+        real(dp) :: beside(system%ndof), multipliers(system%constraints)
+
+        beside = 0.0_dp
+        call add_generalised_forces(system, t, q, v, beside)
+        rate = dot_product(beside, v)
+        if (.not. (system%time_dependent .or. system%constraints_work)) return
+        qq%re = q
+        vv%re = v
+        l = system%lagrangian(hyperdual_t(re=t, d1=1.0_dp), qq, vv)
+        rate = rate - l%d1
+        if (.not. system%constraints_work) return
+        call system%constraint_rows(hyperdual_t(re=t), qq, rows, b)
+        call accelerations_from_lagrangian(system, t, q, v, beside, multipliers, error)
+        rate = rate - dot_product(multipliers, b%re)
+    end function energy_rate
 end module lagrangia_lagrange

@@ -6,16 +6,17 @@ module lagrangia_oscillator
     !!
     !! Damping and a drive are generalised forces beside L: \(Q = -b\dot x + F_0\cos Wt\), the
     !! first from Rayleigh's function \(R = \tfrac b2\dot x^2\), \(Q = -\partial R/\partial\dot x\).
-    use lagrangia_description, only: conserved, coordinate, description_t, figure_length, &
-                                     formula_length, frequency_t, letter_t, mass_point, &
-                                     nonnegative, positive, quantity, quantity_t, real_number
+    use lagrangia_description, only: add_zeros, conserved, coordinate, description_t, &
+                                     figure_length, formula_length, frequency_t, letter_t, &
+                                     mass_point, nonnegative, positive, quantity, quantity_t, &
+                                     real_number
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, hyperdual_t, operator(*), operator(**), operator(-)
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
     use lagrangia_reference, only: reference_t
     use lagrangia_sine_cosine, only: sine_cosine
-    use lagrangia_system, only: check_parameters, lanes, system_t, add_zeros
+    use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
     public :: oscillator_t

@@ -6,9 +6,9 @@ module lagrangia_pendulum
     !!
     !! Friction in the pivot is a generalised force beside L: \(Q = -b\dot\theta\), from
     !! Rayleigh's function \(R = \tfrac b2\dot\theta^2\).
-    use lagrangia_description, only: conserved, coordinate, description_t, figure_length, &
-                                     formula_length, frequency_t, mass_point, nonnegative, &
-                                     positive, quantity
+    use lagrangia_description, only: add_zeros, conserved, coordinate, description_t, &
+                                     figure_length, formula_length, frequency_t, mass_point, &
+                                     nonnegative, positive, quantity
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, dot_product, hyperdual_t, operator(*), operator(**), &
                                    operator(+), operator(-), sin
@@ -16,7 +16,7 @@ module lagrangia_pendulum
     use lagrangia_linearised, only: linearised_t
     use lagrangia_reference, only: reference_t
     use lagrangia_sine_cosine, only: sine_cosine
-    use lagrangia_system, only: check_parameters, lanes, system_t, add_zeros
+    use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
     public :: pendulum_t

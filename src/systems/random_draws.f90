@@ -100,14 +100,16 @@ contains
     end subroutine parameters
 
     subroutine state(self, system, t, q, v, error)
-        !! A time, coordinates, and velocities that the constraints allow. Where L is not finite
-        !! at \(q\) and at \(1.2q\), other coordinates are drawn, from a range 0.8 times as wide.
+        !! A time, coordinates and velocities that the constraints beside L allow. Where L is not
+        !! finite at \(q\) and at \(1.2q\), other coordinates are drawn, from a range 0.8 times as
+        !! wide.
         class(random_t), intent(inout) :: self
         class(system_t), intent(in) :: system             !! configured
         real(dp), intent(out) :: t                        !! -2 to 3 s
         real(dp), allocatable, intent(out) :: q(:), v(:)  !! (ndof)
         type(error_t), allocatable, intent(out) :: error  !! there are none
         integer, parameter :: tries = 100
+        type(error_t), allocatable :: outside
         real(dp) :: given(system%ndof - system%constraints), widest
         integer :: i, k
 
@@ -123,7 +125,9 @@ contains
             end do
             call system%complete_velocities(t, q, given, v, error)
             if (allocated(error)) return
-            if (is_inside(system, t, q, v)) return
+            call system%keep_constraints(t, q, v)
+            call system%check_places(t, q, outside)
+            if (is_inside(system, t, q, v) .and. .not. allocated(outside)) return
             widest = 0.8_dp*widest
         end do
         call fail(error, "L is no number at any state tried, such as t = "//to_text(t)//", q = "// &

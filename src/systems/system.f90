@@ -16,15 +16,18 @@ module lagrangia_system
     implicit none (type, external)
     private
     public :: system_t, system_box_t, reduced_t
-    public :: lanes, check_parameter, check_parameters, check_state, default_values, add_zeros
+    public :: lanes, check_parameter, check_parameters, check_state, default_values
     public :: each_lane
 
     type, abstract :: system_t
         integer :: ndof = 0                  !! number of coordinates
         logical :: velocity_forces = .true.  !! accelerations depend on the velocities
-        logical :: time_dependent = .false.  !! the Lagrangian or a generalised force has t in it
+        logical :: time_dependent = .false.  !! L, a generalised force or a constraint has t in it
         logical :: nonconservative = .false. !! there are `generalised_forces`
         integer :: constraints = 0           !! rows of non-holonomic constraints
+        logical :: is_projected = .false.    !! steps end with `keep_constraints`
+        logical :: constraints_work = .false.  !! one of \(A\dot q + b = 0\) has a \(b\) that is not
+        !! zero, so that its reaction does work
         integer :: cyclic = 0                !! index of a coordinate that is neither in L nor has
         !! a generalised force, so that its momentum is conserved; 0 if none
         integer :: contacts = 0              !! unilateral constraints: each has a gap and impacts
@@ -45,6 +48,8 @@ module lagrangia_system
         procedure :: positions => no_positions
         procedure :: constraint_rows => no_constraint_rows
         procedure :: complete_velocities
+        procedure :: check_places => any_place
+        procedure :: keep_constraints => nothing_to_keep
         procedure :: linearise => nothing_by_hand
         procedure :: angles => no_angles
         procedure :: newton => no_newton
@@ -108,8 +113,8 @@ module lagrangia_system
 
         pure function energy_i(self, t, q, v) result(e)
             !! The energy function \(\dot q\,\partial L/\partial\dot q - L\), J. It is conserved
-            !! unless `time_dependent` or `nonconservative`, and is \(T + V\) unless the
-            !! coordinates move by themselves.
+            !! where `conserves_energy` says so, and is \(T + V\) unless the coordinates move by
+            !! themselves.
             import :: system_t, dp
             implicit none (type, external)
             class(system_t), intent(in) :: self
@@ -218,11 +223,12 @@ contains
     end subroutine no_generalised_forces
 
     pure function conserves_energy(self)
-        !! No time in L, and no force beside it.
+        !! No time in L, no force beside it, and no constraint that does work.
         class(system_t), intent(in) :: self
         logical :: conserves_energy
 
-        conserves_energy = .not. (self%time_dependent .or. self%nonconservative)
+        conserves_energy = .not. (self%time_dependent .or. self%nonconservative &
+                                  .or. self%constraints_work)
     end function conserves_energy
 
     pure subroutine each_lane(self, t, q, v, a)
@@ -310,6 +316,23 @@ contains
         v = given
     end subroutine complete_velocities
 
+    pure subroutine any_place(self, t, q, error)
+        !! Refuse coordinates that are not on the holonomic constraints beside L: here there are
+        !! none.
+        class(system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(:)                   !! time, s; coordinates, (ndof)
+        type(error_t), allocatable, intent(out) :: error  !! status 2: which one, and what keeps it
+    end subroutine any_place
+
+    pure subroutine nothing_to_keep(self, t, q, v)
+        !! Put a state that a step has made back onto the constraints beside L, the shortest way in
+        !! the metric of T: methods do it after each step and keep their order (Hairer, Lubich &
+        !! Wanner, sec. IV.4). Whoever has this sets `is_projected`. Here nothing is done.
+        class(system_t), intent(in) :: self
+        real(dp), intent(in) :: t                              !! s
+        real(dp), intent(inout) :: q(self%ndof), v(self%ndof)  !! coordinates, velocities
+    end subroutine nothing_to_keep
+
     pure subroutine no_angles(self, t, q, phi)
         !! The angles, rad, of the rotors in the description: here none.
         class(system_t), intent(in) :: self
@@ -392,25 +415,6 @@ contains
                       to_text(self%ndof)//" velocities", key="v")
         end if
     end subroutine check_state
-
-    pure subroutine add_zeros(values, n, needed, all)
-        !! `values`, with zeros for the last of `n` parameters where no more than the first
-        !! `needed` must be given; as they are where there are too few or too many.
-        real(dp), intent(in) :: values(:)              !! in the order of `describe`
-        integer, intent(in) :: n, needed
-        !! all parameter values; those without a default of 0
-        real(dp), allocatable, intent(out) :: all(:)   !! (n)
-        integer :: given
-
-        given = size(values)
-        if (given < needed .or. given >= n) then
-            allocate (all(given))
-        else
-            allocate (all(n))
-        end if
-        all = 0.0_dp
-        all(:given) = values
-    end subroutine add_zeros
 
     pure subroutine check_parameters(self, values, error)
         !! Refuse `values` that are too many, too few or outside their domains.

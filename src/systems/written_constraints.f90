@@ -1,6 +1,6 @@
 module lagrangia_written_constraints
-    !! The constraints of a scene's group `&lagrangian`: holonomic, \(f(q) = 0\), or in the
-    !! velocities, \(A(q)\,\dot q = 0\).
+    !! The constraints of a scene's group `&lagrangian`: holonomic, \(f(t, q) = 0\), or in the
+    !! velocities, \(A(t, q)\,\dot q + b(t, q) = 0\).
     use lagrangia_canonical_form, only: simplified
     use lagrangia_derivative, only: derivative
     use lagrangia_errors, only: error_t, fail
@@ -12,7 +12,7 @@ module lagrangia_written_constraints
     use lagrangia_written_formulas, only: longest_formula
     implicit none (type, external)
     private
-    public :: constraint_row, is_in_velocities, is_zero, read_constraints
+    public :: constraint_drift, constraint_row, is_in_velocities, is_zero, read_constraints
 
 contains
 
@@ -50,25 +50,19 @@ contains
     end subroutine read_constraints
 
     subroutine check(constraint, n, symbols, error)
-        !! Refuse the time, velocities in other ways than \(A\,\dot q\), and what binds nothing.
+        !! Refuse velocities in other ways than \(A\,\dot q + b\), and what binds nothing.
         type(expression_t), intent(in) :: constraint
         integer, intent(in) :: n
         type(symbols_t), intent(in) :: symbols
         type(error_t), allocatable, intent(out) :: error
-        type(expression_t) :: rest, row
+        type(expression_t) :: row
         integer :: i, k
 
-        if (constraint%depends_on(1)) then
-            call fail(error, "contains the time, which a constraint cannot here; choose "// &
-                      "coordinates that obey it, so that the time is in T and V")
-            return
-        end if
         if (.not. any([(constraint%depends_on(1 + i), i=1, 2*n)])) then
             call fail(error, "contains no coordinate and no velocity, and so binds nothing")
             return
         end if
         if (.not. is_in_velocities(constraint, n)) return
-        rest = constraint
         do i = 1, n
             row = simplified(derivative(constraint, 1 + n + i), symbols)
             do k = 2 + n, 1 + 2*n
@@ -77,12 +71,7 @@ contains
                           "on velocities is a sum of terms with one velocity each")
                 return
             end do
-            rest = rest - row*symbol(1 + n + i)
         end do
-        rest = simplified(rest, symbols)
-        if (is_zero(rest)) return
-        call fail(error, "has a term without a velocity beside terms with one, which is not "// &
-                  "possible here")
     end subroutine check
 
     pure function is_in_velocities(constraint, n) result(yes)
@@ -105,6 +94,26 @@ contains
         row = simplified(derivative(constraint, merge(n, 0, is_in_velocities(constraint, n)) &
                                     + 1 + i), symbols)
     end function constraint_row
+
+    pure function constraint_drift(constraint, n, symbols) result(drift)
+        !! \(b\) of \(A\,\dot q + b = 0\): what has no velocity, or, of a holonomic constraint, the
+        !! partial derivative by the time.
+        type(expression_t), intent(in) :: constraint  !! of t, q, q_dot, parameters
+        integer, intent(in) :: n                      !! coordinates
+        type(symbols_t), intent(in) :: symbols        !! their names
+        type(expression_t) :: drift
+        integer :: i
+
+        if (is_in_velocities(constraint, n)) then
+            drift = constraint
+            do i = 1, n
+                drift = drift - constraint_row(constraint, i, n, symbols)*symbol(1 + n + i)
+            end do
+        else
+            drift = derivative(constraint, 1)
+        end if
+        drift = simplified(drift, symbols)
+    end function constraint_drift
 
     pure function is_zero(expression) result(yes)
         !! By its form.

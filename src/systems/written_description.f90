@@ -3,6 +3,7 @@ module lagrangia_written_description
     use lagrangia_description, only: description_t, formula_length
     use lagrangia_expression, only: expression_t
     use lagrangia_formula_text, only: formula_text
+    use lagrangia_written_equilibrium, only: equilibrium_text
     use lagrangia_written_expressions, only: written_expressions_t
     use lagrangia_written_formulas, only: written_formulas_t
     implicit none (type, external)
@@ -12,12 +13,24 @@ module lagrangia_written_description
 contains
 
     subroutine state_places(e, d)
-        !! Masses and places of the points, and forces, as far as there is room for the formulas.
+        !! The equilibrium, masses and places of the points, and forces, as far as there is room for
+        !! the formulas. Points whose T is not that of the system have no masses to derive it from.
         type(written_expressions_t), intent(in) :: e     !! what the formulas mean
         type(description_t), intent(inout) :: d          !! has the names of the points
         character(:), allocatable :: text
         integer :: i, k, longest
 
+        longest = 0
+        do i = 1, size(e%equilibrium)
+            text = equilibrium_text(i, e%resting(i), e%rests(i), e%symbols)
+            longest = max(longest, len(text))
+        end do
+        if (longest > 0 .and. longest <= formula_length) then
+            allocate (d%equilibrium_formulas(size(e%equilibrium)))
+            do i = 1, size(e%equilibrium)
+                d%equilibrium_formulas(i) = equilibrium_text(i, e%resting(i), e%rests(i), e%symbols)
+            end do
+        end if
         longest = 0
         do i = 1, size(d%points)
             text = formula_text(e%masses(i), e%symbols)
@@ -29,7 +42,7 @@ contains
                 if (text /= "0") d%points(i)%position(k) = text
             end do
         end do
-        if (longest > formula_length) d%points%mass_formula = ""
+        if (longest > formula_length .or. .not. e%of_points) d%points%mass_formula = ""
         longest = 0
         do i = 1, size(e%forces)
             text = formula_text(e%forces(i), e%symbols)

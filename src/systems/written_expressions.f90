@@ -11,6 +11,7 @@ module lagrangia_written_expressions
     use lagrangia_symbols, only: check_name, symbols_t
     use lagrangia_text, only: lower, quoted, to_text
     use lagrangia_written_constraints, only: is_zero, read_constraints
+    use lagrangia_written_equilibrium, only: read_equilibrium
     use lagrangia_written_formulas, only: written_formulas_t
     use lagrangia_written_quantities, only: read_quantities
     implicit none (type, external)
@@ -26,7 +27,10 @@ module lagrangia_written_expressions
         type(expression_t), allocatable :: forces(:)        !! Q of each coordinate
         type(expression_t), allocatable :: places(:)        !! x, y, z of each point, m
         type(expression_t), allocatable :: masses(:)        !! of the points, kg
+        logical :: of_points = .false.                      !! T is that of the points
         type(expression_t), allocatable :: equilibrium(:)   !! of each coordinate; or none
+        integer, allocatable :: resting(:)                  !! 0, or the function that is given
+        type(expression_t), allocatable :: rests(:)         !! what was given
         character(name_length), allocatable :: points(:)    !! their names
         integer :: dimensions = 2                           !! of the points' space
         type(expression_t), allocatable :: constraints(:)   !! zero along the motion
@@ -49,7 +53,9 @@ contains
         if (.not. allocated(error)) call read_points(formulas, expressions, error)
         if (.not. allocated(error)) call read_lagrangian(formulas, expressions, error)
         if (.not. allocated(error)) call read_forces(formulas, expressions, error)
-        if (.not. allocated(error)) call read_equilibrium(formulas, expressions, error)
+        if (.not. allocated(error)) call read_equilibrium( &
+            formulas%equilibrium, size(formulas%coordinates), expressions%symbols, &
+            expressions%equilibrium, expressions%resting, expressions%rests, error)
         if (.not. allocated(error)) call read_constraints( &
             formulas%constraints, size(formulas%coordinates), expressions%symbols, &
             expressions%constraints, error)
@@ -182,6 +188,7 @@ contains
         type(written_formulas_t), intent(in) :: formulas
         type(written_expressions_t), intent(inout) :: expressions
         type(error_t), allocatable, intent(out) :: error
+        type(expression_t) :: of_points
         character(:), allocatable :: name
         integer :: i
 
@@ -198,12 +205,12 @@ contains
             if (l /= "") then
                 call parse("l", l, expressions%lagrangian)
             else
-                if (t == "") then
-                    call add_points(size(formulas%coordinates), expressions)
-                else
-                    call parse("t", t, expressions%kinetic)
-                end if
+                of_points = kinetic_of_points(size(formulas%coordinates), expressions)
+                expressions%kinetic = of_points
+                if (t /= "") call parse("t", t, expressions%kinetic)
                 if (allocated(error)) return
+                expressions%of_points = is_zero(simplified(expressions%kinetic - of_points, &
+                                                           expressions%symbols))
                 if (v /= "") call parse("v", v, expressions%potential)
                 if (allocated(error)) return
                 expressions%lagrangian = expressions%kinetic - expressions%potential
@@ -240,24 +247,27 @@ contains
         end do
     end function any_mass
 
-    subroutine add_points(n, expressions)
+    function kinetic_of_points(n, expressions) result(kinetic)
         !! \(T = \sum\frac m2(\dot x^2 + \dot y^2 + \dot z^2)\) of all points.
         integer, intent(in) :: n  !! coordinates
-        type(written_expressions_t), intent(inout) :: expressions
+        type(written_expressions_t), intent(in) :: expressions
+        type(expression_t) :: kinetic
         type(expression_t) :: square
         integer :: i, k, rates(size(expressions%symbols%names))
 
         rates = 0
         rates(2:1 + n) = [(1 + n + i, i=1, n)]
+        kinetic = whole(0)
         do i = 1, size(expressions%masses)
+            if (is_zero(expressions%masses(i))) cycle
             square = whole(0)
             do k = 3*i - 2, 3*i
                 square = square + time_derivative(expressions%places(k), rates, 1)**2
             end do
-            expressions%kinetic = expressions%kinetic + expressions%masses(i)/whole(2)*square
+            kinetic = kinetic + expressions%masses(i)/whole(2)*square
         end do
-        expressions%kinetic = simplified(expressions%kinetic, expressions%symbols)
-    end subroutine add_points
+        kinetic = simplified(kinetic, expressions%symbols)
+    end function kinetic_of_points
 
     subroutine read_forces(formulas, expressions, error)
         !! Generalised forces; 0 where none was given.
@@ -322,7 +332,7 @@ contains
         first = colon + 1
         do k = 1, 3
             if (allocated(error)) return
-            last = first + index(text(first:)//",", ",") - 2
+            last = first + outer_comma(text(first:)//",") - 2
             call parse_without(repeat(" ", first - 1)//text(first:last), -n, &
                                "a place depends on", expressions%symbols, &
                                expressions%places(3*i - 3 + k), error)
@@ -337,6 +347,21 @@ contains
         expressions%dimensions = max(expressions%dimensions, k)
         if (k == 2) expressions%places(3*i) = whole(0)
     end subroutine read_point
+
+    pure function outer_comma(text) result(at)
+        !! The first comma that is in no bracket; the last character where there is none.
+        character(*), intent(in) :: text
+        integer :: at
+        integer :: depth
+
+        depth = 0
+        do at = 1, len(text) - 1
+            if (text(at:at) == "(") depth = depth + 1
+            if (text(at:at) == ")") depth = depth - 1
+            if (text(at:at) == "," .and. depth <= 0) return
+        end do
+        at = len(text)
+    end function outer_comma
 
     pure subroutine read_name(text, name, error)
         !! The name of a point: one that columns can have.
@@ -353,31 +378,6 @@ contains
             if (name == "") call fail(error, "there is none")
         end if
     end subroutine read_name
-
-    subroutine read_equilibrium(formulas, expressions, error)
-        !! One formula of the parameters for each coordinate, or none at all.
-        type(written_formulas_t), intent(in) :: formulas
-        type(written_expressions_t), intent(inout) :: expressions
-        type(error_t), allocatable, intent(out) :: error
-        integer :: i, n
-
-        n = size(formulas%coordinates)
-        allocate (expressions%equilibrium(size(formulas%equilibrium)))
-        if (all(size(formulas%equilibrium) /= [0, n])) then
-            call fail(error, "an equilibrium has one formula for each coordinate: "// &
-                      to_text(n)//", not "//to_text(size(formulas%equilibrium)), &
-                      key="equilibrium")
-            return
-        end if
-        do i = 1, size(formulas%equilibrium)
-            call parse_without(trim(formulas%equilibrium(i)), 1 + 2*n, "an equilibrium depends "// &
-                               "on", expressions%symbols, expressions%equilibrium(i), error)
-            if (.not. allocated(error)) cycle
-            error%key = "equilibrium"
-            error%element = i
-            return
-        end do
-    end subroutine read_equilibrium
 
     subroutine parse_without(text, n, problem, symbols, expression, error)
         !! A formula that contains none of the first `n` symbols; with `-n` coordinates, none of

@@ -82,8 +82,8 @@ contains
     end subroutine find_conserved
 
     pure subroutine keep_constraints(system, t, q, v)
-        !! Leave out of the velocities what the constraints forbid:
-        !! \(v - A^\top(AA^\top)^{-1}Av\).
+        !! The velocities nearest to these that the constraints allow:
+        !! \(v - A^\top(AA^\top)^{-1}(Av + b)\).
         class(lagrangian_system_t), intent(in) :: system
         real(dp), intent(in) :: t, q(:)
         real(dp), intent(inout) :: v(:)
@@ -97,7 +97,7 @@ contains
         call system%constraint_rows(hyperdual_t(re=t), place, rows, drift)
         a = rows%re
         products = matmul(a, transpose(a))
-        multipliers = matmul(a, v)
+        multipliers = matmul(a, v) + drift%re
         call solve_positive(products, 0.0_dp*multipliers, multipliers)
         v = v - matmul(multipliers, a)
     end subroutine keep_constraints

@@ -23,7 +23,7 @@ module lagrangia_written_system
     implicit none (type, external)
     private
     public :: written_system_t, new_written_system
-    public :: of_quantity
+    public :: of_momentum, of_quantity
 
     ! programs of a system
     integer, parameter :: of_l = 1         !! L

@@ -28,8 +28,8 @@ module lagrangia_gnuplot
     real(dp), parameter :: legend = 26.0_dp      !! above a panel
     real(dp), parameter :: legend_row = 22.0_dp  !! each further row of a legend
     real(dp), parameter :: column = 1000.0_dp    !! width of panels below each other
-    real(dp), parameter :: narrow = 560.0_dp     !! of those that have others beside them
-    real(dp), parameter :: side = 560.0_dp       !! width of those drawn to scale, beside them
+    real(dp), parameter :: narrow = 500.0_dp     !! of those that have others beside them
+    real(dp), parameter :: side = 500.0_dp       !! width of those drawn to scale, beside them
     real(dp), parameter :: wide = 0.45_dp        !! aspect of what is drawn across the picture
     real(dp), parameter :: tallest = 760.0_dp    !! pixels of one panel
 
@@ -203,6 +203,7 @@ contains
             bodies(i) = 200.0_dp
             if (plain == 2) bodies(i) = 260.0_dp
             if (plain == 1) bodies(i) = 430.0_dp
+            if (any(beside)) bodies(i) = merge(170.0_dp, 200.0_dp, plain > 2)
             more = merge(side, width - edge, beside(i)) - left - right
             if (is_space(series, panels(i))) bodies(i) = min(tallest, max(130.0_dp, 1.12_dp* &
                 more*aspect(series, panels(i))))

@@ -16,6 +16,7 @@ module lagrangia_gnuplot_axes
     character(3), parameter :: nearly = char(226)//char(137)//char(136)  !! "almost equal to"
     integer, parameter :: most_decades = 6   !! with a tick each
     real(dp), parameter :: margin = 0.06_dp  !! around what is drawn to scale
+    real(dp), parameter :: roomy = 240.0_dp  !! pixels that ten numbers above each other need
 
     type :: frame_t
         !! Where a panel's axes are, in pixels from the lower left corner.
@@ -95,16 +96,21 @@ contains
                         rounded(middle(2) - up, 5)//":"//rounded(middle(2) + up, 5)//"]")
     end subroutine add_equal_scale
 
-    pure subroutine add_range(script, y)
+    pure subroutine add_range(script, y, frame)
         !! gnuplot draws nothing between two equal numbers, and ticks that differ by less than their
-        !! digits are no ticks: a constant gets a range. Zero is a line worth seeing.
+        !! digits are no ticks: a constant gets a range. Zero is a line worth seeing. A low panel
+        !! has no more ticks than there is room for their numbers.
         type(lines_t), intent(inout) :: script  !! gets the lines
         type(value_range_t), intent(in) :: y(:)  !! of each curve
+        type(frame_t), intent(in) :: frame  !! the panel's place
         real(dp) :: high, low, width
 
         low = minval(y%low)
         high = maxval(y%high)
-        if (high - low > told_apart*max(abs(low), abs(high))) return
+        if (high - low > told_apart*max(abs(low), abs(high))) then
+            if (frame%top - frame%bottom < roomy) call script%add("set ytics "//tick(high - low))
+            return
+        end if
         width = max(0.1_dp*max(abs(low), abs(high)), tiny(width))
         if (max(abs(low), abs(high)) <= 0.0_dp) width = 1.0_dp
         call script%add("set yrange ["//to_text(low - width)//":"//to_text(high + width)//"]")

@@ -12,7 +12,7 @@ module lagrangia_gnuplot_panel
     use lagrangia_value_range, only: value_range_t
     implicit none (type, external)
     private
-    public :: add_envelopes, draw_panel, variable
+    public :: add_envelopes, draw_panel, variable, colours
     public :: curves, dots
 
     character(*), parameter :: curves = "lines"
@@ -60,7 +60,7 @@ contains
         else if (is_space(series, panel)) then
             call add_equal_scale(script, x, y, frame)
         else
-            call add_range(script, y)
+            call add_range(script, y, frame)
         end if
         turned = turns_over(series(1), panel, x)
         if (turned) call add_turn(script)

@@ -6,7 +6,7 @@ module lagrangia_plot_label
     !! `m g cos(theta)`, the words that are symbols.
     use lagrangia_gnuplot_script, only: gnuplot_string
     use lagrangia_plot_symbol, only: symbol
-    use lagrangia_plot_words, only: plain_label, with_symbols
+    use lagrangia_plot_words, only: plain_label, text_label, with_symbols
     implicit none (type, external)
     private
     public :: is_small, label, labels
@@ -37,7 +37,7 @@ contains
         else if (unit == "1" .or. unit == "") then
             string = plain_label(trim(name))
         else
-            string = plain_label(trim(name)//" ("//trim(unit)//")")
+            string = text_label(trim(name)//" ("//trim(unit)//")")
         end if
     end function label
 
@@ -57,7 +57,7 @@ contains
         same = all(units == units(1))
         if (.not. all(is_unit(units))) then
             string = plain_label("")
-            if (same) string = plain_label("("//trim(units(1))//")")
+            if (same) string = text_label("("//trim(units(1))//")")
             return
         end if
         text = ""

@@ -1,0 +1,102 @@
+#!/usr/bin/env bash
+# Sweeps on coarray images: the same bytes from one process, two images and three, but for the line
+# that names the build (OpenCoarrays cannot run one); an image that is killed loses at most one block; bad input is told once.
+# The caf program is built here, beside the release build that is there.
+#
+#     .ci/try_images.sh             needs caf and cafrun (./setup.sh --cluster); else says so
+#     .ci/try_images.sh --scaling   only the times of one image's work by one process and two images,
+#                                   and of twice as much by two: of use where nothing else runs
+set -u
+cd "$(dirname "$0")/.." || exit 2
+if ! command -v caf >/dev/null || ! command -v mpirun >/dev/null; then
+    echo "not run: there is no OpenCoarrays here (./setup.sh --cluster)"
+    exit 0
+fi
+unset FPM_FFLAGS
+export OPENBLAS_NUM_THREADS=1
+program=$(fpm run --profile release --runner echo | tail -n 1)
+images=$(fpm run --profile release --compiler caf --flag "-fcoarray=lib" --runner echo | tail -n 1)
+[ -x "$program" ] && [ -x "$images" ] || { echo "FAILED  a program was not built"; exit 1; }
+work=$(mktemp -d) || exit 2
+trap 'rm -rf "$work"' EXIT
+failed=0
+options=(--oversubscribe)
+[ "$(id -u)" -eq 0 ] && options+=(--allow-run-as-root)
+
+check() { # check CLAIM COMMAND...
+    if "${@:2}"; then echo "ok      $1"; else echo "FAILED  $1"; failed=$((failed + 1)); fi
+}
+
+on() { # on N FOLDER WORDS...: a sweep on N images; 0: by one process of the plain build
+    if [ "$1" -eq 0 ]; then
+        timeout 300 "$program" sweep "${@:3}" --threads 1 --output "$work/$2" >"$work/out" 2>"$work/err" </dev/null
+    else
+        timeout 300 mpirun -n "$1" "${options[@]}" "$images" sweep "${@:3}" --output "$work/$2" \
+            >"$work/out" 2>"$work/err" </dev/null
+    fi
+}
+
+same() { # same FILE FOLDERS...: it has the same bytes in all of them, but for the build
+    local folder
+    for folder in "${@:3}"; do
+        cmp <(grep -av '^# build: ' "$work/$2/$1") <(grep -av '^# build: ' "$work/$folder/$1") || return 1
+    done
+}
+
+if [ "${1:-}" = --scaling ]; then
+    seconds() { # seconds N WORDS...: that a sweep takes, the least of three
+        local i
+        for i in 1 2 3; do
+            rm -rf "$work/scaling"
+            on "$1" scaling "${@:2}" --json
+            sed -nE 's/.*"seconds": *([0-9.eE+-]+).*/\1/p' "$work/out"
+        done | sort -g | head -n 1
+    }
+    half=(flip_map --over theta1=-pi:pi:400 --over theta2=0.0078:pi:200)
+    whole=(flip_map)
+    a=$(seconds 0 "${half[@]}") b=$(seconds 0 "${whole[@]}")
+    c=$(seconds 2 "${whole[@]}")
+    awk -v a="$a" -v b="$b" -v c="$c" 'BEGIN {
+        printf "flip_map, half: %.2f s by one process; whole: %.2f s, and %.2f s by two images\n", a, b, c
+        printf "strong scaling: efficiency %.3f; weak: %.3f\n", b/(2*c), a/c }'
+    exit 0
+fi
+
+while read -r name words; do
+    for n in 0 2 3; do
+        on $n images_$n $name $words || check "sweep $name on $n images: status $?" false
+    done
+    check "sweep $name: one process, two images and three" same "${name}_sweep.dat" images_0 \
+        images_2 images_3
+done <<'SWEEPS'
+flip_map --over theta1=0.5:3:20 --over theta2=-3:3:20
+bifurcation --over f=1:1.5:9 --set scene%duration=600
+basins --over theta=-3:3:9 --over theta_dot=-8:8:5
+double_pendulum --set scene%method='dop853' --set scene%tolerance=1e-9 --set scene%samples=1 --over theta1=0:1:300 --keep theta2
+SWEEPS
+
+map=(flip_map --over theta1=-pi:pi:100 --over theta2=-pi:pi:100)
+on 0 whole "${map[@]}"
+on 2 killed "${map[@]}" &
+running=$!
+for _ in $(seq 100); do
+    sleep 0.1
+    [ -n "$(find "$work/killed" -name '*.part*' -size +4k 2>/dev/null)" ] && break
+done
+victim=$(pgrep -f -- "$images sweep flip_map .*$work/killed" | tail -n 1)
+[ -n "$victim" ] && kill -9 "$victim"
+wait $running
+status=$?
+check "an image that is killed ends the sweep with status $status" [ $status -ne 0 ]
+check "what is complete stays" eval '[ -n "$(find "$work/killed" -name "*.part*")" ] && [ ! -e "$work/killed/flip_map_sweep.dat" ]'
+on 3 killed "${map[@]}" --resume
+check "three images go on to the same bytes" same flip_map_sweep.dat whole killed
+check "and take the parts away" eval '[ -z "$(find "$work/killed" -name "*.part*")" ]'
+
+lines=""
+for _ in 1 2 3 4 5 6; do
+    on 2 bad flip_map --over nothing=0:1:3
+    lines+="$? $(grep -ac "^lagrangia: " "$work/err") "
+done
+check "bad input: status 2 and one line of ours, every time: $lines" [ "$lines" = "2 1 2 1 2 1 2 1 2 1 2 1 " ]
+exit $((failed > 0))

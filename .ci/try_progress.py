@@ -1,0 +1,117 @@
+#!/usr/bin/env python3
+"""try_progress.py PROGRAM: what takes longer says on a terminal how far it is and how long it will still take.
+
+Each command runs in a pseudo-terminal. Within a few seconds there is a line of progress with a percentage and the time
+that is left; it comes again and again; in the end it is wiped. With --quiet, and where stderr is no terminal, there is
+none, and JSON is the same as without a terminal."""
+import json
+import os
+import pty
+import re
+import select
+import subprocess
+import sys
+import tempfile
+import time
+
+program = os.path.abspath(sys.argv[1])
+WIPE = "\r\x1b[K"  # what stands before each line of progress, and alone in the end
+LINE = re.compile(re.escape(WIPE + "\x1b[?7l") + r"([^\r\n\x1b]*)" + re.escape("\x1b[?7h"))
+LEFT = re.compile(r"^[\w ,]+: \d+ %, \d+ (s|min|h|days|years)(, [0-9.E+]+ \w+/s)?, \d+ (s|min|h|days|years) left$")
+ENOUGH = 2.0      # s that may pass in silence
+LATE = 3.0        # s more, for a busy machine and parts of the work that are long themselves
+failed = 0
+
+
+def check(what, good, more=""):
+    global failed
+    if not good:
+        failed += 1
+        print(f"FAILED  {what} {more}".rstrip())
+
+
+def on_terminal(words, folder, stdout=None):
+    """What comes out of the terminal, each piece with its time, and how long the command took."""
+    pid, terminal = pty.fork()
+    if pid == 0:
+        os.chdir(folder)
+        if stdout:
+            os.dup2(os.open(stdout, os.O_WRONLY | os.O_CREAT | os.O_TRUNC), 1)
+        os.execv(program, [program, *words])
+    begun = time.monotonic()
+    pieces = []
+    while True:
+        ready, _, _ = select.select([terminal], [], [], 300)
+        try:
+            got = os.read(terminal, 1 << 16) if ready else b""
+        except OSError:  # Linux says so that the other end is closed
+            got = b""
+        if not got:
+            break
+        pieces.append((time.monotonic() - begun, got.decode(errors="replace")))
+    if not ready:
+        os.kill(pid, 9)
+    os.close(terminal)
+    return pieces, os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]), time.monotonic() - begun
+
+
+def examine(folder, words):
+    what = "lagrangia " + " ".join(words)
+    pieces, status, seconds = on_terminal(words, folder)
+    check(f"{what}: status", status == 0, str(status))
+    if seconds < ENOUGH + 1.0:
+        print(f"not tried: {what} takes {seconds:.1f} s only")
+        return
+    told = [(when, line) for when, text in pieces for line in LINE.findall(text) if line]
+    left = [when for when, line in told if LEFT.match(line)]
+    silent = max((b - a for a, b in zip([0.0] + left, left + [seconds])), default=seconds)
+    check(f"{what}: how long it will still take", left)
+    check(f"{what}: is said again and again", silent < ENOUGH + LATE, f"silent for {silent:.1f} of {seconds:.1f} s")
+    strange = [line for _, line in told if "%" in line and not LEFT.match(line) and " 100 %" not in line]
+    check(f"{what}: the form of a line", not strange, str(strange[:3]))
+    text = "".join(text for _, text in pieces)
+    check(f"{what}: is wiped in the end", wiped(text), repr(text[-200:]))
+
+
+def wiped(text):
+    """Nothing of a line of progress stays on the screen: the last of every line is empty."""
+    return all("%" not in line.split(WIPE)[-1] or LINE.search(WIPE + line.split(WIPE)[-1]) is None
+               for line in text.split("\n"))
+
+
+def silence(folder, words):
+    what = "lagrangia " + " ".join(words)
+    pieces, status, seconds = on_terminal([*words, "--quiet"], folder)
+    text = "".join(text for _, text in pieces)
+    check(f"{what} --quiet: says nothing", status == 0 and text == "", repr(text[:200]))
+    done = subprocess.run([program, *words], cwd=folder, capture_output=True, text=True, check=False)
+    check(f"{what}: no progress off a terminal", "\x1b" not in done.stderr + done.stdout and "\r" not in done.stderr,
+          repr(done.stderr[:200]))
+
+
+def same_json(folder, words):
+    """stdout is a file and stderr the terminal; then both are the terminal, which shows valid JSON."""
+    what = "lagrangia " + " ".join(words)
+    path = os.path.join(folder, "json")
+    pieces, status, seconds = on_terminal(words, folder, path)
+    check(f"{what}: progress beside JSON", LINE.search("".join(text for _, text in pieces)) is not None)
+    with open(path, encoding="utf-8") as file:
+        rows = json.load(file)
+    pieces, status, seconds = on_terminal(words, folder)
+    text = "".join(text for _, text in pieces)
+    shown = json.loads(LINE.sub("", text).replace("\r\n", "\n").replace(WIPE, "").replace("\x1b[?7l\x1b[?7h", ""))
+    check(f"{what}: as many rows on a terminal", len(shown) == len(rows))
+
+
+LONG = (["stress", "mass_ratios"], ["stress", "energy_growth"], ["check", "hanging_chain", "--set", "hanging_chain%n=40"],
+        ["modes", "hanging_chain", "--set", "hanging_chain%n=200", "--plot"],
+        ["run", "pendulum", "--set", "scene%duration=8000", "--plot"], ["sweep", "lyapunov_map"],
+        ["bench", "sweep"], ["report"])
+with tempfile.TemporaryDirectory() as home:
+    for command in LONG:
+        examine(home, command)
+    silence(home, ["stress", "mass_ratios"])
+    silence(home, ["run", "pendulum", "--set", "scene%duration=8000", "--plot"])
+    same_json(home, ["stress", "mass_ratios", "--json"])
+print(f"{len(LONG)} long commands, {failed} failed")
+sys.exit(1 if failed else 0)

@@ -1,0 +1,124 @@
+module lagrangia_derivation_drag
+    !! What drag makes of small oscillations: decay rate and frequency of one coordinate, the
+    !! polynomial whose roots are the rates of several.
+    use lagrangia_derivation, only: derivation_t, line_damped_omega2, line_decay, line_rates
+    use lagrangia_derivation_motion, only: determinant, lay_out_quotient
+    use lagrangia_exact_number, only: number_t, operator(-), operator(/), ratio
+    use lagrangia_expression, only: expression_t, operator(**), operator(-)
+    use lagrangia_formula_latex, only: latex_name
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_polynomial, only: atom_power, most_atoms, operator(+), operator(*), &
+                                    polynomial_t, whole_polynomial
+    use lagrangia_text, only: to_text
+    use lagrangia_trigonometry, only: shorten
+    implicit none (type, external)
+    private
+    public :: add_polynomial, add_rates
+
+    integer, parameter :: most_expanded = 3  !! coordinates whose polynomial is shown
+
+contains
+
+    subroutine add_rates(self, mass, drag, stiffness)
+        !! Of \(M\ddot q + C\dot q + Kq = 0\): with one coordinate
+        !! \(q = e^{-\gamma t}\cos\omega t\), \(\gamma = C/(2M)\), \(\omega^2 = K/M - \gamma^2\);
+        !! with more \(\det(\lambda^2M + \lambda C + K) = 0\).
+        type(derivation_t), intent(inout) :: self                      !! gets the lines
+        type(polynomial_t), intent(in) :: mass(:, :), drag(:, :), stiffness(:, :)  !! (n, n)
+        type(polynomial_t), allocatable :: matrix(:, :), c(:)
+        type(polynomial_t) :: p
+        integer :: i, k
+
+        if (self%n == 1) then
+            call add_one(self, mass(1, 1), drag(1, 1), stiffness(1, 1))
+            return
+        end if
+        if (self%n > most_expanded) then
+            call self%add_words("det("//name()//"^2 M + "//name()//" C + K) is not written out "// &
+                                "for more than "//to_text(most_expanded)//" coordinates")
+            return
+        end if
+        allocate (matrix(self%n, self%n))
+        do i = 1, self%n
+            do k = 1, self%n
+                matrix(i, k) = stiffness(i, k) + drag(i, k)*atom_power(self%rate(), 1) &
+                               + mass(i, k)*atom_power(self%rate(), 2)
+            end do
+        end do
+        call determinant(matrix, p)
+        allocate (c(2*self%n + 1))
+        call collect(self, p, c)
+        call self%add_words("q goes as exp("//name()//" t): det("//name()//"^2 M + "//name()// &
+                            " C + K) = 0")
+        call add_polynomial(self, line_rates, self%rate(), 1, c)
+    contains
+        function name() result(text)
+            character(:), allocatable :: text
+
+            text = trim(self%symbols%names(self%rate()))
+        end function name
+    end subroutine add_rates
+
+    subroutine add_one(self, mass, drag, stiffness)
+        !! \(\gamma\) and \(\omega^2\).
+        type(derivation_t), intent(inout) :: self
+        type(polynomial_t), intent(in) :: mass, drag, stiffness
+        type(expression_t) :: free, rate
+        character(:), allocatable :: name, letter
+
+        name = trim(self%symbols%names(self%omega()))
+        letter = "gamma"
+        if (self%symbols%find(letter) > 0) letter = "Gamma"
+        call lay_out_quotient(self%algebra, self%roles, drag, whole_polynomial(2)*mass, rate)
+        call lay_out_quotient(self%algebra, self%roles, stiffness, mass, free)
+        call self%add_words("q goes as exp(-"//letter//" t) cos("//name//" t)")
+        call self%add(line_decay, letter, latex_name(letter), drag, e=rate)
+        if (drag%terms > 0) free = free - rate**2
+        call self%add(line_damped_omega2, name//"^2", "\"//name//"^2", stiffness, e=free)
+    end subroutine add_one
+
+    subroutine collect(self, p, c)
+        !! The coefficients of \(1, \lambda, \lambda^2, \ldots\)
+        type(derivation_t), intent(inout) :: self
+        type(polynomial_t), intent(in) :: p
+        type(polynomial_t), intent(inout) :: c(:)
+        integer :: at, i, powers(most_atoms)
+
+        do i = 1, p%terms
+            powers = p%power(:, i)
+            at = 1 + powers(self%rate())
+            powers(self%rate()) = 0
+            call c(at)%add_term(p%coefficient(i), powers)
+        end do
+        do i = 1, size(c)
+            call shorten(self%algebra, c(i))
+        end do
+    end subroutine collect
+
+    subroutine add_polynomial(self, kind, name, step, c)
+        !! \(\sum_k c_k x^{k\,\mathrm{step}} = 0\), without common factors.
+        type(derivation_t), intent(inout) :: self  !! gets the line
+        integer, intent(in) :: kind                !! of the line
+        integer, intent(in) :: name, step          !! the symbol x; from one power to the next
+        type(polynomial_t), intent(in) :: c(:)     !! the coefficients
+        type(polynomial_t) :: p
+        type(number_t) :: coefficient
+        integer :: k, powers(most_atoms)
+
+        do k = 1, size(c)
+            p = p + c(k)*atom_power(name, step*(k - 1))
+        end do
+        call p%common(coefficient, powers)
+        if (c(size(c))%terms > 0) then
+            if (c(size(c))%coefficient(1)%value*coefficient%value < 0.0_dp) then
+                coefficient = -coefficient
+            end if
+        end if
+        powers(name) = 0
+        do k = 1, self%algebra%count
+            powers(k) = min(powers(k), minval(p%power(k, :p%terms)))
+        end do
+        p = p%shifted(ratio(1_i8, 1_i8)/coefficient, -powers)
+        call self%add(kind, "", "", p)
+    end subroutine add_polynomial
+end module lagrangia_derivation_drag

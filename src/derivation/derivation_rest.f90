@@ -1,0 +1,222 @@
+module lagrangia_derivation_rest
+    !! The lines of a derivation about the equilibrium as two numbers: what the program computes,
+    !! by automatic derivatives and LAPACK, and what the formula gives.
+    use lagrangia_damped_rates, only: damped_rates, damping_matrix
+    use lagrangia_derivation, only: derivation_t, line_damped_omega2, line_decay, &
+                                    line_equilibrium, line_gyroscopic, line_omega2, line_rates, &
+                                    line_rest_mass, line_stiffness, line_t
+    use lagrangia_equilibrium, only: stiffness_beside
+    use lagrangia_errors, only: error_t
+    use lagrangia_expression, only: function_value
+    use lagrangia_formula_size, only: evaluate
+    use lagrangia_kinds, only: dp
+    use lagrangia_small_oscillations, only: modes_t
+    use lagrangia_system, only: system_t
+    implicit none (type, external)
+    private
+    public :: comparison_t
+    public :: compare_modes
+
+    type :: comparison_t
+        !! Of one line.
+        logical :: known = .false.       !! the program has this number, too
+        real(dp) :: program = 0.0_dp     !! what it computes
+        real(dp) :: formula = 0.0_dp     !! what the line says
+        real(dp) :: noise = 0.0_dp       !! that rounding may make of the difference
+    contains
+        procedure :: agrees
+    end type comparison_t
+
+contains
+
+    elemental function agrees(self) result(yes)
+        !! Are both numbers equal, to rounding?
+        class(comparison_t), intent(in) :: self
+        logical :: yes
+
+        yes = abs(self%program - self%formula) <= self%noise .or. .not. self%known
+    end function agrees
+
+    subroutine compare_modes(derivation, system, modes, at_rest, line, c)
+        !! A line about the equilibrium.
+        type(derivation_t), intent(in) :: derivation     !! of the system
+        class(system_t), intent(in) :: system            !! configured
+        type(modes_t), intent(in) :: modes               !! about its equilibrium
+        real(dp), intent(in) :: at_rest(:)               !! values of the names there
+        type(line_t), intent(in) :: line                 !! `line_rest_mass` to `line_rates`
+        type(comparison_t), intent(out) :: c             !! both numbers
+        real(dp), dimension(size(modes%at), size(modes%at)) :: beside
+        real(dp), allocatable :: values(:)
+        real(dp) :: noise, value, gamma, omega2
+        integer :: k
+
+        allocate (values, source=at_rest)
+        call evaluate(line%right, values, c%formula, c%noise)
+        c%known = .true.
+        select case (line%kind)
+        case (line_rest_mass)
+            c%program = modes%mass(line%i, line%k)
+        case (line_stiffness)
+            call stiffness_beside(system, modes%at, beside)
+            c%program = modes%stiffness(line%i, line%k) + beside(line%i, line%k)
+        case (line_gyroscopic)
+            call damping_matrix(system, modes%at, beside)
+            c%program = modes%gyroscopic(line%i, line%k) + beside(line%i, line%k)
+        case (line_equilibrium)
+            c%program = modes%at(line%i)
+            if (line%k > 0) c%program = function_value(line%k, c%program)
+            c%noise = c%noise + 256.0_dp*epsilon(1.0_dp)*max(1.0_dp, abs(c%program))
+        case (line_decay, line_damped_omega2)
+            call one_rate(system, modes, gamma, omega2, c%known)
+            if (.not. c%known) return
+            c%program = merge(gamma, omega2, line%kind == line_decay)
+            noise = maxval(abs(modes%omega2)) + gamma**2
+            if (line%kind == line_decay) noise = sqrt(noise)
+            c%noise = c%noise + 256.0_dp*epsilon(1.0_dp)*noise
+        case (line_rates)
+            call compare_rates(derivation, system, modes, values, line, c)
+            return
+        case (line_omega2)
+            c%program = paired(derivation, values, modes%omega2, line%i)
+            c%noise = c%noise + root_noise(modes, line%i)
+        case default
+            c%noise = huge(c%noise)
+            c%formula = 0.0_dp
+            do k = 1, size(modes%omega2)
+                values(derivation%omega()) = sqrt(max(0.0_dp, modes%omega2(k)))
+                call evaluate(line%right, values, value, noise)
+                if (abs(value)*c%noise < abs(c%formula)*noise) cycle
+                c%formula = value
+                c%noise = 64.0_dp*noise
+            end do
+        end select
+        c%noise = c%noise + 64.0_dp*epsilon(1.0_dp)*abs(c%program)
+    end subroutine compare_modes
+
+    pure function root_noise(modes, i) result(noise)
+        !! Of LAPACK's root: some epsilon of the largest; with \(G\), where the matrix is not
+        !! symmetric, more by largest over distance where another root is near, and a root of that
+        !! where both are one.
+        type(modes_t), intent(in) :: modes
+        integer, intent(in) :: i  !! which root
+        real(dp) :: noise
+        real(dp), parameter :: rounding = 256.0_dp*epsilon(1.0_dp)
+        real(dp) :: largest, distance
+        integer :: j
+
+        largest = maxval(abs(modes%omega2))
+        noise = rounding*largest
+        if (all(abs(modes%gyroscopic) <= 0.0_dp) .or. size(modes%omega2) == 1) return
+        distance = minval(abs(modes%omega2 - modes%omega2(i)), &
+                          [(j /= i, j=1, size(modes%omega2))])
+        noise = noise*largest/max(distance, sqrt(rounding)*largest)
+    end function root_noise
+
+    function paired(derivation, values, omega2, i) result(value)
+        !! Root `i` of LAPACK's: as large among its kind as the formula's among the formulas'.
+        type(derivation_t), intent(in) :: derivation
+        real(dp), intent(in) :: values(:), omega2(:)
+        integer, intent(in) :: i
+        real(dp) :: value
+        real(dp) :: mine, noise, other
+        logical :: left(size(omega2))
+        integer :: k, rank
+
+        rank = 1
+        mine = 0.0_dp
+        do k = 1, derivation%count
+            if (derivation%lines(k)%kind == line_omega2 .and. derivation%lines(k)%i == i) then
+                call evaluate(derivation%lines(k)%right, values, mine, noise)
+            end if
+        end do
+        do k = 1, derivation%count
+            if (derivation%lines(k)%kind /= line_omega2 .or. derivation%lines(k)%i == i) cycle
+            call evaluate(derivation%lines(k)%right, values, other, noise)
+            if (abs(other) < abs(mine) .or. (abs(other) <= abs(mine) .and. &
+                                             derivation%lines(k)%i < i)) rank = rank + 1
+        end do
+        left = .true.
+        do k = 1, rank - 1
+            left(minloc(abs(omega2), 1, left)) = .false.
+        end do
+        value = omega2(minloc(abs(omega2), 1, left))
+    end function paired
+
+    subroutine one_rate(system, modes, gamma, omega2, known)
+        !! Of one coordinate, from LAPACK's \(\lambda = -\gamma\pm i\omega\).
+        class(system_t), intent(in) :: system
+        type(modes_t), intent(in) :: modes
+        real(dp), intent(out) :: gamma, omega2
+        logical, intent(out) :: known
+        complex(dp), allocatable :: lambda(:)
+        type(error_t), allocatable :: error
+
+        gamma = 0.0_dp
+        omega2 = 0.0_dp
+        call damped_rates(system, modes, lambda, error)
+        known = .not. allocated(error)
+        if (.not. known) return
+        if (size(lambda) == 1) then
+            gamma = -real(lambda(1))
+            omega2 = aimag(lambda(1))**2
+        else
+            gamma = -0.5_dp*real(lambda(1) + lambda(2))
+            omega2 = -0.25_dp*real(lambda(1) - lambda(2))**2
+        end if
+    end subroutine one_rate
+
+    subroutine compare_rates(derivation, system, modes, values, line, c)
+        !! The polynomial against \(\prod(x - \lambda_k)\) of LAPACK's rates, each relative to its
+        !! value at another x: at 2n places beyond all \(|\lambda|\), where every factor is at
+        !! least a fifth of x, and the worst of them is shown. A polynomial that agrees there is
+        !! the same, but for a factor.
+        type(derivation_t), intent(in) :: derivation
+        class(system_t), intent(in) :: system
+        type(modes_t), intent(in) :: modes
+        real(dp), intent(inout) :: values(:)
+        type(line_t), intent(in) :: line
+        type(comparison_t), intent(inout) :: c
+        complex(dp), allocatable :: lambda(:)
+        type(error_t), allocatable :: error
+        real(dp) :: x, largest, first, first_noise, value, noise, formula, product_of, one
+        integer :: j
+
+        call damped_rates(system, modes, lambda, error)
+        c%known = .not. allocated(error)
+        if (.not. c%known) return
+        largest = max(maxval(abs(lambda)), tiny(x))
+        values(derivation%rate()) = 1.25_dp*largest
+        call evaluate(line%right, values, first, first_noise)
+        one = product_at(1.25_dp*largest)
+        c%formula = 0.0_dp
+        c%program = 0.0_dp
+        c%noise = huge(x)
+        do j = 1, 2*size(modes%at)
+            x = (1.25_dp + 0.5_dp*j)*largest
+            values(derivation%rate()) = x
+            call evaluate(line%right, values, value, noise)
+            formula = value/first
+            product_of = product_at(x)/one
+            noise = noise/abs(first) + first_noise/abs(first)*abs(formula) &
+                    + 1024.0_dp*epsilon(x)*abs(product_of)
+            if (abs(formula - product_of)*c%noise < abs(c%formula - c%program)*noise) cycle
+            c%formula = formula
+            c%program = product_of
+            c%noise = noise
+        end do
+    contains
+        real(dp) function product_at(x)
+            real(dp), intent(in) :: x
+            integer :: k
+
+            product_at = 1.0_dp
+            do k = 1, size(lambda)
+                if (aimag(lambda(k)) > 0.0_dp) then
+                    product_at = product_at*((x - real(lambda(k)))**2 + aimag(lambda(k))**2)
+                else
+                    product_at = product_at*(x - real(lambda(k)))
+                end if
+            end do
+        end function product_at
+    end subroutine compare_rates
+end module lagrangia_derivation_rest

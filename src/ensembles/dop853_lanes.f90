@@ -1,0 +1,323 @@
+module lagrangia_dop853_lanes
+    !! Steps of the method of Dormand and Prince of order 8(5,3), one trajectory a lane: the sums of
+    !! `lagrangia_dop853` in the same order, so that only sine and cosine differ, by their last bit.
+    !! Each lane has its own time and step, and accepts or rejects its own attempts.
+    !!
+    !! What lies inside a step is rarely wanted, and then of one lane: its dense output is that of
+    !! a single trajectory.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use lagrangia_dop853_coefficients, only: a, b, c, e3, e5
+    use lagrangia_dop853_control, only: first_step, least_error, next_step, shorter_step
+    use lagrangia_dop853_stages, only: extra_stages, inside_step, slope
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp, lanes
+    use lagrangia_lane_method, only: lane_method_t
+    use lagrangia_roots, only: find_root, scalar_function_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_system, only: system_t
+    implicit none (type, external)
+    private
+    public :: dop853_lanes_t
+
+    integer, parameter :: from(12) = [1, 2, 2, 3, 3, 4, 4, 4, 4, 4, 4, 4]
+    !! first slope, besides the step's first, that stage `i` takes; its last is `i - 1`
+    integer, parameter :: places = 8  !! in a step where an angle is looked at, as for any event
+    real(dp), parameter :: pi = acos(-1.0_dp)
+
+    type, extends(lane_method_t) :: dop853_lanes_t
+        private
+        real(dp) :: tolerance = 1e-10_dp, t0 = 0.0_dp, t_end = 0.0_dp
+        real(dp) :: h(lanes) = 0.0_dp                !! steps to try next, s
+        real(dp) :: last_error(lanes) = least_error  !! of the latest accepted steps, in tolerances
+        logical, dimension(lanes) :: busy = .false., moved = .false., retry = .false.
+        real(dp), allocatable :: trial(:, :)         !! states at the ends of the attempts
+        real(dp), allocatable :: k(:, :, :)          !! slopes, (lanes, 2 ndof, 13): the first, the
+        !! others less the first, and the one at the end
+        real(dp), allocatable :: inside(:, :, :)     !! dense output, (7, 2 ndof, lanes)
+        logical :: inside_known(lanes) = .false.
+    contains
+        procedure :: prepare
+        procedure :: begin
+        procedure :: step
+        procedure :: state_at
+        procedure :: may_flip
+        procedure :: flip_time
+        procedure, private :: see_inside
+    end type dop853_lanes_t
+
+    type, extends(scalar_function_t) :: beyond_t
+        !! How far an angle has come beyond plus or minus pi, along a step.
+        real(dp) :: t_old = 0.0_dp, t = 0.0_dp
+        real(dp) :: from = 0.0_dp, to = 0.0_dp, level = 0.0_dp  !! rad
+        real(dp) :: inside(7, 1) = 0.0_dp
+    contains
+        procedure :: value
+    end type beyond_t
+
+contains
+
+    pure subroutine prepare(self, system, scene)
+        !! See `lane_method_t`.
+        class(dop853_lanes_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        type(scene_t), intent(in) :: scene
+        real(dp) :: slopes(lanes, 2*system%ndof, 13), coefficients(7, 2*system%ndof, lanes)
+
+        slopes = 0.0_dp
+        coefficients = 0.0_dp
+        self%y_old = slopes(:, :, 1)
+        self%y = slopes(:, :, 1)
+        self%trial = slopes(:, :, 1)
+        self%k = slopes
+        self%inside = coefficients
+        self%tolerance = scene%tolerance
+        self%t0 = scene%t0
+        self%t_end = scene%t0 + scene%duration
+        self%t = self%t_end
+        self%busy = .false.
+    end subroutine prepare
+
+    pure subroutine begin(self, system, lane, q, v)
+        !! See `lane_method_t`.
+        class(dop853_lanes_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: lane
+        real(dp), intent(in) :: q(system%ndof), v(system%ndof)
+        real(dp) :: y(2*system%ndof), f(2*system%ndof)
+
+        y(:system%ndof) = q
+        y(system%ndof + 1:) = v
+        call slope(system, system%ndof, self%t0, y, f)
+        call first_step(system, system%ndof, self%tolerance, self%t0, self%t_end, y, f, &
+                        self%h(lane))
+        self%y(lane, :) = y
+        self%k(lane, :, 1) = f
+        self%t(lane) = self%t0
+        self%last_error(lane) = least_error
+        self%busy(lane) = .true.
+        self%moved(lane) = .false.
+        self%retry(lane) = .false.
+        self%stuck(lane) = .false.
+    end subroutine begin
+
+    pure subroutine step(self, system)
+        !! See `lane_method_t`. Twelve evaluations for eight attempts.
+        class(dop853_lanes_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        real(dp) :: h(lanes), longer, scaled(lanes)
+        logical :: last(lanes)
+        integer :: i, n
+
+        n = system%ndof
+        do i = 1, 2*n
+            self%k(:, i, 1) = merge(self%k(:, i, 13), self%k(:, i, 1), self%moved)
+        end do
+        do i = 1, lanes
+            if (self%t(i) >= self%t_end) self%busy(i) = .false.
+            h(i) = self%h(i)
+            last(i) = self%t(i) + 1.01_dp*h(i) >= self%t_end
+            if (last(i)) h(i) = self%t_end - self%t(i)
+            h(i) = (self%t(i) + h(i)) - self%t(i)  ! what the clock will say
+            self%stuck(i) = self%busy(i) .and. .not. self%t(i) + 0.1_dp*h(i) > self%t(i)
+            if (self%stuck(i)) self%busy(i) = .false.
+            if (.not. self%busy(i)) h(i) = 0.0_dp
+        end do
+        call stages(system, n, self%t, h, self%y, self%k, self%trial)
+        call scaled_errors(n, h, self%tolerance, self%k, self%y, self%trial, scaled)
+        call slopes(system, n, self%t + h, self%trial, self%k(:, :, 13))
+        self%moved = self%busy .and. scaled <= 1.0_dp
+        do i = 1, 2*n
+            self%y_old(:, i) = merge(self%y(:, i), self%y_old(:, i), self%moved)
+            self%y(:, i) = merge(self%trial(:, i), self%y(:, i), self%moved)
+        end do
+        do i = 1, lanes
+            if (self%moved(i)) then
+                self%t_old(i) = self%t(i)
+                self%t(i) = self%t(i) + h(i)
+                if (last(i)) self%t(i) = self%t_end
+                longer = next_step(h(i), scaled(i), self%last_error(i))
+                if (self%retry(i)) longer = min(longer, self%h(i))
+                self%h(i) = longer
+                self%last_error(i) = max(scaled(i), least_error)
+                self%retry(i) = .false.
+                self%inside_known(i) = .false.
+            else if (self%busy(i)) then
+                self%h(i) = shorter_step(h(i), scaled(i))
+                self%retry(i) = .true.
+            end if
+        end do
+    end subroutine step
+
+    pure subroutine slopes(system, n, t, y, f)
+        !! The slopes of eight states.
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: n
+        real(dp), intent(in) :: t(lanes), y(lanes, n, 2)
+        real(dp), intent(out) :: f(lanes, n, 2)
+
+        f(:, :, 1) = y(:, :, 2)
+        call system%accelerations_lanes(t, y(:, :, 1), y(:, :, 2), f(:, :, 2))
+    end subroutine slopes
+
+    pure subroutine stages(system, n, t, h, y0, k, y)
+        !! Slopes 2 to 12 of the attempts, and the states at their ends.
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: n
+        real(dp), intent(in) :: t(lanes), h(lanes), y0(lanes, 2*n)
+        real(dp), intent(inout) :: k(lanes, 2*n, 13)
+        real(dp), intent(out) :: y(lanes, 2*n)
+        real(dp) :: x(lanes)
+        integer :: i, j, s
+
+        do s = 2, 12
+            do i = 1, 2*n
+                x = c(s)*k(:, i, 1)
+                do j = from(s), s - 1
+                    x = x + a(j, s)*k(:, i, j)
+                end do
+                y(:, i) = y0(:, i) + h*x
+            end do
+            call slopes(system, n, t + c(s)*h, y, k(:, :, s))
+            do i = 1, 2*n
+                k(:, i, s) = k(:, i, s) - k(:, i, 1)
+            end do
+        end do
+        do i = 1, 2*n
+            x = k(:, i, 1)
+            do j = 6, 12
+                x = x + b(j)*k(:, i, j)
+            end do
+            y(:, i) = y0(:, i) + h*x
+        end do
+    end subroutine stages
+
+    pure subroutine scaled_errors(n, h, tolerance, k, y0, y, scaled)
+        !! As `scaled_error` of `lagrangia_dop853_stages`, in every lane.
+        integer, intent(in) :: n
+        real(dp), intent(in) :: h(lanes), tolerance, k(lanes, 2*n, 13), y0(lanes, 2*n)
+        real(dp), intent(in) :: y(lanes, 2*n)
+        real(dp), intent(out) :: scaled(lanes)
+        real(dp), dimension(lanes) :: fifth, k3, k5, third, weight, whole
+        integer :: i, j
+
+        fifth = 0.0_dp
+        third = 0.0_dp
+        whole = 0.0_dp
+        do i = 1, 2*n
+            k5 = e5(6)*k(:, i, 6)
+            k3 = e3(6)*k(:, i, 6)
+            do j = 7, 12
+                k5 = k5 + e5(j)*k(:, i, j)
+                k3 = k3 + e3(j)*k(:, i, j)
+            end do
+            weight = max(1.0_dp, abs(y0(:, i)), abs(y(:, i)))
+            fifth = fifth + (k5/weight)**2
+            third = third + (k3/weight)**2
+            whole = whole + abs(y(:, i))
+        end do
+        scaled = h/tolerance*fifth/sqrt(2*n*(fifth + 0.01_dp*third))
+        where (.not. third > 0.0_dp) scaled = 0.0_dp
+        where (.not. third + whole <= huge(scaled)) scaled = huge(scaled)
+    end subroutine scaled_errors
+
+    pure subroutine see_inside(self, system, lane)
+        !! The dense output of the lane's latest step, unless it is known.
+        class(dop853_lanes_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: lane
+        real(dp) :: k(2*system%ndof, 17)
+        real(dp), dimension(2*system%ndof) :: work, y, y_old
+        integer :: s
+
+        if (self%inside_known(lane)) return
+        y_old = self%y_old(lane, :)
+        y = self%y(lane, :)
+        do s = 1, 12
+            k(:, s) = self%k(lane, :, s)
+        end do
+        call extra_stages(system, system%ndof, self%t_old(lane), &
+                          self%t(lane) - self%t_old(lane), y_old, y, k, &
+                          self%inside(:, :, lane), work)
+        self%inside_known(lane) = .true.
+    end subroutine see_inside
+
+    pure subroutine state_at(self, system, lane, t, q, v)
+        !! See `lane_method_t`.
+        class(dop853_lanes_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: lane
+        real(dp), intent(in) :: t
+        real(dp), intent(out) :: q(system%ndof), v(system%ndof)
+        real(dp) :: y(2*system%ndof), y_old(2*system%ndof)
+
+        y = self%y(lane, :)
+        if (t < self%t(lane)) then
+            call self%see_inside(system, lane)
+            y_old = self%y_old(lane, :)
+            call inside_step((t - self%t_old(lane))/(self%t(lane) - self%t_old(lane)), y_old, &
+                             self%inside(:, :, lane), y)
+        end if
+        q = y(:system%ndof)
+        v = y(system%ndof + 1:)
+    end subroutine state_at
+
+    pure function may_flip(self, coordinate) result(yes)
+        !! See `lane_method_t`: as far as the larger of the velocities at both ends reaches.
+        class(dop853_lanes_t), intent(in) :: self
+        integer, intent(in) :: coordinate
+        logical :: yes(lanes)
+        integer :: speed
+
+        speed = size(self%y, 2)/2 + coordinate
+        yes = self%moved .and. &
+              max(abs(self%y(:, coordinate)), abs(self%y_old(:, coordinate))) + &
+              (self%t - self%t_old)*max(abs(self%y(:, speed)), abs(self%y_old(:, speed))) >= pi
+    end function may_flip
+
+    subroutine flip_time(self, system, lane, coordinate, time)
+        !! See `lane_method_t`: between two of eight places, as for any event of a single run.
+        class(dop853_lanes_t), intent(inout) :: self
+        class(system_t), intent(in) :: system
+        integer, intent(in) :: lane, coordinate
+        real(dp), intent(out) :: time
+        type(beyond_t) :: f
+        type(error_t), allocatable :: error
+        real(dp) :: before, now, t, t_before
+        integer :: i
+
+        time = ieee_value(time, ieee_quiet_nan)
+        call self%see_inside(system, lane)
+        f%t_old = self%t_old(lane)
+        f%t = self%t(lane)
+        f%from = self%y_old(lane, coordinate)
+        f%to = self%y(lane, coordinate)
+        f%inside(:, 1) = self%inside(:, coordinate, lane)
+        t_before = f%t_old
+        before = f%from
+        do i = 1, places
+            t = f%t_old + i*(f%t - f%t_old)/places
+            if (i == places) t = f%t
+            f%level = 0.0_dp
+            now = f%value(t)
+            if (abs(now) > pi .and. before*sign(1.0_dp, now) < pi) then
+                f%level = sign(pi, now)
+                call find_root(f, t_before, t, time, error)
+                return
+            end if
+            t_before = t
+            before = now
+        end do
+    end subroutine flip_time
+
+    function value(self, x) result(y)
+        !! See `scalar_function_t`: the angle less its level, at time `x`.
+        class(beyond_t), intent(inout) :: self
+        real(dp), intent(in) :: x
+        real(dp) :: y, angle(1)
+
+        angle = self%to
+        if (x < self%t) call inside_step((x - self%t_old)/(self%t - self%t_old), [self%from], &
+                                         self%inside, angle)
+        y = angle(1) - self%level
+    end function value
+end module lagrangia_dop853_lanes

@@ -1,0 +1,204 @@
+module lagrangia_equilibrium
+    !! Places where a system can rest, and L to second order about them.
+    use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t, fail
+    use lagrangia_generalised_forces, only: add_generalised_forces
+    use lagrangia_hyperdual, only: hyperdual_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_lapack, only: solve_linear
+    use lagrangia_system, only: system_t
+    use lagrangia_tangent_space, only: find_tangent, tangent_t, within
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: expand_at_rest, force_at_rest, settle, stiffness_beside
+
+contains
+
+    subroutine settle(system, wanted, q, error)
+        !! Newton's method from `q` to an equilibrium, \(|F_i| \le 8\epsilon(\sum_j|K_{ij}|
+        !! \max(1, |q_j|) + \sum_k|A_{ki}\lambda_k|)\); a `wanted` one must be there already, to a
+        !! relative 1e-12.
+        class(system_t), intent(in) :: system             !! configured
+        logical, intent(in) :: wanted                     !! `q` must be one
+        real(dp), intent(inout) :: q(:)                   !! (n), from where to where
+        type(error_t), allocatable, intent(out) :: error  !! none is found; the nearest is another
+        type(error_t), allocatable :: singular
+        type(tangent_t) :: tangent
+        type(description_t) :: d
+        character(:), allocatable :: near
+        real(dp), dimension(size(q), size(q)) :: m, k, g
+        real(dp), dimension(size(q)) :: f, start, step, onto, rounding
+        integer :: i, worst
+
+        start = q
+        f = force_at_rest(system, q)
+        if (all(abs(f) <= 0.0_dp) .and. system%constraints == 0) return
+        onto = 0.0_dp
+        near = "none is near"
+        do i = 1, 50
+            call expand_at_rest(system, q, m, k, g)
+            call stiffness_beside(system, q, m)
+            k = k + m
+            f = force_at_rest(system, q)
+            rounding = matmul(abs(k), max(1.0_dp, abs(q)))
+            if (system%constraints > 0) then
+                call constrain(system, q, f, k, rounding, onto, tangent, singular)
+                if (allocated(singular)) exit
+            end if
+            if (all(abs(f) <= 8.0_dp*epsilon(f)*rounding) .and. &
+                all(abs(onto) <= 4.0_dp*epsilon(q)*max(1.0_dp, abs(q)))) then
+                near = ""
+                exit
+            end if
+            if (system%constraints > 0) then
+                call newton_step(within(tangent%basis, k), &
+                                 matmul(transpose(tangent%basis), f - matmul(k, onto)), &
+                                 step(:size(tangent%basis, 2)), singular)
+                step = onto + matmul(tangent%basis, step(:size(tangent%basis, 2)))
+            else
+                call newton_step(k, f, step, singular)
+            end if
+            if (allocated(singular)) exit
+            q = q + step
+            if (maxval(abs(step)) > 4.0_dp*epsilon(q)*max(1.0_dp, maxval(abs(q)))) cycle
+            near = ""
+            exit
+        end do
+        if (near == "" .and. .not. wanted) return
+        f = force_at_rest(system, start)
+        if (system%constraints > 0) call constrain(system, start, f, k, rounding, onto, tangent, &
+                                                   error)
+        if (allocated(error)) return
+        worst = maxloc(abs(f), 1)
+        if (near == "") then
+            if (maxval(abs(q - start)) <= 1e-12_dp*max(1.0_dp, maxval(abs(q)))) then
+                q = start
+                return
+            end if
+            where (abs(q) <= 4.0_dp*epsilon(q)) q = 0.0_dp
+            near = "the nearest is --at "//to_text(q(1))
+            do i = 2, min(size(q), 6)
+                near = near//","//to_text(q(i))
+            end do
+        end if
+        call system%describe(d)
+        if (any(abs(onto) > 1e-12_dp*max(1.0_dp, abs(start)))) then
+            call fail(error, "not a place that the constraints of "//trim(d%name)//" allow; "//near)
+            return
+        end if
+        call fail(error, "not an equilibrium of "//trim(d%name)//": the force on "// &
+                  trim(d%coordinates(worst)%name)//" is "//to_text(f(worst))//" "// &
+                  trim(merge("N m", "N  ", d%coordinates(worst)%unit == "rad"))//"; "//near)
+    end subroutine settle
+
+    pure subroutine newton_step(k, f, step, singular)
+        !! \(K\delta = F\) by least squares with a damping of 1e-12 max|K^T K|: K may be singular (a
+        !! zero mode).
+        real(dp), intent(in) :: k(:, :), f(:)
+        real(dp), intent(out) :: step(:)
+        type(error_t), allocatable, intent(out) :: singular
+        real(dp) :: square(size(f), size(f)), damping
+        integer :: i
+
+        square = matmul(transpose(k), k)
+        damping = 1e-12_dp*maxval(abs(square))
+        do i = 1, size(f)
+            square(i, i) = square(i, i) + damping
+        end do
+        call solve_linear(square, matmul(transpose(k), f), step, singular)
+    end subroutine newton_step
+
+    pure subroutine constrain(system, q, f, k, rounding, onto, tangent, error)
+        !! Add the forces of constraint to those of L, and what goes with them.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: q(:)
+        real(dp), intent(inout) :: f(:), k(:, :), rounding(:)
+        real(dp), intent(out) :: onto(:)  !! the way back onto the constraints
+        type(tangent_t), intent(out) :: tangent
+        type(error_t), allocatable, intent(out) :: error
+        real(dp) :: lambda(system%constraints), there(size(q)), at_rest(size(q))
+
+        onto = 0.0_dp
+        call find_tangent(system, q, tangent, error)
+        if (allocated(error)) return
+        call tangent%find_multipliers(f, lambda, error)
+        if (allocated(error)) return
+        f = f + matmul(lambda, tangent%rows)
+        k = k + tangent%stiffness(lambda)
+        rounding = rounding + matmul(abs(lambda), abs(tangent%rows))
+        there = q
+        at_rest = 0.0_dp
+        call system%keep_constraints(0.0_dp, there, at_rest)
+        onto = there - q
+    end subroutine constrain
+
+    pure function force_at_rest(system, q) result(f)
+        !! \(\partial L/\partial q + Q\) at rest.
+        class(system_t), intent(in) :: system  !! configured
+        real(dp), intent(in) :: q(:)           !! (n)
+        real(dp) :: f(size(q))                 !! N, or N m on an angle
+        type(hyperdual_t) :: tt, qq(size(q)), vv(size(q)), l
+        integer :: i
+
+        qq%re = q
+        do i = 1, size(q)
+            qq(i)%d1 = 1.0_dp
+            l = system%lagrangian(tt, qq, vv)
+            f(i) = l%d1
+            qq(i)%d1 = 0.0_dp
+        end do
+        call add_generalised_forces(system, 0.0_dp, q, 0.0_dp*q, f)
+    end function force_at_rest
+
+    pure subroutine expand_at_rest(system, q, m, k, g)
+        !! \(M\), \(K\), \(G\) from the Lagrangian's second derivatives at rest.
+        class(system_t), intent(in) :: system  !! configured
+        real(dp), intent(in) :: q(:)           !! (n)
+        real(dp), dimension(size(q), size(q)), intent(out) :: m, k, g
+        !! \(L_{vv}\), \(-L_{qq}\), \(L_{vq} - L_{qv}\)
+        real(dp) :: mixed(size(q), size(q))
+        type(hyperdual_t) :: tt, qq(size(q)), vv(size(q)), l
+        integer :: i, j
+
+        qq%re = q
+        do i = 1, size(q)
+            do j = 1, size(q)
+                vv(i)%d1 = 1.0_dp
+                vv(j)%d2 = 1.0_dp
+                l = system%lagrangian(tt, qq, vv)
+                m(i, j) = l%d12
+                vv(j)%d2 = 0.0_dp
+                qq(j)%d2 = 1.0_dp
+                l = system%lagrangian(tt, qq, vv)
+                mixed(i, j) = l%d12
+                vv(i)%d1 = 0.0_dp
+                qq(i)%d1 = 1.0_dp
+                l = system%lagrangian(tt, qq, vv)
+                k(i, j) = -l%d12
+                qq(i)%d1 = 0.0_dp
+                qq(j)%d2 = 0.0_dp
+            end do
+        end do
+        g = mixed - transpose(mixed)
+    end subroutine expand_at_rest
+
+    pure subroutine stiffness_beside(system, q, stiffness)
+        !! \(-\partial Q/\partial q\) at rest, of the generalised forces beside L.
+        class(system_t), intent(in) :: system      !! with its parameters
+        real(dp), intent(in) :: q(:)               !! (n)
+        real(dp), intent(out) :: stiffness(:, :)   !! (n, n), N/m, or N m of angles
+        type(hyperdual_t) :: qq(size(q)), v(size(q)), f(size(q))
+        integer :: j
+
+        stiffness = 0.0_dp
+        if (.not. system%nonconservative) return
+        qq%re = q
+        do j = 1, size(q)
+            qq(j)%d1 = 1.0_dp
+            call system%generalised_forces(hyperdual_t(), qq, v, f)
+            stiffness(:, j) = -f%d1
+            qq(j)%d1 = 0.0_dp
+        end do
+    end subroutine stiffness_beside
+end module lagrangia_equilibrium
