@@ -596,6 +596,7 @@
       actions[event.key]();
     }
     play(on) {
+      cancelAnimationFrame(this.request);  // paused and played again within one frame, there is still one clock
       this.playing = on;
       this.button.textContent = on ? "Pause" : "Play";
       if (!on) return;
@@ -613,9 +614,9 @@
           this.draw();
         }
         before = now;
-        requestAnimationFrame(tick);
+        this.request = requestAnimationFrame(tick);
       };
-      requestAnimationFrame(tick);
+      this.request = requestAnimationFrame(tick);
     }
     seek(time) {
       this.time = Math.max(this.film.start, Math.min(this.film.end, time));
