@@ -14,20 +14,15 @@ import sys
 import tempfile
 import time
 
+import claims
+from claims import check
+
 program = os.path.abspath(sys.argv[1])
 WIPE = "\r\x1b[K"  # what stands before each line of progress, and alone in the end
 LINE = re.compile(re.escape(WIPE + "\x1b[?7l") + r"([^\r\n\x1b]*)" + re.escape("\x1b[?7h"))
 LEFT = re.compile(r"^[\w ,]+: \d+ %, \d+ (s|min|h|days|years)(, [0-9.E+]+ \w+/s)?, \d+ (s|min|h|days|years) left$")
 ENOUGH = 2.0      # s that may pass in silence
 LATE = 3.0        # s more, for a busy machine and parts of the work that are long themselves
-failed = 0
-
-
-def check(what, good, more=""):
-    global failed
-    if not good:
-        failed += 1
-        print(f"FAILED  {what} {more}".rstrip())
 
 
 def on_terminal(words, folder, stdout=None):
@@ -114,5 +109,5 @@ with tempfile.TemporaryDirectory() as home:
     silence(home, ["stress", "mass_ratios"])
     silence(home, ["run", "pendulum", "--set", "scene%duration=8000", "--plot"])
     same_json(home, ["stress", "mass_ratios", "--json"])
-print(f"{len(LONG)} long commands, {failed} failed")
-sys.exit(1 if failed else 0)
+print(f"{len(LONG)} long commands, {claims.failed} failed")
+sys.exit(1 if claims.failed else 0)

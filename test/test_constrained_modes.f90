@@ -139,20 +139,11 @@ contains
         call assertFalse(allocated(error), "found")
         call assertEqual([0.0_dp, -l1, 0.0_dp, -l1 - l2], modes%at, 1e-14_dp)
         call find_modes(system, [0.2_dp, -0.8_dp, 0.5_dp, -2.1_dp], .true., modes, error)
-        call says("not a place that the constraints of own allow; the nearest is --at "// &
-                  "0.0,-0.9,0.0,")
+        call assert_refused(error, "not a place that the constraints of own allow; the nearest "// &
+                            "is --at 0.0,-0.9,0.0,")
         ! on the constraints, but not at rest
         call find_modes(system, [0.54_dp, -0.72_dp, 0.54_dp, -2.12_dp], .true., modes, error)
-        call says("not an equilibrium of own: the force on x")
-    contains
-        subroutine says(text)
-            character(*), intent(in) :: text
-
-            call assertTrue(allocated(error), "refused")
-            if (.not. allocated(error)) return
-            call assertEqual(2, error%status)
-            call assertTrue(index(error%message, text) > 0, error%message)
-        end subroutine says
+        call assert_refused(error, "not an equilibrium of own: the force on x")
     end subroutine found_from_near_by
 
     subroutine constraints_that_integrate()
@@ -188,24 +179,26 @@ contains
                         "+ y_dot^2 + phi_dot^2)', constraint = 'x_dot sin(phi) = y_dot cos(phi)'", &
                         "m = 1.0", "0.0, 0.0, 0.0", system, error)
         call find_modes(system, [0.0_dp, 0.0_dp, 0.0_dp], .true., modes, error)
-        call says("own: its constraints are nonholonomic")
+        call assert_refused(error, "own: its constraints are nonholonomic")
         call read_typed("coordinates = 'x', 'y', parameters = 'w', T = '(x_dot^2 + y_dot^2)/2',"// &
                         " constraint = 'x sin(w t) = y cos(w t)'", "w = 1.0", "1.0, 0.0", system, &
                         error)
         call find_modes(system, [1.0_dp, 0.0_dp], .false., modes, error)
-        call says("own: a constraint contains the time")
+        call assert_refused(error, "own: a constraint contains the time")
         call read_typed("coordinates = 'x', 'y', parameters = 'l', T = '(x_dot^2 + y_dot^2)/2',"// &
                         " constraint = 'x^2 + y^2 = l^2'", "l = 1.0", "0.0, -1.0", system, error)
         call find_modes(system, [0.0_dp, 0.0_dp], .false., modes, error)
-        call says("not independent at q = 0.0, 0.0; say where the equilibrium is")
-    contains
-        subroutine says(text)
-            character(*), intent(in) :: text
-
-            call assertTrue(allocated(error), "refused")
-            if (.not. allocated(error)) return
-            call assertEqual(2, error%status)
-            call assertTrue(index(error%message, text) > 0, error%message)
-        end subroutine says
+        call assert_refused(error, "not independent at q = 0.0, 0.0; say where the equilibrium is")
     end subroutine refusals
+
+    subroutine assert_refused(error, text)
+        !! With status 2 and this text in the message.
+        type(error_t), allocatable, intent(in) :: error
+        character(*), intent(in) :: text
+
+        call assertTrue(allocated(error), "refused")
+        if (.not. allocated(error)) return
+        call assertEqual(2, error%status)
+        call assertTrue(index(error%message, text) > 0, error%message)
+    end subroutine assert_refused
 end module test_constrained_modes

@@ -5,7 +5,8 @@ module test_text
     use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
     use lagrangia_kinds, only: dp, i8
     use lagrangia_names, only: abbreviation, advice, nearest_name
-    use lagrangia_text, only: escaped, in_words, join, listed, lower, quoted, shortened, to_text
+    use lagrangia_text, only: escaped, in_words, join, listed, lower, quoted, replaced, &
+                              shortened, to_text
     use random_states, only: restart_random, uniform
     implicit none (type, external)
     private
@@ -47,6 +48,7 @@ contains
         call assertEqual("alpha, ...; 'show' has all", listed(names, 8, "show"))
         call assertEqual("...; 'show' has all", listed(names, 4, "show"))
         call assertEqual("double pendulum", in_words("double_pendulum   "))
+        call assertEqual("*m*s**", replaced(" m s  ", " ", "*"))
         call assertEqual("_", listed(["_"], 1, "show"))
     end subroutine long_lists_say_where_all_stand
 

@@ -13,8 +13,11 @@ import sys
 import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 import chromium  # noqa: E402
+import claims  # noqa: E402
 import drawing  # noqa: E402
+from claims import check  # noqa: E402
 
 NASTY = "</script><script>hacked = 1</script><img src=x onerror=hacked=1> \"q\" <!-- & ''q'' \\u003c"
 DRAWN = ("pendulum", "cart_pendulum", "rolling_disk", "double_pendulum_modes", "kepler",
@@ -24,14 +27,6 @@ MOVES = """new Promise(done => {  // whether the picture changes, within ten sec
   const look = () => canvas.toDataURL() !== first ? done(true) : performance.now() > end ? done(false) : setTimeout(look, 50);
   look();
 })"""
-failed = 0
-
-
-def check(what, good, more=""):
-    global failed
-    if not good:
-        failed += 1
-        print(f"FAILED  {what} {more}".rstrip())
 
 
 def make(program, folder, words):
@@ -167,8 +162,8 @@ def main():
                 examine_report(browser, os.path.join(folder, "report", "report.html"))
         finally:
             browser.close()
-    print(f"{len(pages)} pages, {failed} failed")
-    return 1 if failed else 0
+    print(f"{len(pages)} pages, {claims.failed} failed")
+    return 1 if claims.failed else 0
 
 
 sys.exit(main())

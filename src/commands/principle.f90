@@ -16,7 +16,7 @@ module lagrangia_principle
     use lagrangia_principles, only: find_first_line, principle_report, principles
     use lagrangia_report, only: picture_t, report_t
     use lagrangia_scene_claims, only: claim_table
-    use lagrangia_text, only: to_text
+    use lagrangia_text, only: replaced, to_text
     use lagrangia_text_table, only: text_table_t
     use lagrangia_value_range, only: range_of, value_range_t
     use lagrangia_version, only: build_text, version
@@ -65,12 +65,8 @@ contains
         !! `principle_least_time`: of the files of `least-time`, without folder and ending.
         character(*), intent(in) :: name
         character(:), allocatable :: file
-        integer :: i
 
-        file = "principle_"//name
-        do i = 1, len(file)
-            if (file(i:i) == "-") file(i:i) = "_"
-        end do
+        file = "principle_"//replaced(name, "-", "_")
     end function picture_name
 
     subroutine list_principles(as_json)

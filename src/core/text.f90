@@ -5,8 +5,8 @@ module lagrangia_text
     implicit none (type, external)
     private
     public :: word_t
-    public :: escaped, in_words, join, listed, lower, quoted, short_source, shortened, to_text
-    public :: source_length
+    public :: escaped, in_words, join, listed, lower, quoted, replaced, short_source, shortened
+    public :: source_length, to_text
 
     integer, parameter :: source_length = 100  !! of what `short_source` gives
 
@@ -254,11 +254,21 @@ contains
         !! `double pendulum` of `double_pendulum`: a name in a title.
         character(*), intent(in) :: name  !! trailing blanks do not count
         character(:), allocatable :: words
+
+        words = replaced(trim(name), "_", " ")
+    end function in_words
+
+    pure function replaced(text, old, new) result(changed)
+        !! `text` with another character in each place of one.
+        character(*), intent(in) :: text  !! any
+        character, intent(in) :: old      !! what goes
+        character, intent(in) :: new      !! what comes
+        character(len(text)) :: changed
         integer :: i
 
-        words = trim(name)
-        do i = 1, len(words)
-            if (words(i:i) == "_") words(i:i) = " "
+        changed = text
+        do i = 1, len(text)
+            if (text(i:i) == old) changed(i:i) = new
         end do
-    end function in_words
+    end function replaced
 end module lagrangia_text

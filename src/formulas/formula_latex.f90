@@ -7,7 +7,7 @@ module lagrangia_formula_latex
     use lagrangia_formula_text, only: number_in_formula, rank_factor, rank_of, rank_power, &
                                       rank_product, rank_sum
     use lagrangia_symbols, only: symbols_t
-    use lagrangia_text, only: word_t
+    use lagrangia_text, only: replaced, word_t
     implicit none (type, external)
     private
     public :: latex, latex_name
@@ -197,10 +197,7 @@ contains
         index_text = name(k:length)
         if (index_text(1:1) == "_") index_text = index_text(2:)
         if (len(index_text) == 0) return
-        do k = 1, len(index_text)
-            if (index_text(k:k) == "_") index_text(k:k) = ","
-        end do
-        text = base//"_{"//letter(index_text)//"}"
+        text = base//"_{"//letter(replaced(index_text, "_", ","))//"}"
     end function latex_name
 
     pure function letter(name) result(text)

@@ -10,7 +10,6 @@ module lagrangia_damped_rates
     use lagrangia_lapack_eigen, only: dgeev
     use lagrangia_small_oscillations, only: modes_t
     use lagrangia_system, only: system_t
-    use lagrangia_tangent_space, only: within
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
@@ -54,18 +53,10 @@ contains
 
         n = size(modes%omega2)
         call damping_matrix(system, modes%at, turning)
-        turning = turning + modes%gyroscopic
         call stiffness_beside(system, modes%at, springs)
-        springs = springs + modes%stiffness
-        if (allocated(modes%basis)) then
-            mass = within(modes%basis, modes%mass)
-            damping = within(modes%basis, turning)
-            stiffness = within(modes%basis, springs)
-        else
-            mass = modes%mass
-            damping = turning
-            stiffness = springs
-        end if
+        mass = modes%allowed(modes%mass)
+        damping = modes%allowed(turning + modes%gyroscopic)
+        stiffness = modes%allowed(springs + modes%stiffness)
         a = 0.0_dp
         do j = 1, n
             a(j, n + j) = 1.0_dp

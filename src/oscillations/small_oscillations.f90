@@ -39,6 +39,8 @@ module lagrangia_small_oscillations
         real(dp), allocatable :: quadrature(:, :)  !! with \(G\): shape cos - quadrature sin
         real(dp) :: ratio = -1.0_dp                !! LAPACK's residual ratio
         character(40) :: method = ""
+    contains
+        procedure :: allowed
     end type modes_t
 
 contains
@@ -115,6 +117,20 @@ contains
         if (allocated(free%quadrature)) modes%quadrature = matmul(tangent%basis, free%quadrature)
         call move_alloc(tangent%basis, modes%basis)
     end subroutine solve_constrained
+
+    pure function allowed(self, matrix) result(inner)
+        !! A matrix of the coordinates within the directions that the constraints leave; without
+        !! constraints as it is.
+        class(modes_t), intent(in) :: self       !! solved
+        real(dp), intent(in) :: matrix(:, :)     !! (n, n)
+        real(dp) :: inner(size(self%omega2), size(self%omega2))
+
+        if (allocated(self%basis)) then
+            inner = within(self%basis, matrix)
+        else
+            inner = matrix
+        end if
+    end function allowed
 
     subroutine solve(modes, error)
         !! The eigenproblem of M, G and K.

@@ -5,7 +5,7 @@ module lagrangia_text_table
     use lagrangia_kinds, only: dp, i8
     use lagrangia_number_text, only: field_width, write_row
     use lagrangia_table, only: table_t
-    use lagrangia_text, only: shortened
+    use lagrangia_text, only: replaced, shortened
     implicit none (type, external)
     private
     public :: text_table_t
@@ -24,7 +24,8 @@ module lagrangia_text_table
 contains
 
     subroutine begin(self, header, names, units, error)
-        !! Header lines behind `# `; the last one names the columns with their units, a word each.
+        !! Header lines behind `# `; the last one names the columns with their units, a word each:
+        !! `p_x[kg*m/s]`, since a blank in a unit is a product.
         class(text_table_t), intent(inout) :: self
         character(*), intent(in) :: header(:), names(:), units(:)
         type(error_t), allocatable, intent(out) :: error
@@ -38,22 +39,11 @@ contains
         self%counts_at = len(text)
         text = text//"# "//repeat(" ", counts_width)//new_line("a")//"#"
         do i = 1, size(names)
-            text = text//" "//one_word(trim(names(i))//"["//trim(units(i))//"]")
+            text = text//" "//replaced(printable(trim(names(i))//"["//trim(units(i))//"]"), &
+                                       " ", "*")
         end do
         call self%file%write(text//new_line("a"))
     end subroutine begin
-
-    pure function one_word(text) result(word)
-        !! `p_x[kg*m/s]` for `p_x[kg m/s]`: a blank in a unit is a product.
-        character(*), intent(in) :: text
-        character(:), allocatable :: word
-        integer :: i
-
-        word = printable(text)
-        do i = 1, len(word)
-            if (word(i:i) == " ") word(i:i) = "*"
-        end do
-    end function one_word
 
     subroutine row(self, values)
         !! One sample.
