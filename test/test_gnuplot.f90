@@ -1,12 +1,14 @@
 module test_gnuplot
     !! Panels as a scene wants them, and scripts in which no text of the user's is a command.
-    use drawn_columns, only: names, one_curve, script, units
+    use drawn_columns, only: names, occurrences, one_curve, script, units
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_characters, only: printable
     use lagrangia_errors, only: error_t
     use lagrangia_gnuplot, only: new_panels, panel_t
     use lagrangia_gnuplot_script, only: gnuplot_string
     use lagrangia_kinds, only: dp
+    use lagrangia_plot_colour, only: colour_panels, colours
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: gnuplot_suite
@@ -26,6 +28,9 @@ contains
         call suite%addTest(TestMethod("a_text_is_no_command", a_text_is_no_command))
         call suite%addTest(TestMethod("marks_are_letters", marks_are_letters))
         call suite%addTest(TestMethod("columns_are_drawn_with_units", columns_are_drawn_with_units))
+        call suite%addTest(TestMethod("a_quantity_has_one_colour", a_quantity_has_one_colour))
+        call suite%addTest(TestMethod("a_panel_has_different_colours", &
+                                      a_panel_has_different_colours))
     end function gnuplot_suite
 
     subroutine panels_are_read()
@@ -63,6 +68,63 @@ contains
                         panels, error)
         call assertEqual([8, 1], [panels%curves], message="no more than eight curves in one")
     end subroutine panels_gather_by_unit
+
+    subroutine a_quantity_has_one_colour()
+        !! In all panels of a picture, also where another one stands before it; in a panel the
+        !! curves differ. The scripts have these colours.
+        character(:), allocatable :: text
+
+        text = script("", [character(12) :: "x+y", "theta", "x_dot+y+x", "theta+y"])
+        call assertTrue(drawn(text, 2, 1) .and. drawn(text, 5, 2), "as they come: "//text)
+        call assertTrue(drawn(text, 3, 1), "alone, and beside y: "//text)
+        call assertTrue(drawn(text, 4, 3), "neither that of x nor that of y: "//text)
+        call assertEqual(3, occurrences(text, "lc rgb '"//colours(2)//"'"), "y, three times")
+        call assertEqual(4, occurrences(text, "lc rgb '"//colours(1)//"'"), "x and theta, twice")
+        text = script("", [character(12) :: "x:y", "x+y"])
+        call assertTrue(index(text, "using 2:5 with lines lw 2 lc rgb '"//colours(1)) > 0, &
+                        "a path: "//text)
+        call assertTrue(drawn(text, 2, 1) .and. drawn(text, 5, 2), "x and y in time: "//text)
+    end subroutine a_quantity_has_one_colour
+
+    pure function drawn(text, column, colour) result(yes)
+        !! A curve of this column and colour.
+        character(*), intent(in) :: text
+        integer, intent(in) :: column, colour
+        logical :: yes
+
+        yes = index(text, "using 1:"//to_text(column)//" with lines lw 2 lc rgb '"// &
+                    colours(colour)//"'") > 0
+    end function drawn
+
+    subroutine a_panel_has_different_colours()
+        !! A drift has the colour of what drifts; more quantities than colours begin again.
+        character(*), parameter :: all_names(*) = [character(12) :: "t", "E", "A_x", "A_y", &
+            "E_drift", "A_x_drift", "_drift", "a", "b", "c", "d", "e", "f"]
+        type(panel_t) :: panels(4)
+
+        panels(1)%curves = 2
+        panels(1)%y(:2) = [3, 4]
+        panels(2)%curves = 2
+        panels(2)%y(:2) = [5, 6]
+        panels(3)%curves = 2
+        panels(3)%y(:2) = [7, 2]
+        panels(4)%curves = 8
+        panels(4)%y = [8, 9, 10, 11, 12, 13, 7, 3]
+        panels(4)%colour = 5
+        call colour_panels(panels, all_names)
+        call assertEqual([1, 2], panels(1)%colour(:2))
+        call assertEqual([2, 1], panels(2)%colour(:2), message="E is no A_x")
+        call assertEqual([3, 2], panels(3)%colour(:2), message="E as its drift")
+        call assertEqual([2, 4, 5, 6, 7, 8, 3, 1], panels(4)%colour)
+        panels(:)%curves = [8, 5, 5, 0]
+        panels(1)%y = [2, 3, 4, 8, 9, 10, 11, 12]
+        panels(2)%y(:5) = [2, 3, 4, 8, 13]
+        panels(3)%y(:5) = [13, 9, 10, 11, 12]
+        call colour_panels(panels, all_names)
+        call assertEqual([1, 2, 3, 4, 5, 6, 7, 8], panels(1)%colour)
+        call assertEqual([1, 2, 3, 4, 5], panels(2)%colour(:5), message="none is left for f")
+        call assertEqual([5, 5, 6, 7, 8], panels(3)%colour(:5))
+    end subroutine a_panel_has_different_colours
 
     subroutine wrong_panels_are_refused()
         !! With the nearest column; the place in the list is told.

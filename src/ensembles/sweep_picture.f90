@@ -1,10 +1,10 @@
 module lagrangia_sweep_picture
     !! The gnuplot script of a sweep: curves over one axis, a map over two, points of a stroboscope
     !! or a section as a diagram.
-    use lagrangia_gnuplot_panel, only: line_colours => colours
     use lagrangia_gnuplot_script, only: begin_script, gnuplot_string, lines_t
     use lagrangia_kept, only: keeps_attractor, keeps_wrapped, kept_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_plot_colour, only: line_colours => colours
     use lagrangia_plot_label, only: label
     use lagrangia_plot_symbol, only: symbol
     use lagrangia_plot_words, only: plain_label, text_label

@@ -9,6 +9,7 @@ module lagrangia_gnuplot
     use lagrangia_gnuplot_script, only: begin_script, gnuplot_string, lines_t
     use lagrangia_kinds, only: dp
     use lagrangia_names, only: advice
+    use lagrangia_plot_colour, only: colour_panels
     use lagrangia_plot_label, only: is_small
     use lagrangia_plot_panel, only: aspect, is_space, most_curves, panel_t, series_t, &
                                     shape_legend
@@ -131,8 +132,11 @@ contains
         character(:), allocatable :: text, how
         type(frame_t) :: frames(size(panels))
         type(lines_t) :: script
+        type(panel_t) :: coloured(size(panels))
         integer :: height, i, width
 
+        coloured(:) = panels
+        call colour_panels(coloured, series(1)%names)
         how = curves
         if (present(style)) how = style
         call lay_out(series, panels, merge(74.0_dp, 50.0_dp, remark /= ""), frames, width, height)
@@ -155,7 +159,7 @@ contains
         if (remark /= "") call script%add("set label 2 "//text_label(trim(remark))// &
             " at screen 0.5, screen "//part_of(height - 52, height)//" center font ',14'")
         do i = 1, size(panels)
-            call draw_panel(script, series, panels(i), i, frames(i), width, height, how)
+            call draw_panel(script, series, coloured(i), i, frames(i), width, height, how)
             if (i == 1) call script%add("unset label")
         end do
         call script%add("unset multiplot")

@@ -4,6 +4,7 @@ module lagrangia_gnuplot_panel
                                       add_range, frame_t
     use lagrangia_gnuplot_script, only: lines_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_plot_colour, only: colours
     use lagrangia_plot_label, only: is_small, label
     use lagrangia_plot_panel, only: find_traces, has_envelope, has_legend, is_space, panel_t, &
                                     ranges_of, series_t, shape_legend, told_apart, trace_t
@@ -12,7 +13,7 @@ module lagrangia_gnuplot_panel
     use lagrangia_value_range, only: value_range_t
     implicit none (type, external)
     private
-    public :: add_envelopes, draw_panel, variable, colours
+    public :: add_envelopes, draw_panel, variable
     public :: curves, dots
 
     character(*), parameter :: curves = "lines"
@@ -20,10 +21,6 @@ module lagrangia_gnuplot_panel
 
     integer, parameter :: most_bins = 200    !! of an envelope
     integer, parameter :: most_widths = 5    !! of curves that may lie on each other
-    !! Okabe and Ito's colours, which the colour-blind tell apart, too.
-    character(7), parameter :: colours(*) = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", &
-                                             "#e69f00", "#56b4e9", "#000000", "#8c6d31"]
-
     character(3), parameter :: minus = char(226)//char(136)//char(146)
 
 contains
@@ -104,6 +101,7 @@ contains
         do i = 1, size(traces)
             associate (trace => traces(i), from => series(traces(i)%series))
                 k = i
+                if (size(series) == 1) k = panel%colour(i)
                 if (size(series) > 1 .and. panel%curves == 1) k = trace%series
                 colour = " lc rgb '"//colours(modulo(k - 1, size(colours)) + 1)//"'"
                 width = " lw 2"

@@ -27,6 +27,7 @@ module lagrangia_plot_panel
         integer :: x = 1
         integer :: curves = 0
         integer :: y(most_curves) = 0
+        integer :: colour(most_curves) = 0  !! of each curve, from 1, where there is one data file
         logical :: nested = .false.  !! curves lie on each other, the first is widest
     end type panel_t
 
