@@ -32,6 +32,7 @@ contains
         call suite%addTest(TestMethod("a zero at the start is no event", zero_at_start))
         call suite%addTest(TestMethod("a zero just where signs are looked at counts once", &
                                       zero_at_place))
+        call suite%addTest(TestMethod("a picture says what its dots are", said_in_a_picture))
         call suite%addTest(TestMethod("no change of sign is no error", no_change))
         call suite%addTest(TestMethod("a terminal event ends the run", terminal))
         call suite%addTest(TestMethod("a string goes slack where it should", slack))
@@ -167,6 +168,26 @@ contains
         call assertEqual(2, record%events, message="number")
         call assertEqual([0.5_dp, 1.0_dp], record%event_t(:2), epsilon(1.0_dp), "times")
     end subroutine zero_at_place
+
+    subroutine said_in_a_picture()
+        !! The level is 0 where none is said; `stop` is nothing to see.
+        call said("theta = 0.5 rising", "where theta = 0.5, rising")
+        call said("theta stop falling", "where theta = 0, falling")
+        call said("theta=-1", "where theta = -1")
+    end subroutine said_in_a_picture
+
+    subroutine said(text, expected)
+        !! Assert what an event says of itself.
+        character(*), intent(in) :: text, expected
+        type(pendulum_t) :: system
+        type(column_event_t) :: event
+        type(error_t), allocatable :: error
+
+        call system%configure([1.0_dp, 1.0_dp, 0.0_dp], error)
+        call new_column_event(event, text, system, error)
+        call assertTrue(.not. allocated(error), text)
+        call assertEqual(expected, trim(event%place))
+    end subroutine said
 
     subroutine no_change()
         type(recorder_t) :: record

@@ -29,6 +29,8 @@ contains
                                       only_what_is_seen_is_to_scale))
         call suite%addTest(TestMethod("all_curves_have_one_size", all_curves_have_one_size))
         call suite%addTest(TestMethod("ticks_are_round", ticks_are_round))
+        call suite%addTest(TestMethod("an_axis_has_two_numbers", an_axis_has_two_numbers))
+        call suite%addTest(TestMethod("dense_paths_are_thin", dense_paths_are_thin))
         call suite%addTest(TestMethod("low_panels_have_few_ticks", low_panels_have_few_ticks))
         call suite%addTest(TestMethod("pictures_have_a_size", pictures_have_a_size))
     end function gnuplot_scales_suite
@@ -99,6 +101,42 @@ contains
             end do
         end do
     end subroutine ticks_are_round
+
+    subroutine an_axis_has_two_numbers()
+        !! Where the step of the wider side leaves one or none on the other, the next smaller one
+        !! with two: here of the axis that is 130 pixels high.
+        character(:), allocatable :: text
+        real(dp) :: width, y(2)
+        integer :: i, position
+        character(8) :: step
+
+        do i = 1, 40
+            width = 1.13_dp**i
+            text = path_in_plane(width, 0.1_dp*width)
+            text = text(index(text, "set size ratio -1; "):)
+            position = index(text, "; set ytics ") + len("; set ytics ")
+            step = text(position:position - 1 + index(text(position:), new_line("a")) - 1)
+            call read_range(text, "; set yrange [", y)
+            call assertTrue(ticks(y, number(step)) >= 2, "two: "//text)
+            call assertTrue(ticks(y, number(step)) <= 5, "no more than there is room for: "//text)
+        end do
+    end subroutine an_axis_has_two_numbers
+
+    pure function ticks(range, step) result(count)
+        !! Multiples of the step in a range.
+        real(dp), intent(in) :: range(2), step
+        integer :: count
+
+        count = floor(range(2)/step) - ceiling(range(1)/step) + 1
+    end function ticks
+
+    pure function number(text) result(x)
+        !! A number in a text.
+        character(*), intent(in) :: text
+        real(dp) :: x
+
+        read (text, *) x
+    end function number
 
     subroutine low_panels_have_few_ticks()
         !! From 200 pixels of three panels on; two have room for gnuplot's own.
@@ -233,6 +271,33 @@ contains
         text = one_curve("it.dat", "", [character(5) :: "t", "error"], ["s", "1"], values)
         call assertTrue(index(text, "stats data using (v = (abs($2)), i") > 0, text)
     end subroutine fast_oscillations_have_envelopes
+
+    subroutine dense_paths_are_thin()
+        !! A path that turns round more than 400 times is no solid block either.
+        real(dp) :: values(0:430)
+        integer :: i
+
+        values = [(cos(3.0_dp*i), i=0, 430)]
+        call assertTrue(index(phase_portrait(values), "using 2:3 with lines lw 0.3 lc") > 0, "many")
+        call assertTrue(index(phase_portrait(values(:400)), "using 2:3 with lines lw 2 lc") > 0, &
+                        "few")
+    end subroutine dense_paths_are_thin
+
+    function phase_portrait(values) result(text)
+        !! The script for `values` over themselves.
+        real(dp), intent(in) :: values(:)
+        character(:), allocatable :: text
+        character(*), parameter :: names(3) = ["t", "x", "v"], units(3) = ["s  ", "m  ", "m/s"]
+        type(panel_t), allocatable :: panels(:)
+        type(series_t), allocatable :: series(:)
+        type(error_t), allocatable :: error
+
+        call new_panels(["x:v"], names, units, panels, error)
+        allocate (series(1))
+        call new_series(series(1), "it.dat", "", names, units, [range_of([0.0_dp, 1.0_dp]), &
+                                                                range_of(values), range_of(values)])
+        text = gnuplot_script("it.dat", series, "", "", panels)
+    end function phase_portrait
 
     subroutine several_files_in_one_picture()
         !! A curve a file in each panel, those of the same name; one legend for all.

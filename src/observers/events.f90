@@ -22,6 +22,7 @@ module lagrangia_events
 
     type, abstract :: event_t
         character(line_length) :: label = ""
+        character(line_length + 40) :: place = ""  !! for a picture: `where theta = 0.5, rising`
         integer :: direction = 0        !! 1: rising, -1: falling, 0: any
         logical :: terminal = .false.   !! the run ends here
         logical :: one_sided = .false.  !! an impact: the function cannot become negative
@@ -102,7 +103,9 @@ contains
         call refuse_work(self%column, error)
         if (allocated(error)) return
         i = 2
+        self%place = "where "//trim(words(1))//" = 0"
         if (words(i) == "=") then
+            self%place = "where "//trim(words(1))//" = "//words(i + 1)
             call read_number(trim(words(i + 1)), self%level, problem)
             if (problem /= "") then
                 call fail(error, "a number is needed behind '=', as in "//example())
@@ -121,6 +124,8 @@ contains
                 return
             end select
         end do
+        if (self%direction > 0) self%place = trim(self%place)//", rising"
+        if (self%direction < 0) self%place = trim(self%place)//", falling"
     end subroutine new_column_event
 
     pure function example() result(text)
@@ -173,6 +178,7 @@ contains
 
         self%label = "impact"
         if (contact > 1) self%label = "impact "//to_text(contact)
+        self%place = "at each "//self%label
         self%contact = contact
         self%direction = -1
         self%one_sided = .true.

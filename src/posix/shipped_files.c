@@ -719,7 +719,7 @@ static const char *const files[][2] = {
     },
     {"data/scenes/double_pendulum_section.nml",
         "&scene\n"
-        "  title = 'Poincare section of the double pendulum: theta1 = 0, rising'\n"
+        "  title = 'Poincaré section of the double pendulum'\n"
         "  system = 'double_pendulum'\n"
         "  method = 'dop853'\n"
         "  tolerance = 1e-11, duration = 2000.0, samples = 2000\n"
@@ -1570,7 +1570,7 @@ static const char *const files[][2] = {
     },
     {"data/sweeps/section.nml",
         "&scene\n"
-        "  title = 'Poincare section of a double pendulum: twenty motions of one energy'\n"
+        "  title = 'Poincaré section of a double pendulum: twenty motions of one energy'\n"
         "  system = 'double_pendulum'\n"
         "  method = 'gauss16'\n"
         "  tolerance = 1e-10, duration = 2000.0, samples = 100\n"

@@ -23,6 +23,7 @@ module lagrangia_run_files
     public :: abandon_files, finish_files, keep_parts, method_text, open_files
 
     character(*), parameter :: lf = new_line("a")
+    integer, parameter :: longest_remark = 90  !! characters below a title
 
 contains
 
@@ -150,7 +151,7 @@ contains
                 if (allocated(error)) return
                 n = size(events%columns%items)
                 if (events%rows > 1 .and. size(plan%event_panels) > 0) then
-                    call write_script(events, n, trim(title)//": events", "", &
+                    call write_script(events, n, trim(title), event_remark(plan), &
                                       plan%event_panels, scripts(1), error, dots)
                     if (allocated(error)) return
                     outcome%events = events%table%file%name()
@@ -170,6 +171,20 @@ contains
                               plan%panels, scripts(2), error)
         end associate
     end subroutine complete_files
+
+    pure function event_remark(plan) result(text)
+        !! What the dots of a picture are: `where theta1 = 0, rising`, `at each impact`.
+        type(run_plan_t), intent(in) :: plan
+        character(:), allocatable :: text
+        integer :: i
+
+        text = ""
+        do i = 1, size(plan%trajectory%events)
+            if (i > 1) text = text//"; "
+            text = text//trim(plan%trajectory%events(i)%item%place)
+        end do
+        text = shortened(text, longest_remark)
+    end function event_remark
 
     pure function method_remark(plan) result(text)
         !! The method and its step or tolerance, where a picture shows a drift or an error: they

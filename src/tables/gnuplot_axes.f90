@@ -76,21 +76,24 @@ contains
     end subroutine add_decades
 
     pure subroutine add_equal_scale(script, x, y, frame)
-        !! A metre is as long on both axes, whatever shape the panel has.
+        !! A metre is as long on both axes, whatever shape the panel has. The numbers have the same
+        !! distance, but where an axis would have less than two.
         type(lines_t), intent(inout) :: script  !! gets the lines
         type(value_range_t), intent(in) :: x(:), y(:)  !! of each curve
         type(frame_t), intent(in) :: frame  !! the panel's place
-        real(dp) :: across, middle(2), scale, up
+        real(dp) :: across, middle(2), scale, step, up
 
         across = maxval(x%high) - minval(x%low)
         up = maxval(y%high) - minval(y%low)
         middle = [0.5_dp*(maxval(x%high) + minval(x%low)), 0.5_dp*(maxval(y%high) + minval(y%low))]
         scale = (1.0_dp + 2.0_dp*margin)*max(across/(frame%right - frame%left), &
                                              up/(frame%top - frame%bottom))  ! m per pixel
-        call script%add("set size ratio -1; set xtics "//tick(max(across, up))//"; set ytics "// &
-                        tick(max(across, up)))
+        step = tick_step(max(across, up))
         across = 0.5_dp*scale*(frame%right - frame%left)
         up = 0.5_dp*scale*(frame%top - frame%bottom)
+        call script%add("set size ratio -1; set xtics "// &
+                        to_text(two_at_least(step, middle(1), across))//"; set ytics "// &
+                        to_text(two_at_least(step, middle(2), up)))
         call script%add("set xrange ["//rounded(middle(1) - across, 5)//":"// &
                         rounded(middle(1) + across, 5)//"]; set yrange ["// &
                         rounded(middle(2) - up, 5)//":"//rounded(middle(2) + up, 5)//"]")
@@ -108,7 +111,9 @@ contains
         low = minval(y%low)
         high = maxval(y%high)
         if (high - low > told_apart*max(abs(low), abs(high))) then
-            if (frame%top - frame%bottom < roomy) call script%add("set ytics "//tick(high - low))
+            if (frame%top - frame%bottom < roomy) then
+                call script%add("set ytics "//to_text(tick_step(high - low)))
+            end if
             return
         end if
         width = max(0.1_dp*max(abs(low), abs(high)), tiny(width))
@@ -157,16 +162,25 @@ contains
         text = """|"//string(2:last - 1)//"|"//string(last:)
     end function absolute
 
-    pure function tick(range) result(text)
-        !! A step of 1, 2 or 5 times a power of ten that makes three to seven ticks in `range`.
+    pure function two_at_least(step, middle, reach) result(finer)
+        !! The largest step, up to `step`, with which two ticks are within `reach` of the middle.
+        real(dp), intent(in) :: step, middle, reach
+        real(dp) :: finer
+
+        finer = step
+        do while (floor((middle + reach)/finer) <= ceiling((middle - reach)/finer))
+            finer = tick_step(2.9_dp*finer)
+        end do
+    end function two_at_least
+
+    pure function tick_step(range) result(step)
+        !! 1, 2 or 5 times a power of ten, so that there are three to seven ticks in `range`.
         real(dp), intent(in) :: range
-        character(:), allocatable :: text
         real(dp) :: power, step
 
         power = 10.0_dp**floor(log10(range/3.0_dp))
         step = power
         if (range/3.0_dp >= 2.0_dp*power) step = 2.0_dp*power
         if (range/3.0_dp >= 5.0_dp*power) step = 5.0_dp*power
-        text = to_text(step)
-    end function tick
+    end function tick_step
 end module lagrangia_gnuplot_axes

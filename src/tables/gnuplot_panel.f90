@@ -6,8 +6,9 @@ module lagrangia_gnuplot_panel
     use lagrangia_kinds, only: dp, i8
     use lagrangia_plot_colour, only: colours
     use lagrangia_plot_label, only: is_small, label
-    use lagrangia_plot_panel, only: find_traces, has_envelope, has_legend, is_space, panel_t, &
-                                    ranges_of, series_t, shape_legend, told_apart, trace_t
+    use lagrangia_plot_panel, only: find_traces, has_envelope, has_legend, is_dense, is_space, &
+                                    panel_t, ranges_of, series_t, shape_legend, told_apart, &
+                                    trace_t
     use lagrangia_plot_words, only: text_label
     use lagrangia_text, only: to_text
     use lagrangia_value_range, only: value_range_t
@@ -109,6 +110,7 @@ contains
                                        .and. .not. logarithmic)) then
                     width = " lw "//to_text(2 + 3*max(0, min(size(traces), most_widths) - i))
                 end if
+                if (is_dense(from, trace)) width = " lw 0.3"
                 title = curve_title(series, panel, trace, number, logarithmic)
                 if (has_envelope(from, trace) .and. style == curves) then
                     band = id(number, i)

@@ -5,11 +5,12 @@ module lagrangia_plot_panel
     implicit none (type, external)
     private
     public :: panel_t, series_t, trace_t
-    public :: aspect, find_traces, has_envelope, has_legend, is_space, ranges_of, shape_legend
+    public :: aspect, find_traces, has_envelope, has_legend, is_dense, is_space, ranges_of
+    public :: shape_legend
     public :: most_curves, told_apart
 
     integer, parameter :: most_curves = 8
-    integer, parameter :: most_turns = 400   !! beyond them a curve over the time is a solid block
+    integer, parameter :: most_turns = 400   !! beyond them a curve is a solid block
     real(dp), parameter :: told_apart = 1e-5_dp    !! by the six digits of a tick, relative
     real(dp), parameter :: most_unequal = 12.0_dp  !! width by height, or back, drawn to scale
 
@@ -121,6 +122,15 @@ contains
               series%ranges(trace%y)%high - series%ranges(trace%y)%low > &
               told_apart*series%ranges(trace%y)%largest()
     end function has_envelope
+
+    pure function is_dense(series, trace) result(yes)
+        !! A path so often to and fro that only thin lines show which places it visits more often.
+        type(series_t), intent(in) :: series  !! data files
+        type(trace_t), intent(in) :: trace  !! one of its curves
+        logical :: yes
+
+        yes = trace%x /= 1 .and. series%ranges(trace%y)%turns > most_turns
+    end function is_dense
 
     pure function has_legend(series, panel, number) result(yes)
         !! Of several data files only the first panel, where no column is beside another one.
