@@ -83,7 +83,10 @@ for _ in $(seq 100); do
     sleep 0.1
     [ -n "$(find "$work/killed" -name '*.part*' -size +4k 2>/dev/null)" ] && break
 done
-victim=$(pgrep -f -- "$images sweep flip_map .*$work/killed" | tail -n 1)
+victim= # a bare Debian has no pgrep
+for folder in /proc/[0-9]*; do
+    { tr '\0' ' ' <"$folder/cmdline"; } 2>/dev/null | grep -q "^$images sweep flip_map .*$work/killed" && victim=${folder##*/}
+done
 [ -n "$victim" ] && kill -9 "$victim"
 wait $running
 status=$?

@@ -45,8 +45,16 @@ contains
                                       a_lane_is_a_single_trajectory))
         call suite%addTest(TestMethod("points_are_those_of_a_single_trajectory", &
                                       points_are_those_of_a_single_trajectory))
+        call suite%addTest(TestMethod("each_lane_has_its_parameters", &
+                                      each_lane_has_its_parameters))
+        call suite%addTest(TestMethod("some_parameters_are_refused", some_parameters_are_refused))
+        call suite%addTest(TestMethod("extremes_are_those_of_a_single_trajectory", &
+                                      extremes_are_those_of_a_single_trajectory))
+        call suite%addTest(TestMethod("one_energy", one_energy))
         call suite%addTest(TestMethod("neighbours_change_no_byte", neighbours_change_no_byte))
         call suite%addTest(TestMethod("who_blows_up_is_alone", who_blows_up_is_alone))
+        call suite%addTest(TestMethod("blow_ups_are_those_of_single_trajectories", &
+                                      blow_ups_are_those_of_single_trajectories))
         call suite%addTest(TestMethod("what_is_refused_alone_is_refused_in_lanes", &
                                       what_is_refused_alone_is_refused_in_lanes))
         call suite%addTest(TestMethod("processes_change_no_byte", processes_change_no_byte))
@@ -132,21 +140,129 @@ contains
         call assertTrue(found >= 13, "what tells the attractors")
     end subroutine points_are_those_of_a_single_trajectory
 
+    subroutine each_lane_has_its_parameters()
+        !! Of systems in formulas and of compiled ones, with starts and times of their own too.
+        character(*), parameter :: keep(3) = [character(12) :: "theta1", "energy_drift", "x_bob2"]
+        type(sweep_t) :: sweep
+        integer :: found
+
+        call make(double, ["m1=0.5:3:11", "l2=0.5:1:3 "], keep, sweep)
+        call compare(sweep, found)
+        call assertEqual(3*33, found, "masses and lengths")
+        call make(double, ["theta2=-0.5:0.7:11", "g=1:10:3          "], keep, sweep)
+        call compare(sweep, found)
+        call assertEqual(3*33, found, "a parameter and a start")
+        call make(driven//", after = 2, points = 5 /", ["drive_frequency=5:20:13"], &
+                  ["wrapped theta", "theta_dot    ", "t            "], sweep)
+        call compare(sweep, found)
+        call assertTrue(found > 13*12, "points every period of its own: "//to_text(found))
+        call make(written("method = 'rk4', dt = 0.01"), ["f=0.5:1:13", "W=0.5:1:3 "], &
+                  ["theta_dot", "max theta"], sweep)
+        call compare(sweep, found)
+        call assertEqual(2*39, found, "steps of a length of their own")
+        call make(written("method = 'dop853', tolerance = 1e-9, samples = 9"), &
+                  ["f=0.5:1:13", "W=0.5:1:3 "], ["theta_dot", "max theta"], sweep)
+        call compare(sweep, found)
+        call assertEqual(2*39, found, "by a tolerance")
+    end subroutine each_lane_has_its_parameters
+
+    pure function written(how) result(text)
+        !! A scene of a system in formulas.
+        character(*), intent(in) :: how  !! the method and its steps
+        character(:), allocatable :: text
+
+        text = "&scene system = 'forced', "//how//", duration = 8, q = 0.5 / &lagrangian "// &
+               "coordinates = 'theta [rad]', parameters = 'f', 'W', "// &
+               "L = 'theta_dot^2/2 + cos(theta) + f theta cos(W t)', "// &
+               "Q_theta = '-theta_dot/2' / &forced f = 1, W = 0.7 /"
+    end function written
+
+    subroutine some_parameters_are_refused()
+        !! No mass is negative; and where the pivot stands still in free fall the angle is cyclic:
+        !! alone it is left out, so that this one is computed alone, to the same bytes.
+        type(sweep_t) :: sweep
+        type(error_t), allocatable :: error
+        real(dp) :: alone(1), together(1, 11)
+        integer(i8) :: failures, first, i
+
+        call make(double, ["m1=-1:1:11"], ["theta1"], sweep)
+        call compute_lanes(sweep, 1_i8, 11_i8, together, failures, first)
+        call assertEqual(6, int(failures), "not above 0")
+        call assertEqual(1, int(first), "the first of them")
+        call assertTrue(all(ieee_is_nan(together(1, :6))), "NaN")
+        call assertFalse(any(ieee_is_nan(together(1, 7:))), "the others are there")
+        call make("&scene system = 'driven_pendulum', method = 'dop853', tolerance = 1e-9, "// &
+                  "duration = 6, samples = 1, q = 0.3, v = 1 / &driven_pendulum g = 0, "// &
+                  "drive_frequency = 9 /", ["amplitude=0:0.1:11"], ["theta"], sweep)
+        call assertTrue(fits_lanes(sweep), "but for one")
+        call compute_lanes(sweep, 1_i8, 11_i8, together, failures, first)
+        call assertEqual(0, int(failures), "none fails")
+        do i = 1, 11
+            call compute_one(sweep, i, alone, error)
+            call assertEqual(alone(1), together(1, i), merge(0.0_dp, rounding, i == 1), to_text(i))
+        end do
+    end subroutine some_parameters_are_refused
+
+    subroutine extremes_are_those_of_a_single_trajectory()
+        !! Of samples between the steps, from a time on.
+        character(*), parameter :: keep(4) = [character(10) :: "max theta1", "min theta1", &
+                                              "theta2", "max t"]
+        type(sweep_t) :: sweep
+        integer :: found
+
+        call make(double//"&sweep after = 3.5 /", ["theta1=-0.7:0.8:11", "theta2=-0.5:1:3   "], &
+                  keep, sweep)
+        call compare(sweep, found)
+        call assertEqual(4*33, found, "by a tolerance")
+        call make("&scene system = 'double_pendulum', method = 'rk4', dt = 0.01, every = 3, "// &
+                  "duration = 5, q = 0.5, 0.2 / &sweep after = 1.05 /", ["theta1=-0.7:0.8:11"], &
+                  keep, sweep)
+        call compare(sweep, found)
+        call assertEqual(4*11, found, "by steps")
+    end subroutine extremes_are_those_of_a_single_trajectory
+
+    subroutine one_energy()
+        !! A velocity that is chosen by it; the starts that cannot have it fail.
+        type(sweep_t) :: sweep
+        real(dp) :: together(2, 9)
+        integer(i8) :: failures, first
+        integer :: found
+
+        call make(double//"&sweep energy_by = 'theta1_dot' /", ["theta2=-0.2:0.2:9"], &
+                  ["theta1_dot", "energy    "], sweep)
+        call compare(sweep, found)
+        call assertEqual(18, found, "all have it")
+        call make(double//"&sweep energy_by = 'theta1_dot' /", ["theta2=0:3:9"], &
+                  ["theta1_dot", "energy    "], sweep)
+        call compute_lanes(sweep, 1_i8, 9_i8, together, failures, first)
+        call assertTrue(failures > 0 .and. failures < 9, "some have not: "//to_text(failures))
+        call assertEqual(int(failures), count(ieee_is_nan(together(2, :))), "NaN")
+        call assertEqual(0.0_dp, maxval(abs(pack(together(2, :), .not. &
+            ieee_is_nan(together(2, :))) - sweep%energy)), 1e-6_dp, "the scene's own")
+    end subroutine one_energy
+
     subroutine neighbours_change_no_byte()
         !! Each alone in a block of its own, and all together.
+        call compare_neighbours(["theta1=-3:3:15      ", "theta2_dot=-20:20:3 "])
+        call compare_neighbours(["m1=1:3:15      ", "theta2=-1:1:3  "])
+    end subroutine neighbours_change_no_byte
+
+    subroutine compare_neighbours(over)
+        !! Of a grid of 45 trajectories.
+        character(*), intent(in) :: over(:)
         type(sweep_t) :: sweep
         real(dp) :: alone(3, 1), together(3, 45)
         integer(i8) :: failures, first, i
 
-        call make(double, ["theta1=-3:3:15      ", "theta2_dot=-20:20:3 "], &
-                  ["flip theta2", "theta1     ", "theta2_dot "], sweep)
+        call make(double, over, ["flip theta2", "theta1     ", "theta2_dot "], sweep)
+        call assertTrue(fits_lanes(sweep), "in lanes")
         call compute_lanes(sweep, 1_i8, 45_i8, together, failures, first)
         do i = 1, 45
             call compute_lanes(sweep, i, i, alone, failures, first)
             call assertTrue(all(transfer(alone(:, 1), [0_i8]) == &
                                 transfer(together(:, i), [0_i8])), "trajectory "//to_text(i))
         end do
-    end subroutine neighbours_change_no_byte
+    end subroutine compare_neighbours
 
     subroutine who_blows_up_is_alone()
         !! \(\ddot x = x^3\) from rest at \(x_0\) is at infinity after \(1.85/x_0\): of nine
@@ -167,6 +283,64 @@ contains
             call assertEqual(alone(1, 1), together(1, i), 0.0_dp, "trajectory "//to_text(i))
         end do
     end subroutine who_blows_up_is_alone
+
+    subroutine blow_ups_are_those_of_single_trajectories()
+        !! For each method and all that is kept, also of systems of their own: the same trajectories
+        !! fail, all their numbers are NaN, and the others are what they are alone.
+        character(*), parameter :: by(2) = [character(54) :: &
+            "method = 'dop853', tolerance = 1e-9, samples = 10", "method = 'rk4', dt = 0.01"]
+        character(*), parameter :: over(2) = [character(9) :: "x=-2:2:9", "c=-16:4:9"]
+        character(*), parameter :: keep(6) = [character(9) :: "x", "max x", "min x_dot", &
+                                              "wrapped x", "flip x", "energy"]
+        type(sweep_t) :: sweep
+        character(:), allocatable :: text
+        integer :: i, k
+
+        do i = 1, size(by)
+            do k = 1, size(over)
+                text = "&scene system = 'runaway', "//trim(by(i))//", duration = 2, q = 1 / "// &
+                       "&lagrangian coordinates = 'x [rad]', parameters = 'c', "// &
+                       "L = 'x_dot^2/2 + c x^4/4' / &runaway c = 1 /"
+                call make(text, over(k:k), keep, sweep)
+                call compare_failures(sweep)
+                call make(text//"&sweep strobe = '1/2', points = 4 /", over(k:k), keep(4:4), sweep)
+                call compare_failures(sweep)
+                call make(text//"&sweep strobe = '1/8' /", over(k:k), ["attractor"], sweep)
+                call compare_failures(sweep)
+            end do
+        end do
+    end subroutine blow_ups_are_those_of_single_trajectories
+
+    subroutine compare_failures(sweep)
+        !! Nine trajectories of which some fail, in lanes and alone.
+        type(sweep_t), intent(in) :: sweep
+        type(error_t), allocatable :: error
+        real(dp) :: alone(sweep%width()), together(sweep%width(), 9)
+        integer(i8) :: failures, first, i
+        integer :: failed, k
+
+        call assertTrue(fits_lanes(sweep), "in lanes")
+        call compute_lanes(sweep, 1_i8, 9_i8, together, failures, first)
+        failed = 0
+        do i = 1, 9
+            call compute_one(sweep, i, alone, error)
+            if (allocated(error)) then
+                failed = failed + 1
+                if (failed == 1) call assertEqual(int(i), int(first), "the first that fails")
+                call assertTrue(all(ieee_is_nan(together(:, i))), "NaN: "//to_text(i))
+                cycle
+            end if
+            do k = 1, size(alone)
+                call assertTrue(ieee_is_nan(alone(k)) .eqv. ieee_is_nan(together(k, i)), &
+                                "there in both: "//to_text(k)//" of "//to_text(i))
+                if (ieee_is_nan(alone(k))) cycle
+                call assertEqual(alone(k), together(k, i), rounding*max(1.0_dp, abs(alone(k))), &
+                                 "number "//to_text(k)//" of trajectory "//to_text(i))
+            end do
+        end do
+        call assertTrue(failed > 0 .and. failed < 9, "some fail: "//to_text(failed))
+        call assertEqual(failed, int(failures), "failures")
+    end subroutine compare_failures
 
     subroutine what_is_refused_alone_is_refused_in_lanes()
         !! Angles so large that rounding is more than the tolerance, and infinite ones.
@@ -212,16 +386,20 @@ contains
             "method = 'auto', tolerance = 1e-9, duration = 1, samples = 1, q = 0.5, 0.2 /"
         type(sweep_t) :: sweep
 
-        call make(double, ["m1=1:3:11"], ["theta1"], sweep)
-        call assertFalse(fits_lanes(sweep), "not with different systems")
-        call make(double, ["theta1=1:3:11"], ["max theta1"], sweep)
-        call assertFalse(fits_lanes(sweep), "not if all samples count")
+        call make("&scene system = 'double_pendulum', method = 'rk4', dt = 0.1, duration = 1, "// &
+                  "q = 0.5, 0.2 /", ["m1=1:3:11"], ["theta1"], sweep)
+        call assertFalse(fits_lanes(sweep), "steps of compiled systems are quicker alone")
+        call make(double, ["theta1=1:3:11"], ["first theta1 = 0"], sweep)
+        call assertFalse(fits_lanes(sweep), "not if all of a motion counts")
+        call make("&scene system = 'hanging_chain', method = 'dop853', tolerance = 1e-9, "// &
+                  "duration = 1, samples = 1, q = 3*0.1 /", ["g=9:10:3"], ["theta1"], sweep)
+        call assertFalse(fits_lanes(sweep), "nor if they have three coordinates")
         call make("&scene system = 'cart_pendulum', method = 'dop853', tolerance = 1e-9, "// &
                   "duration = 1, samples = 1, q = 0, 1 /", ["theta=1:2:2"], ["theta"], sweep)
         call assertFalse(fits_lanes(sweep), "alone it leaves the cyclic coordinate out")
         call make(auto, ["theta1=1:3:11"], ["theta1"], sweep)
         call assertEqual("dop853", trim(sweep%scene%method), "auto takes lanes")
-        call make(auto, ["theta1=1:3:11"], ["max theta1"], sweep)
+        call make(auto, ["theta1=1:3:11"], ["period"], sweep)
         call assertEqual("gauss16", trim(sweep%scene%method), "auto, where there are none")
     end subroutine what_fits
 end module test_sweep_lanes

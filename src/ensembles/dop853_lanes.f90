@@ -26,7 +26,8 @@ module lagrangia_dop853_lanes
 
     type, extends(lane_method_t) :: dop853_lanes_t
         private
-        real(dp) :: tolerance = 1e-10_dp, t0 = 0.0_dp, t_end = 0.0_dp
+        real(dp) :: tolerance = 1e-10_dp
+        real(dp) :: t_end(lanes) = 0.0_dp            !! of each trajectory, s
         real(dp) :: h(lanes) = 0.0_dp                !! steps to try next, s
         real(dp) :: last_error(lanes) = least_error  !! of the latest accepted steps, in tolerances
         logical, dimension(lanes) :: busy = .false., moved = .false., retry = .false.
@@ -56,11 +57,10 @@ module lagrangia_dop853_lanes
 
 contains
 
-    pure subroutine prepare(self, system, scene)
+    pure subroutine prepare(self, system)
         !! See `lane_method_t`.
         class(dop853_lanes_t), intent(inout) :: self
         class(system_t), intent(in) :: system
-        type(scene_t), intent(in) :: scene
         real(dp) :: slopes(lanes, 2*system%ndof, 13), coefficients(7, 2*system%ndof, lanes)
 
         slopes = 0.0_dp
@@ -70,29 +70,29 @@ contains
         self%trial = slopes(:, :, 1)
         self%k = slopes
         self%inside = coefficients
-        self%tolerance = scene%tolerance
-        self%t0 = scene%t0
-        self%t_end = scene%t0 + scene%duration
-        self%t = self%t_end
+        self%t_end = 0.0_dp
+        self%t = 0.0_dp
         self%busy = .false.
     end subroutine prepare
 
-    pure subroutine begin(self, system, lane, q, v)
+    pure subroutine begin(self, system, lane, scene)
         !! See `lane_method_t`.
         class(dop853_lanes_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         integer, intent(in) :: lane
-        real(dp), intent(in) :: q(system%ndof), v(system%ndof)
+        type(scene_t), intent(in) :: scene
         real(dp) :: y(2*system%ndof), f(2*system%ndof)
 
-        y(:system%ndof) = q
-        y(system%ndof + 1:) = v
-        call slope(system, system%ndof, self%t0, y, f)
-        call first_step(system, system%ndof, self%tolerance, self%t0, self%t_end, y, f, &
+        y(:system%ndof) = scene%q
+        y(system%ndof + 1:) = scene%v
+        self%tolerance = scene%tolerance
+        self%t_end(lane) = scene%t0 + scene%duration
+        call slope(system, system%ndof, scene%t0, y, f)
+        call first_step(system, system%ndof, self%tolerance, scene%t0, self%t_end(lane), y, f, &
                         self%h(lane))
         self%y(lane, :) = y
         self%k(lane, :, 1) = f
-        self%t(lane) = self%t0
+        self%t(lane) = scene%t0
         self%last_error(lane) = least_error
         self%busy(lane) = .true.
         self%moved(lane) = .false.
@@ -113,10 +113,10 @@ contains
             self%k(:, i, 1) = merge(self%k(:, i, 13), self%k(:, i, 1), self%moved)
         end do
         do i = 1, lanes
-            if (self%t(i) >= self%t_end) self%busy(i) = .false.
+            if (self%t(i) >= self%t_end(i)) self%busy(i) = .false.
             h(i) = self%h(i)
-            last(i) = self%t(i) + 1.01_dp*h(i) >= self%t_end
-            if (last(i)) h(i) = self%t_end - self%t(i)
+            last(i) = self%t(i) + 1.01_dp*h(i) >= self%t_end(i)
+            if (last(i)) h(i) = self%t_end(i) - self%t(i)
             h(i) = (self%t(i) + h(i)) - self%t(i)  ! what the clock will say
             self%stuck(i) = self%busy(i) .and. .not. self%t(i) + 0.1_dp*h(i) > self%t(i)
             if (self%stuck(i)) self%busy(i) = .false.
@@ -134,7 +134,7 @@ contains
             if (self%moved(i)) then
                 self%t_old(i) = self%t(i)
                 self%t(i) = self%t(i) + h(i)
-                if (last(i)) self%t(i) = self%t_end
+                if (last(i)) self%t(i) = self%t_end(i)
                 longer = next_step(h(i), scaled(i), self%last_error(i))
                 if (self%retry(i)) longer = min(longer, self%h(i))
                 self%h(i) = longer

@@ -22,23 +22,22 @@ module lagrangia_lane_method
     end type lane_method_t
 
     abstract interface
-        pure subroutine prepare_i(self, system, scene)
+        pure subroutine prepare_i(self, system)
             !! Before the first trajectory: all lanes are empty.
+            import :: lane_method_t, system_t
+            implicit none (type, external)
+            class(lane_method_t), intent(inout) :: self
+            class(system_t), intent(in) :: system  !! how many coordinates there are
+        end subroutine prepare_i
+
+        pure subroutine begin_i(self, system, lane, scene)
+            !! A trajectory begins in a lane.
             import :: lane_method_t, scene_t, system_t
             implicit none (type, external)
             class(lane_method_t), intent(inout) :: self
-            class(system_t), intent(in) :: system  !! whose motions these are
-            type(scene_t), intent(in) :: scene     !! has the times, and the tolerance or the step
-        end subroutine prepare_i
-
-        pure subroutine begin_i(self, system, lane, q, v)
-            !! A trajectory begins in a lane, at the time of the scene.
-            import :: dp, lane_method_t, system_t
-            implicit none (type, external)
-            class(lane_method_t), intent(inout) :: self
-            class(system_t), intent(in) :: system                  !! the one of `prepare`
-            integer, intent(in) :: lane                            !! whose trajectory it is
-            real(dp), intent(in) :: q(system%ndof), v(system%ndof) !! its start
+            class(system_t), intent(in) :: system  !! whose motion it is
+            integer, intent(in) :: lane            !! which
+            type(scene_t), intent(in) :: scene     !! its start, times, and tolerance or step
         end subroutine begin_i
 
         pure subroutine step_i(self, system)
@@ -47,7 +46,7 @@ module lagrangia_lane_method
             import :: lane_method_t, system_t
             implicit none (type, external)
             class(lane_method_t), intent(inout) :: self
-            class(system_t), intent(in) :: system  !! the one of `prepare`
+            class(system_t), intent(in) :: system  !! of all lanes
         end subroutine step_i
 
         pure subroutine state_at_i(self, system, lane, t, q, v)
@@ -56,7 +55,7 @@ module lagrangia_lane_method
             import :: dp, lane_method_t, system_t
             implicit none (type, external)
             class(lane_method_t), intent(inout) :: self
-            class(system_t), intent(in) :: system                   !! the one of `prepare`
+            class(system_t), intent(in) :: system                   !! that of the lane
             integer, intent(in) :: lane                             !! which
             real(dp), intent(in) :: t                               !! s
             real(dp), intent(out) :: q(system%ndof), v(system%ndof) !! coordinates, velocities
@@ -76,7 +75,7 @@ module lagrangia_lane_method
             import :: dp, lane_method_t, system_t
             implicit none (type, external)
             class(lane_method_t), intent(inout) :: self
-            class(system_t), intent(in) :: system  !! the one of `prepare`
+            class(system_t), intent(in) :: system  !! that of the lane
             integer, intent(in) :: lane            !! one that `may_flip`
             integer, intent(in) :: coordinate      !! the angle's number
             real(dp), intent(out) :: time          !! s; NaN: it does not

@@ -15,11 +15,11 @@ module lagrangia_rk4_lanes
     real(dp), parameter :: pi = acos(-1.0_dp)
 
     type, extends(lane_method_t) :: rk4_lanes_t
-        !! All steps have one length, but for the last of a trajectory.
+        !! All steps of a trajectory have one length, but for the last.
         private
-        real(dp) :: t0 = 0.0_dp, dt = 0.0_dp, duration = 0.0_dp
-        real(dp) :: rest = 0.0_dp            !! length of the last step, s; 0: that of the others
-        integer(i8) :: steps = 0             !! of a trajectory
+        real(dp), dimension(lanes) :: t0 = 0.0_dp, dt = 0.0_dp, duration = 0.0_dp
+        real(dp) :: last(lanes) = 0.0_dp     !! length of the last step, s
+        integer(i8) :: steps(lanes) = 0      !! of the trajectory
         integer(i8) :: done(lanes) = 0
         real(dp), allocatable :: q(:, :), v2(:, :), v3(:, :), v4(:, :)            !! (lanes, ndof)
         real(dp), allocatable :: a1(:, :), a2(:, :), a3(:, :), a4(:, :)
@@ -34,11 +34,10 @@ module lagrangia_rk4_lanes
 
 contains
 
-    pure subroutine prepare(self, system, scene)
+    pure subroutine prepare(self, system)
         !! See `lane_method_t`.
         class(rk4_lanes_t), intent(inout) :: self
         class(system_t), intent(in) :: system
-        type(scene_t), intent(in) :: scene
         real(dp) :: state(lanes, system%ndof), both(lanes, 2*system%ndof)
 
         state = 0.0_dp
@@ -53,23 +52,27 @@ contains
         self%a2 = state
         self%a3 = state
         self%a4 = state
-        self%t0 = scene%t0
-        self%dt = scene%dt
-        self%duration = scene%duration
-        call whole_steps(scene%duration, scene%dt, self%steps, self%rest)
-        if (self%rest > 0.0_dp) self%steps = self%steps + 1
     end subroutine prepare
 
-    pure subroutine begin(self, system, lane, q, v)
+    pure subroutine begin(self, system, lane, scene)
         !! See `lane_method_t`.
         class(rk4_lanes_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         integer, intent(in) :: lane
-        real(dp), intent(in) :: q(system%ndof), v(system%ndof)
+        type(scene_t), intent(in) :: scene
 
-        self%y(lane, :system%ndof) = q
-        self%y(lane, system%ndof + 1:) = v
-        self%t(lane) = self%t0
+        self%y(lane, :system%ndof) = scene%q
+        self%y(lane, system%ndof + 1:) = scene%v
+        self%t0(lane) = scene%t0
+        self%t(lane) = scene%t0
+        self%dt(lane) = scene%dt
+        self%duration(lane) = scene%duration
+        call whole_steps(scene%duration, scene%dt, self%steps(lane), self%last(lane))
+        if (self%last(lane) > 0.0_dp) then
+            self%steps(lane) = self%steps(lane) + 1
+        else
+            self%last(lane) = scene%dt
+        end if
         self%done(lane) = 0
     end subroutine begin
 
@@ -82,8 +85,7 @@ contains
         self%y_old = self%y
         self%t_old = self%t
         self%done = self%done + 1
-        h = self%dt
-        if (self%rest > 0.0_dp) h = merge(self%rest, h, self%done == self%steps)
+        h = merge(self%last, self%dt, self%done == self%steps)
         call advance(self, system, system%ndof, h, self%y)
         self%t = merge(self%t0 + self%duration, self%t0 + self%done*self%dt, &
                        self%done == self%steps)
@@ -183,8 +185,7 @@ contains
         v = self%y(lane, n + 1:)
         q_old = self%y_old(lane, :n)
         v_old = self%y_old(lane, n + 1:)
-        h = self%dt
-        if (self%done(lane) == self%steps .and. self%rest > 0.0_dp) h = self%rest
+        h = merge(self%last(lane), self%dt(lane), self%done(lane) == self%steps(lane))
         call system%accelerations(self%t_old(lane), q_old, v_old, a_old)
         call system%accelerations(self%t_old(lane) + h, q, v, a)
         c5 = quintic(h, [q_old(c), v_old(c), a_old(c)], [q(c), v(c), a(c)])

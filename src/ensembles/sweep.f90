@@ -38,7 +38,7 @@ module lagrangia_sweep
         logical :: attractors = .false.          !! they are numbered at the end
         integer :: energy_by = 0                 !! velocity that makes all energies one; 0: none
         real(dp) :: energy = 0.0_dp              !! that of the scene's own start, J
-        type(variational_t) :: variational       !! where a Lyapunov exponent is kept
+        type(variational_t) :: variational       !! motion, by formulas of the parameters, if needed
     contains
         procedure :: match_energy
         procedure :: set_strobe
@@ -113,11 +113,11 @@ contains
         call plan_points(sweep, events, error)
         if (.not. allocated(error)) call plan_energy(sweep, error)
         if (allocated(error)) return
-        call adapt_scene(sweep, events)
-        if (any(sweep%kept%kind == keeps_lyapunov .or. &
-                sweep%kept%kind == keeps_lyapunov_error)) then
+        if (any(sweep%axes%is_parameter()) .or. any(sweep%kept%kind == keeps_lyapunov .or. &
+                                                    sweep%kept%kind == keeps_lyapunov_error)) then
             call new_variational(sweep%variational, system)
         end if
+        call adapt_scene(sweep, events)
         trial = sweep%scene
         if (.not. any(sweep%axes%is_parameter())) call sweep%set_strobe(trial, time, error)
     end subroutine new_sweep
@@ -292,19 +292,23 @@ contains
     end subroutine adapt_scene
 
     function fits_lanes(sweep) result(yes)
-        !! Can the trajectories be computed in lanes? They have one system, go by steps of `rk4` or
-        !! by `dop853` and a tolerance, and what is kept is seen in the steps themselves.
+        !! Can the trajectories be computed in lanes? They go by steps of `rk4` or by `dop853` and a
+        !! tolerance, what is kept is seen in the steps themselves, and they have one system, or one
+        !! whose motion is known as formulas of its parameters. For a compiled system these pay by
+        !! `dop853` and up to two coordinates; else its own equations alone take less time.
         type(sweep_t), intent(in) :: sweep  !! as `new_sweep` made it
         logical :: yes
         class(reduced_t), allocatable :: reduced
 
         associate (scene => sweep%scene, system => sweep%system, kept => sweep%kept)
             yes = .not. scene%compensated .and. system%contacts == 0 .and. &
-                  system%constraints == 0 .and. .not. any(sweep%axes%is_parameter()) .and. &
-                  sweep%energy_by == 0 .and. &
+                  system%constraints == 0 .and. &
                   (sweep%strobe%given .or. .not. sweep%keeps_points) .and. &
                   all(kept%kind == keeps_end .or. kept%kind == keeps_flip .or. &
+                      kept%kind == keeps_largest .or. kept%kind == keeps_smallest .or. &
                       kept%kind == keeps_wrapped .or. kept%kind == keeps_attractor)
+            if (any(sweep%axes%is_parameter())) yes = yes .and. sweep%variational%known .and. &
+                (sweep%variational%is_code .or. scene%tolerance > 0.0_dp .and. system%ndof <= 2)
             if (scene%method == "rk4" .and. scene%tolerance <= 0.0_dp) return
             yes = yes .and. scene%method == "dop853" .and. scene%tolerance > 0.0_dp
             if (.not. yes) return

@@ -1,22 +1,26 @@
 module lagrangia_sweep_lanes
-    !! Trajectories in the lanes of vector registers, where a sweep changes only the start, goes by
-    !! steps of `rk4` or by `dop853` and a tolerance, and keeps what the steps themselves show:
-    !! columns at the end, when an angle goes over the top, points of a stroboscope. A lane whose
+    !! Trajectories in the lanes of vector registers, where a sweep goes by steps of `rk4` or by
+    !! `dop853` and a tolerance, and keeps what the steps themselves show: columns at the end and
+    !! their extremes, when an angle goes over the top, points of a stroboscope. A lane whose
     !! trajectory has ended takes the next.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_attractor, only: strobed_t
     use lagrangia_columns, only: columns_t
     use lagrangia_dop853_lanes, only: dop853_lanes_t
-    use lagrangia_errors, only: error_t
+    use lagrangia_errors, only: error_t, fail
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_interrupt, only: interrupt_status
-    use lagrangia_kept, only: keeps_attractor, keeps_end, keeps_flip, keeps_wrapped, wrapped
+    use lagrangia_kept, only: keeps_attractor, keeps_flip, keeps_largest, keeps_smallest, &
+                              keeps_wrapped, wrapped
     use lagrangia_kinds, only: dp, i8, lanes
     use lagrangia_lane_method, only: lane_method_t
+    use lagrangia_lane_systems, only: lane_systems_t, new_lane_systems
     use lagrangia_methods, only: new_adaptive
     use lagrangia_rk4_lanes, only: rk4_lanes_t
     use lagrangia_scene, only: scene_t
     use lagrangia_sweep, only: sweep_t
+    use lagrangia_sweep_trajectory, only: compute_one
+    use lagrangia_system, only: reduced_t, system_t
     use lagrangia_time_grid, only: new_sample_times, new_time_grid, time_grid_t
     use lagrangia_tolerance_floor, only: sensible_tolerance
     use lagrangia_workers, only: is_deserted
@@ -27,9 +31,13 @@ module lagrangia_sweep_lanes
     type :: lane_t
         !! The trajectory of one lane.
         integer(i8) :: index = 0                 !! its number
+        class(system_t), allocatable :: own      !! its system, where that is not the sweep's
+        type(time_grid_t) :: times
+        real(dp) :: after = 0.0_dp               !! samples before this time don't count, s
         integer(i8) :: shown = 0                 !! the next sample
         type(columns_t) :: columns
         real(dp), allocatable :: row(:)
+        real(dp), allocatable :: low(:), high(:) !! of each column
         real(dp), allocatable :: flips(:)        !! time of each that is kept, s; NaN: not yet
         real(dp), allocatable :: points(:, :)    !! rows of the points of a stroboscope
         integer :: found = 0                     !! points that are there
@@ -41,38 +49,42 @@ contains
     subroutine compute_lanes(sweep, first, last, values, failures, first_failed)
         !! What is kept of the trajectories `first` to `last`: the numbers of `compute_one`, but for
         !! rounding. A trajectory that fails is NaN, as is what is left after an interruption.
-        type(sweep_t), intent(in) :: sweep       !! one that `fits_lanes`
-        integer(i8), intent(in) :: first, last   !! numbers of trajectories
-        real(dp), intent(out) :: values(:, :)    !! (`sweep%width()`, last - first + 1)
-        integer(i8), intent(out) :: failures     !! trajectories that ended in no finite state
-        integer(i8), intent(out) :: first_failed !! number of the first of these, or huge
-        type(scene_t) :: scene
-        type(error_t), allocatable :: error
+        type(sweep_t), intent(in), target :: sweep  !! one that `fits_lanes`
+        integer(i8), intent(in) :: first, last      !! numbers of trajectories
+        real(dp), intent(out) :: values(:, :)       !! (`sweep%width()`, last - first + 1)
+        integer(i8), intent(out) :: failures        !! trajectories that ended in no finite state
+        integer(i8), intent(out) :: first_failed    !! number of the first of these, or huge
+        type(scene_t) :: scene  ! of the trajectory that is begun
         class(lane_method_t), allocatable :: method
         class(dense_integrator_t), allocatable :: adaptive  ! says what tolerances it can keep
-        type(time_grid_t) :: times
-        type(lane_t) :: lane(lanes)
+        type(lane_t), target :: lane(lanes)
+        type(lane_systems_t), target :: all_own   ! the lanes' own systems together
+        class(system_t), pointer :: all_systems   ! what is stepped
         real(dp) :: due(lanes)  ! time at which something is to be done, s; huge: the lane is empty
-        real(dp) :: after
         integer(i8) :: next
         integer :: angles(count(sweep%kept%kind == keeps_flip))  ! coordinates whose flip is kept
         integer :: i
-        logical :: flips_only
+        logical :: extremes, flips_only, own_systems, samples
 
         scene = sweep%scene
-        call sweep%set_strobe(scene, after, error)  ! `new_sweep` has seen that it can be
         if (scene%tolerance > 0.0_dp) then
             allocate (dop853_lanes_t :: method)
             call new_adaptive("dop853", adaptive)
-            call new_sample_times(times, scene%t0, scene%duration, scene%samples, error)
         else
             allocate (rk4_lanes_t :: method)
-            call new_time_grid(times, scene%t0, scene%dt, scene%duration, scene%every, error)
         end if
+        own_systems = any(sweep%axes%is_parameter())
+        all_systems => sweep%system
+        if (own_systems) then
+            call new_lane_systems(all_own, sweep%system, sweep%variational)
+            all_systems => all_own
+        end if
+        extremes = any(sweep%kept%kind == keeps_largest .or. sweep%kept%kind == keeps_smallest)
+        samples = sweep%strobe%given .or. extremes
         flips_only = all(sweep%kept%kind == keeps_flip)
         angles = pack([(sweep%kept(i)%coordinate, i=1, size(sweep%kept))], &
                       sweep%kept%kind == keeps_flip)
-        call method%prepare(sweep%system, scene)
+        call method%prepare(sweep%system)
         failures = 0
         first_failed = huge(first_failed)
         values = ieee_value(1.0_dp, ieee_quiet_nan)
@@ -82,7 +94,7 @@ contains
         end do
         do while (any(due < huge(due)))
             if (interrupt_status() /= 0) exit
-            call method%step(sweep%system)
+            call method%step(all_systems)
             do i = 1, size(angles)
                 if (any(method%may_flip(angles(i)))) call see_flips(i)
             end do
@@ -94,7 +106,7 @@ contains
         end do
     contains
         subroutine look_at_lane(i)
-            !! Its points of the stroboscope, and its end.
+            !! Its samples, and its end.
             integer, intent(in) :: i
 
             if (due(i) >= huge(due)) return
@@ -102,8 +114,8 @@ contains
                 call count_failure(lane(i)%index)
                 call load(i)
             else if (method%t(i) >= due(i)) then
-                if (sweep%strobe%given) call see_points(i)
-                if (method%t(i) < times%t0 + times%duration .and. due(i) > method%t(i)) return
+                if (samples) call see_samples(i)
+                if (method%t(i) < end_of(lane(i)%times) .and. due(i) > method%t(i)) return
                 call finish(i)
                 call load(i)
             end if
@@ -120,72 +132,145 @@ contains
         subroutine load(i)
             !! The next trajectory that can be begun, if there is one, into lane `i`.
             integer, intent(in) :: i
-            real(dp) :: q(size(scene%q)), v(size(scene%v))
-            real(dp) :: parameters(size(scene%parameters))
+            type(error_t), allocatable :: error
+            logical :: fits
 
             due(i) = huge(due)
-            do
-                if (next > last) return
+            do while (next <= last)
                 lane(i)%index = next
                 next = next + 1
-                q = scene%q
-                v = scene%v
-                parameters = scene%parameters
-                call sweep%set_start(lane(i)%index, q, v, parameters)
-                if (.not. allocated(adaptive)) exit
-                if (scene%tolerance >= sensible_tolerance(adaptive, sweep%system, scene%t0, &
-                                                          scene%duration, q, v)) exit
-                call count_failure(lane(i)%index)
+                call set_scene(i, fits, error)
+                if (.not. (fits .or. allocated(error))) then
+                    call compute_one(sweep, lane(i)%index, &
+                                     values(:, lane(i)%index - first + 1), error)
+                end if
+                if (allocated(error)) call count_failure(lane(i)%index)
+                if (.not. fits .or. allocated(error)) cycle
+                call begin(i)
+                return
             end do
-            call method%begin(sweep%system, i, q, v)
-            lane(i)%columns = sweep%columns
-            if (.not. allocated(lane(i)%row)) allocate (lane(i)%row(size(sweep%columns%items)), &
-                lane(i)%flips(count(sweep%kept%kind == keeps_flip)))
-            lane(i)%flips = ieee_value(1.0_dp, ieee_quiet_nan)
-            if (size(lane(i)%row) > 0) call lane(i)%columns%evaluate(sweep%system, scene%t0, q, v, &
-                                                                     0.0_dp, lane(i)%row)
-            due(i) = times%t0 + times%duration
-            if (.not. sweep%strobe%given) return
-            lane(i)%shown = 1
-            due(i) = times%sample_time(1_i8)
-            lane(i)%found = 0
-            if (sweep%keeps_points .and. .not. allocated(lane(i)%points)) then
-                allocate (lane(i)%points(size(sweep%kept), sweep%points))
-            end if
-            if (sweep%attractors) call lane(i)%strobed%begin(sweep%system)
-            if (scene%t0 >= after) call see_point(i, scene%t0, q, v)
         end subroutine load
 
-        subroutine see_points(i)
-            !! All points of the stroboscope that lane `i` has come to.
+        subroutine set_scene(i, fits, error)
+            !! System, start and times of the trajectory that lane `i` is to have. It may be one of
+            !! the few that do not fit: by its parameters.
+            integer, intent(in) :: i
+            logical, intent(out) :: fits
+            type(error_t), allocatable, intent(out) :: error
+            class(system_t), pointer :: system
+            class(reduced_t), allocatable :: reduced
+
+            fits = .true.
+            scene%q = sweep%scene%q
+            scene%v = sweep%scene%v
+            scene%parameters = sweep%scene%parameters
+            scene%dt = sweep%scene%dt
+            scene%duration = sweep%scene%duration
+            scene%samples = sweep%scene%samples
+            scene%every = sweep%scene%every
+            call sweep%set_start(lane(i)%index, scene%q, scene%v, scene%parameters)
+            if (own_systems) then
+                if (.not. allocated(lane(i)%own)) allocate (lane(i)%own, source=sweep%system)
+                call lane(i)%own%configure(scene%parameters, error)
+                if (allocated(error)) return
+                call all_own%take(i, lane(i)%own, fits)
+                if (fits .and. allocated(adaptive)) then
+                    call lane(i)%own%reduce(reduced)
+                    fits = .not. allocated(reduced)
+                end if
+                if (.not. fits) return
+            end if
+            system => system_of(i)
+            call sweep%match_energy(system, scene%q, scene%v, error)
+            if (.not. allocated(error)) call sweep%set_strobe(scene, lane(i)%after, error)
+            if (allocated(error)) return
+            if (scene%tolerance > 0.0_dp) then
+                call new_sample_times(lane(i)%times, scene%t0, scene%duration, scene%samples, error)
+            else
+                call new_time_grid(lane(i)%times, scene%t0, scene%dt, scene%duration, &
+                                   scene%every, error)
+            end if
+            if (allocated(error) .or. .not. allocated(adaptive)) return
+            if (scene%tolerance >= sensible_tolerance(adaptive, system, scene%t0, scene%duration, &
+                                                      scene%q, scene%v)) return
+            call fail(error, "the tolerance is less than rounding")
+        end subroutine set_scene
+
+        function system_of(i) result(system)
+            !! That of lane `i`.
+            integer, intent(in) :: i
+            class(system_t), pointer :: system
+
+            system => sweep%system
+            if (own_systems) system => lane(i)%own
+        end function system_of
+
+        subroutine begin(i)
+            !! The trajectory of `scene` in lane `i`.
+            integer, intent(in) :: i
+            class(system_t), pointer :: system
+
+            system => system_of(i)
+            call method%begin(system, i, scene)
+            associate (this => lane(i), q => scene%q, v => scene%v)
+                this%columns = sweep%columns
+                if (.not. allocated(this%row)) allocate ( &
+                    this%row(size(sweep%columns%items)), this%low(size(sweep%columns%items)), &
+                    this%high(size(sweep%columns%items)), this%flips(size(angles)))
+                this%flips = ieee_value(1.0_dp, ieee_quiet_nan)
+                this%low = huge(1.0_dp)
+                this%high = -huge(1.0_dp)
+                if (size(this%row) > 0) call this%columns%evaluate(system, scene%t0, q, v, &
+                                                                   0.0_dp, this%row)
+                due(i) = end_of(this%times)
+                if (.not. samples) return
+                this%shown = 1
+                due(i) = this%times%sample_time(1_i8)
+                this%found = 0
+                if (sweep%keeps_points .and. .not. allocated(this%points)) then
+                    allocate (this%points(size(sweep%kept), sweep%points))
+                end if
+                if (sweep%attractors) call this%strobed%begin(system)
+                if (scene%t0 >= this%after) call see_sample(i, scene%t0, q, v)
+            end associate
+        end subroutine begin
+
+        subroutine see_samples(i)
+            !! All that lane `i` has come to.
             integer, intent(in) :: i
             real(dp) :: q(size(scene%q)), t, v(size(scene%v))
 
-            do while (lane(i)%shown <= times%last_sample())
-                t = times%sample_time(lane(i)%shown)
+            do while (lane(i)%shown <= lane(i)%times%last_sample())
+                t = lane(i)%times%sample_time(lane(i)%shown)
                 due(i) = t
                 if (t > method%t(i)) return
                 lane(i)%shown = lane(i)%shown + 1
-                if (t < after) cycle
-                call method%state_at(sweep%system, i, t, q, v)
-                call see_point(i, t, q, v)
+                if (t < lane(i)%after) cycle
+                call method%state_at(system_of(i), i, t, q, v)
+                call see_sample(i, t, q, v)
             end do
-        end subroutine see_points
+        end subroutine see_samples
 
-        subroutine see_point(i, t, q, v)
-            !! A point of the stroboscope.
+        subroutine see_sample(i, t, q, v)
+            !! One that counts.
             integer, intent(in) :: i
             real(dp), intent(in) :: t, q(:), v(:)
 
             if (sweep%attractors) call lane(i)%strobed%see(q, v)
-            if (.not. sweep%keeps_points .or. lane(i)%found == sweep%points) return
-            call lane(i)%columns%evaluate(sweep%system, t, q, v, 0.0_dp, lane(i)%row)
-            lane(i)%found = lane(i)%found + 1
-            call take(lane(i), lane(i)%points(:, lane(i)%found))
-        end subroutine see_point
+            if (sweep%keeps_points .and. lane(i)%found == sweep%points) return
+            if (.not. (sweep%keeps_points .or. extremes)) return
+            associate (this => lane(i))
+                call this%columns%evaluate(system_of(i), t, q, v, 0.0_dp, this%row)
+                this%low = min(this%low, this%row)
+                this%high = max(this%high, this%row)
+                if (.not. sweep%keeps_points) return
+                this%found = this%found + 1
+                call take(this, this%points(:, this%found))
+            end associate
+        end subroutine see_sample
 
         pure subroutine take(this, numbers)
-            !! What is kept, from the latest row and the flips.
+            !! What is kept, from the latest row, the extremes and the flips.
             type(lane_t), intent(in) :: this
             real(dp), intent(out) :: numbers(:)
             integer :: flips, k
@@ -198,6 +283,8 @@ contains
                     numbers(k) = this%flips(flips)
                 case (keeps_attractor); numbers(k) = 0.0_dp  ! its number is known at the end
                 case (keeps_wrapped); numbers(k) = wrapped(this%row(sweep%kept(k)%column))
+                case (keeps_largest); numbers(k) = this%high(sweep%kept(k)%column)
+                case (keeps_smallest); numbers(k) = this%low(sweep%kept(k)%column)
                 case default; numbers(k) = this%row(sweep%kept(k)%column)
                 end select
             end do
@@ -210,7 +297,7 @@ contains
             integer :: k, n
 
             n = size(sweep%kept)
-            call method%state_at(sweep%system, i, method%t(i), q, v)
+            call method%state_at(system_of(i), i, method%t(i), q, v)
             if (.not. all(ieee_is_finite([q, v]))) then
                 call count_failure(lane(i)%index)
                 return
@@ -222,7 +309,7 @@ contains
                     end do
                     return
                 end if
-                if (size(lane(i)%row) > 0) call lane(i)%columns%evaluate(sweep%system, &
+                if (size(lane(i)%row) > 0) call lane(i)%columns%evaluate(system_of(i), &
                     method%t(i), q, v, 0.0_dp, lane(i)%row)
                 call take(lane(i), numbers(:n))
                 if (sweep%attractors) numbers(n + 1:) = lane(i)%strobed%signature()
@@ -240,9 +327,17 @@ contains
             do i = 1, lanes
                 if (.not. near(i) .or. due(i) >= huge(due)) cycle
                 if (lane(i)%flips(k) >= scene%t0) cycle
-                call method%flip_time(sweep%system, i, angles(k), lane(i)%flips(k))
+                call method%flip_time(system_of(i), i, angles(k), lane(i)%flips(k))
                 if (flips_only .and. all(lane(i)%flips >= scene%t0)) due(i) = method%t(i)
             end do
         end subroutine see_flips
     end subroutine compute_lanes
+
+    pure function end_of(times) result(t)
+        !! Of a trajectory, s.
+        type(time_grid_t), intent(in) :: times
+        real(dp) :: t
+
+        t = times%t0 + times%duration
+    end function end_of
 end module lagrangia_sweep_lanes

@@ -5,7 +5,8 @@ module lagrangia_variational
     !!
     !! The Lagrangian, as the description prints it or a scene has it, is derived and solved for
     !! the accelerations in symbols; these are differentiated and compiled. The parameters stay
-    !! symbols, so that one program serves a whole family of systems.
+    !! symbols, so that one program serves a whole family of systems, even several of them at once.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_derivative, only: time_derivative
     use lagrangia_description, only: default_values, description_t, value_names
     use lagrangia_errors, only: error_t
@@ -16,7 +17,7 @@ module lagrangia_variational
     use lagrangia_symbols, only: symbols_t
     use lagrangia_system, only: system_t
     use lagrangia_written_motion, only: derive_motion, solve_motion, written_motion_t
-    use lagrangia_written_system, only: written_system_t
+    use lagrangia_written_system, only: are_positive, written_system_t
     implicit none (type, external)
     private
     public :: variational_t, new_variational
@@ -27,13 +28,14 @@ module lagrangia_variational
     type :: variational_t
         !! None at first.
         logical :: known = .false.
-        type(formula_program_t), private :: motion   !! the accelerations
+        type(formula_program_t), private :: motion   !! accelerations, pivots, diagonal of M
         type(formula_program_t), private :: program  !! their changes
-        logical, private :: is_code = .false.        !! the system computes by the same formulas
+        logical :: is_code = .false.                 !! the system computes by the same formulas
         integer, private :: n = 0                    !! coordinates
-        real(dp), allocatable, private :: parameters(:)
+        real(dp), allocatable :: parameters(:)       !! of the system that it has seen last
     contains
         procedure :: fits
+        procedure :: accelerations_lanes
         procedure :: change
         procedure :: change_lanes
     end type variational_t
@@ -168,7 +170,7 @@ contains
         do i = 1, self%n
             changes(i) = time_derivative(solved(i), rates, 0)
         end do
-        call new_formula_program(self%motion, solved(:self%n), symbols)
+        call new_formula_program(self%motion, solved, symbols)
         call new_formula_program(self%program, changes, symbols + 2*self%n)
     end subroutine compile
 
@@ -179,8 +181,8 @@ contains
         class(system_t), intent(in) :: system  !! with its parameters
         logical, intent(out) :: yes            !! `change` is that of this system
         type(description_t) :: d
-        real(dp), dimension(system%ndof) :: a, b, q, v
-        real(dp) :: t
+        real(dp), dimension(system%ndof) :: a, q, v
+        real(dp) :: solved(3*system%ndof), t
         integer :: i, k
 
         yes = self%known .and. system%ndof == self%n
@@ -195,10 +197,41 @@ contains
             q = [(0.3_dp + 0.2_dp*sin(2.0_dp*i + k), i=1, size(q))]
             v = [(cos(3.0_dp*i + k), i=1, size(v))]
             call system%accelerations(t, q, v, a)
-            call self%motion%evaluate([t, q, v, self%parameters], b)
-            yes = yes .and. maxval(abs(a - b)) <= agreement*max(1.0_dp, maxval(abs(a)))
+            call self%motion%evaluate([t, q, v, self%parameters], solved)
+            yes = yes .and. maxval(abs(a - solved(:self%n))) <= &
+                  agreement*max(1.0_dp, maxval(abs(a)))
         end do
     end subroutine fits
+
+    pure subroutine accelerations_lanes(self, t, q, v, parameters, a)
+        !! Those of eight systems of the family, each with its own parameters; NaN where a pivot of
+        !! the mass matrix is not positive.
+        class(variational_t), intent(in) :: self            !! one that is `known`
+        real(dp), intent(in) :: t(lanes), q(lanes, self%n), v(lanes, self%n)  !! times, s; states
+        real(dp), intent(in) :: parameters(:, :)            !! in the order of the description
+        real(dp), intent(out) :: a(lanes, self%n)           !! accelerations
+        real(dp) :: results(lanes, 3*self%n), values(lanes, self%motion%inputs)
+        integer :: i, n
+
+        n = self%n
+        values(:, 1) = t
+        values(:, 2:1 + n) = q
+        values(:, 2 + n:1 + 2*n) = v
+        values(:, 2 + 2*n:) = parameters
+        call self%motion%evaluate(values, results)
+        a = results(:, :n)
+        do i = 1, lanes
+            if (are_positive(results(i, n + 1:2*n), results(i, 2*n + 1:))) cycle
+            call set_to_nan(a(i, :))
+        end do
+    end subroutine accelerations_lanes
+
+    pure subroutine set_to_nan(a)
+        !! Apart from what is called often: see `lagrangia_written_system`.
+        real(dp), intent(out) :: a(:)
+
+        a = ieee_value(a, ieee_quiet_nan)
+    end subroutine set_to_nan
 
     pure subroutine change(self, t, q, v, dq, dv, da)
         !! How a displacement changes the accelerations.

@@ -22,7 +22,7 @@ module lagrangia_written_system
     use lagrangia_written_quantities, only: find_conserved
     implicit none (type, external)
     private
-    public :: written_system_t, new_written_system
+    public :: are_positive, new_written_system, written_system_t
     public :: of_momentum, of_quantity
 
     ! programs of a system
@@ -244,7 +244,8 @@ contains
 
     pure function are_positive(pivots, diagonal) result(yes)
         !! None of the pivots is only rounding beside the mass matrix's diagonal.
-        real(dp), intent(in) :: pivots(:), diagonal(:)
+        real(dp), intent(in) :: pivots(:)    !! of its elimination
+        real(dp), intent(in) :: diagonal(:)  !! what each of them was before
         logical :: yes
         integer :: i
 
