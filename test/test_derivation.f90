@@ -273,7 +273,13 @@ contains
             "m2 l^2 theta_ddot + m2 l x_ddot cos(theta) + m2 g l sin(theta) = 0", &
             "l theta_ddot + x_ddot cos(theta) + g sin(theta) = 0", &
             "x_ddot = m2 sin(theta) (l theta_dot^2 + g cos(theta))/(m1 + m2 sin(theta)^2)", &
+            "(m1 + m2) x_ddot + m2 l theta_ddot = 0", &
+            "x_ddot + l theta_ddot + g theta = 0", &
+            "m1 l theta_ddot + (m1 + m2) g theta = 0", &
             "omega^2 = (m1 + m2) g/(m1 l)"])
+        call reads("double_pendulum", [character(100) :: &
+            "(m1 + m2) l1 theta1_ddot + m2 l2 theta2_ddot + (m1 + m2) g theta1 = 0", &
+            "l1 theta1_ddot + l2 theta2_ddot + g theta2 = 0"])
         call reads("rotating_hoop", [character(100) :: &
             "theta_ddot = omega^2 sin(theta) cos(theta) - g/r sin(theta)", &
             "Omega^2 = g/r - omega^2"])

@@ -5,7 +5,7 @@ module test_grading
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_grading, only: grade, grade_t
-    use lagrangia_homework, only: homework_t, parse_homework
+    use lagrangia_homework, only: homework_t, parse_homework, read_homework
     use lagrangia_judgement, only: is_consequence, is_right, is_unreadable, is_wrong
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_system, only: system_t
@@ -31,6 +31,9 @@ contains
         call suite%addTest(TestMethod("which_accelerations_follow", which_accelerations_follow))
         call suite%addTest(TestMethod("examples_have_four_digits", examples_have_four_digits))
         call suite%addTest(TestMethod("lines_that_follow", lines_that_follow))
+        call suite%addTest(TestMethod("drag_has_a_decay_rate", drag_has_a_decay_rate))
+        call suite%addTest(TestMethod("small_oscillations", small_oscillations))
+        call suite%addTest(TestMethod("the_lines_of_the_notes", the_lines_of_the_notes))
         call suite%addTest(TestMethod("sheets_that_cannot_be_read", sheets_that_cannot_be_read))
     end function grading_suite
 
@@ -270,39 +273,131 @@ contains
             "; x_ddot = -(b x_dot + k x)/(2 m); 2 m x_ddot - b x_dot + k x = 0")
         call traced("pendulum", "wfwf", "T = m l^2 theta_dot^2; L = m l^2 theta_dot^2 - V"// &
             "; V = m g l sin(theta); l theta_ddot = -g cos(theta)/2")
+    end subroutine lines_that_follow
+
+    subroutine drag_has_a_decay_rate()
+        !! q goes as exp(-gamma t) cos(omega t), and omega_0 is without the drag.
+        call traced("pendulum", "rrwrwrrw", "omega^2 = g/l - (b/(2 m l^2))^2"// &
+            "; gamma = b/(2 m l^2); gamma = b/(m l^2); omega_0^2 = g/l; omega^2 = g/l"// &
+            "; omega^2 = omega_0^2 - gamma^2; omega = sqrt(omega_0^2 - gamma^2)"// &
+            "; omega^2 = omega_0^2 + gamma^2", remarks="8 the sign of 'gamma^2'"// &
+            "; 5 on the left is missing gamma^2; 3 'b/(m l^2)' must be counted 1/2 times")
+        call traced("oscillator", "rrw", "m x_ddot + b x_dot + k x = 0"// &
+            "; omega^2 = k/m - (b/(2 m))^2; omega^2 = k/m - b/(2 m)", &
+            remarks="3 'b/(2 m)' must be squared")
+        ! without drag gamma is any letter, and omega that of the free oscillation
+        call traced("oscillator", "0rw", "gamma = 3 k; omega^2 = k/m; omega^2 = gamma/m", &
+                    remarks="3 ")
+        ! of dry friction the first term is no decay rate
+        call traced("dry_friction", "r", "omega^2 = k/m")
+    end subroutine drag_has_a_decay_rate
+
+    subroutine small_oscillations()
+        !! Right to first order, and no more.
+        call traced("cart_pendulum", "rrrrwwwrwur", "small: l theta_ddot + x_ddot + g theta = 0"// &
+            "; small: l theta_ddot + x_ddot cos(theta) + g sin(theta) = 0"// &
+            "; small: cos(theta) = 1; small: cos(theta) = 1 - theta^2/2"// &
+            "; small: cos(theta) = 1 + theta; small: sin(theta) = 2 theta"// &
+            "; small: l theta_ddot + x_ddot - g theta = 0"// &
+            "; small: theta_ddot = -(m1 + m2) g/(m1 l) sin(theta)"// &
+            "; small: theta_ddot = -(m1 + m2) g/(m2 l) theta; small: V = m2 g l theta^2/2"// &
+            "; small: theta_dot^2 theta = l theta_ddot + x_ddot + g theta", &
+            remarks="7 the sign of 'g theta'; 9 'm2' must be 'm1'; 10 'V' in a statement behind")
+        call traced("pendulum", "rrwww", "small: theta_ddot + 2 gamma theta_dot + "// &
+            "omega_0^2 theta = 0; small: theta_ddot + b/(m l^2) theta_dot + (omega^2 + gamma^2)"// &
+            " theta = 0; small: l theta_ddot - b/(m l) theta_dot + g theta = 0"// &
+            "; l theta_ddot + b/(m l) theta_dot + g theta = 0"// &
+            "; small: theta_ddot + 2 gamma theta_dot + omega^2 theta = 0", &
+            remarks="3 the sign of 'b/(m l) theta_dot'; 4 'theta' must be 'sin(theta)'")
+        call traced("double_pendulum", "ru", "small: l1 theta1_ddot + l2 theta2_ddot + "// &
+            "g theta2 = 0; small: theta1_ddot + omega^2 theta1 = 0", remarks="2 omega behind")
+        call traced("spring_pendulum", "u", "small: m r_ddot + k r = 0", &
+                    remarks="1 no equilibrium at zero")
+    end subroutine small_oscillations
+
+    subroutine the_lines_of_the_notes()
+        !! Line by line, with the letters that the scan lost: each stands in the derivation but the
+        !! lecture's slips, and what follows from these.
+        call traced("cart_pendulum", "wrrwrfrfrrrfrfrr", sheet("notes_cart_pendulum"))
+        call traced("double_pendulum", "rwrr", sheet("notes_double_pendulum"))
+        call traced("oscillator", "rrrrr", "L = m/2 x_dot^2 - k/2 x^2; dL/dx = -k x"// &
+            "; dL/dx_dot = m x_dot; d/dt dL/dx_dot = m x_ddot; m x_ddot + k x = 0")
+        call traced("atwood", "rrrrr", "T = (m1 + m2)/2 x_dot^2; V = -m1 g x + m2 g x"// &
+            "; L = (m1 + m2)/2 x_dot^2 + (m1 - m2) g x"// &
+            "; (m1 - m2) g = (m1 + m2) x_ddot; x_ddot = (m1 - m2)/(m1 + m2) g")
+        call traced("wedge", "rrrrrrwf", "T = M/2 q2_dot^2 + m/2 (q1_dot^2 + q2_dot^2 + "// &
+            "2 q1_dot q2_dot cos(alpha))"// &
+            "; T = (M + m)/2 q2_dot^2 + m/2 (q1_dot^2 + 2 q1_dot q2_dot cos(alpha))"// &
+            "; V = -m g q1 sin(alpha); dL/dq2_dot = M q2_dot + m (q2_dot + q1_dot cos(alpha))"// &
+            "; q2_ddot = -m/(M + m) q1_ddot cos(alpha)"// &
+            "; q1_ddot = g sin(alpha)/(1 - m cos(alpha)^2/(M + m))"// &
+            "; d/dt dL/dq1_dot = M (q1_ddot + q2_ddot cos(alpha))"// &
+            "; m g sin(alpha) = M (q1_ddot + q2_ddot cos(alpha))")
     contains
-        subroutine traced(system, expected, statements)
-            !! `r`, `w`, `f`, or `0` for any: a letter for each statement.
-            character(*), intent(in) :: system, expected, statements
-            class(system_t), allocatable :: about
+        function sheet(name) result(statements)
+            !! Those of a sheet that the program carries, with semicolons between.
+            character(*), intent(in) :: name
+            character(:), allocatable :: statements
             type(homework_t) :: homework
-            type(grade_t) :: result
             type(error_t), allocatable :: error
-            character(:), allocatable :: text
             integer :: i
 
-            text = statements
-            do i = 1, len(text)
-                if (text(i:i) == ";") text(i:i) = line_feed
+            statements = ""
+            call read_homework(name, homework, error)
+            call assertFalse(allocated(error), name)
+            if (allocated(error)) return
+            do i = 1, size(homework%statements)
+                if (i > 1) statements = statements//";"
+                statements = statements//homework%statements(i)%text
             end do
-            call new_system(system, about, error)
-            call parse_homework("system: "//system//line_feed//text, "sheet", homework, error)
-            call grade(homework, about, result, error)
-            call assertFalse(allocated(error), "no error")
-            call assertEqual(len(expected), size(result%of), statements)
-            do i = 1, size(result%of)
-                select case (expected(i:i))
-                case ("r"); call assertEqual(is_right, result%of(i)%verdict, homework% &
-                                             statements(i)%text)
-                case ("w"); call assertEqual(is_wrong, result%of(i)%verdict, homework% &
-                                             statements(i)%text)
-                case ("f"); call assertEqual(is_consequence, result%of(i)%verdict, homework% &
-                                             statements(i)%text//" "//result%of(i)%remark)
-                case default; cycle
-                end select
-            end do
-        end subroutine traced
-    end subroutine lines_that_follow
+        end function sheet
+    end subroutine the_lines_of_the_notes
+
+    subroutine traced(system, expected, statements, remarks)
+        !! `r`, `w`, `f`, `u`, or `0` for any: a letter for each statement.
+        character(*), intent(in) :: system, expected, statements
+        character(*), intent(in), optional :: remarks  !! `3 the sign; 5 ...`: what these begin with
+        class(system_t), allocatable :: about
+        type(homework_t) :: homework
+        type(grade_t) :: result
+        type(error_t), allocatable :: error
+        type(word_t) :: none(0)
+        character(:), allocatable :: text
+        integer :: i, first, last
+
+        text = statements
+        do i = 1, len(text)
+            if (text(i:i) == ";") text(i:i) = line_feed
+        end do
+        call read_named_system(system, none, about, error)
+        call assertFalse(allocated(error), system)
+        call parse_homework("system: "//system//line_feed//text, "sheet", homework, error)
+        call assertFalse(allocated(error), statements)
+        if (allocated(error)) return
+        call grade(homework, about, result, error)
+        call assertFalse(allocated(error), "no error")
+        call assertEqual(len(expected), size(result%of), statements)
+        do i = 1, min(len(expected), size(result%of))
+            text = homework%statements(i)%text//": "//result%of(i)%remark
+            select case (expected(i:i))
+            case ("r"); call assertEqual(is_right, result%of(i)%verdict, text)
+            case ("w"); call assertEqual(is_wrong, result%of(i)%verdict, text)
+            case ("f"); call assertEqual(is_consequence, result%of(i)%verdict, text)
+            case ("u"); call assertEqual(is_unreadable, result%of(i)%verdict, text)
+            case default; cycle
+            end select
+        end do
+        if (.not. present(remarks)) return
+        first = 1
+        do while (first <= len(remarks))
+            last = index(remarks(first:)//";", ";") + first - 2
+            text = trim(adjustl(remarks(first:last)))//" "
+            read (text(:index(text, " ")), *) i
+            text = trim(text(index(text, " ") + 1:))
+            call assertEqual(1, index(result%of(i)%remark, text), text//": "//result%of(i)%remark)
+            first = last + 2
+        end do
+    end subroutine traced
 
     subroutine sheets_that_cannot_be_read()
         call refused("", "no line 'system: NAME'")

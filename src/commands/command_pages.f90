@@ -65,8 +65,8 @@ module lagrangia_command_pages
                "says how to read it.", &
                [character(76) :: "lagrangia stress", "lagrangia stress chaos zeno", "", ""]), &
         page_t("grade", "Grades a sheet of statements, one a line below 'system: NAME': each "// &
-               "is right in whatever form, or the term that is wrong is named. Status 1 if one "// &
-               "is wrong, 2 if one cannot be read.", &
+               "is right in whatever form, or the term that is wrong is named. 'small: ...' is "// &
+               "judged to first order. Status 1 if one is wrong, 2 if one cannot be read.", &
                [character(76) :: "lagrangia grade homework.txt", "lagrangia grade atwood", &
                 "lagrangia show atwood.txt", ""]), &
         page_t("sweep", "Runs many trajectories of one scene over one or two axes, initial "// &

@@ -117,6 +117,7 @@ contains
         end do
         call put_line(count_text(result))
         call put_first_mistake(homework, result)
+        if (result%meaning /= "") call put_line(result%meaning)
         if (result%kept /= "") call put_line("not named, and therefore: "//result%kept)
         if (result%equations > 0) call put_line(determined_text(system, result))
     end subroutine print_sheet

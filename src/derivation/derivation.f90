@@ -22,7 +22,7 @@ module lagrangia_derivation
               line_mass, line_momentum, line_multiplier, line_omega2, line_position, &
               line_potential, line_rate, line_right_side, line_rotor, line_rotor_rate, &
               line_stiffness, line_stated, line_velocity, line_beside, line_words, line_rest_mass, &
-              line_damped_omega2, line_decay, line_equilibrium, line_rates
+              line_damped_omega2, line_decay, line_equilibrium, line_linear, line_rates
 
     integer, parameter :: line_words = 0        !! no equality: words
     integer, parameter :: line_position = 1     !! axis k of point i
@@ -53,6 +53,7 @@ module lagrangia_derivation
     integer, parameter :: line_decay = 26          !! decay rate, of one coordinate
     integer, parameter :: line_damped_omega2 = 27  !! the frequency with drag, of one coordinate
     integer, parameter :: line_rates = 28          !! the polynomial of the rates, equal to zero
+    integer, parameter :: line_linear = 29         !! linearised equation i, without q_k_ddot
 
     type :: line_t
         !! `left = right`, or `right = 0`, or words.
@@ -364,7 +365,7 @@ contains
     pure subroutine add(self, kind, left, left_latex, p, i, k, e)
         !! One line more; its formula is `p`, or `e` as it is.
         class(derivation_t), intent(inout) :: self
-        integer, intent(in) :: kind                      !! `line_position` to `line_rates`
+        integer, intent(in) :: kind                      !! `line_position` to `line_linear`
         character(*), intent(in) :: left, left_latex     !! "": the right side is zero
         type(polynomial_t), intent(in) :: p              !! the right side
         integer, intent(in), optional :: i, k            !! which one

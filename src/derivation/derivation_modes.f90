@@ -4,6 +4,7 @@ module lagrangia_derivation_modes
     use lagrangia_derivation, only: derivation_t, line_characteristic, line_equilibrium, &
                                     line_gyroscopic, line_omega2, line_rest_mass, line_stiffness
     use lagrangia_derivation_drag, only: add_polynomial, add_rates
+    use lagrangia_derivation_linear, only: add_linear
     use lagrangia_derivation_motion, only: determinant, lay_out_quotient
     use lagrangia_derivation_place, only: linearise, read_equilibrium
     use lagrangia_errors, only: error_t
@@ -86,6 +87,7 @@ contains
         call add_elements(self, line_rest_mass, "M", mass)
         call add_elements(self, line_gyroscopic, letter, gyroscopic)
         call add_elements(self, line_stiffness, "K", stiffness)
+        call add_linear(self, mass, gyroscopic, stiffness)
         if (drag) then
             call add_rates(self, mass, gyroscopic, stiffness)
         else

@@ -5,7 +5,7 @@ module lagrangia_derivation_numbers
     use lagrangia_derivation, only: derivation_t, line_acceleration, line_beside, line_constraint, &
                                     line_divided, line_equation, line_force, line_kinetic, &
                                     line_lagrangian, line_mass, line_momentum, line_multiplier, &
-                                    line_position, line_potential, line_rate, line_rates, &
+                                    line_position, line_potential, line_rate, line_linear, &
                                     line_rest_mass, line_right_side, line_rotor, line_rotor_rate, &
                                     line_stated, line_t, line_velocity, line_words
     use lagrangia_derivation_rest, only: compare_modes, comparison_t
@@ -64,9 +64,12 @@ contains
                     cycle
                 case (line_acceleration, line_multiplier)
                     call compare(derivation, system, line, moving, comparisons(i))
-                case (line_rest_mass:line_rates)
+                case (line_rest_mass:line_linear)
                     if (allocated(no_modes)) cycle
                     call name_values(derivation, rest, at_rest)
+                    if (line%kind == line_linear) then
+                        call name_values(derivation, anywhere, at_rest)
+                    end if
                     call compare_modes(derivation, system, modes, at_rest, line, comparisons(i))
                 case default
                     call compare(derivation, system, line, anywhere, comparisons(i))

@@ -3,7 +3,8 @@ module lagrangia_derivation_rest
     !! by automatic derivatives and LAPACK, and what the formula gives.
     use lagrangia_damped_rates, only: damped_rates, damping_matrix
     use lagrangia_derivation, only: derivation_t, line_damped_omega2, line_decay, &
-                                    line_equilibrium, line_gyroscopic, line_omega2, line_rates, &
+                                    line_equilibrium, line_gyroscopic, line_linear, line_omega2, &
+                                    line_rates, &
                                     line_rest_mass, line_stiffness, line_t
     use lagrangia_equilibrium, only: stiffness_beside
     use lagrangia_errors, only: error_t
@@ -42,8 +43,9 @@ contains
         type(derivation_t), intent(in) :: derivation     !! of the system
         class(system_t), intent(in) :: system            !! configured
         type(modes_t), intent(in) :: modes               !! about its equilibrium
-        real(dp), intent(in) :: at_rest(:)               !! values of the names there
-        type(line_t), intent(in) :: line                 !! `line_rest_mass` to `line_rates`
+        real(dp), intent(in) :: at_rest(:)
+        !! values of the names there; of a linearised equation those of any displacement
+        type(line_t), intent(in) :: line                 !! `line_rest_mass` to `line_linear`
         type(comparison_t), intent(out) :: c             !! both numbers
         real(dp), dimension(size(modes%at), size(modes%at)) :: beside
         real(dp), allocatable :: values(:)
@@ -73,6 +75,8 @@ contains
             noise = maxval(abs(modes%omega2)) + gamma**2
             if (line%kind == line_decay) noise = sqrt(noise)
             c%noise = c%noise + 256.0_dp*epsilon(1.0_dp)*noise
+        case (line_linear)
+            call compare_linear(derivation, system, modes, values, line, c)
         case (line_rates)
             call compare_rates(derivation, system, modes, values, line, c)
             return
@@ -92,6 +96,45 @@ contains
         end select
         c%noise = c%noise + 64.0_dp*epsilon(1.0_dp)*abs(c%program)
     end subroutine compare_modes
+
+    subroutine compare_linear(derivation, system, modes, values, line, c)
+        !! Row i of \(M\ddot q + (G + C)\dot q + Kq\), less as much of row k as takes
+        !! \(\ddot q_k\) away, over the factor that the line does without.
+        type(derivation_t), intent(in) :: derivation
+        class(system_t), intent(in) :: system
+        type(modes_t), intent(in) :: modes
+        real(dp), intent(in) :: values(:)
+        type(line_t), intent(in) :: line
+        type(comparison_t), intent(inout) :: c
+        real(dp), dimension(size(modes%at), size(modes%at)) :: drag, springs
+        real(dp), dimension(size(modes%at)) :: row, large
+        real(dp) :: factor, noise
+        integer :: n
+
+        n = size(modes%at)
+        call damping_matrix(system, modes%at, drag)
+        call stiffness_beside(system, modes%at, springs)
+        drag = drag + modes%gyroscopic
+        springs = springs + modes%stiffness
+        associate (q => values(derivation%coordinate(1):derivation%coordinate(n)), &
+                   v => values(derivation%velocity(1):derivation%velocity(n)), &
+                   a => values(derivation%acceleration(1):derivation%acceleration(n)))
+            row = matmul(modes%mass, a) + matmul(drag, v) + matmul(springs, q)
+            large = matmul(abs(modes%mass), abs(a)) + matmul(abs(drag), abs(v)) &
+                    + matmul(abs(springs), abs(q))
+        end associate
+        call evaluate(line%factor, values, factor, noise)
+        c%program = row(line%i)
+        noise = large(line%i)
+        if (line%k > 0) then
+            associate (m => modes%mass)
+                c%program = m(line%k, line%k)*row(line%i) - m(line%i, line%k)*row(line%k)
+                noise = abs(m(line%k, line%k))*large(line%i) + abs(m(line%i, line%k))*large(line%k)
+            end associate
+        end if
+        c%program = c%program/factor
+        c%noise = c%noise + 64.0_dp*epsilon(1.0_dp)*noise/abs(factor)
+    end subroutine compare_linear
 
     pure function root_noise(modes, i) result(noise)
         !! Of LAPACK's root: some epsilon of the largest; with \(G\), where the matrix is not

@@ -1,5 +1,6 @@
 module lagrangia_derivation_steps
     !! The lecture's recipe: positions, velocities, T and V, L, and Lagrange's equations.
+    use lagrangia_common_factor, only: divide_by_common
     use lagrangia_derivation, only: derivation_t, line_beside, line_constraint, line_divided, &
                                     line_equation, line_force, line_kinetic, line_lagrangian, &
                                     line_momentum, line_position, line_potential, line_rate, &
@@ -8,15 +9,15 @@ module lagrangia_derivation_steps
     use lagrangia_derivation_motion, only: add_motion
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_exact_number, only: number_t, operator(-), operator(/), ratio
+    use lagrangia_exact_number, only: ratio
     use lagrangia_expression, only: expression_t, operator(*), operator(**), operator(+), &
                                     operator(/), whole
     use lagrangia_formula_latex, only: latex_name
     use lagrangia_formula_parser, only: parse_equation, parse_formula
     use lagrangia_formula_text, only: formula_text
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_page_layout, only: lay_out, role_parameter
-    use lagrangia_polynomial, only: atom_power, most_atoms, number_polynomial, operator(+), &
+    use lagrangia_page_layout, only: lay_out
+    use lagrangia_polynomial, only: atom_power, number_polynomial, operator(+), &
                                     operator(-), operator(*), polynomial_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
@@ -397,26 +398,14 @@ contains
         type(polynomial_t), intent(in) :: equation
         integer, intent(in) :: i
         logical, intent(in) :: slipped
-        type(polynomial_t) :: factor
-        type(number_t) :: coefficient
-        integer :: k, powers(most_atoms)
+        type(polynomial_t) :: divided, factor
 
         call self%add(line_equation, "", "", equation, i)
         self%lines(self%count)%slipped = slipped
         if (equation%terms == 0) return
-        call equation%common(coefficient, powers)
-        if (coefficient%value < 0.0_dp) coefficient = -coefficient
-        do k = 1, self%algebra%count
-            if (k > size(self%roles)) then
-                powers(k) = 0
-            else if (self%roles(k) > role_parameter) then
-                powers(k) = 0
-            end if
-        end do
-        if (all(powers == 0)) return
-        call factor%add_term(coefficient, powers)
-        call self%add(line_divided, "", "", &
-                      equation%shifted(ratio(1_i8, 1_i8)/coefficient, -powers), i)
+        call divide_by_common(self, equation, divided, factor)
+        if (factor%terms == 0) return
+        call self%add(line_divided, "", "", divided, i)
         call lay_out(self%algebra, self%roles, factor, self%lines(self%count)%factor)
         self%lines(self%count)%slipped = slipped
     end subroutine add_equation

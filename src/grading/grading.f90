@@ -26,6 +26,7 @@ module lagrangia_grading
         !! Of one sheet.
         type(judgement_t), allocatable :: of(:)  !! its statements, in their order
         character(:), allocatable :: kept        !! parameters that nobody named, and that are zero
+        character(:), allocatable :: meaning     !! of omega and gamma where there is drag
         integer :: equations = 0                 !! right ones that have accelerations in them
         logical, allocatable :: determined(:)
         !! the acceleration of this coordinate follows, (ndof)
@@ -52,6 +53,7 @@ contains
         call new_samples(system, said, homework%settings, samples, error)
         if (allocated(error)) return
         result%kept = samples%kept
+        call explain_rates(samples, said, result%meaning)
         call collect_terms(system, samples, library)
         allocate (result%of(size(homework%statements)))
         do i = 1, size(homework%statements)
@@ -77,6 +79,22 @@ contains
         end do
         call find_determined(samples, result)
     end subroutine grade
+
+    pure subroutine explain_rates(samples, said, meaning)
+        !! What omega and gamma are, if there is drag and the sheet speaks of them.
+        type(samples_t), intent(in) :: samples
+        character(*), intent(in) :: said                     !! all statements
+        character(:), allocatable, intent(out) :: meaning    !! empty, or one line
+        character(:), allocatable :: decay, frequency
+
+        meaning = ""
+        if (samples%decay == 0) return
+        decay = trim(samples%symbols%names(samples%decay))
+        frequency = trim(samples%symbols%names(samples%frequency))
+        if (index(said, decay) == 0 .and. index(said, frequency) == 0) return
+        meaning = "with the drag q goes as exp(-"//decay//" t) cos("//frequency//" t); "// &
+                  frequency//"_0 is without it"
+    end subroutine explain_rates
 
     pure subroutine put_consequence(homework, judgement)
         !! The mistake was made before.
@@ -122,6 +140,7 @@ contains
         do i = 1, size(d%quantities)
             call add_formula(trim(d%quantities(i)%formula))
         end do
+        if (samples%decay > 0) call add_formula(trim(samples%symbols%names(samples%decay))//"^2")
     contains
         subroutine add_formula(text)
             character(*), intent(in) :: text

@@ -9,7 +9,8 @@ module lagrangia_homework
     !! l1 theta1_ddot + ... = 0
     !! ```
     !! `#` begins a comment. `system:` names a system of the catalogue or a scene file, `set:` fixes
-    !! a parameter (`set: g = 0`). A line that ends in `\` goes on in the next one.
+    !! a parameter (`set: g = 0`), and behind `small:` is a statement about small oscillations. A
+    !! line that ends in `\` goes on in the next one.
     use lagrangia_characters, only: printable
     use lagrangia_errors, only: error_t, fail, status_file
     use lagrangia_files, only: facts_t, look_at
@@ -29,6 +30,7 @@ module lagrangia_homework
         !! One line of the file, as it was typed.
         character(:), allocatable :: text  !! without comment, continued lines joined
         integer :: line = 0                !! number in the file, from 1
+        logical :: small = .false.         !! to first order: behind `small:`
     end type statement_t
 
     type :: homework_t
@@ -179,19 +181,28 @@ contains
                 else
                     call add_setting(without_blanks(text(colon + 1:)))
                 end if
+            case ("small")
+                call take_statement()
             case default
                 call refuse("what is "//quoted(trim(text(:colon - 1)))// &
                             ":? Before a colon stands "// &
-                            "'system' or 'set'")
+                            "'system', 'set' or 'small'")
             end select
-        else if (index(text, "=") == 0) then
-            call refuse("no '='; a statement is 'left = right', not "//quoted(printable(text), 40))
-        else if (size(homework%statements) == most_statements) then
-            call refuse("more than "//to_text(most_statements)//" statements")
         else
-            call add_statement()
+            call take_statement()
         end if
     contains
+        subroutine take_statement()
+            if (index(text, "=") == 0) then
+                call refuse("no '='; a statement is 'left = right', not "// &
+                            quoted(printable(text), 40))
+            else if (size(homework%statements) == most_statements) then
+                call refuse("more than "//to_text(most_statements)//" statements")
+            else
+                call add_statement()
+            end if
+        end subroutine take_statement
+
         subroutine add_setting(setting)
             character(*), intent(in) :: setting
             type(word_t), allocatable :: longer(:)
@@ -215,9 +226,11 @@ contains
             do i = 1, n
                 call move_alloc(homework%statements(i)%text, longer(i)%text)
                 longer(i)%line = homework%statements(i)%line
+                longer(i)%small = homework%statements(i)%small
             end do
             longer(n + 1)%text = text
             longer(n + 1)%line = number
+            longer(n + 1)%small = colon > 0
             call move_alloc(longer, homework%statements)
         end subroutine add_statement
 

@@ -13,6 +13,7 @@ module lagrangia_judgement
     use lagrangia_sample_names, only: draws, role_parameter, samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_slip_search, only: explain_slip, holds, is_trivial
+    use lagrangia_small_motion, only: small_motion
     use lagrangia_symbols, only: check_name
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: to_text
@@ -56,6 +57,7 @@ contains
         judgement%remark = ""
         judgement%example = ""
         call write_derivatives(statement%text, text)
+        if (statement%small) text(:index(text, ":")) = ""
         call exchange(text, trim(samples%symbols%names(samples%frequency)), "^2", "_2")
         next = index(text, "=")
         call find_empty_side(text, judgement)
@@ -82,7 +84,11 @@ contains
                 call put_unreadable(error, judgement)
                 return
             end if
-            call judge_pair(left, right, chained, samples, library, explain, judgement)
+            if (statement%small) then
+                call judge_small(left, right, chained, samples, library, explain, judgement)
+            else
+                call judge_pair(left, right, chained, samples, library, explain, judgement)
+            end if
             if (judgement%verdict /= is_right .or. next > len(text)) return
             left = right
             chained = .true.
@@ -228,12 +234,57 @@ contains
             call explain_slip(judgement%residual, merge(left%count + 1, 1, chained), samples, &
                               values, library, judgement%remark)
             call put_example(left, right, samples, values, judgement%example)
-            associate (name => samples%symbols%names(samples%frequency))
-                call exchange(judgement%remark, trim(name), "_2", "^2")
-                call exchange(judgement%example, trim(name), "_2", "^2")
-            end associate
+            call put_squares(samples, judgement)
         end if
     end subroutine judge_pair
+
+    subroutine judge_small(left, right, chained, samples, library, explain, judgement)
+        !! One equality, to first order.
+        type(expression_t), intent(in) :: left, right
+        logical, intent(in) :: chained  !! the left side is known to be right
+        type(samples_t), intent(in) :: samples
+        type(library_t), intent(in) :: library(:)
+        logical, intent(in) :: explain
+        type(judgement_t), intent(inout) :: judgement
+        real(dp), allocatable :: values(:, :), shown(:, :)
+        logical :: judged, right_one
+
+        judgement%residual = left - right
+        call small_motion(judgement%residual, samples, values, shown, judgement%remark)
+        right_one = .false.
+        judged = judgement%remark == ""
+        if (judged) then
+            call holds(judgement%residual, values, right_one, judged)
+            if (.not. judged) judgement%remark = "no number at rest: a root, a logarithm or a "// &
+                                                 "division fails"
+        end if
+        if (.not. judged) then
+            judgement%verdict = is_unreadable
+        else if (.not. right_one) then
+            judgement%verdict = is_wrong
+            if (.not. explain) return
+            ! a change that makes it linear is better than one that makes a term negligible
+            call explain_slip(judgement%residual, merge(left%count + 1, 1, chained), samples, &
+                              shown, library, judgement%remark)
+            if (index(judgement%remark, "no single") == 1) then
+                call explain_slip(judgement%residual, merge(left%count + 1, 1, chained), &
+                                  samples, values, library, judgement%remark)
+            end if
+            call put_example(left, right, samples, shown, judgement%example)
+            call put_squares(samples, judgement)
+        end if
+    end subroutine judge_small
+
+    subroutine put_squares(samples, judgement)
+        !! `omega^2` where the formula has the name `omega_2`.
+        type(samples_t), intent(in) :: samples
+        type(judgement_t), intent(inout) :: judgement
+
+        associate (name => samples%symbols%names(samples%frequency))
+            call exchange(judgement%remark, trim(name), "_2", "^2")
+            call exchange(judgement%example, trim(name), "_2", "^2")
+        end associate
+    end subroutine put_squares
 
     pure function is_value(left, right, samples) result(yes)
         !! A parameter alone on the left, and a number on the right side.

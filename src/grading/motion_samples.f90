@@ -2,14 +2,17 @@ module lagrangia_motion_samples
     !! What a statement about a system may name, and the values of all these names on its motion: at
     !! states at random, with parameters at random, as the equations of motion have it.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+    use lagrangia_damped_rates, only: damping_matrix
     use lagrangia_description, only: default_values, description_t, name_length, value_names
+    use lagrangia_equilibrium, only: stiffness_beside
     use lagrangia_errors, only: error_t, fail
     use lagrangia_gauss_principle, only: masses_of, place_points
-    use lagrangia_hyperdual, only: hyperdual_t
+    use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
     use lagrangia_named_values, only: motion_state_t, path
     use lagrangia_parameter_choice, only: keep, spread_values
+    use lagrangia_random_draws, only: random_t
     use lagrangia_sample_names, only: axes, draws, follow_letters, name_symbols, &
                                       role_acceleration, role_frequency, role_known, samples_t, &
                                       states
@@ -37,12 +40,17 @@ contains
         type(error_t), allocatable :: refusal
         real(dp), allocatable :: values(:), given(:)
         logical, allocatable :: drawn_value(:), fixed(:)
+        logical :: damped
         integer :: draw, k
 
         call system%describe(d)
-        call name_symbols(system, d, samples)
-        allocate (samples%values(draws*states, size(samples%symbols%names)))
         call keep(d, said, settings, fixed, given, samples%kept)
+        damped = is_damped(system, d, fixed, given)
+        if (damped .and. allocated(d%letters)) then  ! they may be those of no drag, or of another
+            d%letters = pack(d%letters, d%letters%name /= "omega" .and. d%letters%name /= "gamma")
+        end if
+        call name_symbols(system, d, damped, samples)
+        allocate (samples%values(draws*states, size(samples%symbols%names)))
         allocate (drawn, source=system)
         draw = 0
         do k = 1, 20*draws
@@ -65,6 +73,43 @@ contains
             call move_away(samples, k)
         end do
     end subroutine new_samples
+
+    function is_damped(system, d, fixed, given) result(yes)
+        !! Has the system one coordinate, and at rest a drag that is as the velocity, with
+        !! parameters at random?
+        class(system_t), intent(in) :: system
+        type(description_t), intent(in) :: d
+        logical, intent(in) :: fixed(:)
+        real(dp), intent(in) :: given(:)
+        logical :: yes
+        class(system_t), allocatable :: drawn
+        type(error_t), allocatable :: error
+        type(modes_t) :: modes
+        type(random_t) :: random
+        type(hyperdual_t) :: still(1), moving(1)
+        real(dp) :: drag(1, 1), kept(size(given))
+        real(dp), allocatable :: values(:)
+        logical, allocatable :: drawn_value(:)
+
+        yes = .false.
+        if (system%ndof /= 1 .or. system%constraints > 0) return
+        allocate (drawn, source=system)
+        kept = given
+        call spread_values(d, drawn_value, fixed, kept, random)
+        call random%parameters(drawn, .false., values, error, fixed .or. drawn_value, kept)
+        if (allocated(error)) return
+        if (.not. drawn%nonconservative) return
+        call find_modes(drawn, likely_equilibrium(drawn), .false., modes, error)
+        if (allocated(error)) return
+        call damping_matrix(drawn, modes%at, drag)
+        yes = abs(drag(1, 1)) > 0.0_dp
+        if (.not. yes) return
+        ! of dry friction, say, the first term is no decay rate
+        call drawn%generalised_forces(hyperdual_t(), hyperdual(modes%at), [hyperdual_t()], still)
+        call drawn%generalised_forces(hyperdual_t(), hyperdual(modes%at), [hyperdual_t(1.0_dp)], &
+                                      moving)
+        yes = abs(moving(1)%re - still(1)%re + drag(1, 1)) <= 1e-9_dp*abs(drag(1, 1))
+    end function is_damped
 
     subroutine add_states(samples, system, d, draw, error)
         !! Fill the rows behind the first `draw` draws.
@@ -205,7 +250,9 @@ contains
             allocate (samples%omega2(draws, 2*n), source=0.0_dp)
             allocate (samples%equilibrium(n, draws), source=ieee_value(1.0_dp, ieee_quiet_nan))
             allocate (samples%stiffness(n, n, draws), samples%inertia(n, n, draws), source=0.0_dp)
+            allocate (samples%turning(n, n, draws), source=ieee_value(1.0_dp, ieee_quiet_nan))
         end if
+        if (samples%decay > 0) call put_rates(ieee_value(1.0_dp, ieee_quiet_nan), 0.0_dp)
         start = likely_equilibrium(system)
         call find_modes(system, start, .true., modes, error)
         if (allocated(error)) call find_modes(system, start, .false., modes, error)
@@ -215,6 +262,7 @@ contains
             samples%equilibrium(:, draw) = modes%at
             samples%stiffness(:, :, draw) = modes%stiffness
             samples%inertia(:, :, draw) = modes%mass
+            call add_forces(modes, samples%omega2(draw, :n))
         end if
         if (allocated(modes%analytic%elsewhere)) then
             start = modes%analytic%elsewhere
@@ -226,6 +274,47 @@ contains
         call find_modes(system, start, .true., others, error)
         if (allocated(error)) return
         samples%omega2(draw, n + 1:n + size(others%omega2)) = others%omega2
+        if (samples%decay > 0) call damp(others, samples%omega2(draw, n + 1:))
+    contains
+        subroutine add_forces(modes, omega2)
+            !! What is linear in the velocities; omega of a damped oscillation.
+            type(modes_t), intent(in) :: modes
+            real(dp), intent(inout) :: omega2(:)
+            real(dp), dimension(n, n) :: beside, drag
+            real(dp) :: free
+
+            call stiffness_beside(system, modes%at, beside)
+            call damping_matrix(system, modes%at, drag)
+            if (.not. any(abs(beside) > 0.0_dp) .and. .not. allocated(modes%basis)) then
+                samples%turning(:, :, draw) = modes%gyroscopic + drag
+            end if
+            if (samples%decay == 0) return
+            call damp(modes, omega2)
+            free = (modes%stiffness(1, 1) + beside(1, 1))/modes%mass(1, 1)
+            call put_rates(drag(1, 1)/(2.0_dp*modes%mass(1, 1)), free)
+        end subroutine add_forces
+
+        subroutine damp(modes, omega2)
+            !! \(\omega^2 = K/M - (C/2M)^2\).
+            type(modes_t), intent(in) :: modes
+            real(dp), intent(inout) :: omega2(:)
+            real(dp), dimension(1, 1) :: beside, drag
+
+            call stiffness_beside(system, modes%at, beside)
+            call damping_matrix(system, modes%at, drag)
+            omega2 = (modes%stiffness(1, 1) + beside(1, 1))/modes%mass(1, 1) - &
+                     (drag(1, 1)/(2.0_dp*modes%mass(1, 1)))**2
+        end subroutine damp
+
+        subroutine put_rates(gamma, free)
+            !! \(\gamma\) and \(\omega_0\), if that is a number, for all states of this draw.
+            real(dp), intent(in) :: gamma, free
+
+            associate (rows => samples%values((draw - 1)*states + 1:draw*states, :))
+                rows(:, samples%decay) = gamma
+                rows(:, samples%decay + 1) = sqrt(free)
+            end associate
+        end subroutine put_rates
     end subroutine add_modes
 
     subroutine move_away(samples, k)

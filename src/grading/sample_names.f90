@@ -49,6 +49,9 @@ module lagrangia_sample_names
         !! places of `x_bob`, `x_bob_dot`, ..., what the masses and rotors do
         integer :: frequency = 0                   !! place of omega, or of Omega if omega is taken;
         !! behind it that of its square, `omega_2`, which is negative where it is unstable
+        integer :: decay = 0
+        !! place of gamma, or of Gamma, where one coordinate is damped; behind it that of `omega_0`,
+        !! the frequency without the drag; 0: no drag
         character(:), allocatable :: kept          !! parameters that are zero: `a_s = 0`
         integer, allocatable :: rate(:)
         !! place of the symbol's time derivative, or 0
@@ -59,15 +62,18 @@ module lagrangia_sample_names
         real(dp), allocatable :: equilibrium(:, :)      !! at or near zero, (ndof, draws); NaN: none
         real(dp), allocatable :: stiffness(:, :, :)     !! and `inertia`, there, (ndof, ndof, draws)
         real(dp), allocatable :: inertia(:, :, :)
+        real(dp), allocatable :: turning(:, :, :)
+        !! what stands before the velocities there: gyroscopic forces and drag; NaN: not known
         type(random_t) :: random
     end type samples_t
 
 contains
 
-    subroutine name_symbols(system, d, samples)
+    subroutine name_symbols(system, d, damped, samples)
         !! All names, in one order.
         class(system_t), intent(in) :: system         !! of which the statements speak
         type(description_t), intent(in) :: d          !! its own
+        logical, intent(in) :: damped                 !! it has a decay rate
         type(samples_t), intent(inout) :: samples     !! gets names, roles, rates and letters
         character(name_length), allocatable :: names(:)
         character(name_length) :: name
@@ -109,6 +115,15 @@ contains
             call add("Omega_2", role_frequency)
         end if
         samples%frequency = size(samples%role) - 1  ! its square behind it
+        if (damped) then
+            if (samples%symbols%find("gamma") == 0) then
+                call add("gamma", role_known)
+            else
+                call add("Gamma", role_known)
+            end if
+            samples%decay = size(samples%role)
+            call add(trim(samples%symbols%names(samples%frequency))//"_0", role_known)
+        end if
         allocate (samples%rate(size(samples%role)))
         do i = 1, size(samples%rate)
             name = samples%symbols%names(i)

@@ -1,6 +1,7 @@
 module lagrangia_sampled_formula
     !! A formula's value at many samples at once, and what it would be with one node changed.
-    use lagrangia_expression, only: expression_t, function_value, kind_difference, kind_negation, &
+    use lagrangia_expression, only: expression_t, f_cos, f_sin, function_value, &
+                                    kind_difference, kind_negation, &
                                     kind_number, kind_power, kind_product, kind_quotient, &
                                     kind_sum, kind_symbol
     use lagrangia_kinds, only: dp
@@ -120,7 +121,11 @@ contains
                     sizes(:, i) = x*(sizes(:, node%left)/abs(results(:, node%left)))** &
                                   max(1.0_dp, abs(results(:, node%right)))
                 case default
-                    sizes(:, i) = (1.0_dp + x)*(1.0_dp + sizes(:, node%left))
+                    if (node%which == f_sin .or. node%which == f_cos) then
+                        sizes(:, i) = x + sizes(:, node%left)
+                    else
+                        sizes(:, i) = (1.0_dp + x)*(1.0_dp + sizes(:, node%left))
+                    end if
                 end select
                 sizes(:, i) = max(sizes(:, i), x)
             end associate

@@ -5,7 +5,7 @@ module lagrangia_slip_search
     use lagrangia_expression, only: apply, expression_t, f_abs, f_cos, f_cosh, f_sin, f_sinh, &
                                     f_sqrt, &
                                     function_names, kind_function, kind_number, &
-                                    kind_power, kind_symbol
+                                    kind_power, kind_quotient, kind_symbol
     use lagrangia_formula_text, only: formula_text
     use lagrangia_kinds, only: dp
     use lagrangia_sample_names, only: role_acceleration, role_coordinate, role_known, &
@@ -78,6 +78,7 @@ contains
         if (remark == "") call try_exponents(remark)
         if (remark == "") call try_factors(expression, samples, values, library, remark)
         if (remark == "") call try_numbers(remark)
+        if (remark == "") call try_squares(remark)
         if (remark == "") call try_missing_terms(expression, samples, values, library, remark)
         if (remark == "") call try_inner_factors(remark)
         if (remark == "") remark = "no single change of a sign, letter, dot, factor, function, "// &
@@ -245,6 +246,20 @@ contains
                 end do
             end do
         end subroutine try_inner_factors
+
+        subroutine try_squares(text)
+            !! A quotient whose square it must be.
+            character(:), allocatable, intent(out) :: text
+            integer :: i
+
+            text = ""
+            do i = 1, expression%count
+                if (expression%nodes(i)%kind /= kind_quotient) cycle
+                if (.not. mends(change_t(change_exponent, i, 0, 2.0_dp))) cycle
+                text = node_text(i)//" must be squared"//context(expression, samples, i)
+                return
+            end do
+        end subroutine try_squares
 
         function is_zero(k) result(yes)
             !! A parameter that nobody named and that is zero: with it any term goes away.

@@ -150,7 +150,7 @@ contains
     subroutine squared_frequencies(samples, draw, mass, stiffness, slope)
         !! Of \(M\ddot\delta + K\delta = 0\), which need not be symmetric, by LAPACK's `dgeev`; 0 if
         !! it is no equilibrium, has a complex one, or the true ones are not those of M and K.
-        type(samples_t), intent(inout) :: samples      !! gets `omega2` of this draw
+        type(samples_t), intent(inout) :: samples      !! gets `omega2` of this draw, M and K
         integer, intent(in) :: draw                    !! of parameters
         real(dp), intent(in) :: mass(:, :)             !! M, (ndof, ndof)
         real(dp), intent(in) :: stiffness(:, :)        !! K, as many
@@ -166,7 +166,13 @@ contains
         if (known) known = maxval(abs(slope)) <= equal*maxval(abs(stiffness))
         if (known) call solve(mass, stiffness, found, known)
         samples%omega2(draw, :) = 0.0_dp
-        if (known) samples%omega2(draw, :n) = found
+        if (known) then
+            samples%omega2(draw, :n) = found
+            samples%inertia(:, :, draw) = mass
+            samples%stiffness(:, :, draw) = stiffness
+        else
+            samples%turning(:, :, draw) = ieee_value(1.0_dp, ieee_quiet_nan)
+        end if
     contains
         subroutine solve(m, k, omega2, ok)
             real(dp), intent(in) :: m(n, n), k(n, n)
