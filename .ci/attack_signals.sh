@@ -57,7 +57,7 @@ check "four runs into one file: it is whole" eval 'diff -r "$work/alone" "$work/
 # A sweep: what is complete stays, and --resume gives the bytes of a sweep that nobody ended
 diagram=(sweep bifurcation --over f=1:1.5:300)
 kept() { # how many bytes of the sweep
-    stat -c %s "$work/sweep/bifurcation_sweep.dat.part" 2>/dev/null || echo 0
+    stat -c %s "$work/sweep/${diagram[1]}_sweep.dat.part" 2>/dev/null || echo 0
 }
 begin_sweep() { # begin_sweep WORDS...: in the background; returns when 10,000 bytes more are kept, of some 170,000
     local before=$(kept)
@@ -104,6 +104,19 @@ run "${diagram[@]}" --output "$work/sweep" --resume
 check "sweep: twice killed and once interrupted, the bytes are the same, and nothing else is left" eval '[ $status -eq 0 ] && diff -r "$work/whole" "$work/sweep" && leftovers "$work/sweep"'
 run "${diagram[@]}" --output "$work/sweep" --resume
 check "sweep: nothing to resume" eval '[ $status -eq 5 ] && one_line && diff -r "$work/whole" "$work/sweep"'
+
+# In lanes, by dop853, each trajectory with its own mass and to its own end
+diagram=(sweep double_pendulum --set "scene%method='dop853'" --set scene%tolerance=1e-9 --set scene%samples=1 --set scene%duration=60 --over m1=0.5:2:100 --over theta1=1:3:60 --keep theta2)
+rm -r "$work/whole" "$work/sweep"
+run "${diagram[@]}" --output "$work/whole"
+check "a sweep by dop853 in lanes that nobody ends" eval '[ $status -eq 0 ] && grep -q "by dop853 .*, in lanes" "$work/out" && leftovers "$work/whole"'
+for words in "--threads 2" "--resume --threads 1"; do
+    begin_sweep $words
+    ended KILL
+    check "in lanes: kill -9, $words, leaves what is complete" eval '[ $status -eq 137 ] && [ "$(kept)" -gt 10000 ] && [ ! -e "$work/sweep/double_pendulum_sweep.dat" ]'
+done
+run "${diagram[@]}" --output "$work/sweep" --resume --threads 2
+check "in lanes: twice killed, the bytes are the same, and nothing else is left" eval '[ $status -eq 0 ] && grep -q "were there already" "$work/out" && diff -r "$work/whole" "$work/sweep" && leftovers "$work/sweep"'
 
 # A signal in the middle of any command: it ends within seconds, whatever it is at
 begin_command() { # begin_command WORDS...: in the background; returns when it catches signals

@@ -368,6 +368,11 @@ contains
                      "coordinates='x', L='x_dot^2/2 + 50 x^2' / &sweep after=100 /", ["x=0:0:1"], &
                      both, 1, result, error, sweep)
         call assertEqual(10.0_dp, result%values(1, 1), 1e-8_dp, "and of e^120000")
+        call compute("&scene system='top', "//times//"duration=2, q=0 / &lagrangian "// &
+                     "coordinates='x', L='x_dot^2/2 + x^2/2' /", ["x=0:0:1"], ["lyapunov"], 1, &
+                     result, error, sweep)  ! from (1/2, -1/3) = (1 + 5, 1 - 5)/12 at once
+        call assertEqual(0.25_dp*log((exp(4.0_dp) + 25*exp(-4.0_dp))/26), result%values(1, 1), &
+                         1e-9_dp, "the displacement begins with the length 1")
         call compute("&scene system='pendulum', "//times//"duration=400, q=1 /", &
                      ["theta=0.5:2:2"], ["lyapunov"], 1, result, error, sweep)
         call assertEqual(0.0_dp, maxval(abs(result%values)), 0.03_dp, "ln(t)/t of a shear")

@@ -1,6 +1,7 @@
 module lagrangia_sweep_bench
     !! Many double pendulums: a sweep beside a loop over GSL's driver that OpenMP shares out, one
-    !! driver a thread, with C's right-hand side.
+    !! driver a thread, with C's right-hand side. Lyapunov exponents by GSL are those of a second
+    !! motion that begins beside the first.
     use, intrinsic :: iso_c_binding, only: c_loc, c_null_funptr
     use lagrangia_description, only: default_values, description_t, name_length
     use lagrangia_direct_rates, only: direct_context_t, direct_rates
@@ -26,6 +27,8 @@ module lagrangia_sweep_bench
     integer(i8), parameter :: steps = 1000                    !! of rk4
     real(dp), parameter :: start(4) = [0.5_dp, 0.8_dp, 0.0_dp, 0.0_dp]  !! q, v
     real(dp), parameter :: from = 0.45_dp, to = 0.55_dp       !! rad: the first angle
+    real(dp), parameter :: displacement(4) = 1e-6_dp* &
+        [1/2.0_dp, 1/3.0_dp, -1/3.0_dp, 1/4.0_dp]             !! as in `lagrangia_lyapunov`
     real(dp), parameter :: microseconds = 1e6_dp
 
     type :: way_t
@@ -34,33 +37,45 @@ module lagrangia_sweep_bench
         logical :: gsl = .false.
         character(8) :: method = ""
         real(dp) :: tolerance = 0.0_dp        !! 0: steps of fixed length
+        character(8) :: keep = "theta1"       !! the angle at the end, or the exponent
+        integer :: beside = 0                 !! number of the way by GSL
     end type way_t
+
+    type(way_t), parameter :: ways(*) = [ &  ! by tolerances that give 1e-9
+        way_t("rk4", .false., "rk4", beside=2), &
+        way_t("gsl_rk4", .true., "rk4", beside=2), &
+        way_t("gauss16", .false., "gauss16", 1e-9_dp, beside=5), &
+        way_t("dop853", .false., "dop853", 6e-10_dp, beside=5), &
+        way_t("gsl_rk8pd", .true., "rk8pd", 2e-9_dp, beside=5), &
+        way_t("lyapunov", .false., "gauss16", 1e-8_dp, "lyapunov", 7), &
+        way_t("gsl_lyapunov", .true., "rk8pd", 1e-12_dp, "lyapunov", 7)]
 
 contains
 
     subroutine measure_sweeps(plan, watcher, table, error)
         !! Microseconds a trajectory of 10 s; with 1000 steps of rk4, nanoseconds a step. The error
-        !! is the largest of the first angle at the end, against gauss16 at 1e-13.
+        !! is the largest of the first angle at the end, or of the Lyapunov exponent of these 10 s,
+        !! against gauss16 at 1e-13.
         type(effort_t), intent(in) :: plan                !! how much is measured
         class(observer_t), pointer, intent(in) :: watcher  !! told how far it is; may be null
         type(printed_table_t), intent(out) :: table       !! the result
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
-        type(way_t), parameter :: ways(*) = [ &
-            way_t("rk4", .false., "rk4", 0.0_dp), way_t("gsl_rk4", .true., "rk4", 0.0_dp), &
-            way_t("gauss16", .false., "gauss16", 1e-10_dp), &
-            way_t("dop853", .false., "dop853", 1e-10_dp), &
-            way_t("gsl_rk8pd", .true., "rk8pd", 1e-10_dp)]
-        real(dp), allocatable :: angles(:), reference(:)
+        real(dp), allocatable :: numbers(:), reference(:, :)
         real(dp) :: seconds(plan%rounds, size(ways)), gsl, worst(size(ways))
         integer :: count, i, pass, passes, round, threads
 
         count = merge(256, 1024, plan%quick)
-        allocate (angles(count), reference(count))
-        call table%begin("sweep", to_text(count)//" double pendulums over 10 s; rk4 by 1000 "// &
-                         "steps, so us_each is ns a step; over_gsl: GSL's time by ours", &
+        allocate (numbers(count), reference(count, size(ways)))
+        call table%begin("sweep", to_text(count)//" double pendulums over 10 s, to 1e-9; rk4 "// &
+                         "by 1000 steps, so us_each is ns a step; over_gsl: GSL's time by ours", &
                          [character(name_length) :: "method", "threads", "error", "us_each", &
                           "over_gsl"])
-        call take(way_t("", .false., "gauss16", 1e-13_dp), 1, reference, gsl, error)
+        do i = 1, size(ways)
+            call take(way_t("", .false., "gauss16", 1e-13_dp, ways(i)%keep), 1, numbers, gsl, &
+                      error)
+            if (allocated(error)) return
+            reference(:, i) = numbers
+        end do
         passes = merge(1, 2, thread_count(0) == 1)
         do pass = 1, passes
             threads = merge(1, thread_count(0), pass == 1)
@@ -70,13 +85,13 @@ contains
                         plan%rounds + round - 1)*size(ways) + i - 1, &
                         passes*plan%rounds*size(ways), error)
                     if (allocated(error)) return
-                    call take(ways(i), threads, angles, seconds(round, i), error)
-                    worst(i) = maxval(abs(angles - reference))
+                    call take(ways(i), threads, numbers, seconds(round, i), error)
+                    worst(i) = maxval(abs(numbers - reference(:, i)))
                 end do
             end do
             if (allocated(error)) return
             do i = 1, size(ways)
-                gsl = median(seconds(:, merge(2, size(ways), ways(i)%method == "rk4")))
+                gsl = median(seconds(:, ways(i)%beside))
                 call table%add([word_cell(ways(i)%name), count_cell(int(threads, i8)), &
                                 number_cell(worst(i), 2), &
                                 number_cell(median(seconds(:, i))/count*microseconds, 3), &
@@ -85,25 +100,25 @@ contains
         end do
     end subroutine measure_sweeps
 
-    subroutine take(way, threads, angles, seconds, error)
+    subroutine take(way, threads, numbers, seconds, error)
         !! All of them, one way.
         type(way_t), intent(in) :: way
         integer, intent(in) :: threads
-        real(dp), intent(out) :: angles(:), seconds
+        real(dp), intent(out) :: numbers(:), seconds
         type(error_t), allocatable, intent(out) :: error
 
         if (way%gsl) then
-            call take_gsl(way, threads, angles, seconds, error)
+            call take_gsl(way, threads, numbers, seconds, error)
         else
-            call take_sweep(way, threads, angles, seconds, error)
+            call take_sweep(way, threads, numbers, seconds, error)
         end if
     end subroutine take
 
-    subroutine take_sweep(way, threads, angles, seconds, error)
+    subroutine take_sweep(way, threads, numbers, seconds, error)
         !! As the command does it, in memory.
         type(way_t), intent(in) :: way
         integer, intent(in) :: threads
-        real(dp), intent(out) :: angles(:), seconds
+        real(dp), intent(out) :: numbers(:), seconds
         type(error_t), allocatable, intent(out) :: error
         class(system_t), allocatable :: system
         type(scene_t) :: scene
@@ -123,23 +138,23 @@ contains
                          to_text(start(1))//", "//to_text(start(2))//" /", "bench", none, scene, &
                          system, error)
         if (.not. allocated(error)) call new_sweep(sweep, scene, system, &
-            ["theta1 = "//to_text(from)//":"//to_text(to)//":"//to_text(size(angles))], &
-            ["theta1"], 1, 0.0_dp, error)
+            ["theta1 = "//to_text(from)//":"//to_text(to)//":"//to_text(size(numbers))], &
+            [way%keep], 1, 0.0_dp, error)
         if (.not. allocated(error)) call compute_grid(sweep, threads, nobody, result, error)
         if (allocated(error)) return
         seconds = result%seconds
         do block = 1, result%store%blocks
             call result%read_block(sweep, block, values, error)
             if (allocated(error)) return
-            angles(result%store%first_of(block):result%store%last_of(block)) = values(1, :)
+            numbers(result%store%first_of(block):result%store%last_of(block)) = values(1, :)
         end do
     end subroutine take_sweep
 
-    subroutine take_gsl(way, threads, angles, seconds, error)
+    subroutine take_gsl(way, threads, numbers, seconds, error)
         !! One driver a thread.
         type(way_t), intent(in) :: way
         integer, intent(in) :: threads
-        real(dp), intent(out) :: angles(:), seconds
+        real(dp), intent(out) :: numbers(:), seconds
         type(error_t), allocatable, intent(out) :: error
         real(dp), allocatable :: parameters(:)
         integer(i8) :: begun
@@ -147,41 +162,38 @@ contains
         call default_parameters(parameters, error)
         if (allocated(error)) return
         begun = ticks_now()
-        !$omp parallel num_threads(threads) default(none) shared(way, angles, parameters, error)
-        call take_share(way, parameters, angles, error)
+        !$omp parallel num_threads(threads) default(none) shared(way, numbers, parameters, error)
+        call take_share(way, parameters, numbers, error)
         !$omp end parallel
         seconds = seconds_since(begun)
     end subroutine take_gsl
 
-    subroutine take_share(way, parameters, angles, error)
+    subroutine take_share(way, parameters, numbers, error)
         !! What falls to one thread, by a driver of its own.
         type(way_t), intent(in) :: way
         real(dp), intent(in) :: parameters(:)
-        real(dp), intent(inout) :: angles(:)
+        real(dp), intent(inout) :: numbers(:)
         type(error_t), allocatable, intent(inout) :: error
         type(gsl_driver_t) :: driver
         type(direct_context_t), target :: context
         type(error_t), allocatable :: failure
-        real(dp) :: t, y(4)
+        real(dp) :: beside(4), y(4)
         integer :: i
 
         context%parameters(:size(parameters)) = parameters
         call driver%start(trim(way%method), 4, direct_rates("double_pendulum"), c_null_funptr, &
                           c_loc(context), duration/steps, max(way%tolerance, 1e-12_dp), failure)
         !$omp do schedule(dynamic, 8)
-        do i = 1, size(angles)
+        do i = 1, size(numbers)
             if (allocated(failure)) cycle
             y = start
-            y(1) = from + (to - from)*(i - 1)/(size(angles) - 1)
-            t = 0.0_dp
-            call driver%restart(duration/steps, failure)
-            if (allocated(failure)) cycle
-            if (way%tolerance > 0.0_dp) then
-                call driver%integrate(t, duration, y, failure)
-            else
-                call driver%fixed_steps(t, duration/steps, steps, y, failure)
-            end if
-            angles(i) = y(1)
+            y(1) = from + (to - from)*(i - 1)/(size(numbers) - 1)
+            beside = y + displacement
+            call go(driver, way, y, failure)
+            numbers(i) = y(1)
+            if (way%keep /= "lyapunov") cycle
+            call go(driver, way, beside, failure)
+            numbers(i) = log(norm2(beside - y)/norm2(displacement))/duration
         end do
         !$omp end do
         call driver%free()
@@ -189,6 +201,24 @@ contains
         if (allocated(failure)) error = failure
         !$omp end critical (lagrangia_sweep_bench)
     end subroutine take_share
+
+    subroutine go(driver, way, y, error)
+        !! From a start to its end, by GSL.
+        type(gsl_driver_t), intent(inout) :: driver
+        type(way_t), intent(in) :: way
+        real(dp), intent(inout) :: y(4)
+        type(error_t), allocatable, intent(inout) :: error
+        real(dp) :: t
+
+        t = 0.0_dp
+        if (.not. allocated(error)) call driver%restart(duration/steps, error)
+        if (allocated(error)) return
+        if (way%tolerance > 0.0_dp) then
+            call driver%integrate(t, duration, y, error)
+        else
+            call driver%fixed_steps(t, duration/steps, steps, y, error)
+        end if
+    end subroutine go
 
     subroutine default_parameters(values, error)
         !! Of the double pendulum.

@@ -52,7 +52,7 @@ contains
         type(variational_t), intent(in), optional :: variational
         !! of a system like this one, perhaps with other parameters: it need not be derived again
         type(displaced_t) :: displaced
-        real(dp) :: q(2*size(q0)), v(2*size(v0)), growth, start, finish
+        real(dp) :: q(2*size(q0)), v(2*size(v0)), finish, growth, length, start
         real(dp) :: rates(0:windows)  ! of each window; number 0 is before `after`
         integer :: i, k, n
         logical :: fits
@@ -70,6 +70,11 @@ contains
         if (.not. fits) call new_variational(displaced%exact, system)
         q = [q0, [(1.0_dp/(i + 1), i=1, n)]]
         v = [v0, [((-1.0_dp)**i/(i + 2), i=1, n)]]
+        if (.not. after > t0) then  ! else it has length 1 when the measuring begins
+            length = norm2([q(n + 1:), v(n + 1:)])
+            q(n + 1:) = q(n + 1:)/length
+            v(n + 1:) = v(n + 1:)/length
+        end if
         call method%prepare(displaced, error)
         if (allocated(error)) return
         start = t0
