@@ -29,5 +29,8 @@ while IFS= read -r row; do # `suite`: test, test
         grep -q "TestMethod(\"$name" test/*.f90 || complain "docs/reliability.md: there is no test $suite: $name"
     done
 done < <(awk -F'|' 'NF >= 4 { print $3 }' docs/reliability.md | grep -oE '`[a-z_ ]+`(: [a-z_, ]+)?')
+scenes=$(find data/scenes -name '*.nml' | wc -l)
+grep -q "of the $scenes rows" README.md || complain "README.md: the main job prints $scenes rows"
+[ "$(wc -l <README.md)" -lt 200 ] || complain "README.md has 200 lines or more"
 [ "$(wc -l <CONTRIBUTING.md)" -lt 250 ] || complain "CONTRIBUTING.md is too long for an evening"
 exit $bad

@@ -2,11 +2,13 @@
 """try_walks.py PAGE [--accept]: the commands and the Python of a page print what the page says.
 
 A ```console block is `$ command` and what it prints; a ```python block is followed by an ```output block.
-Pieces of Python share one interpreter. Times are not compared, nor digits that are only rounding. With
+A line `    lagrangia ...` or `    fpm run --profile release -- ...` in a plain block is run, ends with status 0
+(`grade` with 1), and the file that stands behind its # is then there. Pieces of Python share one interpreter. Times are not compared, nor digits that are only rounding. With
 --accept the page gets what was printed. Of a scorecard or a scene in a plain block each line is printed; docs/stress.md has the tables of one run. A notebook's cells are run the same way, its outputs compared."""
 import contextlib
 import io
 import json
+import os
 import re
 import subprocess
 import sys
@@ -60,6 +62,16 @@ def lines_of(command, block):
     printed = plain(shell(command))
     missing = "".join(line + "\n" for line in plain(block) if line not in printed)
     compare("some lines of $ " + command, "", missing)
+
+
+def listed(command, remark):
+    """A command that stands in a list: it ends well, and writes the file that its remark names."""
+    done = subprocess.run(["bash", "-c", command], text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT)
+    file = re.match(r"data/output/\S+\w", remark)
+    expected = (1 if " grade " in command else 0, bool(file))
+    got = (done.returncode, bool(file) and os.path.exists(file[0]))
+    compare(command, f"status, file: {expected}", f"status, file: {got}" + (done.stdout if got != expected else ""))
 
 
 def stress_rows(text):
@@ -120,6 +132,9 @@ else:
         lines_of("lagrangia", block)
     for block in re.findall(r"^```fortran\n((?:!.*\n)?&scene.*?)```", text, re.M | re.S):
         lines_of("lagrangia show cart_pendulum", block)
+    for command, remark in re.findall(r"^    (?:fpm run --profile release --|lagrangia) (.*?)(?: +# (.*))?$", text, re.M):
+        if not page.endswith("stress.md"):
+            listed("lagrangia " + command, remark)
     if page.endswith("stress.md"):
         text = stress_rows(text)
     result = re.sub(r"```console\n(.*?)```|```python\n(.*?)```\n```output\n(.*?)```", piece, text, flags=re.S)

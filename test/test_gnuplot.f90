@@ -28,6 +28,7 @@ contains
         call suite%addTest(TestMethod("a_text_is_no_command", a_text_is_no_command))
         call suite%addTest(TestMethod("marks_are_letters", marks_are_letters))
         call suite%addTest(TestMethod("columns_are_drawn_with_units", columns_are_drawn_with_units))
+        call suite%addTest(TestMethod("lines_end_where_they_end", lines_end_where_they_end))
         call suite%addTest(TestMethod("a_quantity_has_one_colour", a_quantity_has_one_colour))
         call suite%addTest(TestMethod("a_panel_has_different_colours", &
                                       a_panel_has_different_colours))
@@ -96,11 +97,17 @@ contains
                     colours(colour)//"'") > 0
     end function drawn
 
+    subroutine lines_end_where_they_end()
+        !! Blanks behind a line are nothing.
+        call assertEqual(0, index(script("a title", ["x", "y"]), " "//new_line("a")))
+    end subroutine lines_end_where_they_end
+
     subroutine a_panel_has_different_colours()
         !! A drift has the colour of what drifts; more quantities than colours begin again.
         character(*), parameter :: all_names(*) = [character(12) :: "t", "E", "A_x", "A_y", &
             "E_drift", "A_x_drift", "_drift", "a", "b", "c", "d", "e", "f"]
         type(panel_t) :: panels(4)
+        integer :: i
 
         panels(1)%curves = 2
         panels(1)%y(:2) = [3, 4]
@@ -110,12 +117,14 @@ contains
         panels(3)%y(:2) = [7, 2]
         panels(4)%curves = 8
         panels(4)%y = [8, 9, 10, 11, 12, 13, 7, 3]
-        panels(4)%colour = 5
         call colour_panels(panels, all_names)
         call assertEqual([1, 2], panels(1)%colour(:2))
         call assertEqual([2, 1], panels(2)%colour(:2), message="E is no A_x")
         call assertEqual([3, 2], panels(3)%colour(:2), message="E as its drift")
         call assertEqual([2, 4, 5, 6, 7, 8, 3, 1], panels(4)%colour)
+        do i = 1, size(panels)
+            panels(i)%colour = 0
+        end do
         panels(:)%curves = [8, 5, 5, 0]
         panels(1)%y = [2, 3, 4, 8, 9, 10, 11, 12]
         panels(2)%y(:5) = [2, 3, 4, 8, 13]

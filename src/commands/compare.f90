@@ -13,7 +13,7 @@ module lagrangia_compare
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_json, outcome_t
     use lagrangia_output_file, only: refuse_unwritable
-    use lagrangia_output_options, only: draw_picture, take_folder, take_picture
+    use lagrangia_output_options, only: is_told, show_picture, take_folder, take_picture
     use lagrangia_overlay, only: add_to_overlay, common_panels, compare_methods, compare_starts, &
                                  overlay_path, run_name, write_overlay
     use lagrangia_places, only: places_t
@@ -95,13 +95,12 @@ contains
         call write_overlay(folder, name, series, panels, title, remark, error)
         if (allocated(error)) return
         call put_results(line, runs, outcomes)
-        if (.not. (line%has("json") .or. line%has("quiet"))) call put_line("gnuplot script: "// &
-            script_path(overlay_path(folder, name)))
-        if (line%has("plot")) call draw_picture(overlay_path(folder, name), kind, &
-                                                line%has("quiet"), error)
+        if (is_told(line)) call put_line("gnuplot script: "// &
+                                         script_path(overlay_path(folder, name)))
+        if (line%has("plot")) call show_picture(overlay_path(folder, name), kind, line, error)
         if (.not. line%has("animate") .or. allocated(error)) return
         call animate_both(runs(1)%plan, runs(2)%plan, film_path(overlay_path(folder, name)), error)
-        if (allocated(error) .or. line%has("json") .or. line%has("quiet")) return
+        if (allocated(error) .or. .not. is_told(line)) return
         call put_line("film: "//film_path(overlay_path(folder, name)))
     end subroutine compare_command
 

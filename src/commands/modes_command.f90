@@ -16,7 +16,7 @@ module lagrangia_modes_command
     use lagrangia_number_list, only: read_numbers
     use lagrangia_number_text, only: scientific
     use lagrangia_output_file, only: refuse_unwritable
-    use lagrangia_output_options, only: draw_picture, take_folder, take_picture
+    use lagrangia_output_options, only: is_told, show_picture, take_folder, take_picture
     use lagrangia_progress, only: progress_t
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, &
@@ -96,6 +96,9 @@ contains
             if (elsewhere) call print_modes(system, others)
         end if
         if (line%has("animate")) call animate_modes(system, figure, modes, page, error)
+        if (line%has("animate") .and. is_told(line) .and. .not. allocated(error)) then
+            call put_line("film: "//page)
+        end if
         if (allocated(error) .or. .not. (line%has("output") .or. line%has("plot"))) return
         call progress%restart(line%arguments(1)%text, line%has("quiet"))
         do j = 1, size(modes%omega2)
@@ -104,10 +107,12 @@ contains
             call progress%tick(int(j, i8), size(modes%omega2, kind=i8))
         end do
         call progress%clear()
-        if (allocated(error) .or. interrupt_status() /= 0 .or. .not. has_positions(system)) return
+        if (allocated(error) .or. interrupt_status() /= 0) return
+        if (is_told(line)) call put_line("data files and gnuplot scripts: "//folder)
+        if (.not. has_positions(system)) return
         call write_mode_picture(system, figure, modes, folder, error)
         if (allocated(error) .or. .not. line%has("plot")) return
-        call draw_picture(mode_picture_path(system, folder), kind, line%has("quiet"), error)
+        call show_picture(mode_picture_path(system, folder), kind, line, error)
     end subroutine modes_command
 
     subroutine print_modes(system, modes)

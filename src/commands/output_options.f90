@@ -1,13 +1,14 @@
 module lagrangia_output_options
     !! What commands that write files have in common: `--output`, `--plot`, and how it is drawn.
     use lagrangia_command_line, only: command_line_t
-    use lagrangia_data_files, only: check_picture
+    use lagrangia_console, only: put_line
+    use lagrangia_data_files, only: check_picture, picture_path
     use lagrangia_drawing, only: draw
     use lagrangia_errors, only: error_t, fail
     use lagrangia_progress, only: progress_t
     implicit none (type, external)
     private
-    public :: draw_picture, take_folder, take_picture
+    public :: draw_picture, is_told, show_picture, take_folder, take_picture
 
 contains
 
@@ -43,4 +44,23 @@ contains
         call draw(path, kind, error, progress)
         call progress%clear()
     end subroutine draw_picture
+
+    subroutine show_picture(path, kind, line, error)
+        !! The same, and say where the picture is.
+        character(*), intent(in) :: path, kind  !! as `draw` takes them
+        type(command_line_t), intent(in) :: line  !! what was typed
+        type(error_t), allocatable, intent(out) :: error  !! as that of `draw`
+
+        call draw_picture(path, kind, line%has("quiet"), error)
+        if (is_told(line) .and. .not. allocated(error)) call put_line("picture: "// &
+            picture_path(path, kind))
+    end subroutine show_picture
+
+    pure function is_told(line) result(yes)
+        !! The output is for people.
+        type(command_line_t), intent(in) :: line  !! what was typed
+        logical :: yes
+
+        yes = .not. (line%has("json") .or. line%has("quiet"))
+    end function is_told
 end module lagrangia_output_options

@@ -11,7 +11,7 @@ module lagrangia_principle
     use lagrangia_ledger, only: group_length
     use lagrangia_ledger_text, only: statement_head, statement_json, statement_line
     use lagrangia_output_file, only: commit_both, output_file_t, refuse_unwritable
-    use lagrangia_output_options, only: draw_picture, take_folder, take_picture
+    use lagrangia_output_options, only: show_picture, take_folder, take_picture
     use lagrangia_places, only: places_t
     use lagrangia_principles, only: find_first_line, principle_report, principles
     use lagrangia_report, only: picture_t, report_t
@@ -55,7 +55,7 @@ contains
         else
             call put_report(report, file)
         end if
-        if (line%has("plot")) call draw_picture(file, kind, line%has("quiet"), error)
+        if (line%has("plot")) call show_picture(file, kind, line, error)
         if (allocated(error)) return
         if (report%broken() > 0) call fail(error, to_text(report%broken())//" of "// &
             to_text(size(report%rows))//" statements are not as they must be", status_not_held)

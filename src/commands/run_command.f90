@@ -5,7 +5,7 @@ module lagrangia_run_command
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: note, put, put_line
     use lagrangia_data_files, only: check_format, data_path, film_path, &
-                                    script_path
+                                    picture_path, script_path
     use lagrangia_errors, only: error_t, fail, is_signal, status_not_held
     use lagrangia_final_values, only: final_values_legend, final_values_line
     use lagrangia_gnuplot, only: panel_t, series_t
@@ -131,7 +131,9 @@ contains
             if (line%command == "") call put_line("'lagrangia run NAME' says more: steps, "// &
                                                   "period, omega")
             if (stated) call put(final_values_legend//new_line("a"))
-            call put_line("data files and gnuplot scripts: "//folder)
+            call put_line(files_line(line)//": "//folder)
+            if (line%has("overlay") .and. .not. allocated(error)) call put_line( &
+                "all in one picture: "//overlay_file(folder, kind, line%has("plot")))
         end if
         if (missed > 0 .and. .not. allocated(error)) call fail(error, to_text(missed)//" of "// &
             to_text(size(chosen))//" scenes did not hold their tolerances", status_not_held)
@@ -152,6 +154,29 @@ contains
             call draw_picture(outcome%events, kind, line%has("quiet"), error)
         end subroutine run_one
     end subroutine run_command
+
+    pure function files_line(line) result(text)
+        !! What lies in the folder.
+        type(command_line_t), intent(in) :: line
+        character(:), allocatable :: text
+
+        text = "data files and gnuplot scripts"
+        if (line%has("plot")) text = "data files, gnuplot scripts and pictures"
+        if (line%has("animate")) text = "data files, gnuplot scripts and films"
+        if (line%has("plot") .and. line%has("animate")) then
+            text = "data files, gnuplot scripts, pictures and films"
+        end if
+    end function files_line
+
+    pure function overlay_file(folder, kind, drawn) result(path)
+        !! The picture of all runs, or the script that draws it.
+        character(*), intent(in) :: folder, kind
+        logical, intent(in) :: drawn
+        character(:), allocatable :: path
+
+        path = script_path(overlay_path(folder, overlay))
+        if (drawn) path = picture_path(overlay_path(folder, overlay), kind)
+    end function overlay_file
 
     subroutine warn(one, folder, format, quiet, text)
         !! What is to be known of a scene before it runs.

@@ -2,7 +2,7 @@ module lagrangia_sweep_command
     !! `lagrangia sweep SCENE`: many trajectories of a scene, and a number or more of each.
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: note, put_line
-    use lagrangia_data_files, only: check_format, data_path, path_beside
+    use lagrangia_data_files, only: check_format, data_path, path_beside, script_path
     use lagrangia_disk_space, only: free_space, short, space_warning
     use lagrangia_errors, only: error_t, fail, status_library
     use lagrangia_images, only: image_count, image_number
@@ -13,7 +13,7 @@ module lagrangia_sweep_command
     use lagrangia_number_reader, only: to_integer
     use lagrangia_number_text, only: field_width, scientific
     use lagrangia_observer, only: observer_t
-    use lagrangia_output_options, only: draw_picture, take_folder, take_picture
+    use lagrangia_output_options, only: show_picture, take_folder, take_picture
     use lagrangia_places, only: places_t
     use lagrangia_progress, only: progress_t
     use lagrangia_resources, only: check_memory
@@ -95,7 +95,7 @@ contains
         else if (.not. quiet) then
             call put_summary(sweep, result, threads, path)
         end if
-        if (line%has("plot")) call draw_picture(path, kind, quiet, error)
+        if (line%has("plot")) call show_picture(path, kind, line, error)
     end subroutine sweep_command
 
     subroutine leave(result, path, error)
@@ -298,6 +298,7 @@ contains
             end associate
         end do
         call put_line("data file: "//path)
+        call put_line("gnuplot script: "//script_path(path))
     contains
         pure function unit(text)
             character(*), intent(in) :: text

@@ -10,7 +10,7 @@ module lagrangia_data_files
     implicit none (type, external)
     private
     public :: check_format, check_picture, data_path, event_path, film_path, new_table
-    public :: path_beside, pictures, scene_path, script_path
+    public :: path_beside, picture_path, pictures, scene_path, script_path
 
     character(4), parameter :: formats(3) = ["text", "csv ", "npy "]
     character(3), parameter :: pictures(3) = ["png", "svg", "pdf"]  !! what `draw` makes
@@ -98,6 +98,16 @@ contains
         if (any(path(dot:) == endings(2:))) dot = len(path) + 1
         script = path(:dot - 1)//".gp"
     end function script_path
+
+    pure function picture_path(path, kind) result(picture)
+        !! The picture that gnuplot draws of a data file.
+        character(*), intent(in) :: path  !! of the data file
+        character(*), intent(in) :: kind  !! of `pictures`
+        character(:), allocatable :: picture
+
+        picture = script_path(path)
+        picture = picture(:len(picture) - len("gp"))//kind
+    end function picture_path
 
     pure function film_path(path) result(film)
         !! The animation beside a data file.

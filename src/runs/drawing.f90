@@ -1,6 +1,6 @@
 module lagrangia_drawing
     !! The pictures that gnuplot makes of data files, by the scripts beside them.
-    use lagrangia_data_files, only: pictures, script_path
+    use lagrangia_data_files, only: picture_path, pictures, script_path
     use lagrangia_errors, only: error_t, fail, status_file
     use lagrangia_files, only: facts_t, look_at, plain_path, read_whole_file
     use lagrangia_interrupt, only: interrupt_status
@@ -31,7 +31,7 @@ contains
         logical :: ended
 
         script = script_path(path)
-        call picture%open(script(:len(script) - 2)//kind, error)
+        call picture%open(picture_path(path, kind), error)
         if (allocated(error)) return
         words(1)%text = "gnuplot"
         words(2)%text = "-d"  ! not the user's start-up file
@@ -52,7 +52,7 @@ contains
             "status "//to_text(status)//" on '"//script//"'", status_file)
         if (.not. allocated(error)) then
             if (.not. ends_well(picture%temporary_name(), kind)) call fail(error, "gnuplot did "// &
-                "not finish '"//script(:len(script) - 2)//kind//"': no space left, or it knows "// &
+                "not finish '"//picture_path(path, kind)//"': no space left, or it knows "// &
                 "no "//kind, status_file)
         end if
         if (allocated(error)) then

@@ -16,14 +16,11 @@ contains
         !! Each quantity, in the order of the panels, gets the first colour that no other one has in
         !! any panel that it stands in; a drift has the colour of what drifts. What is drawn over
         !! another column is a path, not that quantity over the time.
-        type(panel_t), intent(inout) :: panels(:)  !! get `colour`
+        type(panel_t), intent(inout) :: panels(:)  !! get `colour`, which is 0 before
         character(*), intent(in) :: names(:)       !! of the columns
         logical :: taken(size(colours))
         integer :: i, k, n, other, chosen
 
-        do i = 1, size(panels)
-            panels(i)%colour = 0
-        end do
         do i = 1, size(panels)
             do k = 1, panels(i)%curves
                 if (panels(i)%colour(k) > 0) cycle
