@@ -418,6 +418,12 @@ for words in "sweep bifurcation --set sweep%strobe=w0" "sweep section --set swee
     run $words --output "$work/sweep"
     check "$words: one line, status 2" eval '[ $status -eq 2 ] && [ "$(wc -l <"$work/err")" -eq 1 ] && [ ! -s "$work/out" ]'
 done
+run sweep flip_map --keep thta2 --output "$work/sweep"
+check "sweep: what the command line has is not blamed on the file" eval '[ $status -eq 2 ] && ! grep -q "&sweep" "$work/err" && grep -q thta2 "$work/err"'
+mkfifo "$work/sweep/flip_map_sweep.dat.part"
+run sweep flip_map --output "$work/sweep" --resume
+check "sweep: a pipe in the place of what was computed is refused" eval '[ $status -eq 5 ] && grep -q "is not a file that a sweep has written" "$work/err"'
+rm "$work/sweep/flip_map_sweep.dat.part"
 cat >"$work/double_pendulum_chaos.nml" <<'END'
 &scene
   title = 'How chaotic is a double pendulum? One exponent, from twenty starts of one energy'

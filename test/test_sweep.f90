@@ -179,16 +179,17 @@ contains
 
     subroutine bad_sweeps_are_refused()
         !! What is kept, too, with the key to blame.
-        character(*), parameter :: bad(3, 9) = reshape([character(40) :: &
+        character(*), parameter :: bad(3, 10) = reshape([character(40) :: &
             "q=0:1:3", "thta", "did you mean 'theta'?", &
             "q=0:1:3", "max thta", "did you mean 'theta'?", &
             "q=0:1:3", "period thta", "a coordinate is needed", &
             "q=0:1:3", "flip x", "a coordinate is needed", &
             "q=0:1:3", "error", "no closed form", &
             "q=0:1:3", "", "what is to be kept?", &
-            "q=0:1:3", "max", "unknown column ''", &
+            "q=0:1:3", "max", "of what", &
+            "q=0:1:3", "first", "of what", &
             "q=0:1:", "theta", "a whole number of values", &
-            "q=-inf:1:3", "theta", "inf"], [3, 9])
+            "q=-inf:1:3", "theta", "inf"], [3, 10])
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
         integer :: i
@@ -202,6 +203,8 @@ contains
         end do
         call make(pendulum, ["q=0:1:3", "q=1:2:3"], ["theta"], sweep, error)
         call assertTrue(allocated(error), "both axes the same")
+        call make(pendulum, ["q=0:1:3    ", "theta=1:2:3"], ["theta"], sweep, error)
+        call assertTrue(allocated(error), "by two names")
         call make(pendulum, [character(8) ::], ["theta"], sweep, error)
         call assertTrue(allocated(error), "no axis")
         call make(pendulum, ["q=0:1:3"], ["theta", "theta"], sweep, error)

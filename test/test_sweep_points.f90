@@ -330,7 +330,7 @@ contains
 
     subroutine bad_points_are_refused()
         !! With the key to blame.
-        character(*), parameter :: bad(4, 14) = reshape([character(70) :: &
+        character(*), parameter :: bad(4, 15) = reshape([character(70) :: &
             "strobe='1', section='x = 0'", "x", "section", "either", &
             "", "attractor", "keep", "strobe =", &
             "strobe='1/ '", "x", "strobe", "", &
@@ -342,9 +342,10 @@ contains
             "strobe='1'", "period", "keep", "columns are kept", &
             "section='x = 0'", "max x", "keep", "columns are kept", &
             "strobe='1'", "wrapped x", "keep", "only an angle", &
+            "strobe='1'", "flip x", "keep", "only an angle", &
             "energy_by='y_dot'", "x", "energy_by", "did you mean 'x_dot'", &
             "energy_by='x'", "x", "energy_by", "x_dot", &
-            "energy_by='x_dot'", "t", "", ""], [4, 14])
+            "energy_by='x_dot'", "t", "", ""], [4, 15])
         type(sweep_numbers_t) :: result
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
@@ -365,6 +366,8 @@ contains
         end do
         call make(oscillator//"&sweep energy_by='x_dot' /", ["x_dot=0:1:3"], ["x"], sweep, error)
         call assertTrue(allocated(error), "an axis cannot be chosen by the energy")
+        call make(oscillator//"&sweep energy_by='x_dot' /", ["v=0:1:3"], ["x"], sweep, error)
+        call assertTrue(allocated(error), "by no name")
         call make(oscillator//"&sweep points=0 /", ["x=0:1:3"], ["x"], sweep, error)
         call assertTrue(allocated(error), "no points")
         call make(oscillator//"&sweep section='x 0' /", ["x=0:1:3"], ["x"], sweep, error)

@@ -66,7 +66,7 @@ contains
         if (.not. allocated(error)) call read_scene(path, line%values_of("set"), scene, system, &
                                                     error)
         if (.not. allocated(error)) call take_options(line, scene, error)
-        if (.not. allocated(error)) call plan(scene, system, sweep, error)
+        if (.not. allocated(error)) call plan(line, scene, system, sweep, error)
         if (.not. allocated(error)) call claim(scene, folder, format, path, error)
         if (allocated(error) .and. image_number() > 1) error%message = ""  ! image 1 has said it
         if (allocated(error)) return
@@ -218,8 +218,9 @@ contains
         end subroutine take_number
     end subroutine take_options
 
-    subroutine plan(scene, system, sweep, error)
+    subroutine plan(line, scene, system, sweep, error)
         !! The sweep; what is refused is refused where it stands in the file, if it stands there.
+        type(command_line_t), intent(in) :: line
         type(scene_t), intent(inout) :: scene
         class(system_t), intent(in) :: system
         type(sweep_t), intent(out) :: sweep
@@ -230,7 +231,7 @@ contains
                        scene%sweep%seed, scene%sweep%after, error)
         if (.not. allocated(error)) return
         if (.not. (allocated(error%key) .and. allocated(scene%file))) return
-        if (.not. has_key(scene%file, "sweep", error%key)) return
+        if (line%has(error%key) .or. .not. has_key(scene%file, "sweep", error%key)) return
         call refuse_value(scene%file, "sweep", error%key, error%message, located, error%element)
         call move_alloc(located, error)
     end subroutine plan
@@ -282,7 +283,9 @@ contains
         if (result%in_lanes) how = how//", in lanes"
         if (result%resumed > 0) how = how//"; "//to_text(result%resumed)//" were there already"
         call put_line(trim(sweep%scene%name)//": "//to_text(sweep%trajectories())// &
-                      " trajectories by "//trim(sweep%scene%method)//" in "// &
+                      trim(merge(" trajectory  ", " trajectories", &
+                                 sweep%trajectories() == 1))//" by "// &
+                      trim(sweep%scene%method)//" in "// &
                       scientific(result%seconds, 3)//" s"//how)
         width = maxval(len_trim(sweep%kept%text)) + 2
         do i = 1, size(sweep%kept)
@@ -318,7 +321,8 @@ contains
             if (sweep%keeps_points) then
                 text = " in "//to_text(found)//" points"
             else if (number > 0) then
-                text = "; "//to_text(number)//" of them have none"
+                text = "; "//to_text(number)//" of them "// &
+                       trim(merge("has ", "have", number == 1))//" none"
             end if
         end function missing
     end subroutine put_summary

@@ -120,6 +120,8 @@ contains
                 call fail(error, "what is to be kept? a column, 'max COLUMN', 'min COLUMN', "// &
                           "'wrapped ANGLE', 'period', 'exact period', 'first EVENT', "// &
                           "'flip ANGLE', 'lyapunov', 'attractor'")
+            else if (any(text == ["first", "max  ", "min  "])) then
+                call fail(error, "what is wanted of what? 'first theta = 0.5 rising', 'max COLUMN'")
             else if (text == "exact period") then
                 this%kind = keeps_exact_period
                 this%unit = "s"
@@ -130,10 +132,7 @@ contains
                 this%kind = keeps_attractor
             else if (first == "wrapped") then
                 this%kind = keeps_wrapped
-                call take_coordinate(rest, this%coordinate)
-                if (allocated(error)) return
-                if (d%coordinates(this%coordinate)%unit /= "rad") call fail(error, "only an "// &
-                    "angle can be wrapped, and "//trim(coordinates(this%coordinate))//" is none")
+                call take_angle(rest, "be wrapped", this%coordinate)
                 if (.not. allocated(error)) call take_column(trim(coordinates(this%coordinate)), &
                                                              this%column)
             else if (first == "period") then
@@ -143,7 +142,7 @@ contains
             else if (first == "flip") then
                 this%kind = keeps_flip
                 this%unit = "s"
-                call take_coordinate(rest, this%coordinate)
+                call take_angle(rest, "go over the top", this%coordinate)
                 if (allocated(error)) return
                 this%events = size(events) + [1, 2]
                 rest = trim(coordinates(this%coordinate))
@@ -182,6 +181,17 @@ contains
             if (which == 0) call fail(error, "a coordinate is needed, not "//quoted(name)//"; "// &
                                       advice(name, coordinates))
         end subroutine take_coordinate
+
+        subroutine take_angle(name, what, which)
+            !! A coordinate that can do `what`.
+            character(*), intent(in) :: name, what
+            integer, intent(out) :: which
+
+            call take_coordinate(name, which)
+            if (allocated(error)) return
+            if (d%coordinates(which)%unit /= "rad") call fail(error, "only an angle can "//what// &
+                ", and "//trim(coordinates(which))//" is none")
+        end subroutine take_angle
 
         subroutine add_event(text)
             character(*), intent(in) :: text

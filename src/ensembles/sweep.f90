@@ -94,7 +94,7 @@ contains
             end if
         end do
         if (size(over) == 2) then
-            if (sweep%axes(1)%name == sweep%axes(size(over))%name) then
+            if (sweep%axes(1)%changes_the_same(sweep%axes(size(over)))) then
                 call fail(error, "both axes change "//trim(sweep%axes(1)%name), key="over")
                 return
             end if
@@ -175,7 +175,7 @@ contains
             if (sweep%energy_by == 0) then
                 call fail(error, "a velocity is needed, not "//quoted(trim(by))//"; "// &
                           advice(trim(by), names), key="energy_by")
-            else if (any(sweep%axes%name == by)) then
+            else if (any(sweep%axes%is_velocity(sweep%energy_by))) then
                 call fail(error, trim(by)//" cannot be an axis and be chosen by the energy", &
                           key="energy_by")
             else if (sweep%system%constraints > 0) then

@@ -36,6 +36,8 @@ module lagrangia_sweep_axis
     contains
         procedure :: set
         procedure :: is_parameter
+        procedure :: is_velocity
+        procedure :: changes_the_same
     end type sweep_axis_t
 
     type :: sweep_axis_box_t
@@ -232,6 +234,24 @@ contains
         case default; parameters(self%element) = self%values(which)
         end select
     end subroutine set
+
+    elemental function is_velocity(self, number) result(yes)
+        !! It changes this one.
+        class(sweep_axis_t), intent(in) :: self
+        integer, intent(in) :: number  !! of the velocity
+        logical :: yes
+
+        yes = self%kind == of_velocity .and. self%element == number
+    end function is_velocity
+
+    pure function changes_the_same(self, other) result(yes)
+        !! The same number, perhaps by another name.
+        class(sweep_axis_t), intent(in) :: self
+        type(sweep_axis_t), intent(in) :: other  !! another axis
+        logical :: yes
+
+        yes = self%kind == other%kind .and. self%element == other%element
+    end function changes_the_same
 
     elemental function is_parameter(self) result(yes)
         !! It changes the system, not only its start.

@@ -116,7 +116,9 @@ contains
         do
             facts = look_at(part_name(self%path, i))
             if (.not. facts%found) exit
-            call add_part(self, i, "r", error)
+            if (.not. facts%regular) call fail(error, "'"//part_name(self%path, i)// &
+                "' is not a file that a sweep has written", status_file)
+            if (.not. allocated(error)) call add_part(self, i, "r", error)
             if (.not. allocated(error)) call scan_part(self, i, error)
             if (allocated(error)) exit
             i = i + 1
