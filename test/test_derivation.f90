@@ -282,7 +282,8 @@ contains
             "l1 theta1_ddot + l2 theta2_ddot + g theta2 = 0"])
         call reads("rotating_hoop", [character(100) :: &
             "theta_ddot = omega^2 sin(theta) cos(theta) - g/r sin(theta)", &
-            "Omega^2 = g/r - omega^2"])
+            "Omega^2 = g/r - omega^2", "cos(theta) = g/(omega^2 r)", &
+            "Omega^2 = -g^2/(r^2 omega^2) + omega^2"])
         call reads("driven_pendulum", [character(100) :: &
             "theta_ddot = -sin(theta) (g - a W^2 cos(W t))/l"])
     end subroutine reads_like_the_page

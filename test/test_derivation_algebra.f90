@@ -8,6 +8,7 @@ module test_derivation_algebra
     use lagrangia_formula_latex, only: latex
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_formula_program, only: formula_program_t, new_formula_program
+    use lagrangia_formula_size, only: evaluate
     use lagrangia_formula_text, only: formula_text
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
@@ -31,6 +32,7 @@ contains
                                       derivatives_are_exact))
         call suite%addTest(TestMethod("what_is_laid_out_keeps_its_value", layout_keeps_values))
         call suite%addTest(TestMethod("sines_and_cosines_are_joined", sines_are_joined))
+        call suite%addTest(TestMethod("roots_are_squared", roots_are_squared))
         call suite%addTest(TestMethod("long_formulas_are_broken", long_formulas_are_broken))
         call suite%addTest(TestMethod("products_of_sums_are_recognised", &
                                       products_of_sums_are_recognised))
@@ -161,6 +163,48 @@ contains
         end subroutine compare
 
     end subroutine sines_are_joined
+
+    subroutine roots_are_squared()
+        !! What is printed, and that it is the same number where the root is one.
+        call squared("sqrt(l^2 - x^2)^2", "l^2 - x^2")
+        call squared("sqrt(l^2 - x^2)^3", "l^2 sqrt(l^2 - x^2) - x^2 sqrt(l^2 - x^2)")
+        call squared("m x/sqrt(l^2 - x^2)^2", "m x/(l^2 - x^2)")
+        call squared("m/sqrt(l^2 - x^2)^3", "m/((l^2 - x^2) sqrt(l^2 - x^2))")
+        call squared("m/sqrt(l - x) + x sqrt(l - x)", "m/sqrt(l - x) + x sqrt(l - x)")
+        call squared("sqrt(l x)^2/sqrt(m)^4", "l x/m^2")
+        call squared("sqrt(l + sqrt(m)^2)^4", "(l + m)^2")
+        call squared("sqrt(x^2)", "sqrt(x^2)")
+        call squared("(l^2 - x^2)^(1/2)", "(l^2 - x^2)^(1/2)")
+    contains
+        subroutine squared(text, expected)
+            character(*), intent(in) :: text, expected
+            type(symbols_t) :: symbols
+            type(algebra_t) :: algebra
+            type(expression_t) :: e
+            type(polynomial_t) :: p, q
+            type(error_t), allocatable :: error
+            real(dp), parameter :: at(3) = [0.7_dp, 1.9_dp, 0.37_dp]
+            real(dp) :: noise, was, is
+            integer :: roles(3)
+
+            call three_names(symbols, algebra, roles)
+            call parse_formula(text, symbols, e, error)
+            call evaluate(e, at, was, noise)
+            call algebra%from_expression(e, p)
+            call tidy(algebra, p)
+            call lay_out(algebra, roles, p, e)
+            call evaluate(e, at, is, noise)
+            call assertEqual(was, is, 1e-14_dp*abs(was), message=text)
+            call assertTrue(index(formula_text(e, symbols), "sqrt") > 0 .eqv. &
+                            index(expected, "sqrt") > 0, message=formula_text(e, symbols))
+            call assertTrue(index(formula_text(e, symbols), ")^") == 0 .or. &
+                            index(expected, ")^") > 0, message=formula_text(e, symbols))
+            call parse_formula(expected, symbols, e, error)
+            call algebra%from_expression(e, q)
+            call evaluate(e, at, is, noise)
+            call assertEqual(was, is, 1e-14_dp*abs(was), message=expected)
+        end subroutine squared
+    end subroutine roots_are_squared
 
     subroutine long_formulas_are_broken()
         type(symbols_t) :: symbols

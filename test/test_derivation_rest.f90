@@ -120,7 +120,7 @@ contains
                    "definitions = 'lambda = k/m', 'omega = k' "// &
                    "V = 'lambda m/2 (x^2 + x y + y^2) + omega x y/3' "// &
                    "Q_x = '-b x_dot' Q_y = '-b (y_dot - x_dot) - k x/3'", "B12 = -m w|B22 = b|"// &
-                   "q goes as exp(Lambda t): det(Lambda^2 M + Lambda C + K) = 0")
+                   "q goes as exp(Lambda t): det(Lambda^2 M + Lambda B + K) = 0")
         call holds(two//"T = 'm/2 ((x_dot - w y)^2 + (y_dot + w x)^2)'", "omega^2 = w^2")
     end subroutine drag_of_two
 

@@ -174,6 +174,10 @@ contains
         call apply_override(tree, "a%s=42", error)
         call get_string(tree, "a", "s", s, error)
         call failed(error, "--set a%s=42: &a: s = 42: a text is needed, in quotes: '42'")
+        call apply_override(tree, "a%names=f(i, 1)", error)
+        call get_strings(tree, "a", "names", 1, 3, names, error)
+        call failed(error, "--set a%names=f(i, 1): &a: names = 1: a text is needed, in quotes: "// &
+            "'1'; a text with commas has quotes around all of it: --set ""a%names='f(i, 1)'""")
     end subroutine types
 
     subroutine counts()

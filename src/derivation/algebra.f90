@@ -36,6 +36,7 @@ module lagrangia_algebra
         type(atom_t), allocatable :: atoms(:)   !! (most_atoms)
         logical :: full = .false.               !! more atoms were needed: results are wrong
     contains
+        procedure :: atom_number
         procedure :: begin
         procedure :: derivative
         procedure :: function_of
@@ -45,7 +46,6 @@ module lagrangia_algebra
         procedure :: substitute
         procedure :: uses
         procedure, private :: atom_derivative
-        procedure, private :: atom_number
         procedure, private :: replaced
         procedure, private :: root_of
     end type algebra_t
@@ -70,10 +70,10 @@ contains
     pure subroutine atom_number(self, kind, which, exponent, argument, atom)
         !! The number of such an atom, a new one where it is met for the first time.
         class(algebra_t), intent(inout) :: self
-        integer, intent(in) :: kind, which
-        type(number_t), intent(in) :: exponent
-        type(polynomial_t), intent(in) :: argument
-        integer, intent(out) :: atom
+        integer, intent(in) :: kind, which          !! `atom_sum`, ..., and which function
+        type(number_t), intent(in) :: exponent      !! of a root
+        type(polynomial_t), intent(in) :: argument  !! what the atom is made of
+        integer, intent(out) :: atom                !! its number
 
         do atom = self%names + 1, self%count
             associate (other => self%atoms(atom))

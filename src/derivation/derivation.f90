@@ -1,6 +1,5 @@
 module lagrangia_derivation
-    !! The steps from the positions of the masses to the equations of motion and their small
-    !! oscillations, as data: one line each.
+    !! The steps from the positions of the masses to small oscillations, as data: one line each.
     use lagrangia_algebra, only: algebra_t
     use lagrangia_description, only: description_t, value_names
     use lagrangia_errors, only: error_t, fail
@@ -59,6 +58,7 @@ module lagrangia_derivation
         !! `left = right`, or `right = 0`, or words.
         integer :: kind = line_words
         integer :: i = 0, k = 0                   !! which coordinate, point, element
+        logical :: elsewhere = .false.            !! about the other equilibrium
         character(:), allocatable :: left         !! as text; the words of a line without equality
         character(:), allocatable :: left_latex
         character(:), allocatable :: heading      !! not empty: a new step begins here
@@ -78,12 +78,12 @@ module lagrangia_derivation
         integer, allocatable :: roles(:)      !! of the names
         integer :: n = 0                      !! coordinates
         integer :: constraints = 0            !! non-holonomic ones
-        integer :: parameters = 0             !! values
-        integer :: count = 0
+        integer :: parameters = 0, count = 0  !! values; lines
         type(line_t), allocatable :: lines(:) !! the first `count` count
         type(polynomial_t), allocatable :: equations(:)    !! zero, (n)
         type(polynomial_t), allocatable :: constrained(:)  !! zero, (constraints), of velocities
         character(:), allocatable :: next_heading
+        logical :: elsewhere = .false.                     !! lines to come are
     contains
         procedure :: begin
         procedure :: acceleration
@@ -444,6 +444,7 @@ contains
         self%count = self%count + 1
         self%lines(self%count) = line
         self%lines(self%count)%heading = self%next_heading
+        self%lines(self%count)%elsewhere = self%elsewhere
         self%next_heading = ""
     end subroutine append
 end module lagrangia_derivation

@@ -19,11 +19,12 @@ module lagrangia_derivation_drag
 
 contains
 
-    subroutine add_rates(self, mass, drag, stiffness)
+    subroutine add_rates(self, letter, mass, drag, stiffness)
         !! Of \(M\ddot q + C\dot q + Kq = 0\): with one coordinate
         !! \(q = e^{-\gamma t}\cos\omega t\), \(\gamma = C/(2M)\), \(\omega^2 = K/M - \gamma^2\);
         !! with more \(\det(\lambda^2M + \lambda C + K) = 0\).
         type(derivation_t), intent(inout) :: self                      !! gets the lines
+        character, intent(in) :: letter  !! `C`, or `B` with gyroscopic forces in it
         type(polynomial_t), intent(in) :: mass(:, :), drag(:, :), stiffness(:, :)  !! (n, n)
         type(polynomial_t), allocatable :: matrix(:, :), c(:)
         type(polynomial_t) :: p
@@ -34,8 +35,9 @@ contains
             return
         end if
         if (self%n > most_expanded) then
-            call self%add_words("det("//name()//"^2 M + "//name()//" C + K) is not written out "// &
-                                "for more than "//to_text(most_expanded)//" coordinates")
+            call self%add_words("det("//name()//"^2 M + "//name()//" "//letter// &
+                                " + K) is not written out for more than "// &
+                                to_text(most_expanded)//" coordinates")
             return
         end if
         allocate (matrix(self%n, self%n))
@@ -49,7 +51,7 @@ contains
         allocate (c(2*self%n + 1))
         call collect(self, p, c)
         call self%add_words("q goes as exp("//name()//" t): det("//name()//"^2 M + "//name()// &
-                            " C + K) = 0")
+                            " "//letter//" + K) = 0")
         call add_polynomial(self, line_rates, self%rate(), 1, c)
     contains
         function name() result(text)

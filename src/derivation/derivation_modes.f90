@@ -12,12 +12,13 @@ module lagrangia_derivation_modes
     use lagrangia_expression, only: apply, expression_t, f_sqrt, function_names, &
                                     operator(+), operator(-), operator(*), operator(**)
     use lagrangia_formula_latex, only: latex_name
-    use lagrangia_formula_parser, only: parse_formula
+    use lagrangia_formula_parser, only: parse_equation, parse_formula
     use lagrangia_kinds, only: dp, i8
     use lagrangia_page_layout, only: lay_out, lay_out_factors, lay_out_fraction
     use lagrangia_polynomial, only: atom_power, most_atoms, operator(+), operator(-), &
                                     operator(*), polynomial_t, whole_polynomial
     use lagrangia_small_oscillations, only: find_modes, likely_equilibrium, modes_t
+    use lagrangia_solved_place, only: solve_place
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     use lagrangia_trigonometry, only: shorten
@@ -34,14 +35,8 @@ contains
         type(derivation_t), intent(inout) :: self  !! with its equations
         class(system_t), intent(in) :: system      !! configured
         logical, intent(in) :: slipped             !! a formula is wrong on purpose
-        type(modes_t) :: modes
+        type(modes_t) :: modes, others
         type(error_t), allocatable :: error
-        type(polynomial_t), allocatable :: at(:), mass(:, :), gyroscopic(:, :), stiffness(:, :)
-        character(:), allocatable :: turning, where_at
-        character :: letter
-        logical :: of_position, away, drag
-        integer, allocatable :: resting(:)
-        integer :: i
 
         self%next_heading = "small oscillations"
         call find_modes(system, likely_equilibrium(system), .false., modes, error)
@@ -50,7 +45,60 @@ contains
                                 "constraints leave")
             return
         end if
-        if (.not. allocated(error)) call read_equilibrium(self, at, resting, error)
+        if (allocated(error)) then
+            call self%add_words("none: "//error%message)
+            return
+        end if
+        call add_place(self, system, modes)
+        if (.not. allocated(modes%analytic%elsewhere)) return
+        call find_modes(system, modes%analytic%elsewhere, .true., others, error)
+        if (allocated(error)) return
+        call read_other_place(self)
+        if (.not. self%elsewhere) return
+        self%next_heading = "small oscillations about the other equilibrium"
+        call add_place(self, system, others)
+        self%elsewhere = .false.
+        deallocate (self%d%equilibrium_formulas)
+    end subroutine add_modes
+
+    subroutine read_other_place(self)
+        !! The description's frequencies name places: one coordinate's cosine or sine is taken.
+        type(derivation_t), intent(inout) :: self  !! the lines to come are about that place
+        type(expression_t) :: left, right, place
+        type(error_t), allocatable :: error
+        integer :: k, which, function
+
+        if (self%n /= 1 .or. allocated(self%d%equilibrium_formulas)) return
+        if (.not. allocated(self%d%frequencies)) return
+        do k = 1, size(self%d%frequencies)
+            associate (text => self%d%frequencies(k)%equilibrium)
+                if (index(text, "=") == 0) cycle
+                call parse_equation(trim(text), self%symbols, left, right, error)
+                if (allocated(error)) cycle
+                call solve_place(left, right, which, function, place)
+                if (function == 0) cycle
+                allocate (self%d%equilibrium_formulas(1))
+                self%d%equilibrium_formulas(1) = text
+                self%elsewhere = .true.
+                return
+            end associate
+        end do
+    end subroutine read_other_place
+
+    subroutine add_place(self, system, modes)
+        !! About the place of the description's `equilibrium_formulas`, or zero.
+        type(derivation_t), intent(inout) :: self  !! with its equations
+        class(system_t), intent(in) :: system      !! configured
+        type(modes_t), intent(in) :: modes         !! about that place
+        type(error_t), allocatable :: error
+        type(polynomial_t), allocatable :: at(:), mass(:, :), gyroscopic(:, :), stiffness(:, :)
+        character(:), allocatable :: turning, where_at
+        character :: letter
+        logical :: of_position, away, drag
+        integer, allocatable :: resting(:)
+        integer :: i
+
+        call read_equilibrium(self, at, resting, error)
         if (allocated(error)) then
             call self%add_words("none: "//error%message)
             return
@@ -89,11 +137,11 @@ contains
         call add_elements(self, line_stiffness, "K", stiffness)
         call add_linear(self, mass, gyroscopic, stiffness)
         if (drag) then
-            call add_rates(self, mass, gyroscopic, stiffness)
+            call add_rates(self, letter, mass, gyroscopic, stiffness)
         else
             call add_roots(self, mass, gyroscopic, stiffness)
         end if
-    end subroutine add_modes
+    end subroutine add_place
 
     pure function any_place(at) result(yes)
         !! Is a coordinate's place not zero?

@@ -12,6 +12,7 @@ module lagrangia_derivation_motion
     use lagrangia_page_layout, only: lay_out, lay_out_fraction
     use lagrangia_polynomial, only: atom_power, most_atoms, operator(+), operator(-), &
                                     operator(*), polynomial_t
+    use lagrangia_square_roots, only: square_roots
     use lagrangia_text, only: to_text
     use lagrangia_trigonometry, only: shorten
     implicit none (type, external)
@@ -229,6 +230,8 @@ contains
         end if
         numerator = numerator%shifted(ratio(1_i8, 1_i8), powers)
         denominator = denominator%shifted(ratio(1_i8, 1_i8), powers)
+        call square_roots(algebra, numerator)
+        call square_roots(algebra, denominator)
         if (denominator%terms == 1 .and. numerator%terms > 0) then
             quotient = numerator%shifted(ratio(1_i8, 1_i8)/denominator%coefficient(1), &
                                          -denominator%power(:, 1))

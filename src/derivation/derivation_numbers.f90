@@ -41,9 +41,9 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! no state can be drawn
         real(dp), allocatable, intent(out), optional :: values(:)  !! of the names, at that state
         type(motion_t) :: anywhere, moving, rest
-        type(modes_t) :: modes
+        type(modes_t) :: modes, others
         real(dp), allocatable :: at_rest(:)
-        type(error_t), allocatable :: no_modes
+        type(error_t), allocatable :: no_modes, no_others
         integer :: i
 
         call draw(derivation, system, random, anywhere, moving, error)
@@ -55,7 +55,11 @@ contains
         rest%v = 0.0_dp
         rest%a = 0.0_dp
         rest%lambda = 0.0_dp
-        if (.not. allocated(no_modes)) rest%q = modes%at
+        if (.not. allocated(no_modes)) then
+            if (allocated(modes%analytic%elsewhere)) then
+                call find_modes(system, modes%analytic%elsewhere, .true., others, no_others)
+            end if
+        end if
         allocate (comparisons(derivation%count))
         do i = 1, derivation%count
             associate (line => derivation%lines(i))
@@ -66,16 +70,28 @@ contains
                     call compare(derivation, system, line, moving, comparisons(i))
                 case (line_rest_mass:line_linear)
                     if (allocated(no_modes)) cycle
-                    call name_values(derivation, rest, at_rest)
-                    if (line%kind == line_linear) then
-                        call name_values(derivation, anywhere, at_rest)
+                    if (line%elsewhere) then
+                        call compare_at(others)
+                    else
+                        call compare_at(modes)
                     end if
-                    call compare_modes(derivation, system, modes, at_rest, line, comparisons(i))
                 case default
                     call compare(derivation, system, line, anywhere, comparisons(i))
                 end select
             end associate
         end do
+    contains
+        subroutine compare_at(place)
+            type(modes_t), intent(in) :: place
+
+            rest%q = place%at
+            call name_values(derivation, rest, at_rest)
+            if (derivation%lines(i)%kind == line_linear) then
+                call name_values(derivation, anywhere, at_rest)
+            end if
+            call compare_modes(derivation, system, place, at_rest, derivation%lines(i), &
+                               comparisons(i))
+        end subroutine compare_at
     end subroutine compare_lines
 
     subroutine draw(derivation, system, random, anywhere, moving, error)

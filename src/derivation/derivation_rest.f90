@@ -81,7 +81,7 @@ contains
             call compare_rates(derivation, system, modes, values, line, c)
             return
         case (line_omega2)
-            c%program = paired(derivation, values, modes%omega2, line%i)
+            c%program = paired(derivation, values, modes%omega2, line)
             c%noise = c%noise + root_noise(modes, line%i)
         case default
             c%noise = huge(c%noise)
@@ -155,28 +155,26 @@ contains
         noise = noise*largest/max(distance, sqrt(rounding)*largest)
     end function root_noise
 
-    function paired(derivation, values, omega2, i) result(value)
-        !! Root `i` of LAPACK's: as large among its kind as the formula's among the formulas'.
+    function paired(derivation, values, omega2, line) result(value)
+        !! That of LAPACK's which is as large among its kind as the line's among the formulas'.
         type(derivation_t), intent(in) :: derivation
         real(dp), intent(in) :: values(:), omega2(:)
-        integer, intent(in) :: i
+        type(line_t), intent(in) :: line
         real(dp) :: value
         real(dp) :: mine, noise, other
         logical :: left(size(omega2))
         integer :: k, rank
 
         rank = 1
-        mine = 0.0_dp
+        call evaluate(line%right, values, mine, noise)
         do k = 1, derivation%count
-            if (derivation%lines(k)%kind == line_omega2 .and. derivation%lines(k)%i == i) then
-                call evaluate(derivation%lines(k)%right, values, mine, noise)
-            end if
-        end do
-        do k = 1, derivation%count
-            if (derivation%lines(k)%kind /= line_omega2 .or. derivation%lines(k)%i == i) cycle
-            call evaluate(derivation%lines(k)%right, values, other, noise)
-            if (abs(other) < abs(mine) .or. (abs(other) <= abs(mine) .and. &
-                                             derivation%lines(k)%i < i)) rank = rank + 1
+            associate (a => derivation%lines(k))
+                if (a%kind /= line_omega2 .or. a%i == line%i) cycle
+                if (a%elsewhere .neqv. line%elsewhere) cycle
+                call evaluate(a%right, values, other, noise)
+                if (abs(other) < abs(mine) .or. &
+                    (abs(other) <= abs(mine) .and. a%i < line%i)) rank = rank + 1
+            end associate
         end do
         left = .true.
         do k = 1, rank - 1

@@ -5,6 +5,7 @@ module lagrangia_trigonometry
     use lagrangia_expression, only: f_cos, f_sin
     use lagrangia_polynomial, only: atom_power, most_atoms, operator(+), operator(-), &
                                     operator(*), polynomial_t, term_of, whole_polynomial
+    use lagrangia_square_roots, only: square_roots
     implicit none (type, external)
     private
     public :: tidy, shorten
@@ -12,11 +13,13 @@ module lagrangia_trigonometry
 contains
 
     pure subroutine tidy(algebra, p)
-        !! Terms that \(\sin^2 + \cos^2 = 1\) or the sine or cosine of a sum make into one.
+        !! Squares of roots, and terms that \(\sin^2 + \cos^2 = 1\) or the sine or cosine of a sum
+        !! make into one.
         type(algebra_t), intent(inout) :: algebra  !! of the atoms
         type(polynomial_t), intent(inout) :: p     !! keeps its value
         logical :: changed
 
+        call square_roots(algebra, p)
         do
             call join_squares(algebra, p, changed)
             if (.not. changed) call join_angles(algebra, p, changed)

@@ -5,6 +5,7 @@ module lagrangia_namelist
     !! `refuse_unknown_keys` and `refuse_unknown_groups`. Each value comes whole, as what it was
     !! written, or is refused with its place, group, key and value. Names of groups and keys are in
     !! lower case; `key` is given to these procedures without its group.
+    use lagrangia_comma_remedy, only: comma_remedy
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_namelist_lexer, only: stray, truth_of
@@ -371,7 +372,7 @@ contains
             if (value%kind == kind_number .or. &
                 (value%kind == kind_word .and. .not. in_override(tree, value%first))) then
                 call refuse_picked(tree, position, "a text is needed, in quotes: "// &
-                                   quoted(full, 20), error)
+                                   quoted(full, 20)//comma_remedy(tree, value%first), error)
             else if (len_trim(full) > len(text)) then
                 call refuse_picked(tree, position, "a text of at most "//to_text(len(text))// &
                                    " characters is needed", error)
