@@ -4,8 +4,9 @@
 # The caf program is built here, beside the release build that is there.
 #
 #     .ci/try_images.sh             needs caf and cafrun (./setup.sh --cluster); else says so
-#     .ci/try_images.sh --scaling   only the times of one image's work by one process and two images,
-#                                   and of twice as much by two: of use where nothing else runs
+#     .ci/try_images.sh --scaling   only the times of one image's work by one process and two images, of
+#                                   twice as much by two, of a trajectory, and of a block that is dealt:
+#                                   of use where nothing else runs
 set -u
 cd "$(dirname "$0")/.." || exit 2
 if ! command -v caf >/dev/null || ! command -v mpirun >/dev/null; then
@@ -56,8 +57,36 @@ if [ "${1:-}" = --scaling ]; then
     whole=(flip_map)
     a=$(seconds 0 "${half[@]}") b=$(seconds 0 "${whole[@]}")
     c=$(seconds 2 "${whole[@]}")
+    cat >"$work/deals.f90" <<'END'
+program deals
+    !! What it takes an image to be given a block, in us: alone, and where all ask at once.
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use lagrangia_images, only: begin_dealing, deal, image_count, image_number, wait_for_all
+    implicit none (type, external)
+    integer(int64) :: finish, i, number, rate, start
+    integer, parameter :: times = 20000
+    integer :: asking
+
+    do asking = 1, image_count(), max(1, image_count() - 1)
+        call begin_dealing()
+        call system_clock(start, rate)
+        do i = 1, merge(times, 0, image_number() > image_count() - asking)
+            call deal(number)
+        end do
+        call system_clock(finish)
+        call wait_for_all()
+        if (image_number() == image_count()) print "(i0, a, i0, a, f0.2, a)", asking, " of ", &
+            image_count(), " images asking: ", 1e6_real64*(finish - start)/rate/times, " us a block"
+    end do
+end program deals
+END
+    for n in 2 3; do
+        (cd "$work" && caf -O2 "$OLDPWD/src/core/kinds.F90" "$OLDPWD/src/ensembles/images.f90" deals.f90 -o deals &&
+            mpirun -n $n "${options[@]}" ./deals 2>/dev/null)
+    done
     awk -v a="$a" -v b="$b" -v c="$c" 'BEGIN {
         printf "flip_map, half: %.2f s by one process; whole: %.2f s, and %.2f s by two images\n", a, b, c
+        printf "%.0f us a trajectory, %.1f ms a block of 64\n", b/160000*1e6, b/160000*64*1e3
         printf "strong scaling: efficiency %.3f; weak: %.3f\n", b/(2*c), a/c }'
     exit 0
 fi
