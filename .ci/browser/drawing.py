@@ -11,7 +11,7 @@ RECORD = """(() => {
   pen.moveTo = function (x, y) { path.push([x, y]); old.moveTo.call(this, x, y); };
   pen.lineTo = function (x, y) { path.push([x, y]); old.lineTo.call(this, x, y); };
   pen.arc = function (x, y, ...more) { round = [x, y]; old.arc.call(this, x, y, ...more); };
-  pen.stroke = function () { of(this.canvas).lines.push([this.strokeStyle, path, this.globalAlpha]); old.stroke.call(this); };
+  pen.stroke = function () { of(this.canvas).lines.push([this.strokeStyle, path, this.globalAlpha, this.getLineDash().length]); old.stroke.call(this); };
   pen.fill = function () { if (round) of(this.canvas).dots.push([this.fillStyle, ...round]); old.fill.call(this); };
   pen.fillText = function (text, x, y) { of(this.canvas).texts.push([this.fillStyle, text]); old.fillText.call(this, text, x, y); };
   films[0].draw();
@@ -167,6 +167,10 @@ def controls(page, name, check):
             continue
         if which == "ghost":  # where both motions are the same to the eye, it is drawn beside
             value("films[0].film.ghost = films[0].film.places.map(r => [r[0], r[1], r[2]].map((s, k) => k ? s : typeof s === 'number' ? s + 0.2 : s.map(x => x + 0.2)))")
+            dashed, plain = value("(made => ['ghost', 'body'].map(name => { const style = getComputedStyle(document.documentElement), "
+                                  "pen = document.createElement('canvas').getContext('2d'); pen.fillStyle = style.getPropertyValue('--' + name).trim(); "
+                                  "return (made.get(films[0].stage.canvas)?.lines ?? []).filter(l => l[0] === pen.fillStyle).map(l => l[3]); }))(" + RECORD + ")")
+            check(f"{name}: the other motion is dashed, the film's own is not", dashed and all(dashed) and not any(plain), f"{dashed} {plain}")
         before = value(f"films[0].draw(), {PICTURE}")
         value(f"films[0].{which}.click()")
         check(f"{name}: the box '{which}' has its effect", value(PICTURE) != before)

@@ -52,7 +52,8 @@
     if (!(scale > 0)) return "0";
     const k = exponent(scale);
     if (k < 5 && k > -3) return unsigned(x.toFixed(Math.max(0, n - 1 - k))).replace("-", "−");
-    return power(`${unsigned((x / 10 ** k).toFixed(n - 1))}e${k}`);
+    const mantissa = (x / 10 ** k).toFixed(n - 1);
+    return Number(mantissa) === 0 ? "0" : power(`${mantissa}e${k}`);
   }
 
   function make(tag, attributes = {}, ...children) {

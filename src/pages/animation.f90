@@ -15,7 +15,7 @@ module lagrangia_animation
     use lagrangia_run_plan, only: run_plan_t
     use lagrangia_shipped_files, only: shipped_text
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: to_text, word_t
+    use lagrangia_text, only: in_words, to_text, word_t
     implicit none (type, external)
     private
     public :: animate_both, animate_scene, page_of_film, page_of_films, scene_film, write_page
@@ -143,16 +143,25 @@ contains
                     values = values//" "//to_text(p%value(k))
                 end do
                 if (p%unit /= "1") values = values//" "//trim(p%unit)
-                facts = facts//", "//json_string(unicode_text(trim(p%name)//" ="//values))
+                facts = facts//", "//json_string(said(trim(p%name))//" ="//unicode_text(values))
             end associate
         end do
-        name = trim(d%name)
-        if (d%title /= title) name = name//": "//d%title
+        name = in_words(d%name)
+        if (d%title /= "" .and. d%title /= title) name = name//": "//d%title
         json = json_object(json_pair("title", unicode_text(title))// &
                            json_pair("system", unicode_text(name))// &
                            json_item("facts", "["//facts//"]")// &
                            json_item("films", "["//films//"]"))
     end function page_of_films
+
+    pure function said(name) result(text)
+        !! A parameter in words: `drive frequency`; a letter with an index stays one, `m_block`.
+        character(*), intent(in) :: name
+        character(:), allocatable :: text
+
+        text = unicode_text(name)
+        if (text == name .and. index(name, "_") > 2) text = in_words(name)
+    end function said
 
     subroutine write_page(path, title, json, error)
         !! The page of one or more films of one system. It appears whole or not at all.

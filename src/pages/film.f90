@@ -8,6 +8,7 @@ module lagrangia_film
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_json, only: json_item, json_object, json_pair, json_string
     use lagrangia_kinds, only: dp
+    use lagrangia_mode_picture, only: widest_angle
     use lagrangia_scene_figure, only: figure_t, new_figure
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
@@ -223,7 +224,8 @@ contains
 
     function furthest(system, own, at, shape, share) result(amplitude)
         !! How many `shape`s away from `at` a place of the figure has moved by `share` of the
-        !! figure's size, to first order; without a figure, a coordinate by `share`.
+        !! figure's size, to first order, but no angle further than `widest_angle`; without a
+        !! figure, a coordinate by `share`.
         class(system_t), intent(in) :: system       !! with its parameters
         character(*), intent(in) :: own(:)          !! parts of its figure; none: the system's
         real(dp), intent(in) :: at(:), shape(:)     !! coordinates; a direction, (ndof)
@@ -233,7 +235,8 @@ contains
         type(figure_t) :: figure
         type(error_t), allocatable :: error
         real(dp), allocatable :: here(:, :), there(:, :)
-        real(dp) :: moved, still(size(at))
+        type(description_t) :: d
+        real(dp) :: moved, still(size(at)), turned
 
         amplitude = share/maxval(abs(shape))
         call new_figure(system, own, 1.0_dp, at, at, figure, error)
@@ -246,6 +249,9 @@ contains
         moved = sqrt(maxval(sum((there - here)**2, 1)))/step
         if (moved > 0.0_dp) amplitude = amplitude*share/moved* &
             max(norm2(maxval(here, 2) - minval(here, 2)), epsilon(moved))
+        call system%describe(d)
+        turned = maxval(abs(shape), d%coordinates%unit == "rad")
+        if (turned > 0.0_dp) amplitude = min(amplitude, widest_angle/turned)
     end function furthest
 
     function states_json(system, frames, n, channels) result(json)

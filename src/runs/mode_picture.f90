@@ -18,7 +18,7 @@ module lagrangia_mode_picture
     use lagrangia_text_table, only: text_table_t
     implicit none (type, external)
     private
-    public :: has_positions, mode_picture_path, write_mode_picture
+    public :: has_positions, mode_picture_path, widest_angle, write_mode_picture
 
     integer, parameter :: pieces = 24          !! of the way that a mass takes
     integer, parameter :: columns = 9          !! of the data file
