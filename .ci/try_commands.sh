@@ -404,6 +404,12 @@ for sweep in flip_map period_of_amplitude; do
         python3 -c "import json, sys; r = json.load(open(sys.argv[1])); assert r[\"trajectories\"] == 20 and r[\"failed\"] == 0" "$work/out"'
 done
 check "sweep: the measured period is the exact one" awk '!/^#/ { d = $2/$3 - 1; if (d*d > 1e-18) exit 1 }' "$work/sweep/period_of_amplitude_sweep.dat"
+run sweep pendulum --over q=0.5:1:2 --keep "period, max theta" --keep energy --output "$work/sweep"
+check "sweep --keep: several with commas" eval '[ $status -eq 0 ] &&
+    grep -q "^# .*period\[s\] *max_theta\[rad\] *energy\[J\]$" "$work/sweep/pendulum_sweep.dat"'
+run sweep hanging_chain --over n=9:10:2 --keep lyapunov --set scene%duration=0.5 --output "$work/sweep"
+check "sweep over the number of coordinates: it says why not" eval '[ $status -eq 0 ] &&
+    grep -q "1 of 2 trajectories failed and are NaN; the first: q has 10 values; the system has 9 coordinates" "$work/err"'
 run sweep pendulum --over l=0.1:10:4:log --over theta=0.1:3:3 --keep period --output "$work/sweep" --plot
 check "sweep over two axes: a map" eval '[ $status -eq 0 ] && [ -s "$work/sweep/pendulum_sweep.png" ] && [ "$(grep -c "^$" "$work/sweep/pendulum_sweep.dat")" -eq 3 ]'
 for row in "bifurcation f=1:1.5:3 210" "section theta2_dot=-4:4:3 1800" "basins theta=-3:3:8 8" "lyapunov_map f=1:1.5:2 2"; do

@@ -125,7 +125,7 @@ contains
         q = 0.5_dp
         v = 0.0_dp
         call try_run(system, q(:1), v(:2), error)
-        call refused(error, "q has 1 values; the system has 2 coordinates", status_usage)
+        call refused(error, "q has 1 value; the system has 2 coordinates", status_usage)
         call try_run(system, q(:2), v, error)
         call refused(error, "v has 3 values; the system has 2 velocities", status_usage)
         call try_run(system, q(:0), v(:2), error)

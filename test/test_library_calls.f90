@@ -72,7 +72,7 @@ contains
         call accelerations_from_lagrangian(system, 0.0_dp, q, v(:2), a(:2), none, error)
         call refused(error, "q has 3 values; the system has 2 coordinates", status_usage)
         call accelerations_from_lagrangian(system, 0.0_dp, q(:2), v(:1), a(:2), none, error)
-        call refused(error, "v has 1 values; the system has 2 velocities", status_usage)
+        call refused(error, "v has 1 value; the system has 2 velocities", status_usage)
     end subroutine lagrangians_of_another_size
 
     subroutine empty_boxes()
@@ -128,7 +128,7 @@ contains
         call run_dense(system, dense, plan, events, nobody, q, v, ended, error)
         call refused(error, "the time grid is not one of new_time_grid", status_usage)
         call run_dense(system, dense, plan, events, nobody, q, both, ended, error)
-        call refused(error, "v has 2 values; the system has 1 velocities", status_usage)
+        call refused(error, "v has 2 values; the system has 1 velocity", status_usage)
         call new_sample_times(plan, 0.0_dp, 1.0_dp, 10_i8, error)
         call new_integrator("rk4", integrator, error)
         call drive(system, integrator, plan, events, nobody, q, v, ended, error)

@@ -159,7 +159,7 @@ contains
         call solve(system, "rk5", t, zero, zero, q, v, error, dt=0.1_dp)
         call refused("unknown method 'rk5'; did you mean 'rk4'?")
         call solve(system, "rk4", t, [0.0_dp, 0.0_dp], zero, q, v, error, dt=0.1_dp)
-        call refused("q has 2 values; the system has 1 coordinates")
+        call refused("q has 2 values; the system has 1 coordinate")
         call solve(system, "gauss16", t, zero, zero, q, v, error, events=["y rising"])
         call assertTrue(allocated(error), "no column y")
     contains

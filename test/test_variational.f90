@@ -4,8 +4,12 @@ module test_variational
     use lagrangia_catalogue, only: new_system, nth_system
     use lagrangia_command_line, only: word_t
     use lagrangia_description, only: description_t
+    use lagrangia_double_pendulum, only: double_pendulum_t
     use lagrangia_errors, only: error_t
+    use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, lanes
+    use lagrangia_lyapunov, only: lyapunov_exponent
+    use lagrangia_methods, only: new_adaptive
     use lagrangia_richardson, only: extrapolated
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene
@@ -15,6 +19,12 @@ module test_variational
     implicit none (type, external)
     private
     public :: variational_suite
+
+    type, extends(double_pendulum_t) :: unwritten_t
+        !! A double pendulum whose description has no formula of L.
+    contains
+        procedure :: describe => describe_without_formula
+    end type unwritten_t
 
 contains
 
@@ -29,6 +39,10 @@ contains
         call suite%addTest(TestMethod("typed_systems_are_differentiated", &
                                       typed_systems_are_differentiated))
         call suite%addTest(TestMethod("another_motion_does_not_fit", another_motion_does_not_fit))
+        call suite%addTest(TestMethod("differences_where_no_formula_is_known", &
+                                      differences_where_no_formula_is_known))
+        call suite%addTest(TestMethod("states_of_another_size_are_refused", &
+                                      states_of_another_size_are_refused))
     end function variational_suite
 
     subroutine lecture_systems_are_differentiated()
@@ -173,4 +187,60 @@ contains
         call variational%fits(oscillator, yes)
         call assertFalse(yes, "an oscillator")
     end subroutine another_motion_does_not_fit
+
+    pure subroutine describe_without_formula(self, d)
+        !! See `system_t`.
+        class(unwritten_t), intent(in) :: self
+        type(description_t), intent(out) :: d
+
+        call self%double_pendulum_t%describe(d)
+        deallocate (d%lagrangian)
+    end subroutine describe_without_formula
+
+    subroutine differences_where_no_formula_is_known()
+        !! The exponents of a regular motion over 20 s, by both: those of the differences are right
+        !! to 4e-11 of the derivative, which 20 s at rates of 10 /s make no more than 1e-7.
+        character(*), parameter :: methods(2) = [character(7) :: "dop853", "gauss16"]
+        real(dp), parameter :: q(2) = [0.9_dp, -0.4_dp], v(2) = [0.0_dp, 1.5_dp]
+        class(dense_integrator_t), allocatable :: method
+        type(double_pendulum_t) :: written
+        type(unwritten_t) :: unwritten
+        type(variational_t) :: variational
+        type(error_t), allocatable :: error
+        real(dp) :: exponents(2), errors(2)
+        integer :: i
+
+        call written%configure([1.0_dp, 0.7_dp, 0.8_dp, 1.2_dp, 9.81_dp], error)
+        call unwritten%configure([1.0_dp, 0.7_dp, 0.8_dp, 1.2_dp, 9.81_dp], error)
+        call new_variational(variational, unwritten)
+        call assertFalse(variational%known, "there is no formula")
+        do i = 1, size(methods)
+            call new_adaptive(methods(i), method)
+            method%tolerance = 1e-11_dp
+            call lyapunov_exponent(written, method, 0.0_dp, 1.0_dp, 20.0_dp, q, v, exponents(1), &
+                                   errors(1), error)
+            call assertFalse(allocated(error), methods(i)//" by the formula")
+            call lyapunov_exponent(unwritten, method, 0.0_dp, 1.0_dp, 20.0_dp, q, v, &
+                                   exponents(2), errors(2), error)
+            call assertFalse(allocated(error), methods(i)//" by differences")
+            call assertTrue(exponents(1) > 0.05_dp, methods(i)//": neighbours part for a while")
+            call assertEqual(exponents(1), exponents(2), 1e-7_dp, methods(i))
+            call assertEqual(errors(1), errors(2), 1e-7_dp, methods(i)//": the uncertainty")
+        end do
+    end subroutine differences_where_no_formula_is_known
+
+    subroutine states_of_another_size_are_refused()
+        class(dense_integrator_t), allocatable :: method
+        type(double_pendulum_t) :: system
+        type(error_t), allocatable :: error
+        real(dp) :: exponent, uncertainty
+
+        call system%configure([1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 9.81_dp], error)
+        call new_adaptive("dop853", method)
+        call lyapunov_exponent(system, method, 0.0_dp, 1.0_dp, 2.0_dp, [1.0_dp], [1.0_dp], &
+                               exponent, uncertainty, error)
+        call assertTrue(allocated(error), "one coordinate of two")
+        if (.not. allocated(error)) return
+        call assertEqual("q has 1 value; the system has 2 coordinates", error%message)
+    end subroutine states_of_another_size_are_refused
 end module test_variational

@@ -163,8 +163,8 @@ contains
         type(scene_t), intent(inout) :: scene
         type(error_t), allocatable, intent(out) :: error
 
-        call take_texts("over", scene%sweep%over)
-        if (.not. allocated(error)) call take_texts("keep", scene%sweep%keep)
+        call take_texts("over", "", scene%sweep%over)
+        if (.not. allocated(error)) call take_texts("keep", ",", scene%sweep%keep)
         if (.not. allocated(error)) call take_number("seed", -huge(0), huge(0), &
                                                    scene%sweep%seed)
         if (.not. allocated(error)) call take_number("threads", 1, 10000, &
@@ -179,22 +179,30 @@ contains
                       "the scene")
         end if
     contains
-        subroutine take_texts(name, texts)
-            character(*), intent(in) :: name
+        subroutine take_texts(name, separator, texts)
+            character(*), intent(in) :: name, separator
             character(sweep_text_length), allocatable, intent(inout) :: texts(:)
             type(word_t), allocatable :: words(:)
-            integer :: i
+            character(:), allocatable :: rest
+            integer :: i, last
 
             if (.not. line%has(name)) return
             words = line%values_of(name)
-            deallocate (texts)
-            allocate (texts(size(words)))
+            texts = texts(:0)
             do i = 1, size(words)
-                texts(i) = words(i)%text
-                if (len_trim(words(i)%text) <= len(texts)) cycle
-                call fail(error, "option '--"//name//"': a text of at most "// &
-                          to_text(len(texts))//" characters is needed")
-                return
+                rest = words(i)%text
+                do
+                    last = scan(rest, separator) - 1
+                    if (last < 0) last = len(rest)
+                    if (len_trim(rest(:last)) > len(texts)) then
+                        call fail(error, "option '--"//name//"': a text of at most "// &
+                                  to_text(len(texts))//" characters is needed")
+                        return
+                    end if
+                    texts = [character(sweep_text_length) :: texts, rest(:last)]
+                    if (last == len(rest)) exit
+                    rest = rest(last + 2:)
+                end do
             end do
         end subroutine take_texts
 

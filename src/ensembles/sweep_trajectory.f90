@@ -16,7 +16,7 @@ module lagrangia_sweep_trajectory
     use lagrangia_reference, only: reference_t
     use lagrangia_scene, only: scene_t
     use lagrangia_sweep, only: sweep_t
-    use lagrangia_system, only: system_t
+    use lagrangia_system, only: check_state, system_t
     use lagrangia_trajectory_plan, only: plan_events, plan_steps, trajectory_plan_t
     implicit none (type, external)
     private
@@ -40,6 +40,7 @@ contains
         call sweep%set_start(index, scene%q, scene%v, scene%parameters)
         allocate (system, source=sweep%system)
         if (any(sweep%axes%is_parameter())) call system%configure(scene%parameters, error)
+        if (.not. allocated(error)) call check_state(system, scene%q, scene%v, error)
         if (allocated(error)) return
         if (system%constraints > 0) then
             given = scene%v

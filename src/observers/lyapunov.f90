@@ -12,7 +12,7 @@ module lagrangia_lyapunov
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, lanes
-    use lagrangia_system, only: system_t
+    use lagrangia_system, only: check_state, system_t
     use lagrangia_variational, only: new_variational, variational_t
     implicit none (type, external)
     private
@@ -48,7 +48,8 @@ contains
         real(dp), intent(in) :: t0, after, t_end             !! s, in this order
         real(dp), intent(in) :: q0(:), v0(:)                 !! the state at `t0`, (ndof)
         real(dp), intent(out) :: exponent, uncertainty       !! 1/s
-        type(error_t), allocatable, intent(out) :: error     !! the method refuses, or diverges
+        type(error_t), allocatable, intent(out) :: error
+        !! the state has another size, the method refuses, or the motion diverges
         type(variational_t), intent(in), optional :: variational
         !! of a system like this one, perhaps with other parameters: it need not be derived again
         type(displaced_t) :: displaced
@@ -59,10 +60,9 @@ contains
 
         exponent = 0.0_dp
         uncertainty = 0.0_dp
-        if (system%contacts > 0) then
-            call fail(error, "no Lyapunov exponent is measured across impacts")
-            return
-        end if
+        call check_state(system, q0, v0, error)
+        if (system%contacts > 0) call fail(error, "no Lyapunov exponent is measured across impacts")
+        if (allocated(error)) return
         n = size(q0)
         call new_displaced(displaced, system, q0)
         if (present(variational)) displaced%exact = variational

@@ -408,11 +408,13 @@ contains
         if (self%ndof < 1) then
             call fail(error, "the system has no coordinates: configure it first")
         else if (size(q) /= self%ndof) then
-            call fail(error, "q has "//to_text(size(q))//" values; the system has "// &
-                      to_text(self%ndof)//" coordinates", key="q")
+            call fail(error, "q has "//to_text(size(q))//trim(merge(" value ", " values", &
+                      size(q) == 1))//"; the system has "//to_text(self%ndof)// &
+                      trim(merge(" coordinate ", " coordinates", self%ndof == 1)), key="q")
         else if (size(v) /= self%ndof) then
-            call fail(error, "v has "//to_text(size(v))//" values; the system has "// &
-                      to_text(self%ndof)//" velocities", key="v")
+            call fail(error, "v has "//to_text(size(v))//trim(merge(" value ", " values", &
+                      size(v) == 1))//"; the system has "//to_text(self%ndof)// &
+                      trim(merge(" velocity  ", " velocities", self%ndof == 1)), key="v")
         end if
     end subroutine check_state
 
