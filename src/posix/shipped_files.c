@@ -1700,7 +1700,7 @@ static const char *const files[][2] = {
         ".film td { text-align: right; padding: 0.1em 0 0.1em 0.4em; white-space: nowrap; }\n"
         ".film td.unit { text-align: left; color: var(--faint); }\n"
         "@media (min-width: 62rem) {\n"
-        "  .film { grid-template-columns: minmax(0, 3fr) minmax(20rem, 2fr); grid-template-rows: auto 1fr auto; }\n"
+        "  .film { grid-template-columns: minmax(0, 3fr) minmax(27.5rem, 2fr); grid-template-rows: auto 1fr auto; }\n"
         "  .film[data-alone] { height: 100vh; }\n"
         "  .film .head { grid-column: 1 / -1; }\n"
         "  .film .stage { grid-column: 1; grid-row: 2; height: auto; min-height: 20rem; }\n"
