@@ -37,6 +37,7 @@ contains
         call suite%addTest(TestMethod("slips_have_a_column", slips_have_a_column))
         call suite%addTest(TestMethod("coupled_oscillators", coupled_oscillators))
         call suite%addTest(TestMethod("hanging_chain", hanging_chain))
+        call suite%addTest(TestMethod("forces_on_a_chain", forces_on_a_chain))
         call suite%addTest(TestMethod("ranges_are_refused", ranges_are_refused))
         call suite%addTest(TestMethod("nonsense_is_refused", nonsense_is_refused))
     end function indexed_names_suite
@@ -207,6 +208,45 @@ contains
         call page%accelerations(0.0_dp, q, v, b)
         call assertEqual(b, a, 1e-11_dp)
     end subroutine hanging_chain
+
+    subroutine forces_on_a_chain()
+        !! One formula for all, but for the coordinate that has its own; definitions and quantities
+        !! one for each number; a slip has its column.
+        character(*), parameter :: start = "&scene system = 'chain' dt = 0.1 duration = 1.0 "// &
+            "q = 4*0.1 /"//line_feed//"&lagrangian coordinates = 'x_1 .. x_4', parameters = "// &
+            "'m', 'b' T = 'sum(i, 1, 4, m/2 x_i_dot^2)' "
+        character(*), parameter :: finish = " /"//line_feed//"&chain m = 1.0, b = 0.5 /"
+        class(system_t), allocatable :: system
+        type(description_t) :: d
+        type(error_t), allocatable :: error
+        real(dp) :: a(4)
+
+        call read_system(start//"Q_x_i = '-i b x_i_dot' Q_x_2 = '-d_3' definitions = "// &
+                         "'d_1 .. d_3 = x_(i + 1) - x_i' quantities = 'p_1 .. p_4 "// &
+                         "[kg m/s] of one = m x_i_dot'"//finish, system, error)
+        if (allocated(error)) call assertEqual("", error%message)
+        if (allocated(error)) return
+        call system%accelerations(0.0_dp, [0.1_dp, 0.2_dp, 0.3_dp, 0.5_dp], &
+                                  [1.0_dp, 1.0_dp, 1.0_dp, 2.0_dp], a)
+        call assertEqual([-0.5_dp, -0.2_dp, -1.5_dp, -4.0_dp], a, 1e-15_dp)
+        call system%describe(d)
+        call assertEqual("p_4", trim(d%quantities(8)%name))
+        call assertEqual(2.0_dp, system%quantity(8, 0.0_dp, [0.1_dp, 0.2_dp, 0.3_dp, 0.5_dp], &
+                                                 [1.0_dp, 1.0_dp, 1.0_dp, 2.0_dp]), 1e-15_dp)
+        call refused("Q_x_i = '-b x_j_dot'", "Q_x_i: column 4: unknown name 'x_j_dot'")
+        call refused("Q_x_2 = '-b', Q_x_i = '-b + c'", "Q_x_i: column 6: unknown name 'c'")
+        call refused("Q_y_i = '-b'", "unknown key 'q_y_i'; did you mean 'q_x_i'?")
+        call refused("definitions = 'd_1 .. d_4 = x_(i + 1)'", "definitions: column ")
+        call refused("quantities = 'p_1 .. r_4 = m x_i_dot'", "names of a chain are written")
+    contains
+        subroutine refused(keys, expected)
+            character(*), intent(in) :: keys, expected
+
+            call read_system(start//keys//finish, system, error)
+            call assertTrue(allocated(error), keys)
+            if (allocated(error)) call assertTrue(index(error%message, expected) > 0, error%message)
+        end subroutine refused
+    end subroutine forces_on_a_chain
 
     subroutine ranges_are_refused()
         !! At the text, though it was written out.

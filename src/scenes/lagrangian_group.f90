@@ -4,7 +4,7 @@ module lagrangia_lagrangian_group
     use lagrangia_description, only: check_parameter, name_length, quantity_t, real_number
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
-    use lagrangia_name_ranges, only: expand_ranges
+    use lagrangia_name_ranges, only: expand_ranges, family_of, with_number
     use lagrangia_namelist, only: get_real, get_strings, has_key, namelist_t, refuse_unknown_keys, &
                                   refuse_value
     use lagrangia_parameter_domains, only: set_domain
@@ -18,8 +18,7 @@ module lagrangia_lagrangian_group
 
     character(*), parameter :: group = "lagrangian"
     integer, parameter :: most = 200   !! texts of one key
-    integer, parameter :: piece = 80   !! characters of a formula on one line of the echo,
-    integer, parameter :: longest_piece = 500  !! if there is a place to break it; else at most
+    integer, parameter :: piece = 80, longest_piece = 500  !! characters of an echo's line; at most
     character(name_length), parameter :: keys(*) = [character(name_length) :: &
         "coordinates", "parameters", "t", "v", "l", "definitions", "positions", "equilibrium", &
         "constraint", "quantities", "domain"]
@@ -34,10 +33,10 @@ contains
         type(written_formulas_t), intent(inout) :: formulas  !! has its name; gets the rest
         type(error_t), allocatable, intent(out) :: error     !! a text that is missing or too long
         type(quantity_t), allocatable :: items(:)
-        character(longest_formula), allocatable :: domains(:), texts(:)
+        character(longest_formula), allocatable :: domains(:)
         type(error_t), allocatable :: found
-        character(:), allocatable :: force, problem
-        integer, allocatable :: from(:)
+        character(name_length), allocatable :: families(:)
+        character(:), allocatable :: family, force, number
         integer :: i
 
         call read_names(tree, "coordinates", .true., formulas%coordinates, error)
@@ -50,21 +49,23 @@ contains
         if (allocated(error)) return
         call read_formula("l", formulas%lagrangian)
         if (allocated(error)) return
-        allocate (formulas%forces(size(formulas%coordinates)))
+        allocate (formulas%forces(size(formulas%coordinates)), families(0))
         do i = 1, size(formulas%forces)
-            call read_formula(force_key(formulas%coordinates(i)), force)
+            call family_of(trim(formulas%coordinates(i)%name), family, number)  ! if it has one
+            call read_formula(force_key(tree, trim(formulas%coordinates(i)%name)), force)
             if (allocated(error)) return
+            if (.not. has_key(tree, group, own_key(trim(formulas%coordinates(i)%name)))) then
+                force = with_number(force, number)
+            end if
             formulas%forces(i) = force
+            if (family == "" .or. any(families == own_key(family))) cycle
+            families = [character(len(keys)) :: families, own_key(family)]
         end do
-        call read_list("definitions", formulas%definitions)
+        call read_chain("definitions", formulas%definitions)
         if (allocated(error)) return
-        call read_list("positions", texts)
+        call read_chain("positions", formulas%positions)
         if (allocated(error)) return
-        call expand_ranges(texts, formulas%positions, from, problem)
-        if (problem /= "") call refuse_value(tree, group, "positions", problem, error, &
-                                             from(size(from)))
-        if (allocated(error)) return
-        call read_list("equilibrium", formulas%equilibrium)
+        call read_chain("equilibrium", formulas%equilibrium)
         if (allocated(error)) return
         call read_list("constraint", formulas%constraints)
         if (allocated(error)) return
@@ -73,8 +74,8 @@ contains
         call read_list("domain", domains)
         if (allocated(error)) return
         call refuse_unknown_keys(tree, group, [character(len(keys)) :: keys, &
-                                               (force_key(formulas%coordinates(i)), i=1, &
-                                                size(formulas%coordinates))], error)
+                                               (own_key(trim(formulas%coordinates(i)%name)), &
+                                                i=1, size(formulas%coordinates)), families], error)
         if (allocated(error)) return
         allocate (formulas%parameters(size(items)))
         do i = 1, size(items)
@@ -117,9 +118,10 @@ contains
             character(*), parameter :: example = "a quantity is written "// &
                 "'L_z [kg m^2/s] angular momentum = m r^2 phi_dot'"
             character(:), allocatable :: problem
+            integer, allocatable :: from(:)
             integer :: equals, i
 
-            call read_list("quantities", texts)
+            call read_chain("quantities", texts, from)
             allocate (items(merge(0, size(texts), allocated(error))))
             do i = 1, size(items)
                 equals = index(texts(i), "=")
@@ -129,12 +131,30 @@ contains
                     call take_name(texts(i)(:equals - 1), items(i), problem)
                 end if
                 if (problem /= "") then
-                    call refuse_value(tree, group, "quantities", problem, error, i)
+                    call refuse_value(tree, group, "quantities", problem, error, from(i))
                     return
                 end if
                 texts(i)(:equals) = ""
             end do
         end subroutine read_quantities
+
+        subroutine read_chain(key, texts, from)
+            !! Texts of which one may be as many: `'d_1 .. d_3 = x_(i + 1) - x_i'`.
+            character(*), intent(in) :: key
+            character(longest_formula), allocatable, intent(out) :: texts(:)
+            integer, allocatable, intent(out), optional :: from(:)  !! of which text each comes
+            character(longest_formula), allocatable :: typed(:)
+            character(:), allocatable :: problem
+            integer, allocatable :: of(:)
+
+            allocate (texts(0))
+            call read_list(key, typed)
+            if (allocated(error)) return
+            deallocate (texts)
+            call expand_ranges(typed, texts, of, problem)
+            if (problem /= "") call refuse_value(tree, group, key, problem, error, of(size(of)))
+            if (present(from)) from = of
+        end subroutine read_chain
 
         subroutine read_list(key, texts)
             character(*), intent(in) :: key
@@ -242,12 +262,26 @@ contains
         item%meaning = text
     end subroutine take_name
 
-    pure function force_key(coordinate) result(key)
+    pure function own_key(coordinate) result(key)
         !! Where the generalised force on a coordinate stands: `q_theta`.
-        type(quantity_t), intent(in) :: coordinate
+        character(*), intent(in) :: coordinate  !! its name
         character(:), allocatable :: key
 
-        key = "q_"//lower(trim(coordinate%name))
+        key = "q_"//lower(coordinate)
+    end function own_key
+
+    pure function force_key(tree, coordinate) result(key)
+        !! The same; of `x_3` it is `q_x_i` where there is that, and no `q_x_3`.
+        type(namelist_t), intent(in) :: tree
+        character(*), intent(in) :: coordinate  !! its name
+        character(:), allocatable :: key
+        character(:), allocatable :: family, number
+
+        key = own_key(coordinate)
+        if (has_key(tree, group, key)) return
+        call family_of(coordinate, family, number)
+        if (family == "") return
+        if (has_key(tree, group, own_key(family))) key = own_key(family)
     end function force_key
 
     pure function is_formula(key) result(yes)
@@ -327,30 +361,32 @@ contains
         type(error_t), intent(in) :: found       !! with its key and element
         type(error_t), allocatable, intent(out) :: error  !! with file, line, column
         character(longest_formula), allocatable :: texts(:), single(:)
-        character(:), allocatable :: problem
+        character(:), allocatable :: key, problem
         integer, allocatable :: from(:)
         integer :: element, at, i
 
         element = found%element
+        key = found%key
+        if (index(key, "q_") == 1) key = force_key(tree, key(3:))
         at = column_of(found%message)
-        if (any(found%key == [character(11) :: "coordinates", "parameters", "positions"]) .and. &
-            element > 0) then
+        if (any(key == [character(11) :: "coordinates", "parameters", "positions", &
+                        "definitions", "quantities", "equilibrium"]) .and. element > 0) then
             allocate (texts(0))
-            call get_strings(tree, group, found%key, 1, most, texts, error)
+            call get_strings(tree, group, key, 1, most, texts, error)
             call expand_ranges(texts, single, from, problem)
             if (element <= size(from)) element = from(element)
             deallocate (texts)
         end if
-        if (is_formula(found%key)) then
+        if (is_formula(key)) then
             allocate (texts(0))
-            call get_strings(tree, group, found%key, 1, most, texts, error)
+            call get_strings(tree, group, key, 1, most, texts, error)
             do element = 1, size(texts) - 1
                 i = len_trim(texts(element)) + gap(texts(element), texts(element + 1))
                 if (at <= i) exit
                 at = at - i
             end do
         end if
-        call refuse_value(tree, group, found%key, found%message, error, element, at)
+        call refuse_value(tree, group, key, found%message, error, element, at)
         error%status = found%status
     end subroutine refuse_formula
 

@@ -5,7 +5,7 @@ module lagrangia_name_ranges
     use lagrangia_written_formulas, only: longest_formula
     implicit none (type, external)
     private
-    public :: expand_ranges
+    public :: expand_ranges, family_of, with_number
 
     character(*), parameter :: digits = "0123456789"
     character(*), parameter :: inside = digits//"_abcdefghijklmnopqrstuvwxyz"// &
@@ -100,9 +100,22 @@ contains
         end do
     end subroutine split
 
+    pure subroutine family_of(name, family, number)
+        !! `x_i` and `3` of `x_3`; empty where the name has no number.
+        character(*), intent(in) :: name                          !! of a coordinate
+        character(:), allocatable, intent(out) :: family, number  !! as above
+        integer :: at
+
+        at = index(name, "_", back=.true.)
+        family = ""
+        number = name(at + 1:)
+        if (at < 2 .or. number == "" .or. verify(number, digits) > 0) return
+        family = name(:at)//"i"
+    end subroutine family_of
+
     pure function with_number(text, number) result(numbered)
         !! The number in the place of the letter i where that is a name, or behind the `_` of one.
-        character(*), intent(in) :: text, number
+        character(*), intent(in) :: text, number  !! a formula; digits
         character(:), allocatable :: numbered
         logical :: alone
         integer :: k
