@@ -696,6 +696,26 @@ refuses 2 "--set goes with one scene" check methods --set pendulum%l=2
 refuses 2 "--set pendulum%l=-1: &pendulum: l = -1: greater than 0.0 is needed" check pendulum --set pendulum%l=-1
 refuses 2 "event_columns, ...; 'lagrangia describe scene' has all" run pendulum --set scene%foo=1
 refuses 2 "theta4_dot, ...; 'lagrangia describe hanging_chain' has all" run hanging_chain --set scene%columns=foo
+printf '%s\n' "&scene system = 'own', dt = 0.1, duration = 1, q = 20*0 /" "&lagrangian coordinates = 'x_1 .. x_20', parameters = 'k_1 .. k_40'," \
+    "  T = 'sum(i, 1, 20, x_i_dot^2)', V = 'sum(i, 1, 40, k_i x_1^2)' /" "&own $(printf 'k_%s = 1, ' $(seq 40)) /" >"$work/own.nml"
+refuses 2 "...; 'lagrangia describe SCENE' has all; parameters are named in &lagrangian: parameters" run "$work/own.nml" --set own%foo=1
+refuses 2 "own has t, x_1, x_1_dot, " run "$work/own.nml" --set scene%columns=foo
+check "a column of a system in formulas: describe with its scene has all" grep -q "x_6, ...; 'lagrangia describe SCENE' has all$" "$work/err"
+refuses 2 "there are x_1, x_1_dot, x_2, " sweep "$work/own.nml" --over foo=1:2:3 --keep x_1
+check "what a sweep can change: describe with its scene has all" grep -q "...; 'lagrangia describe SCENE' has all$" "$work/err"
+run describe "$work/own.nml"
+check "and that is so" eval 'grep -q "^  k_40 " "$work/out" && sed -n "/^all columns of a scene/,/^column error/p" "$work/out" | tr -d "\n" | grep -q " x_20_ddot, .* energy_drift, .*p_x_20"'
+missing=
+for name in $(ls data/scenes); do # each column that a scene writes is among those of describe
+    run describe "data/scenes/$name"
+    python3 -c 'import re, sys
+listed = re.search(r"^all columns of a scene\n(.*?)^column error", open(sys.argv[1]).read(), re.S | re.M).group(1)
+listed = re.split(r",?\s+", listed.strip())
+header = [line for line in open(sys.argv[2]) if line.startswith("#")][-1]
+written = [word.split("[")[0] for word in header[1:].split()]
+sys.exit(not (written and set(written) <= set(listed)))' "$work/out" "$work/all/${name%.nml}.dat" || missing+=" $name"
+done
+check "describe: all columns that a shipped scene writes, not$missing" [ -z "$missing" ]
 refuses 2 "&pendulum: unknown key 'zz'; allowed: m, l, g, b" check pendulum --set pendulum%zz=1
 refuses 2 "unknown group 'pendulum'; allowed: wedge" check wedge --set pendulum%l=1
 refuses 2 "unknown system 'pendlum'; did you mean 'pendulum'?" check pendlum

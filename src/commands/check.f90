@@ -300,6 +300,7 @@ contains
         end do
         allocate (keys(size(d%parameters)))
         keys = d%parameters%name
-        call refuse_unknown_keys(tree, trim(d%name), keys, error)
+        call refuse_unknown_keys(tree, trim(d%name), keys, error, &
+                                 shown_by="lagrangia describe "//trim(d%name))
     end subroutine read_parameters
 end module lagrangia_check

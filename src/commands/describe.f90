@@ -2,6 +2,7 @@ module lagrangia_describe
     !! `lagrangia describe SYSTEM`: what a lecturer would write on the blackboard, with these
     !! parameters.
     use lagrangia_catalogue, only: new_system
+    use lagrangia_columns, only: column_names
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put_line
     use lagrangia_description, only: constraint_text, description_t, parameter_t, quantity_t
@@ -16,7 +17,7 @@ module lagrangia_describe
     use lagrangia_scene_reference, only: reference_lines
     use lagrangia_system, only: system_t
     use lagrangia_system_lines, only: line_of_system
-    use lagrangia_text, only: to_text, word_t
+    use lagrangia_text, only: join, to_text, word_t
     implicit none (type, external)
     private
     public :: best_break, describe_command, has_closed_form
@@ -43,7 +44,8 @@ contains
         if (allocated(error)) return
         call system%describe(d)
         call describe_fresh(trim(d%name), fresh)
-        call put_line(trim(d%name)//": "//trim(d%title))
+        if (d%title == "") call put_line(trim(d%name))
+        if (d%title /= "") call put_line(trim(d%name)//": "//trim(d%title))
         call put_line("source: "//trim(d%source))
         if (line_of_system(trim(d%name)) /= "") call put_line(line_of_system(trim(d%name)))
         call put_line("")
@@ -68,6 +70,8 @@ contains
         do i = 1, size(d%quantities)
             if (.not. d%quantities(i)%conserved) call put_quantity(d%quantities(i))
         end do
+        call put_line("all columns of a scene")
+        call put_wrapped(join(column_names(system, .true.), ", "))
         call put_line("column error")
         call put_line("  the largest of a coordinate, not of a velocity, absolute below 1 and "// &
                       "relative above")
@@ -304,7 +308,7 @@ contains
 
         text = "  "//left(item%name, 22)//left("["//trim(item%unit)//"]", 12)
         if (item%formula == "") then
-            call put_line(text//trim(item%meaning))
+            call put_line(trim(text//item%meaning))
         else if (len(text) + len_trim(item%formula) + len_trim(item%meaning) <= 98) then
             call put_line(text//trim(item%formula)//": "//trim(item%meaning))
         else

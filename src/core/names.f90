@@ -1,7 +1,7 @@
 module lagrangia_names
     !! What somebody may have meant who typed a name that does not exist.
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_text, only: join, lower, quoted
+    use lagrangia_text, only: join, listed, lower, quoted
     implicit none (type, external)
     private
     public :: abbreviation, advice, nearest_name, refuse_name, name_length
@@ -59,16 +59,19 @@ contains
         end do
     end function abbreviation
 
-    pure function advice(name, candidates) result(text)
+    pure function advice(name, candidates, shown_by) result(text)
         !! What to write instead of `name`: the nearest of the candidates, or which there are.
         character(*), intent(in) :: name, candidates(:)  !! what was typed, and what there is
+        character(*), intent(in), optional :: shown_by   !! a command that shows all, if many
         character(:), allocatable :: text
 
         text = nearest_name(name, candidates)
         if (text /= "") then
             text = "did you mean '"//text//"'?"
         else
-            text = "there are "//join(candidates, ", ")
+            text = join(candidates, ", ")
+            if (present(shown_by)) text = listed(candidates, 130, shown_by)
+            text = "there are "//text
         end if
     end function advice
 

@@ -5,6 +5,7 @@ module lagrangia_sweep_axis
     !! spaces them by equal factors, `:random` draws them between the ends. A name is that of a
     !! coordinate, a velocity (`theta_dot`), a parameter (`m1`, `B(3)`), or `q`, `v`, `q(2)`.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_columns, only: described_by
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_expression, only: expression_t
@@ -171,6 +172,7 @@ contains
         character(*), intent(in) :: name
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
+        type(description_t) :: d
         type(target_t), allocatable :: targets(:)
         character(name_length), allocatable :: names(:)
         integer :: i
@@ -179,7 +181,10 @@ contains
         names = targets%name
         i = findloc(names == name, .true., 1)
         if (i == 0) then
-            call fail(error, "a sweep cannot change "//quoted(name)//"; "//advice(name, names))
+            call system%describe(d)
+            call fail(error, "a sweep cannot change "//quoted(name)//"; "// &
+                      advice(name, pack(names, index(names, "q(") /= 1 .and. &
+                                        index(names, "v(") /= 1), described_by(system, d)))
             return
         end if
         axis%name = targets(i)%name

@@ -350,7 +350,7 @@ contains
             near = nearest_name(group, keys)
             i = find_group(tree, near)
             if (i > 0) then
-                call fail_at(tree, tree%groups(i)%at, advice("group ", near, [group]), error)
+                call fail_at(tree, tree%groups(i)%at, advice("group ", near, [group], whole), error)
                 return
             end if
             call fail_at(tree, 0, "group &"//escaped(group, 30)// &
@@ -365,7 +365,7 @@ contains
             if (near /= "") then
                 i = find_entry(tree, group, near)
                 call fail_at(tree, tree%entries(i)%at, "&"//escaped(group, 30)//": "// &
-                             advice("key ", near, [key]), error)
+                             advice("key ", near, [key], whole), error)
                 return
             end if
             call fail_at(tree, tree%groups(owner)%at, label(group, key)// &
@@ -373,20 +373,23 @@ contains
         end if
     end subroutine refuse_missing
 
-    pure subroutine refuse_unknown_keys(tree, group, allowed, error, early)
+    pure subroutine refuse_unknown_keys(tree, group, allowed, error, early, shown_by)
         !! Refuse the first key of `group` that nobody has asked for, naming the nearest of the
         !! `allowed` ones, or those that are not given. `early`: somebody may still ask for those.
         type(namelist_t), intent(in) :: tree              !! of a file
         character(*), intent(in) :: group, allowed(:)     !! in lower case
         type(error_t), allocatable, intent(out) :: error  !! status 2
         logical, intent(in), optional :: early            !! false unless given
+        character(*), intent(in), optional :: shown_by    !! what shows all; else `describe scene`
         character(len(allowed)), allocatable :: absent(:)
-        character(:), allocatable :: text
+        character(:), allocatable :: command, text
         logical :: spared
         integer :: i, k, owner
 
         spared = .false.
         if (present(early)) spared = early
+        command = whole
+        if (present(shown_by)) command = shown_by
         owner = find_group(tree, group)
         do i = 1, tree%entry_count
             associate (item => tree%entries(i))
@@ -395,11 +398,11 @@ contains
                 allocate (absent, source=pack(allowed, &
                     [(in_override(tree, item%at) .or. item%key == allowed(k) .or. &
                       find_entry(tree, group, allowed(k)) == 0, k=1, size(allowed))]))
-                text = advice("key ", trim(item%key), absent)
+                text = advice("key ", trim(item%key), absent, command)
                 if (size(absent) == 0 .and. size(allowed) > 0 .and. &
                     .not. any(allowed == item%key)) text = "unknown key "// &
                     quoted(trim(item%key))//"; there are "// &
-                    escaped(listed(allowed, 130, whole), 180)
+                    escaped(listed(allowed, 130, command), 190)
                 call fail_at(tree, item%at, "&"//escaped(trim(group), 30)//": "//text, error)
                 return
             end associate
@@ -417,16 +420,16 @@ contains
 
         do i = 1, tree%group_count
             if (tree%groups(i)%used) cycle
-            text = advice("group ", trim(tree%groups(i)%name), allowed)
+            text = advice("group ", trim(tree%groups(i)%name), allowed, whole)
             if (in_override(tree, tree%groups(i)%at)) text = text//" (in "//trim(tree%source)//")"
             call fail_at(tree, tree%groups(i)%at, text, error)
             return
         end do
     end subroutine refuse_unknown_groups
 
-    pure function advice(what, name, allowed) result(text)
-        !! What to do about a `name` that is of no use.
-        character(*), intent(in) :: what, name, allowed(:)
+    pure function advice(what, name, allowed, command) result(text)
+        !! What to do about a `name` that is of no use; the command shows all that are allowed.
+        character(*), intent(in) :: what, name, allowed(:), command
         character(:), allocatable :: text
         character(:), allocatable :: near
 
@@ -440,7 +443,7 @@ contains
             text = "unknown "//what//quoted(name)//"; none is allowed here"
         else
             text = "unknown "//what//quoted(name)//"; allowed: "// &
-                   escaped(listed(allowed, 130, whole), 180)
+                   escaped(listed(allowed, 130, command), 190)
         end if
     end function advice
 end module lagrangia_namelist_tree

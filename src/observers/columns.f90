@@ -4,12 +4,13 @@ module lagrangia_columns
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_lagrangian_system, only: lagrangian_system_t
     use lagrangia_names, only: nearest_name
     use lagrangia_system, only: system_t
     use lagrangia_text, only: listed, quoted
     implicit none (type, external)
     private
-    public :: columns_t, new_columns, column_names
+    public :: columns_t, new_columns, column_names, described_by
     public :: refuse_work, why_energy_changes
     public :: is_error
 
@@ -232,9 +233,23 @@ contains
             call fail(error, "unknown column "//quoted(name)//"; did you mean '"//near//"'?")
         else
             call fail(error, "unknown column "//quoted(name)//"; "//trim(d%name)//" has "// &
-                      listed(names, 130, "lagrangia describe "//trim(d%name)))
+                      listed(names, 130, described_by(system, d)))
         end if
     end subroutine refuse
+
+    pure function described_by(system, d) result(command)
+        !! What shows all columns: a system that is only formulas has no name but its scene's.
+        class(system_t), intent(in) :: system  !! any
+        type(description_t), intent(in) :: d   !! what it says of itself
+        character(:), allocatable :: command
+
+        select type (system)
+        class is (lagrangian_system_t)
+            command = "lagrangia describe SCENE"
+        class default
+            command = "lagrangia describe "//trim(d%name)
+        end select
+    end function described_by
 
     pure function without_drift(name) result(text)
         !! `A_x` of `A_x_drift`; other names as they are.

@@ -13,8 +13,7 @@ module lagrangia_lagrangian_group
     use lagrangia_written_formulas, only: longest_formula, written_formulas_t
     implicit none (type, external)
     private
-    public :: read_formulas, read_values, refuse_formula, formula_lines
-    public :: group
+    public :: group, read_formulas, read_values, refuse_formula, formula_lines
 
     character(*), parameter :: group = "lagrangian"
     integer, parameter :: most = 200   !! texts of one key
@@ -199,7 +198,8 @@ contains
                 formulas%parameters(i)%domain()//" is needed", error)
             if (allocated(error)) return
         end do
-        call refuse_unknown_keys(tree, trim(formulas%name), names, error)
+        call refuse_unknown_keys(tree, trim(formulas%name), names, error, &
+                                 shown_by="lagrangia describe SCENE")
         if (allocated(error)) error%message = error%message//"; parameters are named in "// &
                                               "&lagrangian: parameters"
     end subroutine read_values

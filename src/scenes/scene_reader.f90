@@ -251,7 +251,8 @@ contains
             end associate
         end do
         names = d%parameters%name
-        call refuse_unknown_keys(tree, scene%system, names, error)
+        call refuse_unknown_keys(tree, scene%system, names, error, &
+                                 shown_by="lagrangia describe "//scene%system)
         if (allocated(error)) return
         call system%configure(scene%parameters, error)
         if (allocated(error)) return
