@@ -166,6 +166,7 @@ module suites
     use test_small_oscillations, only: small_oscillations_suite
     use test_solve, only: solve_suite
     use test_statement, only: statement_suite
+    use test_statement_forms, only: statement_forms_suite
     use test_step_warning, only: step_warning_suite
     use test_stress, only: stress_suite
     use test_stress_systems, only: stress_systems_suite
@@ -373,6 +374,7 @@ contains
         call suite%addTest(stress_texts_suite())
         call suite%addTest(solve_suite())
         call suite%addTest(statement_suite())
+        call suite%addTest(statement_forms_suite())
         call suite%addTest(sweep_suite())
         call suite%addTest(sweep_lanes_suite())
         call suite%addTest(sweep_points_suite())

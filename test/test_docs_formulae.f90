@@ -31,7 +31,8 @@ module test_docs_formulae
         "T = 'm/2 r_dot^2', '+ m/2 r^2 theta_dot^2'", "columns = 't', 'theta', ...", &
         "method = 'auto'", "'x^2 + y^2 = l^2'", "'x_dot = r sin(theta) phi_dot'", &
         "'y cos(w t) = x sin(w t)'", "'cos(theta) = g/(w^2 r)'", "'cos(theta) = g/l0'", &
-        "'L_z [kg m^2/s] angular momentum = m r^2 theta_dot'"]
+        "'L_z [kg m^2/s] angular momentum = m r^2 theta_dot'", &
+        "p_x = const", "T = 2 pi sqrt(l/g)"]
     !! spans with '=' that state nothing about a system
 
     character(*), parameter :: spherical = "&scene system = 'spherical', dt = 0.1, "// &

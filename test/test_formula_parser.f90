@@ -291,7 +291,7 @@ contains
                         "atan, "// &
                         "cos, cosh, exp, log, sin, sinh, sqrt, tan, tanh")
         call is_refused("X", "column 1: unknown name 'X'; did you mean 'x'?")
-        call is_refused("m x_dot'", "column 8: ''' is no derivative; write x_dot, x_ddot")
+        call is_refused("m x_dot'", "column 8: a prime is no derivative; write x_ddot")
     end subroutine wrong_names_have_a_remedy
 
     subroutine two_meanings_are_refused()
@@ -327,7 +327,7 @@ contains
         !! Each with its column, counted in characters.
         call is_refused("x, m", "column 2: ',' has no meaning here; decimals have a point: 0.5")
         call is_refused("m [x]", "column 3: '[' is no bracket of a formula; write ( and )")
-        call is_refused("\theta", "column 1: LaTeX is not read; write theta_dot, sqrt(x), a/b")
+        call is_refused("\theta", "column 1: LaTeX is not read; write theta")
         call is_refused("x % m", "column 3: '%' has no meaning in a formula")
         call is_refused("_x", "column 1: a name begins with a letter, not with '_'")
         call is_refused("m . x", "column 3: a point stands alone; write * for a product, "// &
@@ -335,12 +335,12 @@ contains
                         "decimal")
         call is_refused("x"//achar(7)//"m", "column 2: U+0007 is a control character; delete it")
         call is_refused(char(206)//char(184)//" + "//char(226)//char(136)//char(154)//"x", &
-                        "column 5: U+221A is a root; write sqrt(x)")
+                        "column 6: 'sqrt' needs brackets; write 'sqrt(x)'")
         call is_refused("45"//char(194)//char(176), "column 3: U+00B0 is a degree; angles "// &
                         "are in "// &
                         "radians, write pi/4 for 45 degrees")
-        call is_refused("x"//char(204)//char(135), "column 2: U+0307 is a dot above a letter; "// &
-                        "write theta_dot")
+        call is_refused("q"//char(204)//char(135)//" = x", "column 1: unknown name 'q_dot'; "// &
+                        "did you mean 'x_dot'?")
         call is_refused("x "//char(255), "column 3: byte \xFF has no meaning in a formula; "// &
                         "write "// &
                         "plain letters")

@@ -92,10 +92,10 @@ contains
                     "'thetadot'; did you mean 'theta_dot'?")
         call blamed(t//"'m r_dot^2 cos("//char(206)//char(184)//") + x'", "x'", "T: column 20: "// &
                     "unknown name 'x'"//there)
-        call blamed(t//"'m r''''^2 '", "''''", "T: column 4: ''' is no derivative; write "// &
-                    "x_dot, x_ddot")
-        call blamed(t//"'m ''''^2 r''s '", "''''", "T: column 3: ''' is no derivative; write "// &
-                    "x_dot, x_ddot")
+        call blamed(t//"'m r''''^2 '", "''''", "T: column 4: a prime is no derivative; "// &
+                    "write r_ddot")
+        call blamed(t//"'m ''''^2 r''s '", "''''", "T: column 3: a prime is no derivative; "// &
+                    "write x_dot, x_ddot")
         call blamed(names//energies//"Q_theta = '-b theta_dot'", "b theta", "Q_theta: column "// &
                     "2: unknown name 'b'"//there)
         call blamed(names//energies//"Q_phi = '1'", "Q_phi", "unknown key 'q_phi'; allowed: "// &

@@ -21,7 +21,16 @@ module lagrangia_formula_characters
         spelling_t(int(z"03A6"), "Phi"), spelling_t(int(z"03A8"), "Psi"), &
         spelling_t(int(z"03A9"), "Omega"), spelling_t(int(z"03D1"), "theta"), &
         spelling_t(int(z"03D5"), "phi"), spelling_t(int(z"00B5"), "mu"), &
-        spelling_t(int(z"2113"), "l"), spelling_t(int(z"03F5"), "epsilon")]
+        spelling_t(int(z"2113"), "l"), spelling_t(int(z"03F5"), "epsilon"), &
+        spelling_t(int(z"2202"), "d"), spelling_t(int(z"221A"), " sqrt")]
+
+    character, parameter :: dot = achar(1), two_dots = achar(2)  ! above the letter before them
+    type(spelling_t), parameter :: dotted(*) = [ &
+        spelling_t(int(z"0307"), dot), spelling_t(int(z"0308"), two_dots), &
+        spelling_t(int(z"02D9"), dot), spelling_t(int(z"00A8"), two_dots), &
+        spelling_t(int(z"1E8B"), "x"//dot), spelling_t(int(z"1E8D"), "x"//two_dots), &
+        spelling_t(int(z"1E8F"), "y"//dot), spelling_t(int(z"00FF"), "y"//two_dots), &
+        spelling_t(int(z"017C"), "z"//dot), spelling_t(int(z"1E59"), "r"//dot)]
 
     character(7), parameter :: greek(25) = [character(7) :: &  ! from U+03B1 on
         "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", &
@@ -40,6 +49,8 @@ module lagrangia_formula_characters
         spelling_t(int(z"2009"), " "), spelling_t(int(z"202F"), " "), &
         spelling_t(int(z"0009"), " ")]
 
+    character(*), parameter :: digits = "0123456789", lower = "abcdefghijklmnopqrstuvwxyz"
+    character(*), parameter :: upper = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
     integer, parameter :: subscript_zero = int(z"2080"), alpha = int(z"03B1")
 
 contains
@@ -50,7 +61,7 @@ contains
         character(:), allocatable, intent(out) :: plain   !! ASCII without control characters
         integer, allocatable, intent(out) :: columns(:)   !! in characters from 1, (len(plain))
         type(error_t), allocatable, intent(out) :: error  !! a character that no formula has
-        character(4*len(text) + 1) :: buffer  ! epsilon has seven letters for two bytes
+        character(5*len(text) + 1) :: buffer  ! epsilon has seven letters for two bytes
         character(:), allocatable :: meant
         integer :: code, column, filled, i, length
 
@@ -69,6 +80,9 @@ contains
                     return
                 end if
                 meant = text(i:i)
+            else if (scan(meant(1:1), lower//upper) > 0 .and. &
+                     scan(buffer(max(filled, 1):filled), digits) > 0) then
+                meant = " "//meant  ! 2 pi r
             end if
             buffer(filled + 1:filled + len(meant)) = meant
             columns(filled + 1:filled + len(meant)) = column
@@ -77,7 +91,32 @@ contains
         end do
         plain = buffer(:filled)
         columns = columns(:filled)
+        if (scan(plain, dot//two_dots) > 0) call place_dots(plain, columns)
     end subroutine plain_formula
+
+    pure subroutine place_dots(plain, columns)
+        !! A dot becomes `_dot` behind the index that follows: `theta_1_dot`.
+        character(:), allocatable, intent(inout) :: plain
+        integer, allocatable, intent(inout) :: columns(:)
+        character(*), parameter :: index_letters = digits//"_"//lower//upper
+        character(:), allocatable :: rate
+        integer :: at, last
+
+        do
+            at = scan(plain, dot//two_dots)
+            if (at == 0) return
+            rate = merge("_dot ", "_ddot", plain(at:at) == dot)
+            if (scan(plain(at + 1:), "_") == 1) then
+                last = at + verify(plain(at + 1:)//" ", index_letters) - 1
+            else
+                last = at + verify(plain(at + 1:)//" ", digits) - 1
+            end if
+            columns = [columns(:at - 1), columns(at + 1:last), spread(columns(at), 1, &
+                                                                      len_trim(rate)), &
+                       columns(last + 1:)]
+            plain = plain(:at - 1)//plain(at + 1:last)//trim(rate)//plain(last + 1:)
+        end do
+    end subroutine place_dots
 
     pure function spelled(code) result(plain)
         !! What a character beyond ASCII stands for; empty where it is none that is known.
@@ -94,9 +133,14 @@ contains
             do k = 1, size(capitals)
                 if (capitals(k)%code == code) plain = trim(capitals(k)%plain)
             end do
+            if (plain == " sqrt") plain = " sqrt "
             do k = 1, size(signs)
                 if (signs(k)%code == code) plain = trim(signs(k)%plain)
                 if (signs(k)%code == code .and. plain == "") plain = " "
+                if (signs(k)%code == code .and. plain(1:1) == "^") plain = plain//" "
+            end do
+            do k = 1, size(dotted)
+                if (dotted(k)%code == code) plain = trim(dotted(k)%plain)
             end do
         end if
     end function spelled
@@ -107,14 +151,8 @@ contains
         character(:), allocatable :: text
 
         select case (code)
-        case (int(z"0307"))
-            text = " is a dot above a letter; write theta_dot"
-        case (int(z"0308"))
-            text = " is two dots above a letter; write theta_ddot"
         case (int(z"00B0"), int(z"00BA"))
             text = " is a degree; angles are in radians, write pi/4 for 45 degrees"
-        case (int(z"221A"))
-            text = " is a root; write sqrt(x)"
         case default
             text = " has no meaning in a formula; write plain letters"
             if (is_control(code)) text = " is a control character; delete it"

@@ -11,20 +11,51 @@ module lagrangia_formula_parser
                                     kind_function, kind_negation, kind_power, kind_product, &
                                     kind_quotient, kind_sum
     use lagrangia_formula_reader, only: begins_factor, check_size, go_deeper, &
-                                        is_time_in_brackets, largest, &
-                                        next_is, reader_t, refuse, refuse_missing, &
-                                        refuse_unknown, skip_sign, start, typed_number
+                                        is_time_in_brackets, next_is, reader_t, refuse, &
+                                        refuse_missing, refuse_unknown, skip_sign, start, &
+                                        typed_number
     use lagrangia_formula_tokens, only: is_end, is_name, is_number, is_sign, token_t
-    use lagrangia_indexed_names, only: begins_sum, is_of_chain, open_sum, put_indices, &
-                                       refuse_index, skip_body
+    use lagrangia_indexed_names, only: begins_sum, is_of_chain, put_indices, refuse_index
     use lagrangia_kinds, only: dp, i8
     use lagrangia_symbols, only: symbols_t
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
     private
     public :: parse_equation, parse_formula
+    public :: read_bracket, read_factor, read_sum  ! gfortran 12 hides others from submodules
 
     real(dp), parameter :: pi = acos(-1.0_dp)
+
+    interface
+        pure recursive module subroutine read_indexed_sum(reader, symbols, node, error)
+            !! `sum(i, 1, 4, m/2 x_i_dot^2)`: the formula is read once for each number.
+            implicit none (type, external)
+            type(reader_t), intent(inout) :: reader
+            type(symbols_t), intent(in) :: symbols
+            integer, intent(out) :: node
+            type(error_t), allocatable, intent(out) :: error
+        end subroutine read_indexed_sum
+
+        pure recursive module subroutine read_function(reader, symbols, which, node, error)
+            !! `sin(x)`, or `sin^2(x)` with a whole number.
+            implicit none (type, external)
+            type(reader_t), intent(inout) :: reader
+            type(symbols_t), intent(in) :: symbols
+            integer, intent(in) :: which
+            integer, intent(out) :: node
+            type(error_t), allocatable, intent(out) :: error
+        end subroutine read_function
+
+        pure recursive module subroutine read_rate(reader, symbols, node, error)
+            !! `d/dt (m r^2 theta_dot)`, `dE/dt`, `d^2 x/dt^2`, `dL/dx_dot`; no node where none of
+            !! these stands here.
+            implicit none (type, external)
+            type(reader_t), intent(inout) :: reader
+            type(symbols_t), intent(in) :: symbols
+            integer, intent(out) :: node
+            type(error_t), allocatable, intent(out) :: error
+        end subroutine read_rate
+    end interface
 
 contains
 
@@ -99,10 +130,10 @@ contains
 
     pure recursive subroutine read_sum(reader, symbols, node, error)
         !! Products with signs between them, perhaps one before the first.
-        type(reader_t), intent(inout) :: reader
-        type(symbols_t), intent(in) :: symbols
-        integer, intent(out) :: node
-        type(error_t), allocatable, intent(out) :: error
+        type(reader_t), intent(inout) :: reader           !! at its first token
+        type(symbols_t), intent(in) :: symbols            !! the names that it may use
+        integer, intent(out) :: node                      !! its place
+        type(error_t), allocatable, intent(out) :: error  !! column and remedy
         integer :: kind, left, right
         logical :: negative
 
@@ -193,10 +224,10 @@ contains
 
     pure recursive subroutine read_factor(reader, symbols, node, error)
         !! A number, a name, a function, or a sum in brackets or between bars.
-        type(reader_t), intent(inout) :: reader
-        type(symbols_t), intent(in) :: symbols
-        integer, intent(out) :: node
-        type(error_t), allocatable, intent(out) :: error
+        type(reader_t), intent(inout) :: reader           !! at its first token
+        type(symbols_t), intent(in) :: symbols            !! the names that it may use
+        integer, intent(out) :: node                      !! its place
+        type(error_t), allocatable, intent(out) :: error  !! column and remedy
         character(:), allocatable :: word
         type(token_t) :: token
         integer :: bars, left
@@ -240,10 +271,10 @@ contains
 
     pure recursive subroutine read_bracket(reader, symbols, node, error)
         !! A sum in brackets.
-        type(reader_t), intent(inout) :: reader
-        type(symbols_t), intent(in) :: symbols
-        integer, intent(out) :: node
-        type(error_t), allocatable, intent(out) :: error
+        type(reader_t), intent(inout) :: reader           !! at its first token
+        type(symbols_t), intent(in) :: symbols            !! the names that it may use
+        integer, intent(out) :: node                      !! its place
+        type(error_t), allocatable, intent(out) :: error  !! column and remedy
         integer :: bars, column
 
         node = 0
@@ -302,6 +333,8 @@ contains
             reader%at = reader%at + 1
             return
         end if
+        call read_rate(reader, symbols, node, error)
+        if (allocated(error) .or. node > 0) return
         call put_indices(reader, name, indexed, error)
         if (allocated(error)) return
         if (indexed /= name) then
@@ -358,89 +391,4 @@ contains
         end if
         reader%at = reader%at + 1
     end subroutine add_indexed
-
-    pure recursive subroutine read_indexed_sum(reader, symbols, node, error)
-        !! `sum(i, 1, 4, m/2 x_i_dot^2)`: the formula is read once for each number.
-        type(reader_t), intent(inout) :: reader
-        type(symbols_t), intent(in) :: symbols
-        integer, intent(out) :: node
-        type(error_t), allocatable, intent(out) :: error
-        integer :: bars, body, first, k, last, left, term
-
-        node = 0
-        bars = reader%bars
-        call open_sum(reader, symbols, first, last, error)
-        if (allocated(error)) return
-        body = reader%at
-        if (last < first) then
-            call skip_body(reader, error)
-            call reader%expression%add_number(ratio(0_i8, 1_i8), node)
-        end if
-        do k = first, last
-            if (allocated(error)) return
-            reader%at = body
-            reader%index_values(reader%indices) = k
-            call read_sum(reader, symbols, term, error)
-            if (allocated(error)) return
-            if (.not. next_is(reader, ")")) then
-                call refuse(reader, "the bracket of a sum is not closed; write sum(i, 1, 4, "// &
-                            "x_i^2)", error)
-            else if (reader%expression%count > largest) then
-                call refuse(reader, "the formula, with its sums written out, has more than "// &
-                            to_text(nint(largest))//" parts; shorten it", error)
-            end if
-            left = node
-            node = term
-            if (k > first) call reader%expression%add_operation(kind_sum, left, term, node)
-        end do
-        if (allocated(error)) return
-        reader%at = reader%at + 1
-        reader%bars = bars
-        reader%depth = reader%depth - 1
-        reader%indices = reader%indices - 1
-    end subroutine read_indexed_sum
-
-    pure recursive subroutine read_function(reader, symbols, which, node, error)
-        !! `sin(x)`, or `sin^2(x)` with a whole number.
-        type(reader_t), intent(inout) :: reader
-        type(symbols_t), intent(in) :: symbols
-        integer, intent(in) :: which
-        integer, intent(out) :: node
-        type(error_t), allocatable, intent(out) :: error
-        character(:), allocatable :: name
-        type(token_t) :: token
-        integer :: argument, exponent
-
-        node = 0
-        name = trim(function_names(which))
-        reader%at = reader%at + 1
-        token = token_t()
-        if (next_is(reader, "^")) then
-            reader%at = reader%at + 1
-            token = reader%tokens%token(reader%at)
-            if (token%kind /= is_number .or. abs(token%value - anint(token%value)) > 0.0_dp) then
-                call refuse(reader, "'"//name//"^' takes a whole number, "//name//"^2(x); "// &
-                            "write 1/"//name//"(x) or "//name//"(x)^n for others", error)
-                return
-            end if
-            reader%at = reader%at + 1
-        end if
-        if (.not. next_is(reader, "(")) then
-            if (reader%tokens%token(reader%at)%kind == is_name .or. &
-                reader%tokens%token(reader%at)%kind == is_number) then
-                call refuse(reader, "'"//name//"' needs brackets; write "// &
-                            quoted(name//"("//reader%tokens%word(reader%at)//")"), error)
-            else
-                call refuse(reader, "'"//name//"' lacks its argument; write '"//name//"(x)'", error)
-            end if
-            return
-        end if
-        call read_bracket(reader, symbols, argument, error)
-        if (allocated(error)) return
-        call reader%expression%add_operation(kind_function, argument, 0, node, which)
-        if (token%kind /= is_number) return
-        argument = node
-        call reader%expression%add_number(number_of(token%value), exponent)
-        call reader%expression%add_operation(kind_power, argument, exponent, node)
-    end subroutine read_function
 end module lagrangia_formula_parser

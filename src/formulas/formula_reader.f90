@@ -5,7 +5,7 @@ module lagrangia_formula_reader
     use lagrangia_expression, only: expression_t, function_names
     use lagrangia_formula_tokens, only: cut, is_end, is_name, is_number, is_sign, tokens_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_names, only: advice, name_length, nearest_name
+    use lagrangia_names, only: name_length, nearest_name
     use lagrangia_symbols, only: symbols_t
     use lagrangia_text, only: join, quoted, to_text
     implicit none (type, external)
@@ -18,6 +18,8 @@ module lagrangia_formula_reader
     integer, parameter :: deepest = 200          !! brackets within brackets
     real(dp), parameter :: largest = 100000.0_dp !! parts, with definitions written out
     integer, parameter :: most_indices = 4       !! sums within each other
+    character(*), parameter :: units(*) = [character(3) :: "m", "cm", "mm", "km", "g", "kg", "s", &
+                                           "ms", "N", "Nm", "J", "W", "Hz", "rad", "deg"]
 
     type :: reader_t
         !! How far the reading has come.
@@ -227,10 +229,42 @@ contains
         else if (applied .and. nearest == "") then
             call refuse(reader, "unknown function "//quoted(name)//"; there are "// &
                         join(function_names, ", "), error)
+        else if (nearest /= "") then
+            call refuse(reader, "unknown name "//quoted(name)//"; did you mean "// &
+                        quoted(nearest)//"?", error)
+        else if (follows_number(reader) .and. any(units == name)) then
+            call refuse(reader, quoted(name)//" is a unit, and numbers have none here; write "// &
+                        "the formula in letters", error)
         else
-            call refuse(reader, "unknown name "//quoted(name)//"; "//advice(name, names), error)
+            call refuse(reader, "unknown name "//quoted(name)//"; there are "// &
+                        join(essential(names), ", "), error)
         end if
     end subroutine refuse_unknown
+
+    pure function follows_number(reader) result(yes)
+        !! Does a number stand before the next token?
+        type(reader_t), intent(in) :: reader
+        logical :: yes
+
+        yes = reader%at > 1
+        if (yes) yes = reader%tokens%token(reader%at - 1)%kind == is_number
+    end function follows_number
+
+    pure function essential(names) result(few)
+        !! Of many names those that are no derivatives of others.
+        character(name_length), intent(in) :: names(:)
+        character(name_length), allocatable :: few(:)
+        logical :: derived(size(names))
+        integer :: i
+
+        do i = 1, size(names)
+            derived(i) = index(names(i), "_dot") > 0 .or. index(names(i), "_ddot") > 0 .or. &
+                         index(names(i), "dL_d") > 0 .or. index(names(i), "dT_d") == 1 .or. &
+                         index(names(i), "dV_d") == 1
+        end do
+        few = names
+        if (size(names) > 12) few = pack(names, .not. derived)
+    end function essential
 
     pure function nearest_function(name) result(nearest)
         !! What a function is called here; empty if no name is near.

@@ -108,7 +108,7 @@ contains
             token%last = token%first
             if (index(text(token%first:), "**") == 1) token%last = token%first + 1
         else
-            call fail(error, "column "//to_text(token%column)//": "//advice(letter))
+            call fail(error, "column "//to_text(token%column)//": "//advice(text, token%first))
         end if
     end subroutine take
 
@@ -155,26 +155,75 @@ contains
                   quoted(text(token%first:token%last))//" "//problem)
     end subroutine take_number
 
-    pure function advice(letter) result(text)
+    pure function advice(before, at) result(text)
         !! What to write in the place of a sign that has no meaning.
-        character, intent(in) :: letter
+        character(*), intent(in) :: before  !! the formula
+        integer, intent(in) :: at           !! where the sign is
         character(:), allocatable :: text
 
-        select case (letter)
+        select case (before(at:at))
         case (",")
             text = "',' has no meaning here; decimals have a point: 0.5"
         case ("[", "]", "{", "}")
-            text = quoted(letter)//" is no bracket of a formula; write ( and )"
+            text = quoted(before(at:at))//" is no bracket of a formula; write ( and )"
         case ("\")
-            text = "LaTeX is not read; write theta_dot, sqrt(x), a/b"
+            text = "LaTeX is not read; write "//instead_of_latex(before(at + 1:))
         case ("'")
-            text = "''' is no derivative; write x_dot, x_ddot"
+            text = "a prime is no derivative; write "//dotted(before, at)
         case ("_")
             text = "a name begins with a letter, not with '_'"
         case (".")
             text = "a point stands alone; write * for a product, 0.5 for a decimal"
         case default
-            text = quoted(letter)//" has no meaning in a formula"
+            text = quoted(before(at:at))//" has no meaning in a formula"
         end select
     end function advice
+
+    pure function dotted(text, at) result(name)
+        !! `theta_ddot` for `theta''`.
+        character(*), intent(in) :: text
+        integer, intent(in) :: at         !! of the first prime
+        character(:), allocatable :: name
+        integer :: last, primes
+
+        name = text(verify(text(:at - 1), inside, back=.true.) + 1:at - 1)
+        primes = verify(text(at:)//" ", "'") - 1
+        last = max(1, len(name) - 3)
+        if (name == "" .or. primes > 2) then
+            name = "x_dot, x_ddot"
+        else if (name(last:) == "_dot") then
+            name = name(:last)//"ddot"
+        else
+            name = name//trim(merge("_dot ", "_ddot", primes == 1))
+        end if
+    end function dotted
+
+    pure function instead_of_latex(command) result(text)
+        !! What a command stands for: `theta_dot` for `dot{\theta}`.
+        character(*), intent(in) :: command  !! without its backslash
+        character(:), allocatable :: text
+        character(:), allocatable :: operand
+        integer :: first, last
+
+        last = verify(command//" ", letters) - 1
+        first = last + verify(command(last + 1:)//"x", " {\")
+        operand = command(first:first + verify(command(first:)//" ", inside) - 2)
+        select case (command(:last))
+        case ("dot")
+            text = operand//"_dot"
+        case ("ddot")
+            text = operand//"_ddot"
+        case ("frac", "dfrac", "tfrac")
+            text = "(a)/(b)"
+        case ("sqrt", "sin", "cos", "tan", "exp")
+            text = command(:last)//"("//operand//")"
+        case ("cdot", "times")
+            text = "*"
+        case ("left", "right")
+            text = "( and ) alone"
+        case default
+            text = command(:last)
+            if (last == 0) text = "a blank"
+        end select
+    end function instead_of_latex
 end module lagrangia_formula_tokens

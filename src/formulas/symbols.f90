@@ -25,6 +25,9 @@ module lagrangia_symbols
         !! Names of symbols and definitions; none at first.
         character(name_length), allocatable :: names(:)     !! of the symbols, in order
         type(definition_t), allocatable :: definitions(:)   !! may use symbols, and earlier ones
+        integer, allocatable :: rates(:)
+        !! place of each symbol's time derivative, 0: it is constant, or the time; -1: not known.
+        !! Without these a formula has no d/dt
     contains
         procedure :: add
         procedure :: define

@@ -1,7 +1,9 @@
 module lagrangia_grading
     !! A whole sheet: every statement judged, and whether the right ones determine the motion.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_canonical_form, only: simplified
     use lagrangia_consequences, only: consequences_t
+    use lagrangia_derivative, only: derivative, time_derivative
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, kind_number
@@ -21,6 +23,8 @@ module lagrangia_grading
     private
     public :: grade_t
     public :: grade
+
+    integer, parameter :: most_derived = 3  !! coordinates of which all momenta are written
 
     type :: grade_t
         !! Of one sheet.
@@ -134,6 +138,7 @@ contains
             end do
         end if
         if (allocated(d%lagrangian)) call add_formula(d%lagrangian)
+        if (allocated(d%lagrangian)) call add_derivatives(d%lagrangian)
         if (allocated(d%kinetic_energy)) call add_formula(d%kinetic_energy)
         if (allocated(d%potential_energy)) call add_formula(d%potential_energy)
         if (allocated(d%energy)) call add_formula(d%energy)
@@ -142,6 +147,23 @@ contains
         end do
         if (samples%decay > 0) call add_formula(trim(samples%symbols%names(samples%decay))//"^2")
     contains
+        subroutine add_derivatives(text)
+            !! The momenta, their rates, and what these are.
+            character(*), intent(in) :: text
+            type(expression_t) :: momentum
+            integer :: j
+
+            call parse_formula(text, samples%symbols, left, error)
+            if (allocated(error) .or. samples%ndof > most_derived) return
+            do j = 1, samples%ndof
+                momentum = simplified(derivative(left, 1 + samples%ndof + j), samples%symbols)
+                call add_terms(momentum, library)
+                call add_terms(simplified(time_derivative(momentum, samples%rate, 1), &
+                                          samples%symbols), library)
+                call add_terms(simplified(derivative(left, 1 + j), samples%symbols), library)
+            end do
+        end subroutine add_derivatives
+
         subroutine add_formula(text)
             character(*), intent(in) :: text
 

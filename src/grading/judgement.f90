@@ -4,17 +4,18 @@ module lagrangia_judgement
     !! with.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: expression_t, kind_symbol, operator(-)
+    use lagrangia_expression, only: expression_t, kind_symbol, operator(-), whole
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_homework, only: statement_t
     use lagrangia_kinds, only: dp
     use lagrangia_number_text, only: scientific
     use lagrangia_same_motion, only: same_equations
-    use lagrangia_sample_names, only: draws, role_parameter, samples_t, states
+    use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_slip_search, only: explain_slip, holds, is_trivial
     use lagrangia_small_motion, only: small_motion
-    use lagrangia_symbols, only: check_name
+    use lagrangia_statement_forms, only: is_constancy, is_motion, is_new_name, is_slope, is_value, &
+                                         read_as_period
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -50,13 +51,14 @@ contains
         type(error_t), allocatable :: error
         type(expression_t) :: left, right
         character(:), allocatable :: text
-        integer :: first, next, last
+        integer :: begun, first, next, last
         logical :: chained
 
         chained = .false.
+        begun = 1
         judgement%remark = ""
         judgement%example = ""
-        call write_derivatives(statement%text, text)
+        text = statement%text
         if (statement%small) text(:index(text, ":")) = ""
         call exchange(text, trim(samples%symbols%names(samples%frequency)), "^2", "_2")
         next = index(text, "=")
@@ -73,6 +75,7 @@ contains
             call put_unreadable(error, judgement)
             return
         end if
+        chained = is_slope(text(:next - 1))
         do
             first = next + 1
             last = index(text(first:), "=")
@@ -80,6 +83,12 @@ contains
             ! blanks in front keep the columns of what went before
             call parse_formula(repeat(" ", first - 1)//text(first:next - 1), samples%symbols, &
                                right, error)
+            if (.not. allocated(error)) call read_as_period(left, right, samples, chained)
+            if (is_constancy(text(first:next - 1), samples)) then
+                call parse_formula("d/dt("//text(begun:first - 2)//")", samples%symbols, left, &
+                                   error)
+                right = whole(0)
+            end if
             if (allocated(error)) then
                 call put_unreadable(error, judgement)
                 return
@@ -91,6 +100,7 @@ contains
             end if
             if (judgement%verdict /= is_right .or. next > len(text)) return
             left = right
+            begun = first
             chained = .true.
         end do
     end subroutine judge
@@ -114,23 +124,6 @@ contains
             ": one side of '=' is empty; write 'left = right'"
     end subroutine find_empty_side
 
-    pure subroutine write_derivatives(typed, text)
-        !! `dL/dx_dot` becomes the name `dL_dx_dot`, `d/dt dL/dx_dot` the name `d_dt_dL_dx_dot`, as
-        !! long as they were.
-        character(*), intent(in) :: typed
-        character(:), allocatable, intent(out) :: text
-        integer :: i
-
-        text = typed
-        do i = 1, len(text) - 4
-            if (text(i:i + 3) == "dL/d") text(i + 2:i + 2) = "_"
-            if (i + 8 > len(text)) cycle
-            if (text(i:i + 7) == "d/dt dL_" .or. &
-                text(i:i + 7) == "d/dt dL/") text(i:i + 4) = "d_dt_"
-            if (text(i:i + 4) == "d_dt_" .and. text(i + 7:i + 7) == "/") text(i + 7:i + 7) = "_"
-        end do
-    end subroutine write_derivatives
-
     pure subroutine exchange(text, name, before, after)
         !! `omega^2` becomes `omega_2`, or the other way, as long as it was.
         character(*), intent(in) :: name, before, after
@@ -142,24 +135,6 @@ contains
             if (text(i:i + n + 1) == name//before) text(i + n:i + n + 1) = after
         end do
     end subroutine exchange
-
-    pure function is_new_name(text, samples) result(yes)
-        !! Is it a name alone, which nobody has given yet? What looks like a velocity or a momentum
-        !! of an unknown coordinate is a mistake.
-        character(*), intent(in) :: text
-        type(samples_t), intent(in) :: samples
-        logical :: yes
-        type(error_t), allocatable :: error
-        character(len(text)) :: name
-
-        name = adjustl(text)
-        call check_name(trim(name), error)
-        yes = .not. allocated(error)
-        if (.not. yes) return
-        yes = samples%symbols%find(trim(name)) == 0 .and. &
-              samples%symbols%find_definition(trim(name)) == 0 .and. index(name, "_d") == 0 .and. &
-              index(name, "p_") /= 1 .and. index(name, "dL") /= 1
-    end function is_new_name
 
     subroutine define(text, equals, samples, judgement)
         !! A name of the student's own.
@@ -212,7 +187,11 @@ contains
         else
             call holds(judgement%residual, values, right_one, judged)
         end if
-        if (is_value(left, right, samples)) then
+        if (is_motion(left, right, samples)) then
+            judgement%verdict = is_unreadable
+            judgement%remark = "a motion is not graded, only what holds at all times; write "// &
+                "its equation, or its frequency"
+        else if (is_value(left, right, samples)) then
             judgement%verdict = is_unreadable
             judgement%remark = "graded for any value; a line 'set: "// &
                 trim(samples%symbols%names(left%nodes(1)%which))//" = ...' fixes one"
@@ -285,17 +264,6 @@ contains
             call exchange(judgement%example, trim(name), "_2", "^2")
         end associate
     end subroutine put_squares
-
-    pure function is_value(left, right, samples) result(yes)
-        !! A parameter alone on the left, and a number on the right side.
-        type(expression_t), intent(in) :: left, right
-        type(samples_t), intent(in) :: samples
-        logical :: yes
-
-        yes = left%count == 1 .and. left%nodes(1)%kind == kind_symbol
-        if (yes) yes = samples%role(left%nodes(1)%which) == role_parameter .and. &
-                       .not. any(right%nodes(:right%count)%kind == kind_symbol)
-    end function is_value
 
     subroutine choose_modes(residual, samples, values, right_one, found)
         !! Give omega its values: of that equilibrium, and for each draw of parameters that mode,

@@ -150,9 +150,9 @@ contains
             end do
             call put("E", system%energy(t, q, v))
             call put_points()
+            call put_mass()
             call put_derivatives()
             call follow_letters(samples, row)
-            call put_mass()
             if (.not. all(ieee_is_finite(samples%values(row, :)))) then
                 call fail(error, "not finite")
                 return
@@ -210,8 +210,11 @@ contains
 
         subroutine put_derivatives()
             type(hyperdual_t) :: tt, qq(system%ndof), vv(system%ndof), l
+            real(dp) :: gain, scale
             integer :: j
 
+            gain = 0.0_dp
+            scale = 0.0_dp
             tt = hyperdual_t(t, d2=1.0_dp)
             do j = 1, system%ndof
                 qq(j) = hyperdual_t(q(j), d2=v(j))
@@ -225,13 +228,28 @@ contains
                 call put("L", l%re)
                 call put("p_"//trim(name), l%d1)
                 call put("dL_d"//trim(name)//"_dot", l%d1)
+                if (allocated(samples%mass)) call drop_rounding(dot_product( &
+                    abs(samples%mass(j, :, row)), abs(a)), l%d12)
                 call put("d_dt_dL_d"//trim(name)//"_dot", l%d12)
+                gain = gain + l%d12*v(j) + l%d1*a(j)
+                scale = scale + abs(l%d12*v(j)) + abs(l%d1*a(j))
                 qq(j)%d1 = 1.0_dp
                 l = system%lagrangian(tt, qq, vv)
                 qq(j)%d1 = 0.0_dp
                 call put("dL_d"//trim(name), l%d1)
             end do
+            gain = gain - l%d2  ! of p v - L
+            call drop_rounding(scale + abs(l%d2), gain)
+            call put("E_dot", gain)
         end subroutine put_derivatives
+
+        pure subroutine drop_rounding(scale, x)
+            !! What is conserved has the rate 0.
+            real(dp), intent(in) :: scale      !! of what was added up
+            real(dp), intent(inout) :: x
+
+            if (abs(x) <= 1e-12_dp*scale) x = 0.0_dp
+        end subroutine drop_rounding
     end subroutine add_states
 
     subroutine add_modes(samples, system, draw)

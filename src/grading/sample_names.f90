@@ -1,9 +1,10 @@
 module lagrangia_sample_names
     !! What a statement about a system may name: coordinates, velocities, accelerations, parameters,
     !! letters, L, energies, momenta, derivatives of L, quantities, places of the masses, omega.
+    use lagrangia_derivative, only: derivative
     use lagrangia_description, only: description_t, name_length, value_names
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: expression_t
+    use lagrangia_expression, only: expression_t, symbol
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_formula_program, only: formula_program_t, new_formula_program
     use lagrangia_hyperdual, only: hyperdual_t
@@ -76,8 +77,7 @@ contains
         logical, intent(in) :: damped                 !! it has a decay rate
         type(samples_t), intent(inout) :: samples     !! gets names, roles, rates and letters
         character(name_length), allocatable :: names(:)
-        character(name_length) :: name
-        integer :: i, k
+        integer :: i
 
         samples%ndof = system%ndof
         allocate (samples%role(0))
@@ -98,6 +98,7 @@ contains
         do i = 1, size(d%quantities)
             call add(trim(d%quantities(i)%name), role_known)
         end do
+        call add("E_dot", role_known)
         call add_points()
         call add("L", role_known)
         call add("E", role_known)
@@ -105,8 +106,8 @@ contains
         call add_each("dL_d", "_dot", role_known)
         call add_each("dL_d", "", role_known)
         call add_each("d_dt_dL_d", "_dot", role_known)
-        if (allocated(d%kinetic_energy)) call add("T", role_known)
-        if (allocated(d%potential_energy)) call add("V", role_known)
+        if (allocated(d%kinetic_energy)) call add_energy("T")
+        if (allocated(d%potential_energy)) call add_energy("V")
         if (samples%symbols%find("omega") == 0) then
             call add("omega", role_frequency)
             call add("omega_2", role_frequency)
@@ -124,16 +125,8 @@ contains
             samples%decay = size(samples%role)
             call add(trim(samples%symbols%names(samples%frequency))//"_0", role_known)
         end if
-        allocate (samples%rate(size(samples%role)))
-        do i = 1, size(samples%rate)
-            name = samples%symbols%names(i)
-            samples%rate(i) = samples%symbols%find(trim(name)//"_dot")
-            k = len_trim(name)
-            if (k > 4) then
-                if (name(k - 3:k) == "_dot") samples%rate(i) = samples%symbols%find(name(:k - 3)// &
-                    "ddot")
-            end if
-        end do
+        call name_rates(samples)
+        call define_derivatives(d, samples)
         call compile_letters(d, samples)
     contains
         subroutine add_each(before, after, role)
@@ -145,6 +138,13 @@ contains
                 call add(before//trim(d%coordinates(j)%name)//after, role)
             end do
         end subroutine add_each
+
+        subroutine add_energy(called)
+            character(*), intent(in) :: called
+
+            call add(called, role_known)
+            call add(called//"_dot", role_known)
+        end subroutine add_energy
 
         subroutine add_points()
             !! `x_bob`, `phi_pulley`, with their rates.
@@ -204,6 +204,71 @@ contains
             samples%role = [samples%role, role]
         end subroutine add
     end subroutine name_symbols
+
+    subroutine name_rates(samples)
+        !! The place of each name's time derivative: `theta_dot` of `theta`; d/dt of others is 0, or
+        !! not known.
+        type(samples_t), intent(inout) :: samples
+        character(name_length) :: name
+        integer :: i, k
+
+        allocate (samples%rate(size(samples%role)))
+        do i = 1, size(samples%rate)
+            name = samples%symbols%names(i)
+            samples%rate(i) = samples%symbols%find(trim(name)//"_dot")
+            k = len_trim(name)
+            if (k > 4) then
+                if (name(k - 3:k) == "_dot") samples%rate(i) = &
+                    samples%symbols%find(name(:k - 3)//"ddot")
+            end if
+            if (name(:2) == "p_" .and. samples%role(i) == role_known) samples%rate(i) = &
+                samples%symbols%find("d_dt_dL_d"//trim(name(3:))//"_dot")
+            if (name(:4) == "dL_d" .and. samples%rate(i) == 0) samples%rate(i) = &
+                samples%symbols%find("d_dt_"//trim(name))
+        end do
+        samples%symbols%rates = samples%rate
+        do i = 1, size(samples%rate)
+            if (samples%rate(i) > 0 .or. i == samples%decay) cycle
+            if (i == samples%decay + 1 .and. samples%decay > 0) cycle
+            name = samples%symbols%names(i)
+            if (samples%role(i) == role_acceleration .or. samples%role(i) == role_known .or. &
+                index(name, "_ddot") > 0) samples%symbols%rates(i) = -1
+        end do
+    end subroutine name_rates
+
+    subroutine define_derivatives(d, samples)
+        !! `p_x_dot`, and `dV_dx`, `dT_dx_dot` where no letter hides a coordinate.
+        type(description_t), intent(in) :: d
+        type(samples_t), intent(inout) :: samples
+        type(error_t), allocatable :: error
+        integer :: i
+
+        do i = 1, size(d%coordinates)
+            associate (name => d%coordinates(i)%name)
+                call samples%symbols%define("p_"//trim(name)//"_dot", symbol( &
+                    samples%symbols%find("d_dt_dL_d"//trim(name)//"_dot")), error)
+            end associate
+        end do
+        if (allocated(d%kinetic_energy)) call define_of("T", d%kinetic_energy)
+        if (allocated(d%potential_energy)) call define_of("V", d%potential_energy)
+    contains
+        subroutine define_of(energy, formula)
+            character(*), intent(in) :: energy, formula
+            type(expression_t) :: expression
+            integer :: k
+
+            call parse_formula(formula, samples%symbols, expression, error)
+            if (allocated(error)) return
+            do k = 1, size(samples%role)
+                if (samples%role(k) == role_parameter .and. samples%rate(k) > 0 .and. &
+                    expression%depends_on(k)) return
+            end do
+            do k = 2, 1 + 2*samples%ndof
+                call samples%symbols%define("d"//energy//"_d"//trim(samples%symbols%names(k)), &
+                                            derivative(expression, k), error)
+            end do
+        end subroutine define_of
+    end subroutine define_derivatives
 
     subroutine compile_letters(d, samples)
         !! The definitions, T and V, in this order.

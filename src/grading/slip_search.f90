@@ -17,7 +17,7 @@ module lagrangia_slip_search
                                              change_sign, change_symbol, change_t, &
                                          evaluate_nodes, summands
     use lagrangia_term_search, only: library_t, number_text, part_text, try_factors, &
-                                     try_missing_terms
+                                     try_missing_terms, try_products
     implicit none (type, external)
     private
     public :: explain_slip
@@ -79,6 +79,7 @@ contains
         if (remark == "") call try_factors(expression, samples, values, library, remark)
         if (remark == "") call try_numbers(remark)
         if (remark == "") call try_squares(remark)
+        if (remark == "") call try_products(expression, samples, values, library, remark)
         if (remark == "") call try_missing_terms(expression, samples, values, library, remark)
         if (remark == "") call try_inner_factors(remark)
         if (remark == "") remark = "no single change of a sign, letter, dot, factor, function, "// &

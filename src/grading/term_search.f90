@@ -2,16 +2,18 @@ module lagrangia_term_search
     !! Which term of a wrong statement must be counted otherwise, or has a letter, a dot or a
     !! function too many or too few; which one is missing.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use lagrangia_expression, only: expression_t, kind_function, kind_symbol
+    use lagrangia_canonical_form, only: simplified
+    use lagrangia_expression, only: expression_t, kind_function, kind_symbol, operator(*)
     use lagrangia_formula_text, only: formula_text
     use lagrangia_kinds, only: dp
+    use lagrangia_letter_products, only: add_letters, collect_letters, find_product, letter_t
     use lagrangia_sample_names, only: draws, role_known, role_parameter, samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes, summands
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: library_t
-    public :: number_text, part_text, try_factors, try_missing_terms
+    public :: number_text, part_text, try_factors, try_missing_terms, try_products
 
     real(dp), parameter :: equal = 1e-7_dp  !! relative difference of factors that are one
     integer, parameter :: enough = 4        !! samples at which all is finite
@@ -54,11 +56,7 @@ contains
         call summands(expression, nodes, signs)
         if (size(nodes) < 2) return
         do k = 1, size(nodes)
-            associate (node => expression%nodes(nodes(k)))
-                if (node%kind == kind_symbol) then
-                    if (samples%role(node%which) >= role_known) cycle  ! what the statement is about
-                end if
-            end associate
+            if (is_subject(expression, nodes(k), samples)) cycle
             associate (s => signs(k)*results(:, nodes(k)), r => results(:, expression%count))
                 needed = 1.0_dp - r/s  ! so many times makes the sum zero
             end associate
@@ -108,6 +106,49 @@ contains
         end subroutine try_letter
     end subroutine try_factors
 
+    subroutine try_products(expression, samples, values, library, remark)
+        !! A summand that has several letters too few or too many.
+        type(expression_t), intent(in) :: expression      !! left side less right side, wrong
+        type(samples_t), intent(in) :: samples            !! know the names
+        real(dp), intent(in) :: values(:, :)              !! on the motion, (samples, symbols)
+        type(library_t), intent(in) :: library(:)         !! right terms
+        character(:), allocatable, intent(out) :: remark  !! "" if it is not that
+        real(dp), allocatable :: results(:, :), signs(:), needed(:)
+        integer, allocatable :: nodes(:)
+        type(letter_t), allocatable :: letters(:)
+        type(expression_t) :: product
+        logical :: found
+        integer :: k
+
+        remark = ""
+        allocate (results(size(values, 1), expression%count))
+        call evaluate_nodes(expression, values, results)
+        call summands(expression, nodes, signs)
+        if (size(nodes) < 2) return
+        call gather_letters(samples, library, letters)
+        do k = 1, size(nodes)
+            if (is_subject(expression, nodes(k), samples)) cycle
+            needed = 1.0_dp - signs(k)*results(:, expression%count)/results(:, nodes(k))
+            if (.not. is_steady(needed) .or. any(abs(needed) < equal)) cycle
+            call find_product(needed(1::states), letters, product, found)
+            if (.not. found) cycle
+            remark = part_text(expression, nodes(k), samples)//" lacks the factor '"// &
+                     formula_text(product, samples%symbols)//"'"
+            return
+        end do
+    end subroutine try_products
+
+    pure function is_subject(expression, i, samples) result(yes)
+        !! Is node `i` a name that the statement is about: an energy, a momentum, omega?
+        type(expression_t), intent(in) :: expression
+        integer, intent(in) :: i
+        type(samples_t), intent(in) :: samples
+        logical :: yes
+
+        yes = expression%nodes(i)%kind == kind_symbol
+        if (yes) yes = samples%role(expression%nodes(i)%which) >= role_known
+    end function is_subject
+
     subroutine try_missing_terms(expression, samples, values, library, remark)
         !! A right term which, some times, perhaps with letters, makes the sum zero.
         type(expression_t), intent(in) :: expression      !! left side less right side, wrong
@@ -115,50 +156,61 @@ contains
         real(dp), intent(in) :: values(:, :)              !! on the motion, (samples, symbols)
         type(library_t), intent(in) :: library(:)         !! right terms
         character(:), allocatable, intent(out) :: remark  !! "" if it is not that
-        real(dp), allocatable :: results(:, :), term(:, :), needed(:), one(:), letter(:)
-        character(:), allocatable :: text
-        integer :: draw, first, i, k
-        logical :: steady
+        real(dp), allocatable :: results(:, :), term(:, :), needed(:)
+        type(letter_t), allocatable :: letters(:)
+        type(expression_t) :: product
+        logical :: found
+        integer :: k
 
         remark = ""
         allocate (results(size(values, 1), expression%count))
         call evaluate_nodes(expression, values, results)
+        call gather_letters(samples, library, letters)
         do k = 1, size(library)
             if (allocated(term)) deallocate (term)
             allocate (term(size(values, 1), library(k)%term%count))
             call evaluate_nodes(library(k)%term, values, term)
             needed = -results(:, expression%count)/term(:, library(k)%term%count)
-            if (.not. all(ieee_is_finite(needed))) cycle
-            steady = .true.
-            do draw = 1, draws
-                first = (draw - 1)*states
-                steady = steady .and. is_constant(needed(first + 1:first + states))
-            end do
-            if (.not. steady .or. abs(needed(1)) < equal) cycle
-            text = formula_text(library(k)%term, samples%symbols)
+            if (.not. is_steady(needed) .or. any(abs(needed) < equal)) cycle
             if (is_constant(needed)) then
-                remark = "on the left is missing "//times(needed(1))//text
+                remark = "on the left is missing "//times(needed(1))// &
+                         formula_text(library(k)%term, samples%symbols)
                 return
             end if
-            do i = 1, size(samples%role)
-                if (samples%role(i) /= role_parameter) cycle
-                letter = values(:, i)
-                one = needed*letter
-                if (is_constant(one) .and. abs(one(1)) > equal) then
-                    remark = "on the left is missing "//times(one(1))//text//"/"// &
-                             trim(samples%symbols%names(i))
-                    return
-                end if
-                one = needed/letter
-                if (is_constant(one) .and. abs(one(1)) > equal) then
-                    remark = "on the left is missing "//times(one(1))// &
-                             trim(samples%symbols%names(i))//" "//text
-                    return
-                end if
-            end do
-            if (remark == "") remark = "a term with "//text//" is missing"
+            if (remark == "") remark = "a term with "// &
+                formula_text(library(k)%term, samples%symbols)//" is missing"
+            call find_product(needed(1::states), letters, product, found)
+            if (.not. found) cycle
+            remark = "on the left is missing "//formula_text(simplified(product* &
+                     library(k)%term, samples%symbols), samples%symbols)
+            return
         end do
     end subroutine try_missing_terms
+
+    subroutine gather_letters(samples, library, letters)
+        !! Parameters, and their sums that occur in right terms.
+        type(samples_t), intent(in) :: samples
+        type(library_t), intent(in) :: library(:)
+        type(letter_t), allocatable, intent(out) :: letters(:)
+        integer :: i
+
+        call collect_letters(samples, letters)
+        do i = 1, size(library)
+            call add_letters(samples, library(i)%term, letters)
+        end do
+    end subroutine gather_letters
+
+    pure function is_steady(x) result(yes)
+        !! The same finite number for all states with the same parameters.
+        real(dp), intent(in) :: x(:)
+        logical :: yes
+        integer :: draw
+
+        yes = .true.
+        do draw = 1, draws
+            yes = yes .and. is_constant(x((draw - 1)*states + 1:draw*states))
+        end do
+    end function is_steady
 
     pure function is_constant(x) result(yes)
         !! The same finite number, but for rounding, at all samples that count.

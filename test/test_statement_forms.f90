@@ -1,0 +1,152 @@
+module test_statement_forms
+    !! What students write that is no plain equality of letters: derivatives by the time in every
+    !! form, constants of the motion, periods, dots and roots as signs; and several letters missing.
+    use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
+    use lagrangia_judgement, only: is_right, is_unreadable, is_wrong
+    use lagrangia_text, only: to_text
+    use tried_responses, only: graded
+    implicit none (type, external)
+    private
+    public :: statement_forms_suite
+
+contains
+
+    function statement_forms_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("statement_forms")
+        call suite%addTest(TestMethod("derivatives_by_the_time", derivatives_by_the_time))
+        call suite%addTest(TestMethod("derivatives_of_energies", derivatives_of_energies))
+        call suite%addTest(TestMethod("constants_of_the_motion", constants_of_the_motion))
+        call suite%addTest(TestMethod("periods_and_motions", periods_and_motions))
+        call suite%addTest(TestMethod("signs_of_word_processors", signs_of_word_processors))
+        call suite%addTest(TestMethod("several_letters_are_missing", several_letters_are_missing))
+        call suite%addTest(TestMethod("remedies", remedies))
+    end function statement_forms_suite
+
+    subroutine derivatives_by_the_time()
+        !! Of what is in brackets, of a name, the second one.
+        call right("pendulum", "d/dt(m l^2 theta_dot) = -m g l sin(theta)")
+        call right("pendulum", "d/dt (dL/dtheta_dot) - dL/dtheta = 0")
+        call right("pendulum", "d(l theta_dot)/dt = -g sin(theta)")
+        call right("pendulum", "d^2 theta/dt^2 = -g/l sin(theta)")
+        call right("pendulum", "p_theta_dot = dL/dtheta = dp_theta/dt")
+        call right("double_pendulum", "d/dt(sin(theta1)) = cos(theta1) dtheta1/dt")
+        call right("cart_pendulum", "d/dt((m1 + m2) x_dot + m2 l theta_dot cos(theta)) = 0")
+        call wrong("cart_pendulum", "d/dt((m1 + m2) x_dot + m2 l theta_dot sin(theta)) = 0", "")
+        call wrong("pendulum", "d^2 theta/dt^2 = g/l sin(theta)", "the sign of")
+        call unreadable("pendulum", "d/dt m l^2 theta_dot = -m g l sin(theta)", "column 1: of what")
+        call unreadable("pendulum", "d/dt theta^2 = 0", "column 1: of what is it the derivative?")
+        call unreadable("pendulum", "d(theta) = 0", "column 9: behind d(...) stands '/dt'")
+        call unreadable("pendulum", "0 = d/dt(tension)", "column 5: d/dt of 'tension' is not")
+    end subroutine derivatives_by_the_time
+
+    subroutine derivatives_of_energies()
+        !! The power of the drag; partial derivatives of T and V.
+        call right("oscillator", "dE/dt = -b x_dot^2")
+        call wrong("oscillator", "dE/dt = -b x_dot", "'x_dot' must have the exponent 2")
+        call wrong("oscillator", "dE/dt = 0 b", "")
+        call right("spring_pendulum", "dV/dr = k (r - l0) - m g cos(theta)")
+        call right("spring_pendulum", "dT/dtheta_dot = m r^2 theta_dot")
+        call wrong("spring_pendulum", "dV/dtheta = m g r cos(theta)", "'cos(theta)' must be")
+        call right("pendulum", "dT/dt + dV/dt = 0")
+        ! of the double pendulum T has the letter D, which moves
+        call unreadable("double_pendulum", "dT/dtheta1 = 0", "column 1: unknown name 'dT'")
+    end subroutine derivatives_of_energies
+
+    subroutine constants_of_the_motion()
+        !! `const`, in two languages, with a point or without.
+        call right("cart_pendulum", "p_x = const.")
+        call right("cart_pendulum", "E = T + V = konst")
+        call right("cart_pendulum", "(m1 + m2) x_dot + m2 l theta_dot cos(theta) = constant")
+        call wrong("cart_pendulum", "p_theta = const", "")
+        call wrong("oscillator", "E + 0 b = const", "")
+        call unreadable("pendulum", "tension = const", "column 1: d/dt of 'tension' is not known")
+    end subroutine constants_of_the_motion
+
+    subroutine periods_and_motions()
+        !! T as a period, which is no kinetic energy; a motion has no verdict.
+        call right("pendulum", "T = 2 pi sqrt(l/g)")
+        call right("pendulum", "T = 2 pi/omega")
+        call right("pendulum", "T = m/2 l^2 theta_dot^2")
+        call wrong("pendulum", "T = 2 pi sqrt(g/l)", "'sqrt(g/l)' must have the exponent -1")
+        call unreadable("oscillator", "x = cos(omega t)", "a motion is not graded")
+    end subroutine periods_and_motions
+
+    subroutine signs_of_word_processors()
+        !! Dots over letters, before and behind their indices, roots, partial derivatives, squares.
+        character(*), parameter :: theta = char(206)//char(184), dot = char(204)//char(135)
+        character(*), parameter :: two_dots = char(204)//char(136), square = char(194)//char(178)
+        character(*), parameter :: partial = char(226)//char(136)//char(130)
+        character(*), parameter :: root = char(226)//char(136)//char(154)
+        character(*), parameter :: one = char(226)//char(130)//char(129), pi = char(207)//char(128)
+
+        call right("pendulum", theta//two_dots//" = -g/l sin("//theta//")")
+        call wrong("pendulum", theta//dot//" = -g/l sin("//theta//")", "")
+        call right("pendulum", partial//"L/"//partial//theta//dot//" = m l"//square//theta//dot)
+        call right("pendulum", "omega = "//root//"(g/l)")
+        call right("pendulum", "T = 2"//pi//root//"(l/g)")
+        call right("pendulum", "d"//square//theta//"/dt"//square//" = -g/l sin("//theta//")")
+        call right("double_pendulum", "p_theta1 + p_theta2 = dL/d"//theta//dot//one// &
+                   " + dL/d"//theta//dot//"2")
+        call right("cart_pendulum", "x"//two_dots//" = "//char(225)//char(186)//char(141))
+    end subroutine signs_of_word_processors
+
+    subroutine several_letters_are_missing()
+        !! A term or a factor with several letters, named with all of them.
+        call wrong("rotating_hoop", "theta_ddot = -g/r sin(theta)", &
+                   "on the left is missing -omega^2 sin(theta) cos(theta)")
+        call wrong("double_pendulum", "p_theta1 = (m1 + m2) l1^2 theta1_dot", &
+                   "on the left is missing -m2 l1 l2 theta2_dot cos(D)")
+        call wrong("cart_pendulum", "omega^2 = g/l", "'g/l' lacks the factor '(m1 + m2)/m1'")
+        call wrong("cart_pendulum", "omega^2 = g/l m2/(m1 + m2)", &
+                   "'g/l m2/(m1 + m2)' lacks the factor '(m1 + m2)^2/(m1 m2)'")
+        call wrong("pendulum", "p_theta = 3 theta_dot", "'3 theta_dot' lacks the factor "// &
+                   "'1/3 m l^2'")
+    end subroutine several_letters_are_missing
+
+    subroutine remedies()
+        !! What to write instead.
+        call unreadable("pendulum", "theta'' = 0", "column 6: a prime is no derivative; write "// &
+                        "theta_ddot")
+        call unreadable("pendulum", "\ddot{\theta} = 0", "column 1: LaTeX is not read; write "// &
+                        "theta_ddot")
+        call unreadable("pendulum", "0 = \sin\theta", "column 5: LaTeX is not read; write "// &
+                        "sin(theta)")
+        call unreadable("pendulum", "l theta_ddot = 5 cm", "column 18: 'cm' is a unit")
+        call unreadable("pendulum", "phi_ddot = 0", "column 1: unknown name 'phi_ddot'; there "// &
+                        "are t, theta, m, l, g, b, L_z, tension, x_bob, y_bob, z_bob, L, E, "// &
+                        "p_theta, T, V, omega, omega_2, pi")
+    end subroutine remedies
+
+    subroutine right(system, statement)
+        character(*), intent(in) :: system, statement
+
+        call judged(system, statement, is_right, "")
+    end subroutine right
+
+    subroutine wrong(system, statement, remark)
+        !! And its remark begins so.
+        character(*), intent(in) :: system, statement, remark
+
+        call judged(system, statement, is_wrong, remark)
+    end subroutine wrong
+
+    subroutine unreadable(system, statement, remark)
+        character(*), intent(in) :: system, statement, remark
+
+        call judged(system, statement, is_unreadable, remark)
+    end subroutine unreadable
+
+    subroutine judged(system, statement, expected, remark)
+        character(*), intent(in) :: system, statement, remark
+        integer, intent(in) :: expected
+        character(:), allocatable :: said
+        integer :: verdict
+
+        call graded(system, statement, verdict, said)
+        call assertEqual(expected, verdict, statement//": verdict "//to_text(verdict)//", "//said)
+        if (remark /= "") call assertTrue(index(said, remark) > 0, statement//": "//said)
+    end subroutine judged
+end module test_statement_forms
