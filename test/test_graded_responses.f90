@@ -43,7 +43,8 @@ contains
         end do
         call assertEqual(200, count(groups(3)%of%verdict == is_right), "rewritings are right")
         call assertEqual(200, count(groups(4)%of%verdict == is_wrong), "slips are wrong")
-        call assertTrue(named(groups(4)) >= 180, to_text(named(groups(4)))//" are named")
+        call assertTrue(named(groups(4)) >= 190, to_text(named(groups(4)))//" are named")
+        call assertEqual(count(groups(2)%of%verdict == is_wrong), named(groups(2)), "of the notes")
         text = page_text(groups)
         call read_whole_file(page, there, error)
         if (allocated(error)) there = ""

@@ -285,6 +285,14 @@ contains
         call traced("oscillator", "rrw", "m x_ddot + b x_dot + k x = 0"// &
             "; omega^2 = k/m - (b/(2 m))^2; omega^2 = k/m - b/(2 m)", &
             remarks="3 'b/(2 m)' must be squared")
+        ! omega, omega_0 and gamma follow from a wrong equation, a wrong T and each other
+        call traced("oscillator", "wfffr", "m x_ddot + b x_dot + 2 k x = 0"// &
+            "; omega_0^2 = 2 k/m; omega^2 = 2 k/m - (b/(2 m))^2"// &
+            "; omega = sqrt(2 k/m - gamma^2); gamma = b/(2 m)")
+        call traced("oscillator", "wf", "m x_ddot - b x_dot + k x = 0; gamma = -b/(2 m)")
+        call traced("pendulum", "wfffw", "T = m l^2 theta_dot^2; gamma = b/(4 m l^2)"// &
+            "; omega_0^2 = g/(2 l); omega^2 = g/(2 l) - (b/(4 m l^2))^2; gamma = b/(3 m l^2)")
+        call traced("oscillator", "wf", "gamma = b/m; omega^2 = k/m - b^2/m^2")
         ! without drag gamma is any letter, and omega that of the free oscillation
         call traced("oscillator", "0rw", "gamma = 3 k; omega^2 = k/m; omega^2 = gamma/m", &
                     remarks="3 ")

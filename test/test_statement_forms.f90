@@ -22,6 +22,8 @@ contains
         call suite%addTest(TestMethod("periods_and_motions", periods_and_motions))
         call suite%addTest(TestMethod("signs_of_word_processors", signs_of_word_processors))
         call suite%addTest(TestMethod("several_letters_are_missing", several_letters_are_missing))
+        call suite%addTest(TestMethod("the_same_slip_in_several_places", &
+                                      the_same_slip_in_several_places))
         call suite%addTest(TestMethod("remedies", remedies))
     end function statement_forms_suite
 
@@ -102,9 +104,26 @@ contains
         call wrong("cart_pendulum", "omega^2 = g/l", "'g/l' lacks the factor '(m1 + m2)/m1'")
         call wrong("cart_pendulum", "omega^2 = g/l m2/(m1 + m2)", &
                    "'g/l m2/(m1 + m2)' lacks the factor '(m1 + m2)^2/(m1 m2)'")
+        call wrong("cart_pendulum", "m2 l theta_ddot + m2 l x_ddot cos(theta) - m2 g l "// &
+                   "sin(theta) = 0", "two changes: 'm2 l theta_ddot' lacks the factor 'l'; "// &
+                   "the sign of 'm2 g l sin(theta)'")
+        call wrong("cart_pendulum", "(m1 + m2) x_ddot + m2 theta_ddot cos(theta) = "// &
+                   "-m2 l theta_dot^2 sin(theta)", "two changes: ")
         call wrong("pendulum", "p_theta = 3 theta_dot", "'3 theta_dot' lacks the factor "// &
                    "'1/3 m l^2'")
     end subroutine several_letters_are_missing
+
+    subroutine the_same_slip_in_several_places()
+        !! Letters exchanged throughout, places counted from the wrong point, a dot for a square.
+        call wrong("double_pendulum", "x_bob2^2 + y_bob2^2 = l2^2", &
+                   "the place of bob2 must be counted from bob1, 'x_bob2 - x_bob1'")
+        call wrong("double_pendulum", "V = -(m2 + m1) g l2 cos(theta1) - m2 g l1 cos(theta2)", &
+                   "'l1' and 'l2' must be exchanged in all places")
+        call wrong("cart_pendulum", "(m1 + m2) x_ddot + m2 l theta_ddot cos(theta) = "// &
+                   "m2 l theta_ddot sin(theta)", "'theta_ddot' must be 'theta_dot^2' in 'm2 l ")
+        call wrong("pendulum", "l theta_dot^2 + g sin(theta) = 0", &
+                   "'theta_dot^2' must be 'theta_ddot' in 'l theta_dot^2'")
+    end subroutine the_same_slip_in_several_places
 
     subroutine remedies()
         !! What to write instead.

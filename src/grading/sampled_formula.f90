@@ -16,7 +16,7 @@ module lagrangia_sampled_formula
     integer, parameter :: change_none = 0
     integer, parameter :: change_sign = 1        !! the node with the other sign
     integer, parameter :: change_factor = 2      !! the node, `factor` times
-    integer, parameter :: change_symbol = 3      !! another symbol, `which`, in its place
+    integer, parameter :: change_symbol = 3      !! the symbol `which` to the power of `factor`
     integer, parameter :: change_function = 4    !! another function, `which`, of its operand
     integer, parameter :: change_exponent = 5    !! the node to the power of `factor`
     integer, parameter :: change_divided = 6     !! the node without a factor, the symbol `which`
@@ -83,7 +83,7 @@ contains
                 case (change_factor)
                     results(:, i) = change%factor*results(:, i)
                 case (change_symbol)
-                    results(:, i) = values(:, change%which)
+                    results(:, i) = power(values(:, change%which), change%factor)
                 case (change_function)
                     results(:, i) = function_value(change%which, results(:, node%left))
                 case (change_exponent)

@@ -18,6 +18,7 @@ module lagrangia_slip_search
                                          evaluate_nodes, summands
     use lagrangia_term_search, only: library_t, number_text, part_text, try_factors, &
                                      try_missing_terms, try_products
+    use lagrangia_wide_changes, only: place_from, throughout, two_factors
     implicit none (type, external)
     private
     public :: explain_slip
@@ -75,6 +76,7 @@ contains
         call try_signs(remark)
         if (remark == "") call try_functions(remark)
         if (remark == "") call try_symbols(remark)
+        if (remark == "") call try_dots(remark)
         if (remark == "") call try_exponents(remark)
         if (remark == "") call try_factors(expression, samples, values, library, remark)
         if (remark == "") call try_numbers(remark)
@@ -82,6 +84,9 @@ contains
         if (remark == "") call try_products(expression, samples, values, library, remark)
         if (remark == "") call try_missing_terms(expression, samples, values, library, remark)
         if (remark == "") call try_inner_factors(remark)
+        if (remark == "") call try_throughout(remark)
+        if (remark == "") call two_factors(expression, samples, values, library, &
+                                           could_be_trivial, remark)
         if (remark == "") remark = "no single change of a sign, letter, dot, factor, function, "// &
                                    "exponent or term makes it right"
     contains
@@ -167,6 +172,83 @@ contains
                 end do
             end do
         end subroutine try_symbols
+
+        subroutine try_dots(text)
+            !! An acceleration for the square of a velocity, or the other way.
+            character(:), allocatable, intent(out) :: text
+            integer :: i, k, symbol_at
+
+            text = ""
+            do i = 1, expression%count
+                symbol_at = i
+                if (expression%nodes(i)%kind == kind_power) symbol_at = expression%nodes(i)%left
+                if (expression%nodes(symbol_at)%kind /= kind_symbol) cycle
+                k = expression%nodes(symbol_at)%which
+                if (samples%role(k) == role_velocity .and. symbol_at /= i) then
+                    k = samples%rate(k)
+                    if (mends(change_t(change_symbol, i, k))) text = node_text(i)//" must be '"// &
+                        trim(samples%symbols%names(k))//"'"
+                else if (samples%role(k) == role_acceleration .and. symbol_at == i) then
+                    k = k - samples%ndof
+                    if (mends(change_t(change_symbol, i, k, 2.0_dp))) text = node_text(i)// &
+                        " must be '"//trim(samples%symbols%names(k))//"^2'"
+                end if
+                if (text /= "") text = text//context(expression, samples, i)
+                if (text /= "") return
+            end do
+        end subroutine try_dots
+
+        subroutine try_throughout(text)
+            !! Letters exchanged in all places, or places that must be counted from another mass.
+            character(:), allocatable, intent(out) :: text
+            real(dp), allocatable :: changed(:, :), elsewhere(:, :)
+            integer :: a, b
+
+            text = ""
+            do a = 2, size(samples%role)
+                if (.not. expression%depends_on(a)) cycle
+                do b = 2, size(samples%role)
+                    if (a == b .or. samples%role(a) /= samples%role(b)) cycle
+                    if (samples%role(a) >= role_known) exit
+                    if (is_zero(a) .or. is_zero(b)) cycle
+                    changed = values
+                    elsewhere = samples%elsewhere
+                    call throughout(changed, a, b)
+                    call throughout(elsewhere, a, b)
+                    if (is_mended(changed, elsewhere)) then
+                        text = "'"//trim(samples%symbols%names(a))//"' and '"// &
+                               trim(samples%symbols%names(b))//"' must be exchanged in all places"
+                        return
+                    end if
+                end do
+            end do
+            do a = samples%first_point, samples%last_point, 9
+                do b = samples%first_point, samples%last_point, 9
+                    if (a == b .or. max(a, b) + 8 > samples%last_point) cycle
+                    changed = values
+                    elsewhere = samples%elsewhere
+                    call place_from(changed, samples, a, b)
+                    call place_from(elsewhere, samples, a, b)
+                    if (.not. is_mended(changed, elsewhere)) cycle
+                    text = "the place of "//samples%symbols%names(a) (3:)
+                    text = trim(text)//" must be counted from "//samples%symbols%names(b) (3:)
+                    text = trim(text)//", '"//trim(samples%symbols%names(a))//" - "// &
+                           trim(samples%symbols%names(b))//"'"
+                    return
+                end do
+            end do
+        end subroutine try_throughout
+
+        logical function is_mended(changed, elsewhere)
+            !! With these values in the place of those on the motion and away from it.
+            real(dp), intent(in) :: changed(:, :), elsewhere(:, :)
+            logical :: judged, trivial
+
+            call holds(expression, changed, is_mended, judged)
+            if (.not. is_mended .or. could_be_trivial) return
+            call holds(expression, elsewhere, trivial, judged)
+            is_mended = .not. trivial
+        end function is_mended
 
         subroutine try_exponents(text)
             !! A power that is another, a square that is none, or a missing square.

@@ -13,7 +13,8 @@ module lagrangia_supposed_lagrangian
     use lagrangia_sample_names, only: draws, follow_letters, role_known, samples_t, states
     implicit none (type, external)
     private
-    public :: forget_quantities, place_letters, squared_frequencies, suppose_lagrangian
+    public :: damped_rates, forget_quantities, place_letters, squared_frequencies, &
+              suppose_lagrangian
 
     real(dp), parameter :: equal = 1e-9_dp  !! relative, of what Lagrange's equations give
 
@@ -115,11 +116,17 @@ contains
                     call at_equilibrium(inputs)
                     inputs(1 + n + i)%d1 = 1.0_dp
                     inputs(1 + n + j)%d2 = 1.0_dp
+                    call place_letters(samples, inputs)
                     call program%evaluate(inputs, l)
                     mass(i, j) = l(1)%d12
                 end do
             end do
-            call squared_frequencies(samples, draw, mass, stiffness, slope)
+            if (samples%decay > 0) then
+                call damped_rates(samples, draw, mass(1, 1), samples%turning(1, 1, draw), &
+                                  stiffness(1, 1), slope(1))
+            else
+                call squared_frequencies(samples, draw, mass, stiffness, slope)
+            end if
         end do
     contains
         subroutine at_equilibrium(x)
@@ -146,6 +153,32 @@ contains
             if (rate > 0) inputs(rate) = hyperdual_t()
         end do
     end subroutine place_letters
+
+    subroutine damped_rates(samples, draw, mass, drag, stiffness, slope)
+        !! gamma, omega_0 and \(\omega^2 = K/M - (C/2M)^2\) of one coordinate with drag; no number
+        !! if it is no equilibrium.
+        type(samples_t), intent(inout) :: samples                !! get them for this draw
+        integer, intent(in) :: draw                              !! of parameters
+        real(dp), intent(in) :: mass, drag, stiffness, slope     !! slope: what is zero there
+        real(dp) :: gamma, squared
+
+        gamma = 0.5_dp*drag/mass
+        squared = stiffness/mass
+        samples%omega2(draw, :) = 0.0_dp
+        if (abs(slope) > equal*abs(stiffness)) then
+            gamma = ieee_value(1.0_dp, ieee_quiet_nan)
+            squared = gamma
+        else
+            samples%omega2(draw, 1) = squared - gamma**2
+            samples%inertia(1, 1, draw) = mass
+            samples%turning(1, 1, draw) = drag
+            samples%stiffness(1, 1, draw) = stiffness
+        end if
+        associate (rows => samples%values((draw - 1)*states + 1:draw*states, :))
+            rows(:, samples%decay) = gamma
+            rows(:, samples%decay + 1) = sqrt(squared)
+        end associate
+    end subroutine damped_rates
 
     subroutine squared_frequencies(samples, draw, mass, stiffness, slope)
         !! Of \(M\ddot\delta + K\delta = 0\), which need not be symmetric, by LAPACK's `dgeev`; 0 if

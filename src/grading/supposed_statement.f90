@@ -12,7 +12,7 @@ module lagrangia_supposed_statement
     use lagrangia_sample_names, only: draws, follow_letters, role_known, samples_t, &
                                       states
     use lagrangia_sampled_formula, only: evaluate_nodes
-    use lagrangia_supposed_lagrangian, only: forget_quantities, place_letters, &
+    use lagrangia_supposed_lagrangian, only: damped_rates, forget_quantities, place_letters, &
                                              squared_frequencies
     implicit none (type, external)
     private
@@ -55,6 +55,7 @@ contains
             if (row == 3 .and. solved == 0) exit
         end do
         possible = solved >= size(samples%values, 1)/2
+        if (possible .and. samples%decay > 0) call follow_rates(samples, suppositions)
         moving = .false.
         do k = 1, size(suppositions)
             moving = moving .or. suppositions(k)%kind <= no_force
@@ -65,6 +66,24 @@ contains
             call suppose_modes(samples, suppositions, k)
         end do
     end subroutine suppose
+
+    subroutine follow_rates(samples, suppositions)
+        !! \(\omega^2 = \omega_0^2 - \gamma^2\) where gamma or omega_0 is another one.
+        type(samples_t), intent(inout) :: samples
+        type(supposition_t), intent(in) :: suppositions(:)
+        integer :: draw, k, row
+
+        do k = 1, size(suppositions)
+            if (suppositions(k)%kind /= no_value) cycle
+            if (all(suppositions(k)%which /= [samples%decay, samples%decay + 1])) cycle
+            do draw = 1, draws
+                row = (draw - 1)*states + 1
+                samples%omega2(draw, :) = 0.0_dp
+                samples%omega2(draw, 1) = samples%values(row, samples%decay + 1)**2 - &
+                                          samples%values(row, samples%decay)**2
+            end do
+        end do
+    end subroutine follow_rates
 
     subroutine suppose_frequency(samples, residual, possible)
         !! Change \(\omega^2\) so that a statement about it holds, for each draw of parameters.
@@ -235,7 +254,10 @@ contains
                 mass(j, i) = r(1)%d1
             end do
         end do
-        if (known) then
+        if (known .and. samples%decay > 0) then
+            call at_equilibrium(2 + n)
+            call damped_rates(samples, draw, mass(1, 1), r(1)%d1, stiffness(1, 1), slope(1))
+        else if (known) then
             call squared_frequencies(samples, draw, mass, stiffness, slope)
         else
             samples%omega2(draw, :) = 0.0_dp

@@ -13,6 +13,7 @@ module lagrangia_term_search
     implicit none (type, external)
     private
     public :: library_t
+    public :: gather_letters
     public :: number_text, part_text, try_factors, try_missing_terms, try_products
 
     real(dp), parameter :: equal = 1e-7_dp  !! relative difference of factors that are one
@@ -189,9 +190,9 @@ contains
 
     subroutine gather_letters(samples, library, letters)
         !! Parameters, and their sums that occur in right terms.
-        type(samples_t), intent(in) :: samples
-        type(library_t), intent(in) :: library(:)
-        type(letter_t), allocatable, intent(out) :: letters(:)
+        type(samples_t), intent(in) :: samples                      !! know the parameters
+        type(library_t), intent(in) :: library(:)                   !! right terms
+        type(letter_t), allocatable, intent(out) :: letters(:)      !! of which factors consist
         integer :: i
 
         call collect_letters(samples, letters)
