@@ -32,6 +32,7 @@ module test_docs_formulae
         "method = 'auto'", "'x^2 + y^2 = l^2'", "'x_dot = r sin(theta) phi_dot'", &
         "'y cos(w t) = x sin(w t)'", "'cos(theta) = g/(w^2 r)'", "'cos(theta) = g/l0'", &
         "'L_z [kg m^2/s] angular momentum = m r^2 theta_dot'", &
+        "constraint = 'd_1 .. d_3 = l^2'", "definitions = 'd_1 .. d_3 = (x_(i + 1) - x_i)^2'", &
         "p_x = const", "T = 2 pi sqrt(l/g)"]
     !! spans with '=' that state nothing about a system
 

@@ -38,6 +38,7 @@ contains
         call suite%addTest(TestMethod("coupled_oscillators", coupled_oscillators))
         call suite%addTest(TestMethod("hanging_chain", hanging_chain))
         call suite%addTest(TestMethod("forces_on_a_chain", forces_on_a_chain))
+        call suite%addTest(TestMethod("constraints_of_a_chain", constraints_of_a_chain))
         call suite%addTest(TestMethod("ranges_are_refused", ranges_are_refused))
         call suite%addTest(TestMethod("nonsense_is_refused", nonsense_is_refused))
     end function indexed_names_suite
@@ -236,7 +237,8 @@ contains
         call refused("Q_x_i = '-b x_j_dot'", "Q_x_i: column 4: unknown name 'x_j_dot'")
         call refused("Q_x_2 = '-b', Q_x_i = '-b + c'", "Q_x_i: column 6: unknown name 'c'")
         call refused("Q_y_i = '-b'", "unknown key 'q_y_i'; did you mean 'q_x_i'?")
-        call refused("definitions = 'd_1 .. d_4 = x_(i + 1)'", "definitions: column ")
+        call refused("definitions = 'd_1 .. d_4 = x_(i + 1)'", "column "// &
+                     "15 of 'd_4 = x_(4 + 1)': 'x_' is 'x_5' here")
         call refused("quantities = 'p_1 .. r_4 = m x_i_dot'", "names of a chain are written")
     contains
         subroutine refused(keys, expected)
@@ -247,6 +249,39 @@ contains
             if (allocated(error)) call assertTrue(index(error%message, expected) > 0, error%message)
         end subroutine refused
     end subroutine forces_on_a_chain
+
+    subroutine constraints_of_a_chain()
+        !! Two rods, each as long as the other: one constraint for each number, as written out; the
+        !! text is to blame for a slip, with its column.
+        character(*), parameter :: start = "&scene system = 'rods' dt = 0.1 duration = 1.0 "// &
+            "q = 0, 1, 2, 0, 0, 1 /"//line_feed//"&lagrangian coordinates = 'x_1 .. x_3', "// &
+            "'y_1 .. y_3' parameters = 'm', 'l', 'g' T = 'sum(i, 1, 3, m/2 (x_i_dot^2 + "// &
+            "y_i_dot^2))' V = 'sum(i, 1, 3, m g y_i)' "
+        character(*), parameter :: finish = " /"//line_feed//"&rods m = 1.0, l = 1.0, g = 9.81 /"
+        character(*), parameter :: squares = "definitions = 'd_1 .. d_2 = (x_(i + 1) - x_i)^2 "// &
+            "+ (y_(i + 1) - y_i)^2' "
+        character(*), parameter :: long = "constraint = '(x_2 - x_1)^2 + (y_2 - y_1)^2 = l^2', "// &
+            "'(x_3 - x_2)^2 + (y_3 - y_2)^2 = 2 l^2'"
+        class(system_t), allocatable :: system, other
+        type(error_t), allocatable :: error
+        real(dp), parameter :: q(6) = [0.0_dp, 1.0_dp, 2.0_dp, 0.0_dp, 0.0_dp, 1.0_dp]
+        real(dp), parameter :: v(6) = [0.3_dp, 0.5_dp, 0.1_dp, 0.2_dp, 0.2_dp, -0.2_dp]
+        real(dp) :: a(6), b(6)
+
+        call read_system(start//squares//"constraint = 'd_1 .. d_2 = i l^2'"//finish, system, error)
+        if (.not. allocated(error)) call read_system(start//long//finish, other, error)
+        if (allocated(error)) call assertEqual("", error%message)
+        if (allocated(error)) return
+        call system%accelerations(0.0_dp, q, v, a)
+        call other%accelerations(0.0_dp, q, v, b)
+        call assertEqual(b, a, 1e-13_dp)
+        call assertTrue(abs(a(2) - a(3)) > 0.1_dp, "they pull")
+        call read_system(start//squares//"constraint = 'x_1 = 0', 'd_1 .. d_2 = z l^2'"//finish, &
+                         system, error)
+        call assertTrue(index(error%message, "chain.nml:2:252: &lagrangian: constraint = "// &
+                              "'d_1 .. d_2 = z l^2': column 7 of 'd_1 = z l^2': unknown name "// &
+                              "'z'") > 0, error%message)
+    end subroutine constraints_of_a_chain
 
     subroutine ranges_are_refused()
         !! At the text, though it was written out.

@@ -1,19 +1,20 @@
 module lagrangia_derivation_drag
     !! What drag makes of small oscillations: decay rate and frequency of one coordinate, the
     !! polynomial whose roots are the rates of several.
+    use lagrangia_common_factor, only: divide_by_common
     use lagrangia_derivation, only: derivation_t, line_damped_omega2, line_decay, line_rates
     use lagrangia_derivation_motion, only: determinant, lay_out_quotient
-    use lagrangia_exact_number, only: number_t, operator(-), operator(/), ratio
+    use lagrangia_exact_number, only: ratio
     use lagrangia_expression, only: expression_t, operator(**), operator(-)
     use lagrangia_formula_latex, only: latex_name
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_polynomial, only: atom_power, most_atoms, operator(+), operator(*), &
-                                    polynomial_t, whole_polynomial
+    use lagrangia_polynomial, only: atom_power, most_atoms, operator(+), operator(-), &
+                                    operator(*), polynomial_t, whole_polynomial
     use lagrangia_text, only: to_text
     use lagrangia_trigonometry, only: shorten
     implicit none (type, external)
     private
-    public :: add_polynomial, add_rates
+    public :: add_polynomial, add_rates, collect_powers
 
     integer, parameter :: most_expanded = 3  !! coordinates whose polynomial is shown
 
@@ -49,7 +50,7 @@ contains
         end do
         call determinant(matrix, p)
         allocate (c(2*self%n + 1))
-        call collect(self, p, c)
+        call collect_powers(self, p, self%rate(), 1, c)
         call self%add_words("q goes as exp("//name()//" t): det("//name()//"^2 M + "//name()// &
                             " "//letter//" + K) = 0")
         call add_polynomial(self, line_rates, self%rate(), 1, c)
@@ -79,48 +80,51 @@ contains
         call self%add(line_damped_omega2, name//"^2", "\"//name//"^2", stiffness, e=free)
     end subroutine add_one
 
-    subroutine collect(self, p, c)
-        !! The coefficients of \(1, \lambda, \lambda^2, \ldots\)
-        type(derivation_t), intent(inout) :: self
-        type(polynomial_t), intent(in) :: p
-        type(polynomial_t), intent(inout) :: c(:)
+    subroutine collect_powers(self, p, name, step, c)
+        !! The coefficients of \(1, x^\mathrm{step}, x^{2\,\mathrm{step}}, \ldots\)
+        type(derivation_t), intent(inout) :: self      !! its identities shorten them
+        type(polynomial_t), intent(in) :: p            !! of these powers
+        integer, intent(in) :: name, step              !! the symbol x; from one power to the next
+        type(polynomial_t), intent(inout) :: c(:)      !! zero before
         integer :: at, i, powers(most_atoms)
 
         do i = 1, p%terms
             powers = p%power(:, i)
-            at = 1 + powers(self%rate())
-            powers(self%rate()) = 0
+            at = 1 + powers(name)/step
+            powers(name) = 0
             call c(at)%add_term(p%coefficient(i), powers)
         end do
         do i = 1, size(c)
             call shorten(self%algebra, c(i))
         end do
-    end subroutine collect
+    end subroutine collect_powers
 
     subroutine add_polynomial(self, kind, name, step, c)
-        !! \(\sum_k c_k x^{k\,\mathrm{step}} = 0\), without common factors.
+        !! \(\sum_k c_k x^{k\,\mathrm{step}} = 0\), without common factors and denominators.
         type(derivation_t), intent(inout) :: self  !! gets the line
         integer, intent(in) :: kind                !! of the line
         integer, intent(in) :: name, step          !! the symbol x; from one power to the next
         type(polynomial_t), intent(in) :: c(:)     !! the coefficients
-        type(polynomial_t) :: p
-        type(number_t) :: coefficient
+        type(polynomial_t) :: divided, factor, p
+        logical :: stays(most_atoms)
         integer :: k, powers(most_atoms)
 
         do k = 1, size(c)
             p = p + c(k)*atom_power(name, step*(k - 1))
         end do
-        call p%common(coefficient, powers)
-        if (c(size(c))%terms > 0) then
-            if (c(size(c))%coefficient(1)%value*coefficient%value < 0.0_dp) then
-                coefficient = -coefficient
-            end if
-        end if
-        powers(name) = 0
+        stays = .false.
+        stays(name) = .true.
+        call divide_by_common(p, stays, divided, factor)
+        powers = 0  ! of denominators, by which all is multiplied
         do k = 1, self%algebra%count
-            powers(k) = min(powers(k), minval(p%power(k, :p%terms)))
+            if (k /= name) powers(k) = min(0, minval(divided%power(k, :divided%terms)))
         end do
-        p = p%shifted(ratio(1_i8, 1_i8)/coefficient, -powers)
-        call self%add(kind, "", "", p)
+        divided = divided%shifted(ratio(1_i8, 1_i8), -powers)
+        associate (highest => c(size(c)))
+            if (highest%terms > 0) then
+                if (highest%coefficient(1)%value < 0.0_dp) divided = -divided
+            end if
+        end associate
+        call self%add(kind, "", "", divided)
     end subroutine add_polynomial
 end module lagrangia_derivation_drag

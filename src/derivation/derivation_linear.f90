@@ -1,7 +1,7 @@
 module lagrangia_derivation_linear
     !! The linearised equations of motion, written out: as they stand on the blackboard before
     !! omega^2.
-    use lagrangia_common_factor, only: divide_by_common
+    use lagrangia_common_factor, only: divide_by_parameters
     use lagrangia_derivation, only: derivation_t, line_linear
     use lagrangia_formula_latex, only: latex_name
     use lagrangia_names, only: name_length
@@ -76,7 +76,7 @@ contains
             if (row%terms == 0) then
                 divided = row
             else
-                call divide_by_common(self, row, divided, factor)
+                call divide_by_parameters(self, row, divided, factor)
             end if
             call self%add(line_linear, "", "", divided, i, k)
             if (factor%terms == 0) factor = whole_polynomial(1)

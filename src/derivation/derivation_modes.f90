@@ -3,7 +3,7 @@ module lagrangia_derivation_modes
     !! beside LAPACK's numbers.
     use lagrangia_derivation, only: derivation_t, line_characteristic, line_equilibrium, &
                                     line_gyroscopic, line_omega2, line_rest_mass, line_stiffness
-    use lagrangia_derivation_drag, only: add_polynomial, add_rates
+    use lagrangia_derivation_drag, only: add_polynomial, add_rates, collect_powers
     use lagrangia_derivation_linear, only: add_linear
     use lagrangia_derivation_motion, only: determinant, lay_out_quotient
     use lagrangia_derivation_place, only: linearise, read_equilibrium
@@ -323,24 +323,22 @@ contains
         type(derivation_t), intent(inout) :: self
         type(polynomial_t), intent(in) :: p
         type(polynomial_t), allocatable, intent(out) :: c(:)
-        integer :: at, i, powers(most_atoms), turns
+        type(polynomial_t) :: real_one
+        type(number_t) :: coefficient
+        integer :: i, powers(most_atoms), turns
 
-        allocate (c(self%n + 1))
         do i = 1, p%terms
             powers = p%power(:, i)
             turns = powers(self%power_of_i())
             if (mod(turns, 2) /= 0) cycle  ! these cancel, as G is antisymmetric
-            at = 1 + powers(self%omega())/2 + turns/2
-            powers([self%omega(), self%power_of_i()]) = 0
-            if (mod(turns/2, 2) == 0) then
-                call c(at)%add_term(p%coefficient(i), powers)
-            else
-                call c(at)%add_term(-p%coefficient(i), powers)
-            end if
+            powers(self%omega()) = powers(self%omega()) + turns
+            powers(self%power_of_i()) = 0
+            coefficient = p%coefficient(i)
+            if (mod(turns/2, 2) /= 0) coefficient = -coefficient
+            call real_one%add_term(coefficient, powers)
         end do
-        do i = 1, self%n + 1
-            call shorten(self%algebra, c(i))
-        end do
+        allocate (c(self%n + 1))
+        call collect_powers(self, real_one, self%omega(), 2, c)
     end subroutine split_powers
 
     subroutine add_pair(self, c)

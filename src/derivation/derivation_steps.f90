@@ -1,6 +1,6 @@
 module lagrangia_derivation_steps
     !! The lecture's recipe: positions, velocities, T and V, L, and Lagrange's equations.
-    use lagrangia_common_factor, only: divide_by_common
+    use lagrangia_common_factor, only: divide_by_parameters
     use lagrangia_derivation, only: derivation_t, line_beside, line_constraint, line_divided, &
                                     line_equation, line_force, line_kinetic, line_lagrangian, &
                                     line_momentum, line_position, line_potential, line_rate, &
@@ -403,7 +403,7 @@ contains
         call self%add(line_equation, "", "", equation, i)
         self%lines(self%count)%slipped = slipped
         if (equation%terms == 0) return
-        call divide_by_common(self, equation, divided, factor)
+        call divide_by_parameters(self, equation, divided, factor)
         if (factor%terms == 0) return
         call self%add(line_divided, "", "", divided, i)
         call lay_out(self%algebra, self%roles, factor, self%lines(self%count)%factor)

@@ -27,18 +27,34 @@ contains
         real(dp), allocatable, intent(out) :: values(:, :)    !! small ones, (draws*states, symbols)
         real(dp), allocatable, intent(out) :: shown(:, :)     !! as many, of a larger amplitude
         character(:), allocatable, intent(out) :: refusal     !! empty, or why there are none
-        logical, allocatable :: moving(:)
-        real(dp) :: a(samples%ndof), forces(samples%ndof), amplitude
-        type(error_t), allocatable :: error
-        integer :: draw, k, n, row
+        logical :: moving(size(samples%role))
+        real(dp) :: amplitude
+        integer :: k
 
-        n = samples%ndof
-        allocate (moving(size(samples%role)))
+        moving = samples%role > role_time .and. samples%role <= role_acceleration
+        call find_refusal(residual, samples, moving, refusal)
+        if (refusal /= "") return
+        allocate (shown, source=samples%values)
+        call put_linear_motion(samples, shown, refusal)
+        if (refusal /= "") return
+        amplitude = merge(alone, beside_numbers, vanishes_at_rest(residual, shown(1, :), moving))
+        allocate (values, source=shown)
+        do k = 1, size(moving)
+            if (moving(k)) values(:, k) = amplitude*values(:, k)
+        end do
+    end subroutine small_motion
+
+    pure subroutine find_refusal(residual, samples, moving, refusal)
+        !! Why the statement has no first order, or there is no motion to compare it with.
+        type(expression_t), intent(in) :: residual
+        type(samples_t), intent(in) :: samples
+        logical, intent(in) :: moving(:)
+        character(:), allocatable, intent(out) :: refusal
+        integer :: k
+
         refusal = ""
         do k = 1, size(moving)
-            moving(k) = samples%role(k) > role_time .and. samples%role(k) <= role_acceleration
-            if (.not. residual%depends_on(k)) cycle
-            if (moving(k) .or. is_constant(k)) cycle
+            if (moving(k) .or. is_constant(samples, k) .or. .not. residual%depends_on(k)) cycle
             refusal = "'"//trim(samples%symbols%names(k))//"' in a statement behind 'small:'; "// &
                       "write one of coordinates, their rates and parameters"
             if (samples%role(k) == role_frequency) refusal = "omega behind 'small:', which is "// &
@@ -50,50 +66,57 @@ contains
         else if (.not. all(ieee_is_finite(samples%turning))) then
             refusal = "the linearised motion is not known"
         end if
-        if (refusal /= "") return
-        allocate (shown, source=samples%values)
-        do draw = 1, draws
+    end subroutine find_refusal
+
+    pure function is_constant(samples, k) result(yes)
+        !! A parameter, gamma and what omega is without drag, and omega of one coordinate.
+        type(samples_t), intent(in) :: samples
+        integer, intent(in) :: k
+        logical :: yes
+
+        yes = samples%role(k) == role_parameter .and. samples%rate(k) == 0
+        if (samples%decay > 0) yes = yes .or. k == samples%decay .or. k == samples%decay + 1
+        if (samples%ndof == 1) yes = yes .or. samples%role(k) == role_frequency
+    end function is_constant
+
+    subroutine put_linear_motion(samples, shown, refusal)
+        !! The accelerations of the linearised equations, and omega of one coordinate.
+        type(samples_t), intent(in) :: samples
+        real(dp), intent(inout) :: shown(:, :)                   !! states of any amplitude
+        character(:), allocatable, intent(inout) :: refusal      !! if M is singular
+        real(dp) :: a(samples%ndof), forces(samples%ndof)
+        type(error_t), allocatable :: error
+        integer :: draw, n, row
+
+        n = samples%ndof
+        do row = 1, draws*states
+            draw = 1 + (row - 1)/states
             if (n == 1) then
-                shown((draw - 1)*states + 1:draw*states, samples%frequency) = &
-                    sqrt(samples%omega2(draw, 1))
-                shown((draw - 1)*states + 1:draw*states, samples%frequency + 1) = &
-                    samples%omega2(draw, 1)
+                shown(row, samples%frequency) = sqrt(samples%omega2(draw, 1))
+                shown(row, samples%frequency + 1) = samples%omega2(draw, 1)
             end if
-            do row = (draw - 1)*states + 1, draw*states
-                forces = -matmul(samples%stiffness(:, :, draw), shown(row, 2:1 + n)) &
-                         - matmul(samples%turning(:, :, draw), shown(row, 2 + n:1 + 2*n))
-                call solve_linear(samples%inertia(:, :, draw), forces, a, error)
-                if (allocated(error)) then
-                    refusal = error%message
-                    return
-                end if
-                shown(row, samples%first_acceleration:samples%first_acceleration + n - 1) = a
-            end do
+            forces = -matmul(samples%stiffness(:, :, draw), shown(row, 2:1 + n)) &
+                     - matmul(samples%turning(:, :, draw), shown(row, 2 + n:1 + 2*n))
+            call solve_linear(samples%inertia(:, :, draw), forces, a, error)
+            if (allocated(error)) then
+                refusal = error%message
+                return
+            end if
+            shown(row, samples%first_acceleration:samples%first_acceleration + n - 1) = a
         end do
-        amplitude = merge(alone, beside_numbers, vanishes_at_rest())
-        allocate (values, source=shown)
-        do k = 1, size(moving)
-            if (moving(k)) values(:, k) = amplitude*values(:, k)
-        end do
-    contains
-        logical function is_constant(k)
-            !! A parameter, gamma and what omega is without drag, and omega of one coordinate.
-            integer, intent(in) :: k
+    end subroutine put_linear_motion
 
-            is_constant = samples%role(k) == role_parameter .and. samples%rate(k) == 0
-            if (samples%decay > 0) is_constant = is_constant .or. k == samples%decay .or. &
-                                                 k == samples%decay + 1
-            if (n == 1) is_constant = is_constant .or. samples%role(k) == role_frequency
-        end function is_constant
+    function vanishes_at_rest(residual, state, moving) result(yes)
+        !! Each term does.
+        type(expression_t), intent(in) :: residual
+        real(dp), intent(in) :: state(:)
+        logical, intent(in) :: moving(:)
+        logical :: yes
+        real(dp), dimension(1, residual%count) :: results, sizes
+        real(dp) :: rest(1, size(moving))
 
-        logical function vanishes_at_rest()
-            !! Each term does.
-            real(dp), dimension(1, residual%count) :: results, sizes
-            real(dp) :: rest(1, size(moving))
-
-            rest(1, :) = merge(0.0_dp, shown(1, :), moving)
-            call evaluate_nodes(residual, rest, results, sizes=sizes)
-            vanishes_at_rest = sizes(1, residual%count) <= 0.0_dp
-        end function vanishes_at_rest
-    end subroutine small_motion
+        rest(1, :) = merge(0.0_dp, state, moving)
+        call evaluate_nodes(residual, rest, results, sizes=sizes)
+        yes = sizes(1, residual%count) <= 0.0_dp
+    end function vanishes_at_rest
 end module lagrangia_small_motion

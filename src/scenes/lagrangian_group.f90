@@ -66,7 +66,7 @@ contains
         if (allocated(error)) return
         call read_chain("equilibrium", formulas%equilibrium)
         if (allocated(error)) return
-        call read_list("constraint", formulas%constraints)
+        call read_chain("constraint", formulas%constraints)
         if (allocated(error)) return
         call read_quantities(formulas%quantities, formulas%quantity_formulas)
         if (allocated(error)) return
@@ -361,7 +361,7 @@ contains
         type(error_t), intent(in) :: found       !! with its key and element
         type(error_t), allocatable, intent(out) :: error  !! with file, line, column
         character(longest_formula), allocatable :: texts(:), single(:)
-        character(:), allocatable :: key, problem
+        character(:), allocatable :: key, message, problem
         integer, allocatable :: from(:)
         integer :: element, at, i
 
@@ -369,15 +369,19 @@ contains
         key = found%key
         if (index(key, "q_") == 1) key = force_key(tree, key(3:))
         at = column_of(found%message)
-        if (any(key == [character(11) :: "coordinates", "parameters", "positions", &
-                        "definitions", "quantities", "equilibrium"]) .and. element > 0) then
+        message = found%message
+        if (element > 0 .and. .not. is_formula(key)) then
             allocate (texts(0))
             call get_strings(tree, group, key, 1, most, texts, error)
             call expand_ranges(texts, single, from, problem)
-            if (element <= size(from)) element = from(element)
-            deallocate (texts)
-        end if
-        if (is_formula(key)) then
+            if (element <= size(from)) then
+                i = index(message, ":")
+                if (single(element) /= texts(from(element)) .and. at > 0) message = &
+                    message(:i - 1)//" of "//quoted(trim(single(element)), 60)//message(i:)
+                if (single(element) /= texts(from(element))) at = 0
+                element = from(element)
+            end if
+        else if (is_formula(key)) then
             allocate (texts(0))
             call get_strings(tree, group, key, 1, most, texts, error)
             do element = 1, size(texts) - 1
@@ -386,23 +390,19 @@ contains
                 at = at - i
             end do
         end if
-        call refuse_value(tree, group, key, found%message, error, element, at)
+        call refuse_value(tree, group, key, message, error, element, at)
         error%status = found%status
     end subroutine refuse_formula
 
     pure function column_of(message) result(column)
         !! The number that `column 12: ` at the beginning of a message says; 0 where there is none.
         character(*), intent(in) :: message
-        integer :: column
-        character(*), parameter :: head = "column ", digits = "0123456789"
-        integer :: i
+        integer :: column, status
 
         column = 0
-        if (index(message, head) /= 1) return
-        do i = len(head) + 1, min(len(message), len(head) + 6)
-            if (index(digits, message(i:i)) == 0) exit
-            column = 10*column + index(digits, message(i:i)) - 1
-        end do
+        if (index(message, "column ") /= 1) return
+        read (message(8:index(message, ":") - 1), *, iostat=status) column
+        if (status /= 0) column = 0
     end function column_of
 
     subroutine formula_lines(tree, formulas, lines)
