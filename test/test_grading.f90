@@ -319,8 +319,8 @@ contains
             remarks="3 the sign of 'b/(m l) theta_dot'; 4 'theta' must be 'sin(theta)'")
         call traced("double_pendulum", "ru", "small: l1 theta1_ddot + l2 theta2_ddot + "// &
             "g theta2 = 0; small: theta1_ddot + omega^2 theta1 = 0", remarks="2 omega behind")
-        call traced("spring_pendulum", "u", "small: m r_ddot + k r = 0", &
-                    remarks="1 no equilibrium at zero")
+        call traced("spring_pendulum", "r", "small: m r_ddot + k r = 0", &
+                    remarks="1 if the coordinates are counted from the equilibrium")
     end subroutine small_oscillations
 
     subroutine the_lines_of_the_notes()

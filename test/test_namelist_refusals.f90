@@ -167,7 +167,7 @@ contains
 
     subroutine stray_bytes()
         !! NUL and its kin, typographic quotes, UTF-16, separators of other languages.
-        character(*), parameter :: plain = "; only plain text is read"
+        character(*), parameter :: plain = "; write a blank in its place"
         character(*), parameter :: not_ascii = " is not ASCII; other letters stand in comments "// &
                                                "and between plain quotes ' or """
 

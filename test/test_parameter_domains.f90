@@ -71,7 +71,7 @@ contains
         call refuse("e = 1", "a domain is written 'm > 0', with >, >=, < or <=")
         call refuse("epsilom > 1", "there is no parameter 'epsilom'; did you mean 'epsilon'?")
         call refuse("z > 1", "there is no parameter 'z'")
-        call refuse("e > x", "column 5: unknown name 'x'; there are pi")
+        call refuse("e > x", "column 5: unknown name 'x'; there is only pi")
         call refuse("e > 1/0", "the bound is no finite number")
         call refuse("e > -1/0", "the bound is no finite number")
         call refuse("e > 0/0", "the bound is no finite number")

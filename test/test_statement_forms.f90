@@ -24,6 +24,7 @@ contains
         call suite%addTest(TestMethod("several_letters_are_missing", several_letters_are_missing))
         call suite%addTest(TestMethod("the_same_slip_in_several_places", &
                                       the_same_slip_in_several_places))
+        call suite%addTest(TestMethod("about_another_equilibrium", about_another_equilibrium))
         call suite%addTest(TestMethod("remedies", remedies))
     end function statement_forms_suite
 
@@ -125,6 +126,31 @@ contains
                    "'theta_dot^2' must be 'theta_ddot' in 'l theta_dot^2'")
     end subroutine the_same_slip_in_several_places
 
+    subroutine about_another_equilibrium()
+        !! Where it is, and small oscillations about it; coordinates counted from it, or not; the
+        !! rates of a definition.
+        character, parameter :: line_feed = new_line("a")
+
+        call right("rotating_hoop", "cos(theta_eq) = g/(omega^2 r)")
+        call right("rotating_hoop", "theta_eq = 0")
+        call wrong("rotating_hoop", "cos(theta_eq) = g/(omega r)", "'omega' must have the exponent")
+        call right("rotating_hoop", "small: theta_ddot + omega^2 sin(theta_eq)^2 (theta - "// &
+                   "theta_eq) = 0")
+        call wrong("rotating_hoop", "small: theta_ddot + omega^2 cos(theta_eq)^2 (theta - "// &
+                   "theta_eq) = 0", "'cos(theta_eq)' must be 'sin(theta_eq)'")
+        call right("rotating_hoop", "small: theta_ddot = -Omega^2 (theta - theta_eq)")
+        call right("rotating_hoop", "small: theta_ddot = (omega^2 - g/r) theta")
+        call wrong("rotating_hoop", "small: theta_ddot = (omega^2 + g/r) theta", "")
+        call right("rotating_hoop", "D = theta - theta_eq"//line_feed// &
+                   "small: D_ddot + (omega^2 - g^2/(omega^2 r^2)) D = 0")
+        call right("spring_pendulum", "r_eq = l0 + m g/k")
+        call right("spring_pendulum", "small: r_eq theta_ddot + g theta = 0")
+        call wrong("spring_pendulum", "small: l0 theta_ddot + g theta = 0", "")
+        call judged("spring_pendulum", "small: m r_ddot + k r = 0", is_right, &
+                    "if the coordinates are counted from the equilibrium")
+        call wrong("spring_pendulum", "small: m r_ddot + 2 k r = 0", "")
+    end subroutine about_another_equilibrium
+
     subroutine remedies()
         !! What to write instead.
         call unreadable("pendulum", "theta'' = 0", "column 6: a prime is no derivative; write "// &
@@ -136,7 +162,7 @@ contains
         call unreadable("pendulum", "l theta_ddot = 5 cm", "column 18: 'cm' is a unit")
         call unreadable("pendulum", "phi_ddot = 0", "column 1: unknown name 'phi_ddot'; there "// &
                         "are t, theta, m, l, g, b, L_z, tension, x_bob, y_bob, z_bob, L, E, "// &
-                        "p_theta, T, V, omega, omega_2, pi")
+                        "p_theta, T, V, omega, omega_2, theta_eq, pi")
     end subroutine remedies
 
     subroutine right(system, statement)

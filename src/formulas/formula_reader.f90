@@ -235,6 +235,11 @@ contains
         else if (follows_number(reader) .and. any(units == name)) then
             call refuse(reader, quoted(name)//" is a unit, and numbers have none here; write "// &
                         "the formula in letters", error)
+        else if (name == "sum") then
+            call refuse(reader, "a sum is written sum(i, 1, 4, m/2 x_i_dot^2)", error)
+        else if (size(names) == 1) then
+            call refuse(reader, "unknown name "//quoted(name)//"; there is only "//trim(names(1)), &
+                        error)
         else
             call refuse(reader, "unknown name "//quoted(name)//"; there are "// &
                         join(essential(names), ", "), error)
@@ -248,6 +253,7 @@ contains
 
         yes = reader%at > 1
         if (yes) yes = reader%tokens%token(reader%at - 1)%kind == is_number
+        if (yes .and. reader%at > 2) yes = reader%tokens%word(reader%at - 2) /= "^"
     end function follows_number
 
     pure function essential(names) result(few)

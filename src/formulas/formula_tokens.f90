@@ -168,6 +168,9 @@ contains
             text = quoted(before(at:at))//" is no bracket of a formula; write ( and )"
         case ("\")
             text = "LaTeX is not read; write "//instead_of_latex(before(at + 1:))
+            if (scan(before(max(1, at - 1):max(1, at - 1)), inside) == 1 .or. &
+                scan(before(at + 1:)//" ", letters) /= 1) text = "'\' has no meaning in a "// &
+                                                                 "formula; delete it"
         case ("'")
             text = "a prime is no derivative; write "//dotted(before, at)
         case ("_")
@@ -189,7 +192,9 @@ contains
         name = text(verify(text(:at - 1), inside, back=.true.) + 1:at - 1)
         primes = verify(text(at:)//" ", "'") - 1
         last = max(1, len(name) - 3)
-        if (name == "" .or. primes > 2) then
+        if (name == "" .or. primes > 2 .or. scan(text(at + primes:)//" ", inside) == 1 .or. &
+            index(name, "_d") > 0 .and. (name(last:) /= "_dot" .or. primes > 1) .or. &
+            scan(name, digits) == 1) then
             name = "x_dot, x_ddot"
         else if (name(last:) == "_dot") then
             name = name(:last)//"ddot"

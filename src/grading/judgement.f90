@@ -8,14 +8,15 @@ module lagrangia_judgement
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_homework, only: statement_t
     use lagrangia_kinds, only: dp
+    use lagrangia_motion_samples, only: put_places
     use lagrangia_number_text, only: scientific
     use lagrangia_same_motion, only: same_equations
     use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_slip_search, only: explain_slip, holds, is_trivial
     use lagrangia_small_motion, only: small_motion
-    use lagrangia_statement_forms, only: is_constancy, is_motion, is_new_name, is_slope, is_value, &
-                                         read_as_period
+    use lagrangia_statement_forms, only: define_rates, is_constancy, is_motion, is_new_name, &
+                                         is_slope, is_value, read_as_period, speaks_of_place
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -149,7 +150,11 @@ contains
         call parse_formula(repeat(" ", equals)//text(equals + 1:), samples%symbols, meaning, error)
         if (.not. allocated(error)) call samples%symbols%define(trim(adjustl(text(:equals - 1))), &
                                                                 meaning, error)
-        if (allocated(error)) call put_unreadable(error, judgement)
+        if (allocated(error)) then
+            call put_unreadable(error, judgement)
+        else
+            call define_rates(trim(adjustl(text(:equals - 1))), meaning, samples)
+        end if
     end subroutine define
 
     pure subroutine put_unreadable(error, judgement)
@@ -174,6 +179,12 @@ contains
 
         judgement%residual = left - right
         values = samples%values
+        if (speaks_of_place(judgement%residual, samples)) then
+            call holds(judgement%residual, samples%values, right_one, judged)
+            call put_places(samples, samples%other_equilibrium, values)
+            call holds(judgement%residual, values, found, judged)
+            if (right_one .or. .not. judged) values = samples%values
+        end if
         if (judgement%residual%depends_on(samples%frequency) .or. &
             judgement%residual%depends_on(samples%frequency + 1)) then
             call choose_modes(judgement%residual, samples, values, right_one, found)
@@ -226,17 +237,22 @@ contains
         logical, intent(in) :: explain
         type(judgement_t), intent(inout) :: judgement
         real(dp), allocatable :: values(:, :), shown(:, :)
-        logical :: judged, right_one
+        logical :: about_other, judged, right_one
 
         judgement%residual = left - right
-        call small_motion(judgement%residual, samples, values, shown, judgement%remark)
-        right_one = .false.
-        judged = judgement%remark == ""
-        if (judged) then
-            call holds(judgement%residual, values, right_one, judged)
-            if (.not. judged) judgement%remark = "no number at rest: a root, a logarithm or a "// &
-                                                 "division fails"
+        call compare(.true., .false.)
+        about_other = judged .and. speaks_of_place(judgement%residual, samples)
+        if (.not. right_one) call compare(.false., .false.)
+        if (right_one) return
+        call compare(.true., .true.)
+        if (.not. right_one) call compare(.false., .true.)
+        if (right_one) then
+            judgement%remark = "if the coordinates are counted from the equilibrium"
+            return
         end if
+        call compare(about_other, .false.)
+        if (judgement%remark == "" .and. .not. judged) judgement%remark = "no number at rest: "// &
+            "a root, a logarithm or a division fails"
         if (.not. judged) then
             judgement%verdict = is_unreadable
         else if (.not. right_one) then
@@ -252,6 +268,17 @@ contains
             call put_example(left, right, samples, shown, judgement%example)
             call put_squares(samples, judgement)
         end if
+    contains
+        subroutine compare(other, counted_from_it)
+            !! With the motion about one equilibrium.
+            logical, intent(in) :: other, counted_from_it
+
+            right_one = .false.
+            judged = .false.
+            call small_motion(judgement%residual, samples, other, counted_from_it, values, shown, &
+                              judgement%remark)
+            if (judgement%remark == "") call holds(judgement%residual, values, right_one, judged)
+        end subroutine compare
     end subroutine judge_small
 
     subroutine put_squares(samples, judgement)

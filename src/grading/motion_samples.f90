@@ -21,7 +21,7 @@ module lagrangia_motion_samples
     use lagrangia_text, only: word_t
     implicit none (type, external)
     private
-    public :: new_samples
+    public :: new_samples, put_places
 
     integer, parameter :: most_expanded = 8  !! coordinates whose mass matrix is kept
 
@@ -68,11 +68,24 @@ contains
                       ": no parameters and states are found at which all is finite")
             return
         end if
+        call put_places(samples, samples%equilibrium, samples%values)
         samples%elsewhere = samples%values
         do k = 1, size(samples%role)
             call move_away(samples, k)
         end do
     end subroutine new_samples
+
+    pure subroutine put_places(samples, equilibrium, values)
+        !! `theta_eq`, for each draw of parameters.
+        type(samples_t), intent(in) :: samples         !! know where it stands
+        real(dp), intent(in) :: equilibrium(:, :)      !! (ndof, draws)
+        real(dp), intent(inout) :: values(:, :)        !! (draws*states, symbols)
+        integer :: row
+
+        do row = 1, size(values, 1)
+            values(row, samples%place) = equilibrium(:, 1 + (row - 1)/states)
+        end do
+    end subroutine put_places
 
     function is_damped(system, d, fixed, given) result(yes)
         !! Has the system one coordinate, and at rest a drag that is as the velocity, with
@@ -269,6 +282,10 @@ contains
             allocate (samples%equilibrium(n, draws), source=ieee_value(1.0_dp, ieee_quiet_nan))
             allocate (samples%stiffness(n, n, draws), samples%inertia(n, n, draws), source=0.0_dp)
             allocate (samples%turning(n, n, draws), source=ieee_value(1.0_dp, ieee_quiet_nan))
+            samples%other_equilibrium = samples%equilibrium
+            samples%other_stiffness = samples%turning
+            samples%other_inertia = samples%turning
+            samples%other_turning = samples%turning
         end if
         if (samples%decay > 0) call put_rates(ieee_value(1.0_dp, ieee_quiet_nan), 0.0_dp)
         start = likely_equilibrium(system)
@@ -292,6 +309,12 @@ contains
         call find_modes(system, start, .true., others, error)
         if (allocated(error)) return
         samples%omega2(draw, n + 1:n + size(others%omega2)) = others%omega2
+        if (allocated(others%stiffness)) then
+            samples%other_equilibrium(:, draw) = others%at
+            samples%other_stiffness(:, :, draw) = others%stiffness
+            samples%other_inertia(:, :, draw) = others%mass
+            call put_turning(others, samples%other_turning(:, :, draw))
+        end if
         if (samples%decay > 0) call damp(others, samples%omega2(draw, n + 1:))
     contains
         subroutine add_forces(modes, omega2)
@@ -301,16 +324,26 @@ contains
             real(dp), dimension(n, n) :: beside, drag
             real(dp) :: free
 
+            call put_turning(modes, samples%turning(:, :, draw))
             call stiffness_beside(system, modes%at, beside)
             call damping_matrix(system, modes%at, drag)
-            if (.not. any(abs(beside) > 0.0_dp) .and. .not. allocated(modes%basis)) then
-                samples%turning(:, :, draw) = modes%gyroscopic + drag
-            end if
             if (samples%decay == 0) return
             call damp(modes, omega2)
             free = (modes%stiffness(1, 1) + beside(1, 1))/modes%mass(1, 1)
             call put_rates(drag(1, 1)/(2.0_dp*modes%mass(1, 1)), free)
         end subroutine add_forces
+
+        subroutine put_turning(modes, turning)
+            !! NaN where forces beside L depend on the place, or constraints bind.
+            type(modes_t), intent(in) :: modes
+            real(dp), intent(inout) :: turning(:, :)
+            real(dp), dimension(n, n) :: beside, drag
+
+            call stiffness_beside(system, modes%at, beside)
+            call damping_matrix(system, modes%at, drag)
+            if (any(abs(beside) > 0.0_dp) .or. allocated(modes%basis)) return
+            turning = modes%gyroscopic + drag
+        end subroutine put_turning
 
         subroutine damp(modes, omega2)
             !! \(\omega^2 = K/M - (C/2M)^2\).

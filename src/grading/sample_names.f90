@@ -65,6 +65,10 @@ module lagrangia_sample_names
         real(dp), allocatable :: inertia(:, :, :)
         real(dp), allocatable :: turning(:, :, :)
         !! what stands before the velocities there: gyroscopic forces and drag; NaN: not known
+        real(dp), allocatable :: other_equilibrium(:, :)
+        !! the same about another one that the page knows, or at zero; NaN: none
+        real(dp), allocatable, dimension(:, :, :) :: other_stiffness, other_inertia, other_turning
+        integer, allocatable :: place(:)                !! of `theta_eq`, where it is, (ndof)
         type(random_t) :: random
     end type samples_t
 
@@ -125,6 +129,11 @@ contains
             samples%decay = size(samples%role)
             call add(trim(samples%symbols%names(samples%frequency))//"_0", role_known)
         end if
+        allocate (samples%place(samples%ndof))
+        do i = 1, samples%ndof
+            call add(trim(samples%symbols%names(1 + i))//"_eq", role_known)
+            samples%place(i) = samples%symbols%find(trim(samples%symbols%names(1 + i))//"_eq")
+        end do
         call name_rates(samples)
         call define_derivatives(d, samples)
         call compile_letters(d, samples)
@@ -230,6 +239,7 @@ contains
         do i = 1, size(samples%rate)
             if (samples%rate(i) > 0 .or. i == samples%decay) cycle
             if (i == samples%decay + 1 .and. samples%decay > 0) cycle
+            if (any(samples%place == i)) cycle
             name = samples%symbols%names(i)
             if (samples%role(i) == role_acceleration .or. samples%role(i) == role_known .or. &
                 index(name, "_ddot") > 0) samples%symbols%rates(i) = -1

@@ -1,11 +1,12 @@
 module lagrangia_small_motion
     !! Statements about small oscillations, which hold to first order in coordinates, velocities and
     !! accelerations: what these are on the motion of the linearised equations.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
+    use lagrangia_motion_samples, only: put_places
     use lagrangia_sample_names, only: draws, role_acceleration, role_frequency, role_parameter, &
                                       role_time, samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes
@@ -19,29 +20,47 @@ module lagrangia_small_motion
 
 contains
 
-    subroutine small_motion(residual, samples, values, shown, refusal)
-        !! States of \(M\ddot q + B\dot q + Kq = 0\) about zero, of a small amplitude at which
-        !! `residual` vanishes to rounding if it does to first order.
+    subroutine small_motion(residual, samples, about_other, counted_from_it, values, shown, &
+                            refusal)
+        !! States of \(M\ddot\delta + B\dot\delta + K\delta = 0\), \(q = q_0 + \delta\), of a
+        !! small amplitude at which `residual` vanishes to rounding if it does to first order.
         type(expression_t), intent(in) :: residual            !! left less right side
         type(samples_t), intent(in) :: samples                !! know M, B and K
+        logical, intent(in) :: about_other                    !! the other equilibrium
+        logical, intent(in) :: counted_from_it                !! q is delta
         real(dp), allocatable, intent(out) :: values(:, :)    !! small ones, (draws*states, symbols)
         real(dp), allocatable, intent(out) :: shown(:, :)     !! as many, of a larger amplitude
         character(:), allocatable, intent(out) :: refusal     !! empty, or why there are none
         logical :: moving(size(samples%role))
+        real(dp), allocatable :: places(:, :)
         real(dp) :: amplitude
-        integer :: k
+        integer :: k, n
 
         moving = samples%role > role_time .and. samples%role <= role_acceleration
         call find_refusal(residual, samples, moving, refusal)
         if (refusal /= "") return
         allocate (shown, source=samples%values)
-        call put_linear_motion(samples, shown, refusal)
+        n = samples%ndof
+        if (about_other) then
+            call put_places(samples, samples%other_equilibrium, shown)
+            call put_linear_motion(samples, samples%other_inertia, samples%other_turning, &
+                                   samples%other_stiffness, samples%omega2(:, n + 1), shown, &
+                                   refusal)
+        else
+            call put_linear_motion(samples, samples%inertia, samples%turning, samples%stiffness, &
+                                   samples%omega2(:, 1), shown, refusal)
+        end if
         if (refusal /= "") return
-        amplitude = merge(alone, beside_numbers, vanishes_at_rest(residual, shown(1, :), moving))
+        places = shown(:, samples%place)
+        if (counted_from_it) places = 0.0_dp
+        amplitude = merge(alone, beside_numbers, &
+                          vanishes_at_rest(residual, shown(1, :), places(1, :), moving))
         allocate (values, source=shown)
         do k = 1, size(moving)
             if (moving(k)) values(:, k) = amplitude*values(:, k)
         end do
+        values(:, 2:1 + n) = values(:, 2:1 + n) + places
+        shown(:, 2:1 + n) = shown(:, 2:1 + n) + places
     end subroutine small_motion
 
     pure subroutine find_refusal(residual, samples, moving, refusal)
@@ -61,9 +80,9 @@ contains
                 "known there for one coordinate; write 'omega^2 = ...' without 'small:'"
             return
         end do
-        if (.not. all(abs(samples%equilibrium) <= 0.0_dp)) then
-            refusal = "no equilibrium at zero to oscillate about"
-        else if (.not. all(ieee_is_finite(samples%turning))) then
+        if (.not. any(ieee_is_finite(samples%equilibrium))) then
+            refusal = "no equilibrium to oscillate about"
+        else if (.not. any(ieee_is_finite(samples%turning))) then
             refusal = "the linearised motion is not known"
         end if
     end subroutine find_refusal
@@ -74,14 +93,18 @@ contains
         integer, intent(in) :: k
         logical :: yes
 
-        yes = samples%role(k) == role_parameter .and. samples%rate(k) == 0
+        yes = samples%role(k) == role_parameter .and. samples%rate(k) == 0 .or. &
+              any(samples%place == k)
         if (samples%decay > 0) yes = yes .or. k == samples%decay .or. k == samples%decay + 1
         if (samples%ndof == 1) yes = yes .or. samples%role(k) == role_frequency
     end function is_constant
 
-    subroutine put_linear_motion(samples, shown, refusal)
-        !! The accelerations of the linearised equations, and omega of one coordinate.
+    subroutine put_linear_motion(samples, inertia, turning, stiffness, omega2, shown, refusal)
+        !! The accelerations of the linearised equations, with the displacements in the place of the
+        !! coordinates, and omega of one coordinate; NaN where there is no equilibrium.
         type(samples_t), intent(in) :: samples
+        real(dp), intent(in), dimension(:, :, :) :: inertia, turning, stiffness  !! (n, n, draws)
+        real(dp), intent(in) :: omega2(:)                        !! (draws)
         real(dp), intent(inout) :: shown(:, :)                   !! states of any amplitude
         character(:), allocatable, intent(inout) :: refusal      !! if M is singular
         real(dp) :: a(samples%ndof), forces(samples%ndof)
@@ -92,12 +115,17 @@ contains
         do row = 1, draws*states
             draw = 1 + (row - 1)/states
             if (n == 1) then
-                shown(row, samples%frequency) = sqrt(samples%omega2(draw, 1))
-                shown(row, samples%frequency + 1) = samples%omega2(draw, 1)
+                shown(row, samples%frequency) = sqrt(omega2(draw))
+                shown(row, samples%frequency + 1) = omega2(draw)
             end if
-            forces = -matmul(samples%stiffness(:, :, draw), shown(row, 2:1 + n)) &
-                     - matmul(samples%turning(:, :, draw), shown(row, 2 + n:1 + 2*n))
-            call solve_linear(samples%inertia(:, :, draw), forces, a, error)
+            forces = -matmul(stiffness(:, :, draw), shown(row, 2:1 + n)) &
+                     - matmul(turning(:, :, draw), shown(row, 2 + n:1 + 2*n))
+            a = ieee_value(1.0_dp, ieee_quiet_nan)
+            if (.not. all(ieee_is_finite(forces))) then
+                shown(row, samples%first_acceleration:samples%first_acceleration + n - 1) = a
+                cycle
+            end if
+            call solve_linear(inertia(:, :, draw), forces, a, error)
             if (allocated(error)) then
                 refusal = error%message
                 return
@@ -106,16 +134,17 @@ contains
         end do
     end subroutine put_linear_motion
 
-    function vanishes_at_rest(residual, state, moving) result(yes)
+    function vanishes_at_rest(residual, state, place, moving) result(yes)
         !! Each term does.
         type(expression_t), intent(in) :: residual
-        real(dp), intent(in) :: state(:)
+        real(dp), intent(in) :: state(:), place(:)
         logical, intent(in) :: moving(:)
         logical :: yes
         real(dp), dimension(1, residual%count) :: results, sizes
         real(dp) :: rest(1, size(moving))
 
         rest(1, :) = merge(0.0_dp, state, moving)
+        rest(1, 2:1 + size(place)) = place
         call evaluate_nodes(residual, rest, results, sizes=sizes)
         yes = sizes(1, residual%count) <= 0.0_dp
     end function vanishes_at_rest

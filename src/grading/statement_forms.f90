@@ -1,6 +1,7 @@
 module lagrangia_statement_forms
     !! What a statement is that is no plain equality: a new name, a constant of the motion, a
     !! period, a motion, a value.
+    use lagrangia_derivative, only: time_derivative
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: constant, expression_t, kind_symbol, operator(/), symbol
     use lagrangia_kinds, only: dp
@@ -8,6 +9,7 @@ module lagrangia_statement_forms
     use lagrangia_symbols, only: check_name
     implicit none (type, external)
     private
+    public :: define_rates, speaks_of_place
     public :: is_constancy, is_motion, is_new_name, is_slope, is_value, read_as_period
 
 contains
@@ -109,4 +111,33 @@ contains
         yes = samples%role(k) == role_parameter .and. samples%rate(k) == 0
         if (samples%decay > 0) yes = yes .or. k == samples%decay .or. k == samples%decay + 1
     end function is_fixed
+
+    pure function speaks_of_place(residual, samples) result(yes)
+        !! Of `theta_eq`, the place of an equilibrium.
+        type(expression_t), intent(in) :: residual  !! left less right side
+        type(samples_t), intent(in) :: samples      !! know where it stands
+        logical :: yes
+        integer :: i
+
+        yes = any([(residual%depends_on(samples%place(i)), i=1, size(samples%place))])
+    end function speaks_of_place
+
+    subroutine define_rates(name, meaning, samples)
+        !! `D_dot` and `D_ddot` of a definition, where all in it has rates.
+        character(*), intent(in) :: name            !! of the definition
+        type(expression_t), intent(in) :: meaning   !! what it stands for
+        type(samples_t), intent(inout) :: samples   !! get the names
+        type(expression_t) :: rate
+        type(error_t), allocatable :: error
+        integer :: i, k
+
+        rate = meaning
+        do k = 1, 2
+            if (any([(rate%depends_on(i) .and. samples%symbols%rates(i) < 0, &
+                      i=1, size(samples%role))])) return
+            rate = time_derivative(rate, samples%symbols%rates, 1)
+            call samples%symbols%define(name//trim(merge("_dot ", "_ddot", k == 1)), rate, error)
+            if (allocated(error)) return
+        end do
+    end subroutine define_rates
 end module lagrangia_statement_forms

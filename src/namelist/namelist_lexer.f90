@@ -58,7 +58,7 @@ contains
         case default
             problem = "unexpected "//quoted(byte)
             if (is_control(byte)) then
-                problem = "control character "//escaped(byte)//"; only plain text is read"
+                problem = "control character "//escaped(byte)//"; write a blank in its place"
             else if (iachar(byte) > 126) then
                 what = described(tree%text, position)
                 problem = unlike(tree%text(position:))
