@@ -139,7 +139,8 @@ contains
         !! With the nearest column; the place in the list is told.
         call refused([character(24) :: "theta", "tetha"], 2, &
                      "'tetha' is none of this scene's columns; did you mean 'theta'?")
-        call refused([character(24) :: "z:theta"], 1, "'z' is none of this scene's columns")
+        call refused([character(24) :: "z:theta"], 1, "'z' is none of this scene's columns; "// &
+                     "there are ")
         call refused([character(24) :: "x+"], 1, "'' is none of this scene's columns")
         call refused([character(24) :: "x::y"], 1, "':y' is none of this scene's columns")
         call refused([character(24) :: "x+x+x+x+x+x+x+x+x"], 1, "more than 8 curves in one panel")

@@ -3,6 +3,8 @@ module test_statement_forms
     !! form, constants of the motion, periods, dots and roots as signs; and several letters missing.
     use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
     use lagrangia_judgement, only: is_right, is_unreadable, is_wrong
+    use lagrangia_kinds, only: dp
+    use lagrangia_random_draws, only: random_t
     use lagrangia_text, only: to_text
     use tried_responses, only: graded
     implicit none (type, external)
@@ -26,6 +28,7 @@ contains
                                       the_same_slip_in_several_places))
         call suite%addTest(TestMethod("about_another_equilibrium", about_another_equilibrium))
         call suite%addTest(TestMethod("remedies", remedies))
+        call suite%addTest(TestMethod("typos_have_a_place", typos_have_a_place))
     end function statement_forms_suite
 
     subroutine derivatives_by_the_time()
@@ -110,6 +113,11 @@ contains
                    "the sign of 'm2 g l sin(theta)'")
         call wrong("cart_pendulum", "(m1 + m2) x_ddot + m2 theta_ddot cos(theta) = "// &
                    "-m2 l theta_dot^2 sin(theta)", "two changes: ")
+        call wrong("cart_pendulum", "T = (m1 + m2) x_dot^2 + m2/2 l^2 theta_dot^2 + m2/2 l "// &
+                   "x_dot theta_dot cos(theta)", "two changes: '(m1 + m2) x_dot^2' lacks the factor "// &
+                   "'1/2'; 'm2/2 l x_dot theta_dot cos(theta)' lacks the factor '2'")
+        call wrong("cart_pendulum", "l theta_ddot cos(theta)^2 + 2 l theta_ddot sin(theta)^2 = "// &
+                   "3 l theta_ddot", "no single change")
         call wrong("pendulum", "p_theta = 3 theta_dot", "'3 theta_dot' lacks the factor "// &
                    "'1/3 m l^2'")
     end subroutine several_letters_are_missing
@@ -149,6 +157,11 @@ contains
         call judged("spring_pendulum", "small: m r_ddot + k r = 0", is_right, &
                     "if the coordinates are counted from the equilibrium")
         call wrong("spring_pendulum", "small: m r_ddot + 2 k r = 0", "")
+        call right("pendulum", "small: theta_ddot = -omega omega theta")
+        call right("pendulum", "small: l theta_ddot + g theta + theta_dot^2 = 0")
+        call unreadable("double_pendulum", "small: sin(D) = D", "'D' in a statement behind")
+        call unreadable("pendulum_in_x_and_y", "small: x_ddot = -g/l x", "the linearised "// &
+                        "motion is not known")
     end subroutine about_another_equilibrium
 
     subroutine remedies()
@@ -164,6 +177,36 @@ contains
                         "are t, theta, m, l, g, b, L_z, tension, x_bob, y_bob, z_bob, L, E, "// &
                         "p_theta, T, V, omega, omega_2, theta_eq, pi")
     end subroutine remedies
+
+    subroutine typos_have_a_place()
+        !! A character too many, too few or another one, at random: a verdict, or one line that says
+        !! where and what to do.
+        character(*), parameter :: statement = "m2 l theta_ddot + m2 x_ddot cos(theta) = "// &
+            "-m2 g sin(theta)"
+        character(*), parameter :: typed = "adelmtx_1290^*/+-()|=.,;'{\&# "//achar(9)
+        character(:), allocatable :: remark, text
+        type(random_t) :: random
+        real(dp) :: x(3)
+        integer :: at, i, k, verdict
+
+        do i = 1, 400
+            do k = 1, 3
+                call random%uniform(0.0_dp, 1.0_dp, x(k))
+            end do
+            at = 1 + int(x(1)*len(statement))
+            k = 1 + int(x(2)*len(typed))
+            text = statement(:at - merge(1, 0, x(3) < 0.6_dp))
+            if (x(3) > 0.3_dp) text = text//typed(k:k)
+            text = text//statement(at + 1:)
+            call graded("cart_pendulum", text, verdict, remark)
+            call assertTrue(scan(remark, new_line("a")) == 0, text//": "//remark)
+            if (verdict == is_right .or. verdict == is_wrong) cycle
+            call assertTrue(index(remark, "column ") > 0 .or. index(remark, "sheet:2: ") > 0, &
+                            text//": "//remark)
+            call assertTrue(index(remark, "; ") + index(remark, "? ") + index(remark, ": ") > 0, &
+                            text//": "//remark)
+        end do
+    end subroutine typos_have_a_place
 
     subroutine right(system, statement)
         character(*), intent(in) :: system, statement

@@ -1,6 +1,6 @@
 module lagrangia_letter_products
-    !! A factor that a student forgot or added, as a product of parameters and of sums of them:
-    !! `(m1 + m2)/m1`, `2 m r^2`.
+    !! A factor that a student forgot or added, as a number or a product of parameters and of sums
+    !! of them: `(m1 + m2)/m1`, `2 m r^2`.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_expression, only: constant, expression_t, kind_difference, kind_sum, &
                                     operator(*), operator(**), operator(/), symbol, whole
@@ -102,7 +102,7 @@ contains
         logical, intent(out) :: found                    !! there is
         integer :: powers(size(letters)), n
 
-        do n = 1, most_letters
+        do n = 0, most_letters
             call search(needed, letters, 1, n, powers, found)
             if (found) exit
         end do

@@ -92,12 +92,15 @@ contains
         subroutine find(name, column)
             character(*), intent(in) :: name
             integer, intent(out) :: column
+            character(:), allocatable :: near
 
             do column = 1, size(names)
                 if (names(column) == name) return
             end do
-            call fail(error, quoted(name)//" is none of this scene's columns; "// &
-                      advice(name, names))
+            near = advice(name, names)
+            if (index(near, "there are") == 1) near = near//"; 'columns' or 'event_columns' "// &
+                                                      "adds others"
+            call fail(error, quoted(name)//" is none of this scene's columns; "//near)
         end subroutine find
     end subroutine read_panel
 
