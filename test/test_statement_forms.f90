@@ -114,8 +114,8 @@ contains
         call wrong("cart_pendulum", "(m1 + m2) x_ddot + m2 theta_ddot cos(theta) = "// &
                    "-m2 l theta_dot^2 sin(theta)", "two changes: ")
         call wrong("cart_pendulum", "T = (m1 + m2) x_dot^2 + m2/2 l^2 theta_dot^2 + m2/2 l "// &
-                   "x_dot theta_dot cos(theta)", "two changes: '(m1 + m2) x_dot^2' lacks the factor "// &
-                   "'1/2'; 'm2/2 l x_dot theta_dot cos(theta)' lacks the factor '2'")
+                   "x_dot theta_dot cos(theta)", "two changes: '(m1 + m2) x_dot^2' lacks the "// &
+                   "factor '1/2'; 'm2/2 l x_dot theta_dot cos(theta)' lacks the factor '2'")
         call wrong("cart_pendulum", "l theta_ddot cos(theta)^2 + 2 l theta_ddot sin(theta)^2 = "// &
                    "3 l theta_ddot", "no single change")
         call wrong("pendulum", "p_theta = 3 theta_dot", "'3 theta_dot' lacks the factor "// &
