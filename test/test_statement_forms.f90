@@ -44,6 +44,7 @@ contains
         call wrong("pendulum", "d^2 theta/dt^2 = g/l sin(theta)", "the sign of")
         call unreadable("pendulum", "d/dt m l^2 theta_dot = -m g l sin(theta)", "column 1: of what")
         call unreadable("pendulum", "d/dt theta^2 = 0", "column 1: of what is it the derivative?")
+        call unreadable("pendulum", "d^2/dt^2 theta = 0", "column 1: a derivative is written d/dt(")
         call unreadable("pendulum", "d(theta) = 0", "column 9: behind d(...) stands '/dt'")
         call unreadable("pendulum", "0 = d/dt(tension)", "column 5: d/dt of 'tension' is not")
     end subroutine derivatives_by_the_time

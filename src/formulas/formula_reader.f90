@@ -235,6 +235,9 @@ contains
         else if (follows_number(reader) .and. any(units == name)) then
             call refuse(reader, quoted(name)//" is a unit, and numbers have none here; write "// &
                         "the formula in letters", error)
+        else if (name == "d" .and. allocated(symbols%rates)) then
+            call refuse(reader, "a derivative is written d/dt(m x_dot), d^2 x/dt^2 or x_ddot", &
+                        error)
         else if (name == "sum") then
             call refuse(reader, "a sum is written sum(i, 1, 4, m/2 x_i_dot^2)", error)
         else if (size(names) == 1) then
