@@ -627,6 +627,12 @@ fi
 "$program" list systems >&- 2>"$work/err"
 status=$?
 check "status 5: stdout is closed" eval '[ $status -eq 5 ] && one_line'
+for closed in '<&-' '>&-' '2>&-' '<&- >&-' '<&- >&- 2>&-'; do # no file or pipe may then take the place of one of them
+    expected=0
+    [[ $closed == *' >&-'* || $closed == '>&-'* ]] && expected=5
+    eval "timeout 60 \"\$program\" sweep pendulum --over q=0.1:3.1:50 --keep period --threads 2 --output \"\$work/closed\" >\"\$work/out\" 2>\"\$work/err\" $closed"
+    check "sweep $closed: comes to its end" [ $? -eq $expected ]
+done
 mkdir "$work/kept"
 echo old >"$work/kept/pendulum.dat"
 (ulimit -f 8; "$program" run pendulum --output "$work/kept" >"$work/out" 2>"$work/err")

@@ -2,8 +2,8 @@
 """try_progress.py PROGRAM: what takes longer says on a terminal how far it is and how long it will still take.
 
 Each command runs in a pseudo-terminal. Within a few seconds there is a line of progress with a percentage and the time
-that is left; it comes again and again; in the end it is wiped. With --quiet, and where stderr is no terminal, there is
-none, and JSON is the same as without a terminal."""
+that is left; it comes again and again; in the end it is wiped. With --quiet, on a
+dumb terminal, and where stderr is none, there is none, and JSON is the same as without a terminal."""
 import json
 import os
 import pty
@@ -26,11 +26,12 @@ ENOUGH = 2.0      # s that may pass in silence
 LATE = 3.0        # s more, for a busy machine and parts of the work that are long themselves
 
 
-def on_terminal(words, folder, stdout=None):
-    """What comes out of the terminal, each piece with its time, and how long the command took."""
+def on_terminal(words, folder, stdout=None, kind="xterm"):
+    """What comes out of a terminal of that kind, each piece with its time, and how long the command took."""
     pid, terminal = pty.fork()
     if pid == 0:
         os.chdir(folder)
+        os.environ["TERM"] = kind
         if stdout:
             os.dup2(os.open(stdout, os.O_WRONLY | os.O_CREAT | os.O_TRUNC), 1)
         os.execv(program, [program, *words])
@@ -86,6 +87,16 @@ def silence(folder, words):
           repr(done.stderr[:200]))
 
 
+def dumb(folder, words):
+    """Where a line cannot take the place of another, each stays where it is: no escape sequence, one announcement at most."""
+    for kind in ("dumb", ""):
+        what = f"TERM={kind} lagrangia {' '.join(words)}"
+        pieces, status, seconds = on_terminal(words, folder, kind=kind)
+        text = "".join(text for _, text in pieces)
+        check(f"{what}: no escape sequence", status == 0 and "\x1b" not in text and "\r" not in text.replace("\r\n", ""),
+              repr(text[:200]))
+
+
 def same_json(folder, words):
     """stdout is a file and stderr the terminal; then both are the terminal, which shows valid JSON."""
     what = "lagrangia " + " ".join(words)
@@ -109,6 +120,7 @@ with tempfile.TemporaryDirectory() as home:
         examine(home, command)
     silence(home, ["stress", "mass_ratios"])
     silence(home, ["run", "pendulum", "--set", "scene%duration=8000", "--plot"])
+    dumb(home, ["stress", "mass_ratios"])
     same_json(home, ["stress", "mass_ratios", "--json"])
 print(f"{len(LONG)} long commands, {claims.failed} failed")
 sys.exit(1 if claims.failed else 0)

@@ -1,11 +1,10 @@
 module lagrangia_check
     !! `lagrangia check [SYSTEM...]`: the audit of systems, also those of scenes, and of methods, a
     !! table each.
-    use, intrinsic :: iso_fortran_env, only: error_unit
     use lagrangia_audit, only: audit_system
     use lagrangia_catalogue, only: new_system, system_names
     use lagrangia_command_line, only: command_line_t, word_t
-    use lagrangia_console, only: console_failed, flush_console, is_terminal, note, put_line
+    use lagrangia_console, only: console_failed, flush_console, note, put_line, rewrites_lines
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_hyperdual, only: hyperdual_t
@@ -54,7 +53,7 @@ contains
         shown = 0
         if (json) call put_line("[")
         call audit%section("")
-        if (is_terminal(error_unit)) part%whole => progress  ! else `announce` has said it
+        if (rewrites_lines()) part%whole => progress  ! else `announce` has said it
         do i = 1, size(audited)
             call audited(i)%system%describe(d)
             call put_head(trim(d%name))

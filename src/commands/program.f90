@@ -14,6 +14,7 @@ module lagrangia_program
     use lagrangia_describe, only: describe_command
     use lagrangia_errata_command, only: errata_command
     use lagrangia_errors, only: error_t, fail, status_ok
+    use lagrangia_files, only: hold_standard_units
     use lagrangia_grade, only: grade_command
     use lagrangia_help, only: help_command, help_text
     use lagrangia_images, only: image_count, wait_for_all
@@ -53,6 +54,7 @@ contains
         type(error_t), allocatable :: error
         integer :: status
 
+        call hold_standard_units()
         call use_one_blas_thread()
         if (present(failed)) then
             allocate (error, source=failed)

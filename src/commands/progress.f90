@@ -1,7 +1,6 @@
 module lagrangia_progress
     !! How far a long run is, on a terminal's stderr; elsewhere one line with the time it takes.
-    use, intrinsic :: iso_fortran_env, only: error_unit
-    use lagrangia_console, only: is_terminal, note, show_progress
+    use lagrangia_console, only: note, rewrites_lines, show_progress
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_number_text, only: scientific
@@ -47,7 +46,7 @@ contains
         self%next = patience
         self%shown = .false.
         call system_clock(self%start, self%rate)
-        self%terminal = is_terminal(error_unit)
+        self%terminal = rewrites_lines()
         if (.not. present(quiet)) return
         if (quiet) self%next = huge(patience)
     end subroutine restart
@@ -139,7 +138,7 @@ contains
         class(progress_t), intent(inout) :: self
         character(*), intent(in) :: words  !! what it does
 
-        if (.not. is_terminal(error_unit)) return
+        if (.not. rewrites_lines()) return
         self%shown = .true.
         call show_progress(words)
     end subroutine say

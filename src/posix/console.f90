@@ -5,7 +5,6 @@ module lagrangia_console
     !! Do not mix with `print` and `write (output_unit, ...)`: their buffer is another one.
     use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_null_char, c_null_ptr, c_ptr, &
         c_size_t
-    use, intrinsic :: iso_fortran_env, only: error_unit, input_unit, output_unit
     use lagrangia_c_library, only: c_fdopen, c_fflush, c_fwrite, c_isatty, c_write
     use lagrangia_characters, only: printable
     use lagrangia_errors, only: error_t, fail, message_length, status_file, status_pipe
@@ -13,8 +12,8 @@ module lagrangia_console
     use lagrangia_text, only: shortened
     implicit none (type, external)
     private
-    public :: console_failed, finish_console, flush_console, is_terminal, note, put, put_line, &
-              say_at_once, show_progress, terminal_width
+    public :: console_failed, finish_console, flush_console, note, put, put_line, rewrites_lines, &
+              say_at_once, show_progress
 
     type(c_ptr) :: stream = c_null_ptr  !! C's `FILE *` for stdout
     integer :: failure = 0              !! the system's number of the first failure
@@ -105,34 +104,15 @@ contains
         console_failed = failure /= 0
     end function console_failed
 
-    function is_terminal(unit)
-        !! Whether a person reads (or types) at `input_unit`, `output_unit` or `error_unit`.
-        integer, intent(in) :: unit  !! Fortran's number of it
-        logical :: is_terminal
-
-        select case (unit)
-        case (input_unit)
-            is_terminal = c_isatty(0_c_int) == 1
-        case (output_unit)
-            is_terminal = c_isatty(1_c_int) == 1
-        case (error_unit)
-            is_terminal = c_isatty(2_c_int) == 1
-        case default
-            is_terminal = .false.
-        end select
-    end function is_terminal
-
-    function terminal_width() result(columns)
-        !! What the variable COLUMNS says, if it is a plain positive number; else 80.
-        integer :: columns
-        character(10) :: text
+    function rewrites_lines()
+        !! Whether stderr is a terminal on which a line can take the place of the one before. On a
+        !! dumb one, or where the variable TERM does not say what it is, it cannot.
+        logical :: rewrites_lines
+        character(5) :: kind
         integer :: length, status
 
-        columns = 80
-        call get_environment_variable("COLUMNS", text, length, status)
-        if (status /= 0 .or. length == 0 .or. length > 5) return
-        if (verify(trim(text), "0123456789") /= 0) return
-        read (text, "(i5)") columns
-        if (columns == 0) columns = 80
-    end function terminal_width
+        call get_environment_variable("TERM", kind, length, status)
+        rewrites_lines = c_isatty(2_c_int) == 1 .and. status <= 0 .and. length > 0 &
+                         .and. .not. (kind == "dumb" .and. length == 4)
+    end function rewrites_lines
 end module lagrangia_console
