@@ -6,8 +6,8 @@ module lagrangia_dop853_lanes
     !! What lies inside a step is rarely wanted, and then of one lane: its dense output is that of
     !! a single trajectory.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-    use lagrangia_dop853_coefficients, only: a, b, c, e3, e5
     use lagrangia_dop853_control, only: first_step, least_error, next_step, shorter_step
+    use lagrangia_dop853_lane_stages, only: scaled_errors, slopes, stages
     use lagrangia_dop853_stages, only: extra_stages, inside_step, slope
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, lanes
@@ -19,8 +19,6 @@ module lagrangia_dop853_lanes
     private
     public :: dop853_lanes_t
 
-    integer, parameter :: from(12) = [1, 2, 2, 3, 3, 4, 4, 4, 4, 4, 4, 4]
-    !! first slope, besides the step's first, that stage `i` takes; its last is `i - 1`
     integer, parameter :: places = 8  !! in a step where an angle is looked at, as for any event
     real(dp), parameter :: pi = acos(-1.0_dp)
 
@@ -147,78 +145,6 @@ contains
             end if
         end do
     end subroutine step
-
-    pure subroutine slopes(system, n, t, y, f)
-        !! The slopes of eight states.
-        class(system_t), intent(in) :: system
-        integer, intent(in) :: n
-        real(dp), intent(in) :: t(lanes), y(lanes, n, 2)
-        real(dp), intent(out) :: f(lanes, n, 2)
-
-        f(:, :, 1) = y(:, :, 2)
-        call system%accelerations_lanes(t, y(:, :, 1), y(:, :, 2), f(:, :, 2))
-    end subroutine slopes
-
-    pure subroutine stages(system, n, t, h, y0, k, y)
-        !! Slopes 2 to 12 of the attempts, and the states at their ends.
-        class(system_t), intent(in) :: system
-        integer, intent(in) :: n
-        real(dp), intent(in) :: t(lanes), h(lanes), y0(lanes, 2*n)
-        real(dp), intent(inout) :: k(lanes, 2*n, 13)
-        real(dp), intent(out) :: y(lanes, 2*n)
-        real(dp) :: x(lanes)
-        integer :: i, j, s
-
-        do s = 2, 12
-            do i = 1, 2*n
-                x = c(s)*k(:, i, 1)
-                do j = from(s), s - 1
-                    x = x + a(j, s)*k(:, i, j)
-                end do
-                y(:, i) = y0(:, i) + h*x
-            end do
-            call slopes(system, n, t + c(s)*h, y, k(:, :, s))
-            do i = 1, 2*n
-                k(:, i, s) = k(:, i, s) - k(:, i, 1)
-            end do
-        end do
-        do i = 1, 2*n
-            x = k(:, i, 1)
-            do j = 6, 12
-                x = x + b(j)*k(:, i, j)
-            end do
-            y(:, i) = y0(:, i) + h*x
-        end do
-    end subroutine stages
-
-    pure subroutine scaled_errors(n, h, tolerance, k, y0, y, scaled)
-        !! As `scaled_error` of `lagrangia_dop853_stages`, in every lane.
-        integer, intent(in) :: n
-        real(dp), intent(in) :: h(lanes), tolerance, k(lanes, 2*n, 13), y0(lanes, 2*n)
-        real(dp), intent(in) :: y(lanes, 2*n)
-        real(dp), intent(out) :: scaled(lanes)
-        real(dp), dimension(lanes) :: fifth, k3, k5, third, weight, whole
-        integer :: i, j
-
-        fifth = 0.0_dp
-        third = 0.0_dp
-        whole = 0.0_dp
-        do i = 1, 2*n
-            k5 = e5(6)*k(:, i, 6)
-            k3 = e3(6)*k(:, i, 6)
-            do j = 7, 12
-                k5 = k5 + e5(j)*k(:, i, j)
-                k3 = k3 + e3(j)*k(:, i, j)
-            end do
-            weight = max(1.0_dp, abs(y0(:, i)), abs(y(:, i)))
-            fifth = fifth + (k5/weight)**2
-            third = third + (k3/weight)**2
-            whole = whole + abs(y(:, i))
-        end do
-        scaled = h/tolerance*fifth/sqrt(2*n*(fifth + 0.01_dp*third))
-        where (.not. third > 0.0_dp) scaled = 0.0_dp
-        where (.not. third + whole <= huge(scaled)) scaled = huge(scaled)
-    end subroutine scaled_errors
 
     pure subroutine see_inside(self, system, lane)
         !! The dense output of the lane's latest step, unless it is known.

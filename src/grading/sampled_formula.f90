@@ -118,8 +118,13 @@ contains
                 case (kind_negation)
                     sizes(:, i) = sizes(:, node%left)
                 case (kind_power)
-                    sizes(:, i) = x*(sizes(:, node%left)/abs(results(:, node%left)))** &
-                                  max(1.0_dp, abs(results(:, node%right)))
+                    sizes(:, i) = max(1.0_dp, abs(results(:, node%right)))
+                    where (abs(results(:, node%left)) > 0.0_dp)
+                        sizes(:, i) = x*(sizes(:, node%left)/abs(results(:, node%left)))** &
+                                      sizes(:, i)
+                    else where
+                        sizes(:, i) = sizes(:, node%left)**sizes(:, i)
+                    end where
                 case default
                     if (node%which == f_sin .or. node%which == f_cos) then
                         sizes(:, i) = x + sizes(:, node%left)
