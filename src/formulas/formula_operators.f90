@@ -151,26 +151,6 @@ contains
         end function words
     end subroutine read_rate
 
-    pure subroutine add_named(reader, symbols, name, behind, node)
-        !! A symbol or a definition, if there is one; then the next token is `behind`.
-        type(reader_t), intent(inout) :: reader
-        type(symbols_t), intent(in) :: symbols
-        character(*), intent(in) :: name
-        integer, intent(in) :: behind
-        integer, intent(inout) :: node
-        integer :: which
-
-        which = symbols%find_definition(name)
-        if (symbols%find(name) > 0) then
-            call reader%expression%add_symbol(symbols%find(name), node)
-        else if (which > 0) then
-            call reader%expression%append(symbols%definitions(which)%meaning, node)
-        else
-            return
-        end if
-        reader%at = behind
-    end subroutine add_named
-
     pure subroutine differentiate(reader, symbols, first, node, error)
         !! By the time, what was read from token `first` on.
         type(reader_t), intent(inout) :: reader

@@ -22,7 +22,8 @@ module lagrangia_formula_parser
     implicit none (type, external)
     private
     public :: parse_equation, parse_formula
-    public :: read_bracket, read_factor, read_sum  ! gfortran 12 hides others from submodules
+    ! gfortran 12 hides others from submodules:
+    public :: add_named, read_bracket, read_factor, read_sum
 
     real(dp), parameter :: pi = acos(-1.0_dp)
 
@@ -377,18 +378,29 @@ contains
         character(*), intent(in) :: name, indexed
         integer, intent(out) :: node
         type(error_t), allocatable, intent(out) :: error
-        integer :: which
 
         node = 0
-        which = symbols%find_definition(indexed)
-        if (symbols%find(indexed) > 0) then
-            call reader%expression%add_symbol(symbols%find(indexed), node)
+        call add_named(reader, symbols, indexed, reader%at + 1, node)
+        if (node == 0) call refuse_index(reader, symbols, name, indexed, error)
+    end subroutine add_indexed
+
+    pure subroutine add_named(reader, symbols, name, behind, node)
+        !! A symbol or a definition, if there is one.
+        type(reader_t), intent(inout) :: reader    !! of a formula
+        type(symbols_t), intent(in) :: symbols     !! names and definitions
+        character(*), intent(in) :: name           !! as it is typed, without an index to replace
+        integer, intent(in) :: behind              !! the token that is next then
+        integer, intent(inout) :: node             !! the new one; unchanged where there is none
+        integer :: which
+
+        which = symbols%find_definition(name)
+        if (symbols%find(name) > 0) then
+            call reader%expression%add_symbol(symbols%find(name), node)
         else if (which > 0) then
             call reader%expression%append(symbols%definitions(which)%meaning, node)
         else
-            call refuse_index(reader, symbols, name, indexed, error)
             return
         end if
-        reader%at = reader%at + 1
-    end subroutine add_indexed
+        reader%at = behind
+    end subroutine add_named
 end module lagrangia_formula_parser

@@ -109,10 +109,8 @@ contains
         !! dumb one, or where the variable TERM does not say what it is, it cannot.
         logical :: rewrites_lines
         character(5) :: kind
-        integer :: length, status
 
-        call get_environment_variable("TERM", kind, length, status)
-        rewrites_lines = c_isatty(2_c_int) == 1 .and. status <= 0 .and. length > 0 &
-                         .and. .not. (kind == "dumb" .and. length == 4)
+        call get_environment_variable("TERM", kind)
+        rewrites_lines = c_isatty(2_c_int) == 1 .and. kind /= "" .and. kind /= "dumb"
     end function rewrites_lines
 end module lagrangia_console
