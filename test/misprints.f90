@@ -1,11 +1,11 @@
 module misprints
     !! Systems of which one printed formula has a slip: a sign, a factor or an exchanged letter.
     use lagrangia_description, only: description_t, value_names
-    use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
     use lagrangia_system, only: system_t
+    use lagrangia_wrapped_system, only: wrapped_system_t
     implicit none (type, external)
     private
     public :: misprint_t, new_misprint
@@ -14,25 +14,18 @@ module misprints
     integer, parameter :: kinds_of_slips = 4
     integer, parameter :: most = 100  !! formulas of one kind
 
-    type, extends(system_t) :: misprint_t
+    type, extends(wrapped_system_t) :: misprint_t
         !! Another system, with a slip in its description.
-        class(system_t), allocatable :: item
         integer :: place = 0                !! of the formula
         integer :: slip = 0                 !! which kind; 0: none
         character(120) :: instead = ""      !! what stands there instead
     contains
         procedure :: describe
-        procedure :: configure
-        procedure :: accelerations
-        procedure :: lagrangian
-        procedure :: generalised_forces
-        procedure :: energy
         procedure :: quantity
         procedure :: positions
         procedure :: angles
         procedure :: newton
         procedure :: linearise
-        procedure :: constraint_rows
         procedure :: gap
     end type misprint_t
 
@@ -44,24 +37,10 @@ contains
         integer, intent(in) :: place, slip
         type(misprint_t), intent(out) :: misprint
 
-        allocate (misprint%item, source=system)
+        call misprint%wrap(system)
         misprint%place = place
         misprint%slip = slip
-        call adopt(misprint)
     end subroutine new_misprint
-
-    pure subroutine adopt(self)
-        !! The flags of the system inside.
-        type(misprint_t), intent(inout) :: self
-
-        self%ndof = self%item%ndof
-        self%constraints = self%item%constraints
-        self%contacts = self%item%contacts
-        self%cyclic = self%item%cyclic
-        self%velocity_forces = self%item%velocity_forces
-        self%time_dependent = self%item%time_dependent
-        self%nonconservative = self%item%nonconservative
-    end subroutine adopt
 
     pure integer function last_place()
         !! The number of places where a formula may stand.
@@ -226,7 +205,7 @@ contains
         type(description_t), intent(out) :: d
         character(:), allocatable :: text, unused
 
-        call self%item%describe(d)
+        call self%inside%describe(d)
         if (self%slip == 0 .and. self%instead == "") return
         text = formula_at(d, self%place)
         if (text == "") return
@@ -235,52 +214,6 @@ contains
         call exchange(d, self%place, unused, text)
     end subroutine describe
 
-    pure subroutine configure(self, values, error)
-        !! The system inside.
-        class(misprint_t), intent(inout) :: self
-        real(dp), intent(in) :: values(:)
-        type(error_t), allocatable, intent(out) :: error
-
-        call self%item%configure(values, error)
-        call adopt(self)
-    end subroutine configure
-
-    pure subroutine accelerations(self, t, q, v, a)
-        !! Of the system inside.
-        class(misprint_t), intent(in) :: self
-        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
-        real(dp), intent(out) :: a(self%ndof)
-
-        call self%item%accelerations(t, q, v, a)
-    end subroutine accelerations
-
-    pure function lagrangian(self, t, q, v) result(l)
-        !! Of the system inside.
-        class(misprint_t), intent(in) :: self
-        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
-        type(hyperdual_t) :: l
-
-        l = self%item%lagrangian(t, q, v)
-    end function lagrangian
-
-    pure subroutine generalised_forces(self, t, q, v, f)
-        !! Of the system inside.
-        class(misprint_t), intent(in) :: self
-        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
-        type(hyperdual_t), intent(out) :: f(self%ndof)
-
-        call self%item%generalised_forces(t, q, v, f)
-    end subroutine generalised_forces
-
-    pure function energy(self, t, q, v) result(e)
-        !! Of the system inside.
-        class(misprint_t), intent(in) :: self
-        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
-        real(dp) :: e
-
-        e = self%item%energy(t, q, v)
-    end function energy
-
     pure function quantity(self, i, t, q, v) result(value)
         !! Of the system inside.
         class(misprint_t), intent(in) :: self
@@ -288,7 +221,7 @@ contains
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
         real(dp) :: value
 
-        value = self%item%quantity(i, t, q, v)
+        value = self%inside%quantity(i, t, q, v)
     end function quantity
 
     pure subroutine positions(self, t, q, r)
@@ -297,7 +230,7 @@ contains
         type(hyperdual_t), intent(in) :: t, q(self%ndof)
         type(hyperdual_t), intent(out) :: r(:, :)
 
-        call self%item%positions(t, q, r)
+        call self%inside%positions(t, q, r)
     end subroutine positions
 
     pure subroutine angles(self, t, q, phi)
@@ -306,7 +239,7 @@ contains
         type(hyperdual_t), intent(in) :: t, q(:)
         type(hyperdual_t), intent(out) :: phi(:)
 
-        call self%item%angles(t, q, phi)
+        call self%inside%angles(t, q, phi)
     end subroutine angles
 
     pure subroutine newton(self, t, x, u, force, constraint_residual)
@@ -316,7 +249,7 @@ contains
         real(dp), intent(out) :: force(:)
         type(hyperdual_t), intent(out) :: constraint_residual(:)
 
-        call self%item%newton(t, x, u, force, constraint_residual)
+        call self%inside%newton(t, x, u, force, constraint_residual)
     end subroutine newton
 
     pure subroutine linearise(self, q, analytic)
@@ -325,17 +258,8 @@ contains
         real(dp), intent(in) :: q(self%ndof)
         type(linearised_t), intent(out) :: analytic
 
-        call self%item%linearise(q, analytic)
+        call self%inside%linearise(q, analytic)
     end subroutine linearise
-
-    pure subroutine constraint_rows(self, t, q, rows, drift)
-        !! Of the system inside.
-        class(misprint_t), intent(in) :: self
-        type(hyperdual_t), intent(in) :: t, q(self%ndof)
-        type(hyperdual_t), intent(out) :: rows(:, :), drift(:)
-
-        call self%item%constraint_rows(t, q, rows, drift)
-    end subroutine constraint_rows
 
     pure function gap(self, i, t, q, v) result(value)
         !! Of the system inside.
@@ -344,6 +268,6 @@ contains
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
         real(dp) :: value
 
-        value = self%item%gap(i, t, q, v)
+        value = self%inside%gap(i, t, q, v)
     end function gap
 end module misprints

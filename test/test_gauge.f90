@@ -1,6 +1,6 @@
 module test_gauge
     !! \(L + dF/dt\): F and its rate belong together, and the examples are what they say.
-    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertGreaterThan
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertGreaterThan, assertTrue
     use lagrangia_charged_particle, only: charged_particle_t
     use lagrangia_errors, only: error_t
     use lagrangia_gauged_system, only: chi_t, family_t, gauge_t, gauged_system_t, &
@@ -82,6 +82,12 @@ contains
         call assertFalse(allocated(error), "no error: energy shifts")
         do i = 1, size(member_names)
             call gauged%set(pendulum, family_t(i))
+            call gauged%configure([0.7_dp, 0.8_dp, 9.81_dp, 0.1_dp], error)
+            call assertFalse(allocated(error), "the pendulum inside takes the parameters")
+            call assertTrue(gauged%time_dependent, "the gauge still has the time in it")
+            call assertTrue(gauged%nonconservative, "the pendulum has drag now")
+            call gauged%configure([0.5_dp, 0.8_dp, 9.81_dp], error)
+            call assertFalse(gauged%nonconservative, "and none again")
             call assertEqual(energy_from_lagrangian(gauged, 0.7_dp, q, v), &
                              gauged%energy(0.7_dp, q, v), rounding)
         end do

@@ -7,7 +7,7 @@ module test_written_system
     use lagrangia_catalogue, only: new_system
     use lagrangia_columns, only: column_names
     use lagrangia_command_line, only: word_t
-    use lagrangia_description, only: description_t, name_length
+    use lagrangia_description, only: described_by, description_t, name_length
     use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
@@ -87,6 +87,7 @@ contains
         if (allocated(error)) return
         call system%describe(d)
         call assertEqual(values, default_values(d))
+        call assertEqual("lagrangia describe SCENE", described_by(d))
     end subroutine read_typed
 
     subroutine accelerations_are_those_by_hand()
@@ -104,6 +105,7 @@ contains
             do i = 1, 40
                 call draw_parameters(hand, edges=mod(i, 4) == 0)
                 call hand%describe(d)
+                call assertEqual("lagrangia describe "//trim(typed(k)%name), described_by(d))
                 if (allocated(values)) deallocate (values)
                 allocate (values, source=default_values(d))
                 if (i == 1) call read_typed("own", typed(k)%lines, hand%ndof, values, own)

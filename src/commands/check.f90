@@ -5,7 +5,7 @@ module lagrangia_check
     use lagrangia_catalogue, only: new_system, system_names
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: console_failed, flush_console, note, put_line, rewrites_lines
-    use lagrangia_description, only: description_t, name_length
+    use lagrangia_description, only: described_by, description_t, name_length
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp, i8
@@ -300,6 +300,6 @@ contains
         allocate (keys(size(d%parameters)))
         keys = d%parameters%name
         call refuse_unknown_keys(tree, trim(d%name), keys, error, &
-                                 shown_by="lagrangia describe "//trim(d%name))
+                                 shown_by=described_by(d))
     end subroutine read_parameters
 end module lagrangia_check

@@ -5,8 +5,7 @@ module lagrangia_sweep_axis
     !! spaces them by equal factors, `:random` draws them between the ends. A name is that of a
     !! coordinate, a velocity (`theta_dot`), a parameter (`m1`, `B(3)`), or `q`, `v`, `q(2)`.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use lagrangia_columns, only: described_by
-    use lagrangia_description, only: description_t, name_length
+    use lagrangia_description, only: described_by, description_t, name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_expression, only: expression_t
     use lagrangia_formula_parser, only: parse_formula
@@ -184,7 +183,7 @@ contains
             call system%describe(d)
             call fail(error, "a sweep cannot change "//quoted(name)//"; "// &
                       advice(name, pack(names, index(names, "q(") /= 1 .and. &
-                                        index(names, "v(") /= 1), described_by(system, d)))
+                                        index(names, "v(") /= 1), described_by(d)))
             return
         end if
         axis%name = targets(i)%name

@@ -1,16 +1,15 @@
 module lagrangia_columns
     !! Named columns: from a name such as `theta_dot` or `energy_drift` to a number a state.
-    use lagrangia_description, only: description_t, name_length, quantity_t
+    use lagrangia_description, only: described_by, description_t, name_length, quantity_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_lagrangian_system, only: lagrangian_system_t
     use lagrangia_names, only: nearest_name
     use lagrangia_system, only: system_t
     use lagrangia_text, only: listed, quoted
     implicit none (type, external)
     private
-    public :: columns_t, new_columns, column_names, described_by
+    public :: columns_t, new_columns, column_names
     public :: refuse_work, why_energy_changes
     public :: is_error
 
@@ -233,23 +232,9 @@ contains
             call fail(error, "unknown column "//quoted(name)//"; did you mean '"//near//"'?")
         else
             call fail(error, "unknown column "//quoted(name)//"; "//trim(d%name)//" has "// &
-                      listed(names, 130, described_by(system, d)))
+                      listed(names, 130, described_by(d)))
         end if
     end subroutine refuse
-
-    pure function described_by(system, d) result(command)
-        !! What shows all columns: a system that is only formulas has no name but its scene's.
-        class(system_t), intent(in) :: system  !! any
-        type(description_t), intent(in) :: d   !! what it says of itself
-        character(:), allocatable :: command
-
-        select type (system)
-        class is (lagrangian_system_t)
-            command = "lagrangia describe SCENE"
-        class default
-            command = "lagrangia describe "//trim(d%name)
-        end select
-    end function described_by
 
     pure function without_drift(name) result(text)
         !! `A_x` of `A_x_drift`; other names as they are.

@@ -3,13 +3,12 @@ module lagrangia_gauged_system
     !!
     !! Then other Lagrangians of known systems: two that tell the same motion, and two that do not.
     use lagrangia_charged_particle, only: charged_particle_t
-    use lagrangia_description, only: description_t
-    use lagrangia_errors, only: error_t
     use lagrangia_hyperdual, only: cos, dot_product, exp, hyperdual_t, operator(*), operator(**), &
                                    operator(+), operator(-), sin
     use lagrangia_kinds, only: dp
     use lagrangia_pendulum, only: pendulum_t
     use lagrangia_system, only: system_t
+    use lagrangia_wrapped_system, only: wrapped_system_t
     implicit none (type, external)
     private
     public :: gauge_t, gauged_system_t, family_t, member_names
@@ -53,19 +52,14 @@ module lagrangia_gauged_system
         procedure :: rate => family_rate
     end type family_t
 
-    type, extends(system_t) :: gauged_system_t
+    type, extends(wrapped_system_t) :: gauged_system_t
         !! Everything is the plain system's but the Lagrangian.
-        class(system_t), allocatable :: plain
         class(gauge_t), allocatable :: gauge
     contains
         procedure :: set
-        procedure :: describe
-        procedure :: configure
-        procedure :: accelerations
+        procedure :: adopt
         procedure :: lagrangian
-        procedure :: generalised_forces
         procedure :: energy
-        procedure :: constraint_rows
     end type gauged_system_t
 
     type, extends(charged_particle_t) :: landau_charge_t
@@ -148,44 +142,19 @@ contains
         class(system_t), intent(in) :: plain  !! with the Lagrangian \(L\)
         class(gauge_t), intent(in) :: gauge  !! \(F\)
 
-        if (allocated(self%plain)) deallocate (self%plain)
         if (allocated(self%gauge)) deallocate (self%gauge)
-        allocate (self%plain, source=plain)
         allocate (self%gauge, source=gauge)
-        self%ndof = plain%ndof
-        self%constraints = plain%constraints
-        self%constraints_work = plain%constraints_work
-        self%velocity_forces = plain%velocity_forces
-        self%nonconservative = plain%nonconservative
-        self%time_dependent = .true.
-        self%cyclic = 0
+        call self%wrap(plain)
     end subroutine set
 
-    pure subroutine describe(self, d)
-        !! See `system_t`.
-        class(gauged_system_t), intent(in) :: self
-        type(description_t), intent(out) :: d
-
-        call self%plain%describe(d)
-    end subroutine describe
-
-    pure subroutine configure(self, values, error)
-        !! The plain system's parameters.
+    pure subroutine adopt(self)
+        !! See `wrapped_system_t`: a gauge may contain the time and every coordinate.
         class(gauged_system_t), intent(inout) :: self
-        real(dp), intent(in) :: values(:)
-        type(error_t), allocatable, intent(out) :: error
 
-        call self%plain%configure(values, error)
-    end subroutine configure
-
-    pure subroutine accelerations(self, t, q, v, a)
-        !! As they were: that is the claim.
-        class(gauged_system_t), intent(in) :: self
-        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
-        real(dp), intent(out) :: a(self%ndof)
-
-        call self%plain%accelerations(t, q, v, a)
-    end subroutine accelerations
+        call self%wrapped_system_t%adopt()
+        self%time_dependent = .true.
+        self%cyclic = 0
+    end subroutine adopt
 
     pure function lagrangian(self, t, q, v) result(l)
         !! $$ L' = L + \frac{dF}{dt} $$
@@ -193,17 +162,8 @@ contains
         type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
         type(hyperdual_t) :: l
 
-        l = self%plain%lagrangian(t, q, v) + self%gauge%rate(t, q, v)
+        l = self%inside%lagrangian(t, q, v) + self%gauge%rate(t, q, v)
     end function lagrangian
-
-    pure subroutine generalised_forces(self, t, q, v, f)
-        !! The plain system's.
-        class(gauged_system_t), intent(in) :: self
-        type(hyperdual_t), intent(in) :: t, q(self%ndof), v(self%ndof)
-        type(hyperdual_t), intent(out) :: f(self%ndof)
-
-        call self%plain%generalised_forces(t, q, v, f)
-    end subroutine generalised_forces
 
     pure function energy(self, t, q, v) result(e)
         !! $$ h' = h - \frac{\partial F}{\partial t} $$
@@ -214,17 +174,8 @@ contains
 
         qq%re = q
         f = self%gauge%value(hyperdual_t(t, 1.0_dp, 0.0_dp, 0.0_dp), qq)
-        e = self%plain%energy(t, q, v) - f%d1
+        e = self%inside%energy(t, q, v) - f%d1
     end function energy
-
-    pure subroutine constraint_rows(self, t, q, rows, drift)
-        !! The plain system's.
-        class(gauged_system_t), intent(in) :: self
-        type(hyperdual_t), intent(in) :: t, q(self%ndof)
-        type(hyperdual_t), intent(out) :: rows(:, :), drift(:)
-
-        call self%plain%constraint_rows(t, q, rows, drift)
-    end subroutine constraint_rows
 
     pure function landau_lagrangian(self, t, q, v) result(l)
         !! $$ L = \tfrac12 mv^2 + e\,E\cdot r + efB_z\,x\,\dot y - \tfrac12kr^2 $$

@@ -5,7 +5,7 @@ module lagrangia_scene_reader
     use lagrangia_catalogue, only: new_system, system_names
     use lagrangia_command_line, only: word_t
     use lagrangia_constrained_system, only: constrained_system_t, new_constrained_system
-    use lagrangia_description, only: description_t, figure_length, name_length
+    use lagrangia_description, only: described_by, description_t, figure_length, name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_formula_start, only: check_formulas_at_start
     use lagrangia_kinds, only: dp
@@ -252,7 +252,7 @@ contains
         end do
         names = d%parameters%name
         call refuse_unknown_keys(tree, scene%system, names, error, &
-                                 shown_by="lagrangia describe "//scene%system)
+                                 shown_by=described_by(d))
         if (allocated(error)) return
         call system%configure(scene%parameters, error)
         if (allocated(error)) return

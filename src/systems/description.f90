@@ -10,7 +10,7 @@ module lagrangia_description
     public :: description_t, quantity_t, parameter_t, point_t, letter_t, frequency_t
     public :: coordinate, conserved, quantity, positive, nonnegative, between, real_number, &
               whole_number, real_vector, mass_point
-    public :: add_zeros, check_parameter, constraint_text, default_values, value_names
+    public :: add_zeros, check_parameter, constraint_text, default_values, described_by, value_names
     public :: figure_length, formula_length, line_length, name_length
 
     integer, parameter :: line_length = 120     !! of a line of text
@@ -73,6 +73,7 @@ module lagrangia_description
         !! (of a vector `electric_x`, ...), the `letters`, momenta `p_x`, T and V, quantities by
         !! their names, and the places of points (`x_bob`). What is left out is not checked.
         character(name_length) :: name = ""
+        logical :: named_in_scene = .false.           !! by a scene's `&lagrangian`, nowhere else
         character(line_length) :: title = ""          !! a few words for a list
         type(quantity_t), allocatable :: coordinates(:)
         type(parameter_t), allocatable :: parameters(:)
@@ -318,6 +319,15 @@ contains
             end do
         end do
     end function value_names
+
+    pure function described_by(d) result(command)
+        !! The command that shows all that a system has.
+        type(description_t), intent(in) :: d  !! of any system
+        character(:), allocatable :: command
+
+        command = "lagrangia describe "//trim(d%name)
+        if (d%named_in_scene) command = "lagrangia describe SCENE"
+    end function described_by
 
     pure function constraint_text(d) result(text)
         !! Class and equations of the constraints: `holonomic, scleronomic: y_cart = 0`.

@@ -80,6 +80,7 @@ contains
         allocate (system%programs(of_magnitude))
         associate (e => system%expressions, d => system%stated)
             d%name = formulas%name
+            d%named_in_scene = .true.
             d%title = formulas%title
             d%coordinates = formulas%coordinates
             d%parameters = formulas%parameters
