@@ -163,6 +163,7 @@ module suites
     use test_sinc, only: sinc_suite
     use test_sine_cosine, only: sine_cosine_suite
     use test_small_angle, only: small_angle_suite
+    use test_small_energies, only: small_energies_suite
     use test_small_oscillations, only: small_oscillations_suite
     use test_solve, only: solve_suite
     use test_statement, only: statement_suite
@@ -367,6 +368,7 @@ contains
         call suite%addTest(shipped_files_suite())
         call suite%addTest(sinc_suite())
         call suite%addTest(sine_cosine_suite())
+        call suite%addTest(small_energies_suite())
         call suite%addTest(small_oscillations_suite())
         call suite%addTest(step_warning_suite())
         call suite%addTest(stress_suite())

@@ -160,7 +160,8 @@ contains
         call wrong("spring_pendulum", "small: m r_ddot + 2 k r = 0", "")
         call right("pendulum", "small: theta_ddot = -omega omega theta")
         call right("pendulum", "small: l theta_ddot + g theta + theta_dot^2 = 0")
-        call unreadable("double_pendulum", "small: sin(D) = D", "'D' in a statement behind")
+        call right("double_pendulum", "small: sin(D) = D")
+        call wrong("double_pendulum", "small: cos(D) = D", "")
         call unreadable("pendulum_in_x_and_y", "small: x_ddot = -g/l x", "the linearised "// &
                         "motion is not known")
     end subroutine about_another_equilibrium

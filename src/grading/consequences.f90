@@ -286,6 +286,7 @@ contains
             if (t == 0 .or. v == 0) return
             do i = 1, size(samples%compiled)
                 if (samples%compiled(i)%symbol /= name) cycle
+                samples%compiled(i)%formula = formula
                 call new_formula_program(samples%compiled(i)%program, [formula], size(samples%role))
             end do
             lagrangian = symbol(t) - symbol(v)

@@ -9,36 +9,23 @@ module lagrangia_judgement
     use lagrangia_homework, only: statement_t
     use lagrangia_kinds, only: dp
     use lagrangia_motion_samples, only: put_places
-    use lagrangia_number_text, only: scientific
     use lagrangia_same_motion, only: same_equations
     use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_slip_search, only: explain_slip, holds, is_trivial
-    use lagrangia_small_motion, only: small_motion
+    use lagrangia_small_energies, only: is_energy, put_same_constant
+    use lagrangia_small_judgement, only: judge_small
     use lagrangia_statement_forms, only: define_rates, is_constancy, is_motion, is_new_name, &
                                          is_slope, is_value, read_as_period, speaks_of_place
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: to_text
+    use lagrangia_verdict, only: exchange, is_consequence, is_definition, is_right, &
+                                 is_unreadable, is_wrong, judgement_t, put_example, put_squares
     implicit none (type, external)
     private
     public :: judgement_t
     public :: judge
     public :: is_right, is_definition, is_wrong, is_unreadable, is_consequence
-
-    integer, parameter :: is_right = 1, is_definition = 2, is_wrong = 3, is_unreadable = 4
-    integer, parameter :: is_consequence = 5  !! false, and follows from lines before that are wrong
-
-    type :: judgement_t
-        !! Of one statement.
-        integer :: verdict = is_right
-        character(:), allocatable :: remark
-        !! which change makes it right, or what else is to be said
-        character(:), allocatable :: example  !! of a wrong one: a state with both sides as numbers
-        type(expression_t) :: residual
-        !! left less right of the first pair, or of the wrong one
-        logical :: of_motion = .false.        !! it holds on the motion only
-        integer, allocatable :: because(:)    !! wrong statements that it follows from, or none
-    end type judgement_t
 
 contains
 
@@ -100,7 +87,8 @@ contains
                 call judge_pair(left, right, chained, samples, library, explain, judgement)
             end if
             if (judgement%verdict /= is_right .or. next > len(text)) return
-            left = right
+            ! of L, V and E = a = b each side may have a constant of its own
+            if (.not. is_energy(left, samples)) left = right
             begun = first
             chained = .true.
         end do
@@ -124,18 +112,6 @@ contains
         judgement%remark = "column "//to_text(first)// &
             ": one side of '=' is empty; write 'left = right'"
     end subroutine find_empty_side
-
-    pure subroutine exchange(text, name, before, after)
-        !! `omega^2` becomes `omega_2`, or the other way, as long as it was.
-        character(*), intent(in) :: name, before, after
-        character(:), allocatable, intent(inout) :: text
-        integer :: i, n
-
-        n = len(name)
-        do i = 1, len(text) - n - 1
-            if (text(i:i + n + 1) == name//before) text(i + n:i + n + 1) = after
-        end do
-    end subroutine exchange
 
     subroutine define(text, equals, samples, judgement)
         !! A name of the student's own.
@@ -224,73 +200,14 @@ contains
             call explain_slip(judgement%residual, merge(left%count + 1, 1, chained), samples, &
                               values, library, judgement%remark)
             call put_example(left, right, samples, values, judgement%example)
+            if (index(judgement%remark, "no single") == 1 .and. is_energy(left, samples)) then
+                call put_same_constant(left, judgement%residual, samples, values)
+                call explain_slip(judgement%residual, merge(left%count + 1, 1, chained), samples, &
+                                  values, library, judgement%remark)
+            end if
             call put_squares(samples, judgement)
         end if
     end subroutine judge_pair
-
-    subroutine judge_small(left, right, chained, samples, library, explain, judgement)
-        !! One equality, to first order.
-        type(expression_t), intent(in) :: left, right
-        logical, intent(in) :: chained  !! the left side is known to be right
-        type(samples_t), intent(in) :: samples
-        type(library_t), intent(in) :: library(:)
-        logical, intent(in) :: explain
-        type(judgement_t), intent(inout) :: judgement
-        real(dp), allocatable :: values(:, :), shown(:, :)
-        logical :: about_other, judged, right_one
-
-        judgement%residual = left - right
-        call compare(.true., .false.)
-        about_other = judged .and. speaks_of_place(judgement%residual, samples)
-        if (.not. right_one) call compare(.false., .false.)
-        if (right_one) return
-        call compare(.true., .true.)
-        if (.not. right_one) call compare(.false., .true.)
-        if (right_one) then
-            judgement%remark = "if the coordinates are counted from the equilibrium"
-            return
-        end if
-        call compare(about_other, .false.)
-        if (judgement%remark == "" .and. .not. judged) judgement%remark = "no number at rest: "// &
-            "a root, a logarithm or a division fails"
-        if (.not. judged) then
-            judgement%verdict = is_unreadable
-        else if (.not. right_one) then
-            judgement%verdict = is_wrong
-            if (.not. explain) return
-            ! a change that makes it linear is better than one that makes a term negligible
-            call explain_slip(judgement%residual, merge(left%count + 1, 1, chained), samples, &
-                              shown, library, judgement%remark)
-            if (index(judgement%remark, "no single") == 1) then
-                call explain_slip(judgement%residual, merge(left%count + 1, 1, chained), &
-                                  samples, values, library, judgement%remark)
-            end if
-            call put_example(left, right, samples, shown, judgement%example)
-            call put_squares(samples, judgement)
-        end if
-    contains
-        subroutine compare(other, counted_from_it)
-            !! With the motion about one equilibrium.
-            logical, intent(in) :: other, counted_from_it
-
-            right_one = .false.
-            judged = .false.
-            call small_motion(judgement%residual, samples, other, counted_from_it, values, shown, &
-                              judgement%remark)
-            if (judgement%remark == "") call holds(judgement%residual, values, right_one, judged)
-        end subroutine compare
-    end subroutine judge_small
-
-    subroutine put_squares(samples, judgement)
-        !! `omega^2` where the formula has the name `omega_2`.
-        type(samples_t), intent(in) :: samples
-        type(judgement_t), intent(inout) :: judgement
-
-        associate (name => samples%symbols%names(samples%frequency))
-            call exchange(judgement%remark, trim(name), "_2", "^2")
-            call exchange(judgement%example, trim(name), "_2", "^2")
-        end associate
-    end subroutine put_squares
 
     subroutine choose_modes(residual, samples, values, right_one, found)
         !! Give omega its values: of that equilibrium, and for each draw of parameters that mode,
@@ -367,22 +284,17 @@ contains
 
         yes = .false.
         n = residual%count
-        if (left%count /= 1 .or. left%nodes(1)%kind /= kind_symbol) return
-        select case (samples%symbols%names(left%nodes(1)%which))
-        case ("E", "L", "V")
-            allocate (results(size(samples%values, 1), n))
-            call evaluate_nodes(residual, samples%values, results)
-            do draw = 1, draws
-                first = (draw - 1)*states
-                associate (r => results(first + 1:first + states, n))
-                    if (.not. all(ieee_is_finite(r))) return
-                    if (maxval(r) - minval(r) > 1e-8_dp*(1.0_dp + maxval(abs(r)))) return
-                end associate
-            end do
-            yes = .true.
-        case default
-            return
-        end select
+        if (.not. is_energy(left, samples)) return
+        allocate (results(size(samples%values, 1), n))
+        call evaluate_nodes(residual, samples%values, results)
+        do draw = 1, draws
+            first = (draw - 1)*states
+            associate (r => results(first + 1:first + states, n))
+                if (.not. all(ieee_is_finite(r))) return
+                if (maxval(r) - minval(r) > 1e-8_dp*(1.0_dp + maxval(abs(r)))) return
+            end associate
+        end do
+        yes = .true.
     end function is_up_to_constant
 
     function is_other_lagrangian(left, right, samples) result(yes)
@@ -396,49 +308,4 @@ contains
         if (yes) yes = same_equations(samples, right)
     end function is_other_lagrangian
 
-    subroutine put_example(left, right, samples, values, text)
-        !! `at theta = 0.123, g = 2.4: left 1.23, right 4.56`, where they differ most.
-        type(expression_t), intent(in) :: left, right
-        type(samples_t), intent(in) :: samples
-        real(dp), intent(in) :: values(:, :)
-        character(:), allocatable, intent(out) :: text
-        real(dp), allocatable :: of_left(:, :), of_right(:, :), difference(:)
-        character(:), allocatable :: before
-        integer :: i, worst
-
-        allocate (of_left(size(values, 1), left%count), of_right(size(values, 1), right%count))
-        call evaluate_nodes(left, values, of_left)
-        call evaluate_nodes(right, values, of_right)
-        associate (a => of_left(:, left%count), b => of_right(:, right%count))
-            allocate (difference(size(a)))
-            difference = abs(a - b)/(abs(a) + abs(b))
-            worst = maxloc(difference, 1, ieee_is_finite(difference))
-            if (worst == 0) worst = 1
-            text = "left "//brief(a(worst))//", right "//brief(b(worst))
-        end associate
-        before = " at "
-        do i = 1, size(samples%role)
-            if (.not. (left%depends_on(i) .or. right%depends_on(i))) cycle
-            text = text//before//trim(samples%symbols%names(i))//" = "//brief(values(worst, i))
-            before = ", "
-        end do
-    end subroutine put_example
-
-    pure function brief(value) result(text)
-        !! Four significant digits.
-        real(dp), intent(in) :: value
-        character(:), allocatable :: text
-        integer :: digits
-
-        text = "0"
-        if (abs(value) <= 0.0_dp) return
-        text = scientific(value, 4)
-        if (.not. (abs(value) > 1e-4_dp .and. abs(value) < 1e6_dp)) return
-        digits = 3 - floor(log10(abs(value)))
-        if (digits >= 0) then
-            text = to_text(anint(value*10.0_dp**digits)/10.0_dp**digits)
-        else
-            text = to_text(anint(value))
-        end if
-    end function brief
 end module lagrangia_judgement

@@ -34,7 +34,8 @@ module lagrangia_sample_names
     type :: compiled_t
         !! A name that stands for a formula.
         integer :: symbol = 0              !! its place
-        type(formula_program_t) :: program
+        type(expression_t) :: formula
+        type(formula_program_t) :: program  !! of it
     end type compiled_t
 
     type :: samples_t
@@ -57,6 +58,7 @@ module lagrangia_sample_names
         integer, allocatable :: rate(:)
         !! place of the symbol's time derivative, or 0
         type(compiled_t), allocatable :: compiled(:)
+        type(expression_t) :: lagrangian           !! as the page has it; empty: it has none
         real(dp), allocatable :: mass(:, :, :)
         !! \(\partial^2L/\partial\dot q_j\partial\dot q_k\), (ndof, ndof, draws*states);
         !! no rows where there are many coordinates, or non-holonomic constraints
@@ -284,8 +286,11 @@ contains
         !! The definitions, T and V, in this order.
         type(description_t), intent(in) :: d
         type(samples_t), intent(inout) :: samples
+        type(error_t), allocatable :: refusal
         integer :: i, k, n
 
+        if (allocated(d%lagrangian)) call parse_formula(d%lagrangian, samples%symbols, &
+                                                        samples%lagrangian, refusal)
         n = 0
         if (allocated(d%letters)) n = size(d%letters)
         allocate (samples%compiled(n + 2))
@@ -306,6 +311,7 @@ contains
             if (allocated(error)) return
             k = k + 1
             samples%compiled(k)%symbol = samples%symbols%find(name)
+            samples%compiled(k)%formula = expression(1)
             call new_formula_program(samples%compiled(k)%program, expression, size(samples%role))
         end subroutine add
     end subroutine compile_letters

@@ -78,10 +78,10 @@ contains
         if (remark == "") call try_symbols(remark)
         if (remark == "") call try_dots(remark)
         if (remark == "") call try_exponents(remark)
-        if (remark == "") call try_factors(expression, samples, values, library, remark)
+        if (remark == "") call try_factors(expression, first, samples, values, library, remark)
         if (remark == "") call try_numbers(remark)
         if (remark == "") call try_squares(remark)
-        if (remark == "") call try_products(expression, samples, values, library, remark)
+        if (remark == "") call try_products(expression, first, samples, values, library, remark)
         if (remark == "") call try_missing_terms(expression, samples, values, library, remark)
         if (remark == "") call try_inner_factors(remark)
         if (remark == "") call try_throughout(remark)
@@ -285,8 +285,9 @@ contains
 
         subroutine try_numbers(text)
             character(:), allocatable, intent(out) :: text
-            real(dp), parameter :: factors(9) = [2.0_dp, 0.5_dp, 3.0_dp, 1.0_dp/3.0_dp, 4.0_dp, &
-                                                 0.25_dp, -1.0_dp, -2.0_dp, -0.5_dp]
+            real(dp), parameter :: factors(11) = [2.0_dp, 0.5_dp, 3.0_dp, 1.0_dp/3.0_dp, 4.0_dp, &
+                                                  0.25_dp, -1.0_dp, -2.0_dp, -0.5_dp, 1.5_dp, &
+                                                  2.0_dp/3.0_dp]
             real(dp) :: number
             integer :: i, k
 
@@ -313,6 +314,9 @@ contains
 
             text = ""
             do i = 1, expression%count
+                associate (nodes => expression%nodes(:expression%count))
+                    if (any(nodes%kind == kind_power .and. nodes%right == i)) cycle  ! exponents
+                end associate
                 do k = 1, size(samples%role)
                     if (samples%role(k) > role_parameter .or. is_zero(k)) cycle
                     if (mends(change_t(change_multiplied, i, k))) then

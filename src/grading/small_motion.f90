@@ -7,12 +7,13 @@ module lagrangia_small_motion
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
     use lagrangia_motion_samples, only: put_places
-    use lagrangia_sample_names, only: draws, role_acceleration, role_frequency, role_parameter, &
-                                      role_time, samples_t, states
+    use lagrangia_sample_names, only: draws, role_acceleration, role_coordinate, role_frequency, &
+                                      role_parameter, role_time, role_velocity, samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes
+    use lagrangia_written_out, only: energy_places
     implicit none (type, external)
     private
-    public :: small_motion
+    public :: linear_states, small_motion
 
     real(dp), parameter :: beside_numbers = 1e-6_dp  !! \(\cos\theta = 1\), and not \(1 + \theta\)
     real(dp), parameter :: alone = 1e-12_dp
@@ -37,20 +38,9 @@ contains
         integer :: k, n
 
         moving = samples%role > role_time .and. samples%role <= role_acceleration
-        call find_refusal(residual, samples, moving, refusal)
+        call linear_states(residual, samples, about_other, .false., shown, refusal)
         if (refusal /= "") return
-        allocate (shown, source=samples%values)
         n = samples%ndof
-        if (about_other) then
-            call put_places(samples, samples%other_equilibrium, shown)
-            call put_linear_motion(samples, samples%other_inertia, samples%other_turning, &
-                                   samples%other_stiffness, samples%omega2(:, n + 1), shown, &
-                                   refusal)
-        else
-            call put_linear_motion(samples, samples%inertia, samples%turning, samples%stiffness, &
-                                   samples%omega2(:, 1), shown, refusal)
-        end if
-        if (refusal /= "") return
         places = shown(:, samples%place)
         if (counted_from_it) places = 0.0_dp
         amplitude = merge(alone, beside_numbers, &
@@ -63,19 +53,58 @@ contains
         shown(:, 2:1 + n) = shown(:, 2:1 + n) + places
     end subroutine small_motion
 
-    pure subroutine find_refusal(residual, samples, moving, refusal)
+    subroutine linear_states(residual, samples, about_other, of_energies, shown, refusal)
+        !! States of the linear motion, with displacements in the places of the coordinates.
+        type(expression_t), intent(in) :: residual            !! left less right side
+        type(samples_t), intent(in) :: samples                !! know M, B and K
+        logical, intent(in) :: about_other                    !! the other equilibrium
+        logical, intent(in) :: of_energies                    !! L, T, V and E are there
+        real(dp), allocatable, intent(out) :: shown(:, :)     !! (draws*states, symbols)
+        character(:), allocatable, intent(out) :: refusal     !! empty, or why there are none
+
+        call find_refusal(residual, samples, of_energies, refusal)
+        if (refusal /= "") return
+        allocate (shown, source=samples%values)
+        if (about_other) then
+            call put_places(samples, samples%other_equilibrium, shown)
+            call put_linear_motion(samples, samples%other_inertia, samples%other_turning, &
+                                   samples%other_stiffness, samples%omega2(:, samples%ndof + 1), &
+                                   shown, refusal)
+        else
+            call put_linear_motion(samples, samples%inertia, samples%turning, samples%stiffness, &
+                                   samples%omega2(:, 1), shown, refusal)
+        end if
+    end subroutine linear_states
+
+    pure subroutine find_refusal(residual, samples, of_energies, refusal)
         !! Why the statement has no first order, or there is no motion to compare it with.
         type(expression_t), intent(in) :: residual
         type(samples_t), intent(in) :: samples
-        logical, intent(in) :: moving(:)
+        logical, intent(in) :: of_energies
         character(:), allocatable, intent(out) :: refusal
+        logical :: known
         integer :: k
 
         refusal = ""
-        do k = 1, size(moving)
-            if (moving(k) .or. is_constant(samples, k) .or. .not. residual%depends_on(k)) cycle
+        do k = 1, size(samples%role)
+            if (.not. residual%depends_on(k)) cycle
+            select case (samples%role(k))
+            case (role_time)
+                known = .false.
+            case (role_coordinate, role_velocity)
+                known = .true.
+            case (role_acceleration)
+                known = .not. of_energies
+            case default
+                known = is_constant(samples, k) .or. &
+                        (of_energies .and. any(energy_places(samples) == k))
+            end select
+            if (known) cycle
             refusal = "'"//trim(samples%symbols%names(k))//"' in a statement behind 'small:'; "// &
-                      "write one of coordinates, their rates and parameters"
+                      "write one of coordinates, their rates, energies, momenta and parameters"
+            if (samples%role(k) == role_acceleration) refusal = "'"// &
+                trim(samples%symbols%names(k))//"' in a statement about L or an energy, which "// &
+                "have no accelerations"
             if (samples%role(k) == role_frequency) refusal = "omega behind 'small:', which is "// &
                 "known there for one coordinate; write 'omega^2 = ...' without 'small:'"
             return

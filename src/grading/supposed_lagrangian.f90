@@ -67,6 +67,7 @@ contains
                 dot_product(momentum, samples%values(row, 2 + n:1 + 2*n)) - value
             call follow_letters(samples, row)
         end do
+        samples%lagrangian = lagrangian
         call forget_quantities(samples)
         call suppose_modes(samples, program)
     contains

@@ -38,10 +38,11 @@ contains
         text = "'"//formula_text(part, samples%symbols)//"'"
     end function part_text
 
-    subroutine try_factors(expression, samples, values, library, remark)
+    subroutine try_factors(expression, first, samples, values, library, remark)
         !! A summand that must be counted another number of times, or has a letter, a dot or a
         !! function too few or too many, or does not belong there.
         type(expression_t), intent(in) :: expression      !! left side less right side, wrong
+        integer, intent(in) :: first                      !! nodes before it are right
         type(samples_t), intent(in) :: samples            !! know the names
         real(dp), intent(in) :: values(:, :)              !! on the motion, (samples, symbols)
         type(library_t), intent(in) :: library(:)         !! right terms
@@ -57,7 +58,7 @@ contains
         call summands(expression, nodes, signs)
         if (size(nodes) < 2) return
         do k = 1, size(nodes)
-            if (is_subject(expression, nodes(k), samples)) cycle
+            if (nodes(k) < first .or. is_subject(expression, nodes(k), samples)) cycle
             associate (s => signs(k)*results(:, nodes(k)), r => results(:, expression%count))
                 needed = 1.0_dp - r/s  ! so many times makes the sum zero
             end associate
@@ -107,9 +108,10 @@ contains
         end subroutine try_letter
     end subroutine try_factors
 
-    subroutine try_products(expression, samples, values, library, remark)
+    subroutine try_products(expression, first, samples, values, library, remark)
         !! A summand that has several letters too few or too many.
         type(expression_t), intent(in) :: expression      !! left side less right side, wrong
+        integer, intent(in) :: first                      !! nodes before it are right
         type(samples_t), intent(in) :: samples            !! know the names
         real(dp), intent(in) :: values(:, :)              !! on the motion, (samples, symbols)
         type(library_t), intent(in) :: library(:)         !! right terms
@@ -128,7 +130,7 @@ contains
         if (size(nodes) < 2) return
         call gather_letters(samples, library, letters)
         do k = 1, size(nodes)
-            if (is_subject(expression, nodes(k), samples)) cycle
+            if (nodes(k) < first .or. is_subject(expression, nodes(k), samples)) cycle
             needed = 1.0_dp - signs(k)*results(:, expression%count)/results(:, nodes(k))
             if (.not. is_steady(needed) .or. any(abs(needed) < equal)) cycle
             call find_product(needed(1::states), letters, product, found)

@@ -1,0 +1,177 @@
+module lagrangia_small_judgement
+    !! Is a statement about small oscillations right? Equations hold to first order, L and the
+    !! energies to second.
+    use lagrangia_expression, only: expression_t, operator(-)
+    use lagrangia_kinds, only: dp
+    use lagrangia_sample_names, only: samples_t, states
+    use lagrangia_slip_search, only: explain_slip, holds
+    use lagrangia_small_energies, only: agreement_t, compare_energies, is_energy, put_same_constant
+    use lagrangia_small_motion, only: linear_states, small_motion
+    use lagrangia_statement_forms, only: speaks_of_place
+    use lagrangia_term_search, only: library_t
+    use lagrangia_verdict, only: is_unreadable, is_wrong, judgement_t, put_example, put_squares
+    use lagrangia_written_out, only: energy_places, written_out
+    implicit none (type, external)
+    private
+    public :: judge_small
+
+contains
+
+    subroutine judge_small(as_typed, other_side, chained, samples, library, explain, judgement)
+        !! One equality, to first order.
+        type(expression_t), intent(in) :: as_typed, other_side  !! both sides
+        logical, intent(in) :: chained                   !! the left side is known to be right
+        type(samples_t), intent(in) :: samples           !! with the linearised motion
+        type(library_t), intent(in) :: library(:)        !! right terms, for what is missing
+        logical, intent(in) :: explain                   !! say what is wrong
+        type(judgement_t), intent(inout) :: judgement    !! of it
+        type(expression_t) :: left, right
+        real(dp), allocatable :: values(:, :), shown(:, :)
+        logical :: about_other, given, judged, right_one
+        integer :: first, k
+
+        left = written_out(as_typed, samples)
+        right = written_out(other_side, samples)
+        judgement%residual = left - right
+        given = as_typed%count == 1 .and. left%count > 1  ! p_theta, say
+        first = merge(left%count + 1, 1, chained .or. given)
+        if (any([(judgement%residual%depends_on(k), k=1, size(samples%role))] .and. &
+                [(any(energy_places(samples) == k), k=1, size(samples%role))])) then
+            call judge_energies(left, right, first, samples, library, explain, judgement)
+            return
+        end if
+        call compare(.true., .false.)
+        about_other = judged .and. speaks_of_place(judgement%residual, samples)
+        if (.not. right_one) call compare(.false., .false.)
+        if (right_one) return
+        call compare(.true., .true.)
+        if (.not. right_one) call compare(.false., .true.)
+        if (right_one) then
+            judgement%remark = "if the coordinates are counted from the equilibrium"
+            return
+        end if
+        call compare(about_other, .false.)
+        if (judgement%remark == "" .and. .not. judged) judgement%remark = "no number at rest: "// &
+            "a root, a logarithm or a division fails"
+        if (.not. judged) then
+            judgement%verdict = is_unreadable
+        else if (.not. right_one) then
+            judgement%verdict = is_wrong
+            if (.not. explain) return
+            ! a change that makes it linear is better than one that makes a term negligible
+            judgement%remark = "no single"
+            if (.not. given) call explain_slip(judgement%residual, first, samples, shown, &
+                                               library, judgement%remark)
+            if (index(judgement%remark, "no single") == 1) call explain_slip( &
+                judgement%residual, first, samples, values, library, judgement%remark)
+            call put_example(left, right, samples, shown, judgement%example)
+            call put_squares(samples, judgement)
+        end if
+    contains
+        subroutine compare(other, counted_from_it)
+            !! With the motion about one equilibrium.
+            logical, intent(in) :: other, counted_from_it
+
+            right_one = .false.
+            judged = .false.
+            call small_motion(judgement%residual, samples, other, counted_from_it, values, shown, &
+                              judgement%remark)
+            if (judgement%remark == "") call holds(judgement%residual, values, right_one, judged)
+        end subroutine compare
+    end subroutine judge_small
+
+    subroutine judge_energies(left, right, first, samples, library, explain, judgement)
+        !! L, T, V or E, to second order.
+        type(expression_t), intent(in) :: left, right   !! written out
+        integer, intent(in) :: first                    !! nodes before it are right
+        type(samples_t), intent(in) :: samples
+        type(library_t), intent(in) :: library(:)
+        logical, intent(in) :: explain
+        type(judgement_t), intent(inout) :: judgement
+        type(agreement_t) :: agreement
+        real(dp), allocatable :: shown(:, :)
+        logical :: about_other
+        integer :: k
+
+        do k = 0, 1
+            call compare(k == 1, .false.)
+            if (agreement%yes .or. agreement%same_motion) exit
+        end do
+        if (agreement%yes .or. agreement%same_motion) then
+            if (agreement%but_constant) judgement%remark = "but for a constant"
+            if (.not. agreement%yes) judgement%remark = "another L of the same motion"
+            return
+        end if
+        do k = 0, 1
+            call compare(k == 1, .true.)
+            if (.not. agreement%yes .and. .not. agreement%same_motion) cycle
+            judgement%remark = "if the coordinates are counted from the equilibrium"
+            return
+        end do
+        about_other = speaks_of_place(judgement%residual, samples)
+        if (about_other) call compare(.true., .false.)
+        about_other = about_other .and. agreement%judged
+        if (.not. about_other) call compare(.false., .false.)
+        if (.not. agreement%judged) then
+            judgement%verdict = is_unreadable
+            if (judgement%remark == "") judgement%remark = "no number at rest: "// &
+                "a root, a logarithm or a division fails"
+            return
+        end if
+        judgement%verdict = is_wrong
+        if (.not. explain) return
+        call explain_slip(judgement%residual, first, samples, shown, &
+                          without_accelerations(library, samples), judgement%remark)
+        call put_example(left, right, samples, shown, judgement%example)
+        if (index(judgement%remark, "no single") /= 1) return
+        call compare(about_other, .true.)
+        if (agreement%judged) call explain_slip(judgement%residual, &
+            first, samples, shown, &
+            without_accelerations(library, samples), judgement%remark)
+        if (index(judgement%remark, "no single") /= 1) then
+            judgement%remark = judgement%remark//", if the coordinates are counted from the "// &
+                               "equilibrium"
+            return
+        end if
+        shown = samples%values
+        if (is_energy(left, samples)) call put_same_constant(left, judgement%residual, samples, &
+                                                             shown)
+        call explain_slip(judgement%residual, first, samples, shown, &
+                          library, judgement%remark)
+    contains
+        subroutine compare(other, counted_from_it)
+            !! Near one equilibrium.
+            logical, intent(in) :: other, counted_from_it
+            type(agreement_t) :: none
+
+            agreement = none
+            call linear_states(judgement%residual, samples, other, .true., shown, &
+                               judgement%remark)
+            if (judgement%remark /= "") return
+            associate (at => shown(::states, samples%place))
+                if (.not. counted_from_it) shown(:, 2:1 + samples%ndof) = &
+                    shown(:, 2:1 + samples%ndof) + shown(:, samples%place)
+                call compare_energies(left, judgement%residual, samples, transpose(at), &
+                                      counted_from_it, shown, agreement)
+            end associate
+        end subroutine compare
+    end subroutine judge_energies
+
+    function without_accelerations(library, samples) result(terms)
+        !! Those that L or an energy may have.
+        type(library_t), intent(in) :: library(:)
+        type(samples_t), intent(in) :: samples
+        type(library_t), allocatable :: terms(:)
+        integer :: i, j, n
+
+        n = 0
+        allocate (terms(size(library)))
+        do i = 1, size(library)
+            if (any([(library(i)%term%depends_on(samples%first_acceleration - 1 + j), &
+                      j=1, samples%ndof)])) cycle
+            n = n + 1
+            terms(n)%term = library(i)%term
+        end do
+        terms = terms(:n)
+    end function without_accelerations
+end module lagrangia_small_judgement

@@ -1,0 +1,101 @@
+module lagrangia_verdict
+    !! What is said about a statement: its verdict, and of a wrong one a state with both sides.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_expression, only: expression_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_number_text, only: scientific
+    use lagrangia_sample_names, only: samples_t
+    use lagrangia_sampled_formula, only: evaluate_nodes
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: judgement_t
+    public :: exchange, put_example, put_squares
+    public :: is_right, is_definition, is_wrong, is_unreadable, is_consequence
+
+    integer, parameter :: is_right = 1, is_definition = 2, is_wrong = 3, is_unreadable = 4
+    integer, parameter :: is_consequence = 5  !! false, and follows from lines before that are wrong
+
+    type :: judgement_t
+        !! Of one statement.
+        integer :: verdict = is_right
+        character(:), allocatable :: remark
+        !! which change makes it right, or what else is to be said
+        character(:), allocatable :: example  !! of a wrong one: a state with both sides as numbers
+        type(expression_t) :: residual
+        !! left less right of the first pair, or of the wrong one
+        logical :: of_motion = .false.        !! it holds on the motion only
+        integer, allocatable :: because(:)    !! wrong statements that it follows from, or none
+    end type judgement_t
+
+contains
+
+    pure subroutine exchange(text, name, before, after)
+        !! `omega^2` becomes `omega_2`, or the other way, as long as it was.
+        character(:), allocatable, intent(inout) :: text     !! a statement, or a remark
+        character(*), intent(in) :: name, before, after      !! `omega`, `^2`, `_2`
+        integer :: i, n
+
+        n = len(name)
+        do i = 1, len(text) - n - 1
+            if (text(i:i + n + 1) == name//before) text(i + n:i + n + 1) = after
+        end do
+    end subroutine exchange
+
+    subroutine put_squares(samples, judgement)
+        !! `omega^2` where the formula has the name `omega_2`.
+        type(samples_t), intent(in) :: samples           !! know the name
+        type(judgement_t), intent(inout) :: judgement     !! its texts change
+
+        associate (name => samples%symbols%names(samples%frequency))
+            call exchange(judgement%remark, trim(name), "_2", "^2")
+            call exchange(judgement%example, trim(name), "_2", "^2")
+        end associate
+    end subroutine put_squares
+
+    subroutine put_example(left, right, samples, values, text)
+        !! `at theta = 0.123, g = 2.4: left 1.23, right 4.56`, where they differ most.
+        type(expression_t), intent(in) :: left, right      !! both sides
+        type(samples_t), intent(in) :: samples             !! know the names
+        real(dp), intent(in) :: values(:, :)               !! (states, symbols)
+        character(:), allocatable, intent(out) :: text     !! one line
+        real(dp), allocatable :: of_left(:, :), of_right(:, :), difference(:)
+        character(:), allocatable :: before
+        integer :: i, worst
+
+        allocate (of_left(size(values, 1), left%count), of_right(size(values, 1), right%count))
+        call evaluate_nodes(left, values, of_left)
+        call evaluate_nodes(right, values, of_right)
+        associate (a => of_left(:, left%count), b => of_right(:, right%count))
+            allocate (difference(size(a)))
+            difference = abs(a - b)/(abs(a) + abs(b))
+            worst = maxloc(difference, 1, ieee_is_finite(difference))
+            if (worst == 0) worst = 1
+            text = "left "//brief(a(worst))//", right "//brief(b(worst))
+        end associate
+        before = " at "
+        do i = 1, size(samples%role)
+            if (.not. (left%depends_on(i) .or. right%depends_on(i))) cycle
+            text = text//before//trim(samples%symbols%names(i))//" = "//brief(values(worst, i))
+            before = ", "
+        end do
+    end subroutine put_example
+
+    pure function brief(value) result(text)
+        !! Four significant digits.
+        real(dp), intent(in) :: value
+        character(:), allocatable :: text
+        integer :: digits
+
+        text = "0"
+        if (abs(value) <= 0.0_dp) return
+        text = scientific(value, 4)
+        if (.not. (abs(value) > 1e-4_dp .and. abs(value) < 1e6_dp)) return
+        digits = 3 - floor(log10(abs(value)))
+        if (digits >= 0) then
+            text = to_text(anint(value*10.0_dp**digits)/10.0_dp**digits)
+        else
+            text = to_text(anint(value))
+        end if
+    end function brief
+end module lagrangia_verdict
