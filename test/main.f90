@@ -49,6 +49,7 @@ module suites
     use test_docs_formulae, only: docs_formulae_suite
     use test_dop853, only: dop853_suite
     use test_dop853_coefficients, only: dop853_coefficients_suite
+    use test_dop853_control, only: dop853_control_suite
     use test_dop853_steps, only: dop853_steps_suite
     use test_double_pendulum, only: double_pendulum_suite
     use test_driven_pendulum, only: driven_pendulum_suite
@@ -247,6 +248,7 @@ contains
         call suite%addTest(docs_formulae_suite())
         call suite%addTest(dop853_suite())
         call suite%addTest(dop853_coefficients_suite())
+        call suite%addTest(dop853_control_suite())
         call suite%addTest(dop853_steps_suite())
         call suite%addTest(derivative_suite())
         call suite%addTest(double_pendulum_suite())

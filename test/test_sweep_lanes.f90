@@ -43,6 +43,7 @@ contains
         suite = TestSuite("sweep_lanes")
         call suite%addTest(TestMethod("a_lane_is_a_single_trajectory", &
                                       a_lane_is_a_single_trajectory))
+        call suite%addTest(TestMethod("without_sines_no_bit_differs", without_sines_no_bit_differs))
         call suite%addTest(TestMethod("points_are_those_of_a_single_trajectory", &
                                       points_are_those_of_a_single_trajectory))
         call suite%addTest(TestMethod("each_lane_has_its_parameters", &
@@ -125,6 +126,32 @@ contains
         call compare(sweep, found)
         call assertTrue(found > 10 .and. found < 68, "both angles: "//to_text(found))
     end subroutine a_lane_is_a_single_trajectory
+
+    subroutine without_sines_no_bit_differs()
+        !! The sums of the stages and the lengths of the steps are the same to the last bit: eleven
+        !! oscillators, at the same times with the same errors, and a motion that takes ever
+        !! shorter steps.
+        type(sweep_t) :: sweep
+        type(error_t), allocatable :: error
+        real(dp) :: alone(1), together(1, 11)
+        integer(i8) :: failures, first, i
+        integer :: k
+
+        do k = 1, 2
+            if (k == 1) then
+                call make("&scene system = 'oscillator', method = 'dop853', tolerance = 1e-9, "// &
+                          "duration = 20, q = 1 /", ["x=0:1.5:11"], ["x"], sweep)
+            else
+                call make(runaway, ["x=0.2:0.9:11"], ["x"], sweep)
+            end if
+            call compute_lanes(sweep, 1_i8, 11_i8, together, failures, first)
+            do i = 1, 11
+                call compute_one(sweep, i, alone, error)
+                call assertFalse(allocated(error), "one by one")
+                call assertEqual(alone(1), together(1, i), message="trajectory "//to_text(i))
+            end do
+        end do
+    end subroutine without_sines_no_bit_differs
 
     subroutine points_are_those_of_a_single_trajectory()
         !! Between the ends of steps, from a time on, no more than are wanted; and attractors.

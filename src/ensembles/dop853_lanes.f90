@@ -6,7 +6,7 @@ module lagrangia_dop853_lanes
     !! What lies inside a step is rarely wanted, and then of one lane: its dense output is that of
     !! a single trajectory.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-    use lagrangia_dop853_control, only: first_step, least_error, next_step, shorter_step
+    use lagrangia_dop853_control, only: first_step, least_error, next_steps
     use lagrangia_dop853_lane_stages, only: scaled_errors, slopes, stages
     use lagrangia_dop853_stages, only: extra_stages, inside_step, slope
     use lagrangia_errors, only: error_t
@@ -27,7 +27,7 @@ module lagrangia_dop853_lanes
         real(dp) :: tolerance = 1e-10_dp
         real(dp) :: t_end(lanes) = 0.0_dp            !! of each trajectory, s
         real(dp) :: h(lanes) = 0.0_dp                !! steps to try next, s
-        real(dp) :: last_error(lanes) = least_error  !! of the latest accepted steps, in tolerances
+        real(dp) :: last_error(lanes) = least_error  !! of accepted steps, see `next_steps`
         logical, dimension(lanes) :: busy = .false., moved = .false., retry = .false.
         real(dp), allocatable :: trial(:, :)         !! states at the ends of the attempts
         real(dp), allocatable :: k(:, :, :)          !! slopes, (lanes, 2 ndof, 13): the first, the
@@ -102,7 +102,7 @@ contains
         !! See `lane_method_t`. Twelve evaluations for eight attempts.
         class(dop853_lanes_t), intent(inout) :: self
         class(system_t), intent(in) :: system
-        real(dp) :: h(lanes), longer, scaled(lanes)
+        real(dp), dimension(lanes) :: h, next, scaled, t_new
         logical :: last(lanes)
         integer :: i, n
 
@@ -110,16 +110,13 @@ contains
         do i = 1, 2*n
             self%k(:, i, 1) = merge(self%k(:, i, 13), self%k(:, i, 1), self%moved)
         end do
-        do i = 1, lanes
-            if (self%t(i) >= self%t_end(i)) self%busy(i) = .false.
-            h(i) = self%h(i)
-            last(i) = self%t(i) + 1.01_dp*h(i) >= self%t_end(i)
-            if (last(i)) h(i) = self%t_end(i) - self%t(i)
-            h(i) = (self%t(i) + h(i)) - self%t(i)  ! what the clock will say
-            self%stuck(i) = self%busy(i) .and. .not. self%t(i) + 0.1_dp*h(i) > self%t(i)
-            if (self%stuck(i)) self%busy(i) = .false.
-            if (.not. self%busy(i)) h(i) = 0.0_dp
-        end do
+        self%busy = self%busy .and. self%t < self%t_end
+        last = self%t + 1.01_dp*self%h >= self%t_end
+        h = merge(self%t_end - self%t, self%h, last)
+        h = (self%t + h) - self%t  ! what the clock will say
+        self%stuck = self%busy .and. .not. self%t + 0.1_dp*h > self%t
+        self%busy = self%busy .and. .not. self%stuck
+        h = merge(h, 0.0_dp, self%busy)
         call stages(system, n, self%t, h, self%y, self%k, self%trial)
         call scaled_errors(n, h, self%tolerance, self%k, self%y, self%trial, scaled)
         call slopes(system, n, self%t + h, self%trial, self%k(:, :, 13))
@@ -128,22 +125,14 @@ contains
             self%y_old(:, i) = merge(self%y(:, i), self%y_old(:, i), self%moved)
             self%y(:, i) = merge(self%trial(:, i), self%y(:, i), self%moved)
         end do
-        do i = 1, lanes
-            if (self%moved(i)) then
-                self%t_old(i) = self%t(i)
-                self%t(i) = self%t(i) + h(i)
-                if (last(i)) self%t(i) = self%t_end(i)
-                longer = next_step(h(i), scaled(i), self%last_error(i))
-                if (self%retry(i)) longer = min(longer, self%h(i))
-                self%h(i) = longer
-                self%last_error(i) = max(scaled(i), least_error)
-                self%retry(i) = .false.
-                self%inside_known(i) = .false.
-            else if (self%busy(i)) then
-                self%h(i) = shorter_step(h(i), scaled(i))
-                self%retry(i) = .true.
-            end if
-        end do
+        call next_steps(h, scaled, self%last_error, next)
+        next = merge(min(next, self%h), next, self%moved .and. self%retry)
+        self%h = merge(next, self%h, self%busy)
+        self%retry = self%busy .and. .not. self%moved
+        self%inside_known = self%inside_known .and. .not. self%moved
+        t_new = merge(self%t_end, self%t + h, last)
+        self%t_old = merge(self%t, self%t_old, self%moved)
+        self%t = merge(t_new, self%t, self%moved)
     end subroutine step
 
     pure subroutine see_inside(self, system, lane)

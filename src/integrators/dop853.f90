@@ -5,7 +5,7 @@ module lagrangia_dop853
     !! Source: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.:
     !! secs. II.4 (starting step, PI step control), II.6 (dense output), II.10 (error estimate).
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-    use lagrangia_dop853_control, only: first_step, least_error, next_step, shorter_step
+    use lagrangia_dop853_control, only: first_step, least_error, next_step
     use lagrangia_dop853_stages, only: extra_stages, inside_step, scaled_error, slope, stages
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_integrator, only: dense_integrator_t
@@ -19,7 +19,7 @@ module lagrangia_dop853
     type, extends(dense_integrator_t) :: dop853_t
         private
         real(dp) :: h = 0.0_dp                 !! step to try next, s
-        real(dp) :: last_error = least_error   !! of the latest accepted step, in tolerances
+        real(dp) :: last_error = least_error   !! of the latest accepted step, see `next_steps`
         real(dp), allocatable :: y(:), y0(:)   !! states (q, v) at the ends of the step
         real(dp), allocatable :: work(:)
         real(dp), allocatable :: k(:, :)       !! its slopes at the stages
@@ -117,7 +117,7 @@ contains
         class(dop853_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
-        real(dp) :: h, scaled
+        real(dp) :: h, next, scaled
         logical :: last, retry, refused
 
         call self%refuse_system(system, refused, error=error)
@@ -134,21 +134,19 @@ contains
             call stages(system, system%ndof, self%t_old, h, self%y0, self%k, self%y)
             self%evaluations = self%evaluations + 11
             scaled = scaled_error(h, self%tolerance, self%k, self%y0, self%y)
+            call next_step(h, scaled, self%last_error, next)
+            if (retry) next = min(next, self%h)
+            self%h = next
             if (scaled <= 1.0_dp) then
                 self%accepted = self%accepted + 1
                 call keep(self, system, self%t_old + h)
                 call finish(self, system, h)
                 self%t_new = self%t_old + h
                 if (last) self%t_new = self%t_end
-                h = next_step(h, scaled, self%last_error)
-                if (retry) h = min(h, self%h)
-                self%h = h
-                self%last_error = max(scaled, least_error)
                 return
             end if
             self%rejected = self%rejected + 1
             retry = .true.
-            self%h = shorter_step(h, scaled)
         end do
         self%y = self%y0
         self%t_new = self%t_old
