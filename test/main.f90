@@ -130,6 +130,7 @@ module suites
     use test_pages, only: pages_suite
     use test_parameter_domains, only: parameter_domains_suite
     use test_partial_files, only: partial_files_suite
+    use test_pasted_characters, only: pasted_characters_suite
     use test_pendulum, only: pendulum_suite
     use test_period, only: period_suite
     use test_phase_space, only: phase_space_suite
@@ -334,6 +335,7 @@ contains
         call suite%addTest(pages_suite())
         call suite%addTest(parameter_domains_suite())
         call suite%addTest(partial_files_suite())
+        call suite%addTest(pasted_characters_suite())
         call suite%addTest(pendulum_suite())
         call suite%addTest(period_suite())
         call suite%addTest(places_suite())

@@ -369,10 +369,10 @@ contains
         call refused("system:"//line_feed//"x = 1", "sheet:1: 'system:' needs a name")
         call refused("system: pendulum"//line_feed//"system: wedge", &
                      "sheet:2: 'system:' a second time")
-        call refused("system: pendulum"//line_feed//"theta_ddot + 3", "sheet:2: no '='")
-        call refused("system: pendulum"//line_feed//"gravity: 3", "sheet:2: what is 'gravity':")
+        call refused("system: pendulum"//line_feed//"gravity: 3", "sheet:2: column 8: what is ")
         call refused("system: pendulum"//line_feed//"set: g", "sheet:2: 'set:' needs a parameter")
         call unreadable("sin theta = 1", "write 'sin(theta)'")
+        call unreadable("theta_ddot + 3", "column 15: no '='; write 'left = right', or '#' in")
         call unreadable("theta_ddot == 3", "column 13: one side of '=' is empty")
         call unreadable("= 3", "column 1: one side of '=' is empty")
         call unreadable("theta_ddot =", "column 13: one side of '=' is empty")

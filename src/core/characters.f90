@@ -3,7 +3,7 @@ module lagrangia_characters
     !! put in the place of what was typed, and those that no terminal should receive.
     implicit none (type, external)
     private
-    public :: decode, described, is_control, plainly, printable, unlike
+    public :: characters, decode, described, is_control, plainly, printable, unlike
 
     type :: lookalike_t
         integer :: code = 0         !! Unicode's number
@@ -47,6 +47,15 @@ contains
         end if
         words = trim(buffer)
     end function described
+
+    pure function characters(text) result(number)
+        !! How many characters `text` has: its bytes but those that continue one.
+        character(*), intent(in) :: text  !! UTF-8, perhaps
+        integer :: number
+        integer :: i
+
+        number = count([(iand(ichar(text(i:i)), 192) /= 128, i=1, len(text))])
+    end function characters
 
     pure function plainly(text) result(plain)
         !! `text` with plain characters in the place of those that look like them.

@@ -336,6 +336,10 @@ contains
         end if
         call read_rate(reader, symbols, node, error)
         if (allocated(error) .or. node > 0) return
+        if (symbols%spelling(name) /= name) then
+            call add_named(reader, symbols, name, reader%at + 1, node)
+            return
+        end if
         call put_indices(reader, name, indexed, error)
         if (allocated(error)) return
         if (indexed /= name) then
@@ -391,11 +395,13 @@ contains
         character(*), intent(in) :: name           !! as it is typed, without an index to replace
         integer, intent(in) :: behind              !! the token that is next then
         integer, intent(inout) :: node             !! the new one; unchanged where there is none
+        character(:), allocatable :: known
         integer :: which
 
-        which = symbols%find_definition(name)
-        if (symbols%find(name) > 0) then
-            call reader%expression%add_symbol(symbols%find(name), node)
+        known = symbols%spelling(name)
+        which = symbols%find_definition(known)
+        if (symbols%find(known) > 0) then
+            call reader%expression%add_symbol(symbols%find(known), node)
         else if (which > 0) then
             call reader%expression%append(symbols%definitions(which)%meaning, node)
         else

@@ -174,11 +174,17 @@ contains
         case ("'")
             text = "a prime is no derivative; write "//dotted(before, at)
         case ("_")
-            text = "a name begins with a letter, not with '_'"
+            text = "a name begins with a letter; write it before the '_'"
         case (".")
             text = "a point stands alone; write * for a product, 0.5 for a decimal"
+        case ("%")
+            text = "'%' has no meaning in a formula; write 0.05 for five percent"
+        case ("<", ">")
+            text = quoted(before(at:at))//" is no equality; write one with '='"
+        case (":")
+            text = "':' has no meaning in a formula; write '/' for a quotient, '=' for ':='"
         case default
-            text = quoted(before(at:at))//" has no meaning in a formula"
+            text = quoted(before(at:at))//" has no meaning in a formula; delete it"
         end select
     end function advice
 

@@ -33,6 +33,7 @@ module lagrangia_symbols
         procedure :: define
         procedure :: find
         procedure :: find_definition
+        procedure :: spelling
         procedure :: all_names
     end type symbols_t
 
@@ -102,6 +103,26 @@ contains
             if (self%definitions(which)%name == name) return
         end do
     end function find_definition
+
+    pure function spelling(self, name) result(known)
+        !! `m1` for `m_1` and `omega_0` for `omega0`, where only the other one is a name here; else
+        !! the name itself.
+        class(symbols_t), intent(in) :: self
+        character(*), intent(in) :: name  !! as typed
+        character(:), allocatable :: known
+        integer :: i
+
+        known = name
+        if (self%find(name) > 0 .or. self%find_definition(name) > 0) return
+        i = scan(name, "0123456789")
+        if (i < 2) return
+        if (name(i - 1:i - 1) == "_") then
+            known = name(:i - 2)//name(i:)
+        else
+            known = name(:i - 1)//"_"//name(i:)
+        end if
+        if (self%find(known) == 0 .and. self%find_definition(known) == 0) known = name
+    end function spelling
 
     pure subroutine all_names(self, names)
         !! Symbols, definitions and `pi`.

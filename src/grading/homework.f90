@@ -10,8 +10,9 @@ module lagrangia_homework
     !! ```
     !! `#` begins a comment. `system:` names a system of the catalogue or a scene file, `set:` fixes
     !! a parameter (`set: g = 0`), and behind `small:` is a statement about small oscillations. A
-    !! line that ends in `\` goes on in the next one.
-    use lagrangia_characters, only: printable
+    !! line that ends in `\` goes on in the next one. Lines end in LF, CR or both; a byte order mark
+    !! is skipped, and other signs for `=` and `:` are read as these.
+    use lagrangia_characters, only: decode, plainly
     use lagrangia_errors, only: error_t, fail, status_file
     use lagrangia_files, only: facts_t, look_at
     use lagrangia_names, only: name_length, nearest_name
@@ -106,6 +107,7 @@ contains
         begun = 0
         number = 0
         first = 1
+        if (index(text, char(239)//char(187)//char(191)) == 1) first = 4  ! a byte order mark
         do while (first <= len(text))
             number = number + 1
             call next_line(text, first, line)
@@ -141,17 +143,40 @@ contains
         character(:), allocatable, intent(out) :: line
         integer :: last, i
 
-        last = index(text(first:), new_line("a"))
+        last = scan(text(first:), char(13)//new_line("a"))
         last = merge(len(text) + 1, first + last - 1, last == 0)
         line = text(first:last - 1)
+        if (index(text(last:), char(13)//new_line("a")) == 1) last = last + 1
         first = last + 1
         i = index(line, "#")
         if (i > 0) line = line(:i - 1)
         do i = 1, len(line)
-            if (line(i:i) == char(9) .or. line(i:i) == char(13)) line(i:i) = " "
+            if (line(i:i) == char(9)) line(i:i) = " "
         end do
-        line = trim(line)
+        line = trim(with_plain_equals(line))
     end subroutine next_line
+
+    pure function with_plain_equals(line) result(plain)
+        !! `=` for signs that mean it, `:` for the wide one.
+        character(*), intent(in) :: line
+        character(:), allocatable :: plain
+        integer :: code, i, length
+
+        plain = ""
+        i = 1
+        do while (i <= len(line))
+            call decode(line, i, code, length)
+            select case (code)
+            case (int(z"2254"), int(z"225C"), int(z"225D"), int(z"2261"), int(z"FF1D"))
+                plain = plain//"="
+            case (int(z"FF1A")); plain = plain//":"
+            case default; plain = plain//line(i:i + length - 1)
+            end select
+            i = i + length
+        end do
+        i = index(plain, ":=")
+        if (i > 0) plain(i:i) = " "
+    end function with_plain_equals
 
     subroutine take(homework, text, number, error)
         !! Whatever the line says.
@@ -159,19 +184,20 @@ contains
         character(*), intent(in) :: text
         integer, intent(in) :: number
         type(error_t), allocatable, intent(out) :: error
+        character(*), parameter :: letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
         integer :: colon
 
         colon = index(text, ":")
         if (len(text) > statement_length) then
             call refuse("longer than "//to_text(statement_length)//" bytes")
         else if (colon > 0) then
-            select case (trim(text(:colon - 1)))
+            select case (trim(adjustl(plainly(text(:colon - 1)))))
             case ("system")
                 if (homework%system /= "") then
                     call refuse("'system:' a second time; one file is about one system")
                     return
                 end if
-                homework%system = trim(adjustl(text(colon + 1:)))
+                homework%system = trim(adjustl(plainly(text(colon + 1:))))
                 homework%system_line = number
                 if (homework%system == "") call refuse("'system:' needs a name; "// &
                     "'lagrangia list systems' shows them")
@@ -179,24 +205,25 @@ contains
                 if (index(text, "=") == 0) then
                     call refuse("'set:' needs a parameter and its value, say 'set: g = 9.81'")
                 else
-                    call add_setting(without_blanks(text(colon + 1:)))
+                    call add_setting(without_blanks(plainly(text(colon + 1:))))
                 end if
             case ("small")
                 call take_statement()
             case default
-                call refuse("what is "//quoted(trim(text(:colon - 1)))// &
-                            ":? Before a colon stands "// &
-                            "'system', 'set' or 'small'")
+                if (verify(trim(text(:colon - 1)), letters) == 0) then
+                    call refuse("column "//to_text(colon)//": what is "// &
+                                quoted(trim(text(:colon - 1)))//":? Before a colon stands "// &
+                                "'system', 'set' or 'small'")
+                else
+                    call take_statement()  ! which nobody can read
+                end if
             end select
         else
             call take_statement()
         end if
     contains
         subroutine take_statement()
-            if (index(text, "=") == 0) then
-                call refuse("no '='; a statement is 'left = right', not "// &
-                            quoted(printable(text), 40))
-            else if (size(homework%statements) == most_statements) then
+            if (size(homework%statements) == most_statements) then
                 call refuse("more than "//to_text(most_statements)//" statements")
             else
                 call add_statement()
@@ -230,7 +257,7 @@ contains
             end do
             longer(n + 1)%text = text
             longer(n + 1)%line = number
-            longer(n + 1)%small = colon > 0
+            longer(n + 1)%small = index(text, "small") == 1 .and. colon > 0
             call move_alloc(longer, homework%statements)
         end subroutine add_statement
 

@@ -3,8 +3,10 @@ module lagrangia_judgement
     !! parameters at random: any equivalent form is right, whatever it was multiplied by or mixed
     !! with.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+    use lagrangia_characters, only: characters
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, kind_symbol, operator(-), whole
+    use lagrangia_formula_characters, only: plain_formula
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_homework, only: statement_t
     use lagrangia_kinds, only: dp
@@ -38,7 +40,8 @@ contains
         type(judgement_t), intent(out) :: judgement     !! of it
         type(error_t), allocatable :: error
         type(expression_t) :: left, right
-        character(:), allocatable :: text
+        character(:), allocatable :: side, text
+        integer, allocatable :: columns(:)
         integer :: begun, first, next, last
         logical :: chained
 
@@ -52,9 +55,11 @@ contains
         next = index(text, "=")
         call find_empty_side(text, judgement)
         if (judgement%verdict == is_unreadable) return
-        if (is_new_name(text(:next - 1), samples)) then
+        call plain_formula(text(:next - 1), side, columns, error)
+        if (allocated(error)) side = text(:next - 1)
+        if (is_new_name(side, samples)) then
             if (index(text(next + 1:), "=") == 0) then
-                call define(text, next, samples, judgement)
+                call define(trim(adjustl(side)), text, next, samples, judgement)
                 return
             end if
         end if
@@ -63,14 +68,14 @@ contains
             call put_unreadable(error, judgement)
             return
         end if
-        chained = is_slope(text(:next - 1))
+        chained = is_slope(side)
         do
             first = next + 1
             last = index(text(first:), "=")
             next = merge(len(text) + 1, first + last - 1, last == 0)
             ! blanks in front keep the columns of what went before
-            call parse_formula(repeat(" ", first - 1)//text(first:next - 1), samples%symbols, &
-                               right, error)
+            call parse_formula(repeat(" ", characters(text(:first - 1)))//text(first:next - 1), &
+                               samples%symbols, right, error)
             if (.not. allocated(error)) call read_as_period(left, right, samples, chained)
             if (is_constancy(text(first:next - 1), samples)) then
                 call parse_formula("d/dt("//text(begun:first - 2)//")", samples%symbols, left, &
@@ -95,10 +100,25 @@ contains
     end subroutine judge
 
     pure subroutine find_empty_side(text, judgement)
-        !! `a =`, `= b`, `a == b`.
+        !! `a =`, `= b`, `a == b`, and a line without `=`, perhaps with another sign in its place.
         character(*), intent(in) :: text
         type(judgement_t), intent(inout) :: judgement
+        type(error_t), allocatable :: error
+        character(:), allocatable :: plain
+        integer, allocatable :: columns(:)
         integer :: first, last
+
+        if (index(text, "=") == 0) then
+            call plain_formula(text, plain, columns, error)
+            judgement%verdict = is_unreadable
+            if (allocated(error)) then
+                judgement%remark = error%message
+            else
+                judgement%remark = "column "//to_text(characters(text) + 1)//": no '='; write "// &
+                    "'left = right', or '#' in front of a remark"
+            end if
+            return
+        end if
 
         first = 1
         do
@@ -109,13 +129,13 @@ contains
             first = last + 1
         end do
         judgement%verdict = is_unreadable
-        judgement%remark = "column "//to_text(first)// &
+        judgement%remark = "column "//to_text(characters(text(:first - 1)) + 1)// &
             ": one side of '=' is empty; write 'left = right'"
     end subroutine find_empty_side
 
-    subroutine define(text, equals, samples, judgement)
+    subroutine define(name, text, equals, samples, judgement)
         !! A name of the student's own.
-        character(*), intent(in) :: text
+        character(*), intent(in) :: name, text
         integer, intent(in) :: equals  !! place of '='
         type(samples_t), intent(inout) :: samples
         type(judgement_t), intent(inout) :: judgement
@@ -123,13 +143,13 @@ contains
         type(error_t), allocatable :: error
 
         judgement%verdict = is_definition
-        call parse_formula(repeat(" ", equals)//text(equals + 1:), samples%symbols, meaning, error)
-        if (.not. allocated(error)) call samples%symbols%define(trim(adjustl(text(:equals - 1))), &
-                                                                meaning, error)
+        call parse_formula(repeat(" ", characters(text(:equals)))//text(equals + 1:), &
+                           samples%symbols, meaning, error)
+        if (.not. allocated(error)) call samples%symbols%define(name, meaning, error)
         if (allocated(error)) then
             call put_unreadable(error, judgement)
         else
-            call define_rates(trim(adjustl(text(:equals - 1))), meaning, samples)
+            call define_rates(name, meaning, samples)
         end if
     end subroutine define
 

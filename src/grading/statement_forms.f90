@@ -28,7 +28,8 @@ contains
         yes = .not. allocated(error)
         if (.not. yes) return
         yes = samples%symbols%find(trim(name)) == 0 .and. &
-              samples%symbols%find_definition(trim(name)) == 0 .and. index(name, "_d") == 0 .and. &
+              samples%symbols%find_definition(trim(name)) == 0 .and. &
+              samples%symbols%spelling(trim(name)) == name .and. index(name, "_d") == 0 .and. &
               index(name, "p_") /= 1 .and. index(name, "dL") /= 1
     end function is_new_name
 

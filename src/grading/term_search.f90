@@ -124,11 +124,9 @@ contains
         integer :: k
 
         remark = ""
-        allocate (results(size(values, 1), expression%count))
-        call evaluate_nodes(expression, values, results)
         call summands(expression, nodes, signs)
         if (size(nodes) < 2) return
-        call gather_letters(samples, library, letters)
+        call prepare(expression, samples, values, library, results, letters)
         do k = 1, size(nodes)
             if (nodes(k) < first .or. is_subject(expression, nodes(k), samples)) cycle
             needed = 1.0_dp - signs(k)*results(:, expression%count)/results(:, nodes(k))
@@ -166,9 +164,7 @@ contains
         integer :: k
 
         remark = ""
-        allocate (results(size(values, 1), expression%count))
-        call evaluate_nodes(expression, values, results)
-        call gather_letters(samples, library, letters)
+        call prepare(expression, samples, values, library, results, letters)
         do k = 1, size(library)
             if (allocated(term)) deallocate (term)
             allocate (term(size(values, 1), library(k)%term%count))
@@ -189,6 +185,20 @@ contains
             return
         end do
     end subroutine try_missing_terms
+
+    subroutine prepare(expression, samples, values, library, results, letters)
+        !! The values of all nodes, and the letters of which a factor may consist.
+        type(expression_t), intent(in) :: expression
+        type(samples_t), intent(in) :: samples
+        real(dp), intent(in) :: values(:, :)
+        type(library_t), intent(in) :: library(:)
+        real(dp), allocatable, intent(out) :: results(:, :)
+        type(letter_t), allocatable, intent(out) :: letters(:)
+
+        allocate (results(size(values, 1), expression%count))
+        call evaluate_nodes(expression, values, results)
+        call gather_letters(samples, library, letters)
+    end subroutine prepare
 
     subroutine gather_letters(samples, library, letters)
         !! Parameters, and their sums that occur in right terms.
