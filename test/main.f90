@@ -183,6 +183,7 @@ module suites
     use test_term_sizes, only: term_sizes_suite
     use test_text, only: text_suite
     use test_time_grid, only: time_grid_suite
+    use test_typed_homeworks, only: typed_homeworks_suite
     use test_unfinished, only: unfinished_suite
     use test_vakonomic, only: vakonomic_suite
     use test_value_range, only: value_range_suite
@@ -389,6 +390,7 @@ contains
         call suite%addTest(systems_suite())
         call suite%addTest(term_sizes_suite())
         call suite%addTest(text_suite())
+        call suite%addTest(typed_homeworks_suite())
         call suite%addTest(unfinished_suite())
         call suite%addTest(value_range_suite())
         call suite%addTest(variational_suite())

@@ -5,7 +5,8 @@ module lagrangia_judgement
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_characters, only: characters
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: expression_t, kind_symbol, operator(-), whole
+    use lagrangia_expression, only: expression_t, f_sqrt, kind_function, kind_symbol, operator(-), &
+                                    symbol, whole
     use lagrangia_formula_characters, only: plain_formula
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_homework, only: statement_t
@@ -184,6 +185,7 @@ contains
         if (judgement%residual%depends_on(samples%frequency) .or. &
             judgement%residual%depends_on(samples%frequency + 1)) then
             call choose_modes(judgement%residual, samples, values, right_one, found)
+            if (.not. right_one) call compare_squares(left, right, samples, right_one, found)
             if (.not. found) then
                 judgement%verdict = is_unreadable
                 judgement%remark = "no small oscillation about the equilibrium at or near "// &
@@ -228,6 +230,27 @@ contains
             call put_squares(samples, judgement)
         end if
     end subroutine judge_pair
+
+    subroutine compare_squares(left, right, samples, right_one, found)
+        !! Of `omega = sqrt(...)`, which for many parameters at random has no number: not where the
+        !! equilibrium is unstable, as \(\omega^2\) is negative there.
+        type(expression_t), intent(in) :: left, right
+        type(samples_t), intent(in) :: samples
+        logical, intent(inout) :: right_one, found  !! become true where the squares agree
+        type(expression_t) :: root, squares
+        real(dp), allocatable :: values(:, :)
+        logical :: known, yes
+
+        if (left%count /= 1 .or. .not. left%depends_on(samples%frequency)) return
+        root = right%pruned(right%count)
+        if (root%nodes(root%count)%kind /= kind_function) return
+        if (root%nodes(root%count)%which /= f_sqrt) return
+        squares = symbol(samples%frequency + 1) - root%pruned(root%nodes(root%count)%left)
+        values = samples%values
+        call choose_modes(squares, samples, values, yes, known)
+        right_one = yes
+        found = found .or. yes
+    end subroutine compare_squares
 
     subroutine choose_modes(residual, samples, values, right_one, found)
         !! Give omega its values: of that equilibrium, and for each draw of parameters that mode,

@@ -45,6 +45,7 @@ contains
 
         call system%describe(d)
         call keep(d, said, settings, fixed, given, samples%kept)
+        call take_energies(system, fixed, given, d)
         damped = is_damped(system, d, fixed, given)
         if (damped .and. allocated(d%letters)) then  ! they may be those of no drag, or of another
             d%letters = pack(d%letters, d%letters%name /= "omega" .and. d%letters%name /= "gamma")
@@ -86,6 +87,31 @@ contains
             values(row, samples%place) = equilibrium(:, 1 + (row - 1)/states)
         end do
     end subroutine put_places
+
+    subroutine take_energies(system, fixed, given, d)
+        !! L, T and V as the page has them with parameters at random: those that a sheet names are
+        !! not zero, as the pulley's inertia of Atwood's machine is by default.
+        class(system_t), intent(in) :: system
+        logical, intent(in) :: fixed(:)
+        real(dp), intent(in) :: given(:)
+        type(description_t), intent(inout) :: d
+        class(system_t), allocatable :: drawn
+        type(description_t) :: now
+        type(error_t), allocatable :: error
+        type(random_t) :: random
+        real(dp), allocatable :: values(:), kept(:)
+        logical, allocatable :: drawn_value(:)
+
+        allocate (drawn, source=system)
+        kept = given
+        call spread_values(d, drawn_value, fixed, kept, random)
+        call random%parameters(drawn, .false., values, error, fixed .or. drawn_value, kept)
+        if (allocated(error)) return
+        call drawn%describe(now)
+        if (allocated(now%lagrangian)) d%lagrangian = now%lagrangian
+        if (allocated(now%kinetic_energy)) d%kinetic_energy = now%kinetic_energy
+        if (allocated(now%potential_energy)) d%potential_energy = now%potential_energy
+    end subroutine take_energies
 
     function is_damped(system, d, fixed, given) result(yes)
         !! Has the system one coordinate, and at rest a drag that is as the velocity, with
