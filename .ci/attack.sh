@@ -8,7 +8,7 @@ source "$(dirname "$0")/attack_tools.sh"
 # Every command that writes: its words, and the files that it makes in the folder of --output
 writers=("run pendulum" "modes double_pendulum" "compare pendulum --methods rk4,verlet" "principle least-time"
     "bench precision --quick --quiet --problems P1 --methods rk4" \
-    "run pendulum --animate" "modes pendulum --animate" "report pendulum")
+    "sweep pendulum --over theta=0:1:3 --keep theta" "run pendulum --animate" "modes pendulum --animate" "report pendulum")
 makes=()
 for writer in "${writers[@]}"; do
     rm -rf "$work/made"

@@ -104,6 +104,18 @@ run "${diagram[@]}" --output "$work/sweep" --resume
 check "sweep: twice killed and once interrupted, the bytes are the same, and nothing else is left" eval '[ $status -eq 0 ] && diff -r "$work/whole" "$work/sweep" && leftovers "$work/sweep"'
 run "${diagram[@]}" --output "$work/sweep" --resume
 check "sweep: nothing to resume" eval '[ $status -eq 5 ] && one_line && diff -r "$work/whole" "$work/sweep"'
+for bytes in 0 100; do
+    rm "$work/sweep"/*
+    head -c $bytes "$work/part" >"$work/sweep/bifurcation_sweep.dat.part"
+    run "${diagram[@]}" --output "$work/sweep" --resume
+    check "sweep: killed when $bytes bytes were written, it can be resumed" eval '[ $status -eq 0 ] && diff -r "$work/whole" "$work/sweep"'
+done
+rm "$work/sweep"/*
+(ulimit -n 5; exec "$program" "${diagram[@]}" --threads 1 --output "$work/sweep") >"$work/out" 2>"$work/err" </dev/null
+status=$?
+check "sweep: where the table cannot be written, all trajectories are kept" eval '[ $status -eq 5 ] && one_line && grep -q "; all trajectories are kept in .*--resume" "$work/err"'
+run "${diagram[@]}" --output "$work/sweep" --resume
+check "sweep: and --resume writes it" eval '[ $status -eq 0 ] && diff -r "$work/whole" "$work/sweep"'
 
 # In lanes, by dop853, each trajectory with its own mass and to its own end
 diagram=(sweep double_pendulum --set "scene%method='dop853'" --set scene%tolerance=1e-9 --set scene%samples=1 --set scene%duration=60 --over m1=0.5:2:100 --over theta1=1:3:60 --keep theta2)

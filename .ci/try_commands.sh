@@ -395,14 +395,27 @@ check "bench precision: points and times of the methods asked for" json 'all({r[
 # Every key of a scene
 # Many trajectories: numbers that are known, a picture of each kind, the same file by any number of processes
 for sweep in flip_map period_of_amplitude; do
-    run sweep $sweep --over theta$([ $sweep = flip_map ] && echo 1)=0.5:3:20 --output "$work/sweep" --plot --threads 1
+    run sweep $sweep --over theta$([ $sweep = flip_map ] && echo 1)=0.5:3:200 --output "$work/sweep" --plot --threads 1
     check "sweep $sweep: a table and a picture" eval '[ $status -eq 0 ] && [ ! -s "$work/err" ] && [ -s "$work/sweep/${sweep}_sweep.png" ] &&
-        [ "$(grep -vc "^#" "$work/sweep/${sweep}_sweep.dat")" -eq 20 ]'
+        [ "$(grep -vc "^#" "$work/sweep/${sweep}_sweep.dat")" -eq 200 ]'
     cp "$work/sweep/${sweep}_sweep.dat" "$work/one"
-    run sweep $sweep --over theta$([ $sweep = flip_map ] && echo 1)=0.5:3:20 --output "$work/sweep" --threads 3 --json
+    run sweep $sweep --over theta$([ $sweep = flip_map ] && echo 1)=0.5:3:200 --output "$work/sweep" --threads 3 --json
     check "sweep $sweep: the same by three processes, and JSON" eval 'cmp "$work/one" "$work/sweep/${sweep}_sweep.dat" &&
-        python3 -c "import json, sys; r = json.load(open(sys.argv[1])); assert r[\"trajectories\"] == 20 and r[\"failed\"] == 0" "$work/out"'
+        python3 -c "import json, sys; r = json.load(open(sys.argv[1])); assert r[\"trajectories\"] == 200 and r[\"threads\"] == 3 and r[\"failed\"] == 0" "$work/out"'
 done
+run sweep pendulum --over q=0.5:1:3 --keep theta --threads 1000 --output "$work/sweep"
+check "sweep: it says how many processes there were" grep -q "^pendulum: 3 trajectories by rk4 in .* s by 1 process, in lanes$" "$work/out"
+run sweep pendulum --over q=0.5:1:3 --keep period --threads 1000 --output "$work/sweep"
+check "sweep: no more processes than trajectories" grep -q "^pendulum: 3 trajectories by rk4 in .* s by 3 processes$" "$work/out"
+OMP_NUM_THREADS=99999999999 run sweep pendulum --over q=0.5:1:3 --keep period --output "$work/sweep"
+check "sweep: no number of threads is too large" grep -q "^pendulum: 3 trajectories by rk4 in .* s by 3 processes$" "$work/out"
+run sweep hanging_chain --over n=2:5:4 --keep energy --output "$work/sweep"
+check "sweep: where all fail, it says so" eval '[ $status -eq 2 ] && grep -q "all 4 trajectories fail: q has 10 values" "$work/err"'
+mkdir -p "$work/folders/flip_map_sweep.dat"
+run sweep flip_map --output "$work/folders"
+check "sweep: a folder in the place of the table is seen before anything is computed" eval '[ $status -eq 5 ] && grep -q "it is a folder$" "$work/err" && [ "$(ls "$work/folders")" = flip_map_sweep.dat ]'
+run sweep pendulum --over q=0.1:3:2 --over v=1:nan:2 --keep period --output "$work/sweep"
+check "sweep: which axis cannot be read" eval '[ $status -eq 2 ] && grep -q "the axis v: .nan.: column 1: unknown name" "$work/err"'
 check "sweep: the measured period is the exact one" awk '!/^#/ { d = $2/$3 - 1; if (d*d > 1e-18) exit 1 }' "$work/sweep/period_of_amplitude_sweep.dat"
 run sweep pendulum --over q=0.5:1:2 --keep "period, max theta" --keep energy --output "$work/sweep"
 check "sweep --keep: several with commas" eval '[ $status -eq 0 ] &&

@@ -152,7 +152,7 @@ contains
 
     subroutine bad_axes_are_refused()
         !! In one line that says what is wrong.
-        character(*), parameter :: bad(2, 11) = reshape([character(40) :: &
+        character(*), parameter :: bad(2, 15) = reshape([character(40) :: &
             "theta1", "has no '='", &
             "theta=0:1:5", "did you mean 'theta1'?", &
             "theta1=0:1", "needs FROM:TO:COUNT", &
@@ -162,8 +162,12 @@ contains
             "theta1=0:1:5:lin", "neither 'log' nor 'random'", &
             "theta1=0:1:5:log", "both ends must be above 0", &
             "theta1=0:1:1", "one value but two ends", &
-            "theta1=0:y:5", "y", &
-            "theta1=0:1/0:5", "is no number"], [2, 11])
+            "theta1=1e-320:1:3:log", "too far apart", &
+            "theta1=1e300:1e-10:3:log", "too far apart", &
+            "theta1=-1e308:1e308:3:random", "too far apart", &
+            "theta1=0: :5", "axis theta1: an end is missing", &
+            "theta1=0:y:5", "axis theta1: 'y': column 1: unknown", &
+            "theta1=0:1/0:5", "axis theta1: '1/0' is no number"], [2, 15])
         type(sweep_axis_t) :: axis
         type(error_t), allocatable :: error
         integer :: i

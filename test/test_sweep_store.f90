@@ -32,6 +32,8 @@ contains
         suite = TestSuite("sweep_store")
         call suite%addTest(TestMethod("blocks_come_back", blocks_come_back))
         call suite%addTest(TestMethod("a_block_that_is_cut_is_lost", a_block_that_is_cut_is_lost))
+        call suite%addTest(TestMethod("a_beginning_that_is_cut_is_written_again", &
+                                      a_beginning_that_is_cut_is_written_again))
         call suite%addTest(TestMethod("every_damaged_byte_is_seen", every_damaged_byte_is_seen))
         call suite%addTest(TestMethod("another_sweep_is_refused", another_sweep_is_refused))
         call suite%addTest(TestMethod("one_writes_at_a_time", one_writes_at_a_time))
@@ -169,6 +171,29 @@ contains
             call store%remove()
         end do
     end subroutine a_block_that_is_cut_is_lost
+
+    subroutine a_beginning_that_is_cut_is_written_again()
+        !! Who is killed so early has computed nothing, and can resume all the same.
+        type(sweep_store_t) :: store
+        type(error_t), allocatable :: error
+        character(:), allocatable :: path
+        integer :: length
+
+        do length = 1, 7, 3
+            path = new_folder("store")//"/a.dat"
+            call write_blocks(path, [4, 2], 1)
+            call change(path//".part", length, 0, " ")
+            call take(path, told, store, error)
+            call assertFalse(allocated(error), "it is taken")
+            call compare(store, [integer ::])
+            call store%put(1_i8, numbers_of(store, 1_i8), 0_i8, 99_i8, error)
+            call store%release()
+            call take(path, told, store, error)
+            call assertFalse(allocated(error), "it is taken again")
+            call compare(store, [1])
+            call store%remove()
+        end do
+    end subroutine a_beginning_that_is_cut_is_written_again
 
     subroutine every_damaged_byte_is_seen()
         !! In the text as in every word of a record.

@@ -5,6 +5,7 @@ module lagrangia_sweep_command
     use lagrangia_data_files, only: check_format, data_path, path_beside, script_path
     use lagrangia_disk_space, only: free_space, short, space_warning
     use lagrangia_errors, only: error_t, fail, status_library
+    use lagrangia_files, only: facts_t, look_at
     use lagrangia_images, only: image_count, image_number
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_json, only: json_item, json_object, json_pair
@@ -13,6 +14,7 @@ module lagrangia_sweep_command
     use lagrangia_number_reader, only: to_integer
     use lagrangia_number_text, only: field_width, scientific
     use lagrangia_observer, only: observer_t
+    use lagrangia_output_file, only: output_file_t
     use lagrangia_output_options, only: show_picture, take_folder, take_picture
     use lagrangia_places, only: places_t
     use lagrangia_progress, only: progress_t
@@ -24,7 +26,8 @@ module lagrangia_sweep_command
     use lagrangia_shipped, only: find_sweep
     use lagrangia_sweep, only: new_sweep, sweep_t
     use lagrangia_sweep_files, only: sweep_header, write_sweep
-    use lagrangia_sweep_grid, only: block_size, compute_grid, sweep_result_t, thread_count
+    use lagrangia_sweep_grid, only: block_size, compute_grid, most_threads, &
+                                    sweep_result_t, thread_count
     use lagrangia_sweep_store, only: part_name
     use lagrangia_system, only: system_t
     use lagrangia_text, only: quoted, to_text
@@ -84,6 +87,8 @@ contains
             call leave(result, path, error)
         else if (image_number() == 1) then
             call write_sweep(sweep, result, path, format, sweep_lines(scene), error)
+            if (allocated(error)) error%message = error%message//"; all trajectories are kept "// &
+                "in '"//part_name(path, 1)//"', '--resume' goes on"
         end if
         if (allocated(error) .or. image_number() > 1) return
         call result%store%remove()
@@ -91,9 +96,9 @@ contains
             to_text(result%failures)//" of "//to_text(sweep%trajectories())// &
             " trajectories failed and are NaN; the first: "//result%reason)
         if (line%has("json")) then
-            call put_json(sweep, result, threads, path)
+            call put_json(sweep, result, path)
         else if (.not. quiet) then
-            call put_summary(sweep, result, threads, path)
+            call put_summary(sweep, result, path)
         end if
         if (line%has("plot")) call show_picture(path, kind, line, error)
     end subroutine sweep_command
@@ -136,15 +141,17 @@ contains
         logical, intent(in) :: quiet
         type(error_t), allocatable, intent(out) :: error
         character(:), allocatable :: warning
-        real(dp) :: disk, free, memory, rows, total
+        real(dp) :: blocks, disk, free, memory, rows, total
 
         total = real(sweep%trajectories(), dp)
         rows = total*sweep%points
         disk = 8.0_dp*total*sweep%width() + &
                rows*(size(sweep%axes) + size(sweep%kept))*merge(8, field_width + 1, format == "npy")
-        memory = 12.0_dp*total/block_size(sweep) + &
-                 16.0_dp*real(block_size(sweep), dp)*sweep%width()*(threads + 1)
-        call check_memory(memory, to_text(sweep%trajectories())//" trajectories", error)
+        blocks = max(1.0_dp, total/block_size(sweep))
+        memory = 12.0_dp*blocks + 16.0_dp*real(block_size(sweep), dp)*sweep%width()* &
+                 (min(blocks, real(threads, dp)) + 1.0_dp)
+        call check_memory(memory, "a sweep of "//to_text(sweep%trajectories())//" trajectories", &
+                          error)
         if (allocated(error) .or. image_number() > 1 .or. line%has("resume")) return
         free = free_space(folder)
         if (free > 0.0_dp .and. disk > free .and. .not. line%has("any-size")) then
@@ -167,7 +174,7 @@ contains
         if (.not. allocated(error)) call take_texts("keep", ",", scene%sweep%keep)
         if (.not. allocated(error)) call take_number("seed", -huge(0), huge(0), &
                                                    scene%sweep%seed)
-        if (.not. allocated(error)) call take_number("threads", 1, 10000, &
+        if (.not. allocated(error)) call take_number("threads", 1, most_threads, &
                                                    scene%sweep%threads)
         if (allocated(error)) return
         if (size(scene%sweep%over) == 0) then
@@ -255,7 +262,24 @@ contains
         path = path_beside(data_path(folder, trim(scene%output), format), "_sweep")
         call claim_scene(scene, places, error)
         if (.not. allocated(error)) call claim_table(path, "sweep", trim(scene%name), places, error)
+        if (allocated(error) .or. image_number() > 1) return
+        call check_place(path, error)
+        if (.not. allocated(error)) call check_place(script_path(path), error)
     end subroutine claim
+
+    subroutine check_place(path, error)
+        !! What has the name of a file that is to be written can be replaced: after hours of
+        !! computing it would be too late to find out.
+        character(*), intent(in) :: path
+        type(error_t), allocatable, intent(out) :: error
+        type(facts_t) :: facts
+        type(output_file_t) :: file
+
+        facts = look_at(path)
+        if (.not. facts%found) return
+        call file%open(path, error)
+        call file%abandon()
+    end subroutine check_place
 
     function sweep_lines(scene) result(lines)
         !! The group `&sweep` as it was computed, for the file's header.
@@ -275,18 +299,18 @@ contains
         lines = [character(scene_line_length) :: lines, "  seed = "//to_text(scene%sweep%seed), "/"]
     end function sweep_lines
 
-    subroutine put_summary(sweep, result, threads, path)
+    subroutine put_summary(sweep, result, path)
         !! How many, how long, and between what bounds the numbers lie.
         type(sweep_t), intent(in) :: sweep
         type(sweep_result_t), intent(in) :: result
-        integer, intent(in) :: threads
         character(*), intent(in) :: path
         character(:), allocatable :: how
         real(dp) :: largest, least
         integer(i8) :: found
         integer :: i, width
 
-        how = " by "//to_text(threads)//" process"//trim(merge("  ", "es", threads == 1))
+        how = " by "//to_text(result%processes)//" process"// &
+              trim(merge("  ", "es", result%processes == 1))
         if (image_count() > 1) how = how//" on each of "//to_text(image_count())//" images"
         if (result%in_lanes) how = how//", in lanes"
         if (result%resumed > 0) how = how//"; "//to_text(result%resumed)//" were there already"
@@ -335,11 +359,10 @@ contains
         end function missing
     end subroutine put_summary
 
-    subroutine put_json(sweep, result, threads, path)
+    subroutine put_json(sweep, result, path)
         !! The same as an object.
         type(sweep_t), intent(in) :: sweep
         type(sweep_result_t), intent(in) :: result
-        integer, intent(in) :: threads
         character(*), intent(in) :: path
         character(:), allocatable :: rows
         real(dp) :: largest, least
@@ -360,7 +383,7 @@ contains
             json_item("failed", to_text(result%failures))// &
             json_item("resumed", to_text(result%resumed))// &
             json_item("images", to_text(image_count()))// &
-            json_item("threads", to_text(threads))// &
+            json_item("threads", to_text(result%processes))// &
             json_pair("in_lanes", result%in_lanes)// &
             json_pair("seconds", result%seconds)// &
             json_item("kept", "["//rows(3:)//"]")))

@@ -84,9 +84,12 @@ contains
             return
         end if
         call read_constant(range(:bounds(1) - 1), ends(1), error)
-        if (allocated(error)) return
-        call read_constant(range(bounds(1) + 1:bounds(2) - 1), ends(2), error)
-        if (allocated(error)) return
+        if (.not. allocated(error)) call read_constant(range(bounds(1) + 1:bounds(2) - 1), &
+                                                       ends(2), error)
+        if (allocated(error)) then
+            error%message = "the axis "//trim(axis%name)//": "//error%message
+            return
+        end if
         if (bounds(3) == 0) bounds(3) = len(range) + 1
         call to_integer(trim(adjustl(range(bounds(2) + 1:bounds(3) - 1))), count, problem)
         if (problem /= "" .or. count < 1 .or. count > most_values) then
@@ -105,6 +108,10 @@ contains
         else if (axis%logarithmic .and. .not. minval(ends) > 0.0_dp) then
             call fail(error, "the axis "//trim(axis%name)//" is spaced by factors, so both "// &
                       "ends must be above 0")
+        else if (axis%logarithmic .and. .not. in_range(ends(2)/ends(1)) .or. &
+                 .not. ieee_is_finite(ends(2) - ends(1))) then
+            call fail(error, "the ends of the axis "//trim(axis%name)//" are too far apart for "// &
+                      "doubles")
         else if (count == 1 .and. abs(ends(2) - ends(1)) > 0.0_dp) then
             call fail(error, "the axis "//trim(axis%name)//" has one value but two ends")
         end if
@@ -129,6 +136,14 @@ contains
             value = (1.0_dp - part)*ends(1) + part*ends(2)
         end if
     end function place
+
+    elemental function in_range(x) result(yes)
+        !! Neither infinite nor subnormal.
+        real(dp), intent(in) :: x
+        logical :: yes
+
+        yes = x >= tiny(x) .and. x <= huge(x)
+    end function in_range
 
     pure subroutine cut(text, places)
         !! Where the first four colons stand; 0 where there are fewer.
@@ -156,9 +171,16 @@ contains
         real(dp) :: results(1)
 
         value = 0.0_dp
+        if (text == "") then
+            call fail(error, "an end is missing; write "//example)
+            return
+        end if
         allocate (none%names(0))
         call parse_formula(text, none, formula, error)
-        if (allocated(error)) return
+        if (allocated(error)) then
+            error%message = quoted(trim(adjustl(text)))//": "//error%message
+            return
+        end if
         call new_formula_program(program, [formula], 0)
         call program%evaluate([real(dp) ::], results)
         value = results(1)

@@ -14,11 +14,14 @@ module lagrangia_sweep_grid
     use lagrangia_sweep_lanes, only: compute_lanes
     use lagrangia_sweep_store, only: part_name, sweep_store_t
     use lagrangia_sweep_trajectory, only: compute_one
+    use lagrangia_text, only: to_text
     use lagrangia_workers, only: is_deserted, share_work, work_t
 !$  use omp_lib, only: omp_get_max_threads
     implicit none (type, external)
     private
-    public :: block_size, compute_grid, sweep_result_t, thread_count
+    public :: block_size, compute_grid, most_threads, sweep_result_t, thread_count
+
+    integer, parameter :: most_threads = 10000
 
     type :: sweep_result_t
         !! What a sweep gave. The numbers come block by block, each of them once and in order, by
@@ -27,6 +30,7 @@ module lagrangia_sweep_grid
         integer(i8) :: failures = 0              !! trajectories that failed
         character(:), allocatable :: reason      !! of the first of these; absent: none failed
         real(dp) :: seconds = 0.0_dp             !! on the clock
+        integer :: processes = 1                 !! of this image, that computed
         integer(i8) :: resumed = 0               !! trajectories that were there already
         logical :: in_lanes = .false.            !! computed in the lanes of vector registers
         type(attractors_t), private :: attractors
@@ -58,7 +62,7 @@ contains
         integer :: threads
 
         threads = 1
-!$      if (image_count() == 1) threads = omp_get_max_threads()
+!$      if (image_count() == 1) threads = min(omp_get_max_threads(), most_threads)
         if (wanted > 0) threads = wanted
     end function thread_count
 
@@ -80,7 +84,7 @@ contains
         !! Compute every trajectory. One that fails leaves NaN, and the others go on. To be called
         !! on all images; image 1 has the result.
         type(sweep_t), intent(in), target :: sweep               !! as `new_sweep` made it
-        integer, intent(in) :: threads                           !! processes of this image
+        integer, intent(in) :: threads                           !! processes of this image, at most
         class(observer_t), pointer, intent(in) :: progress       !! hears how far it is; may be null
         type(sweep_result_t), intent(out), target :: result      !! the numbers, and what they took
         type(error_t), allocatable, intent(out) :: error
@@ -111,7 +115,7 @@ contains
         blocks%result => result
         blocks%progress => progress
         call begin_dealing()
-        call share_work(blocks, threads, error)
+        call share_work(blocks, threads, error, result%processes)
         call agree(error)
         if (.not. allocated(error) .and. image_count() > 1) then
             if (image_number() == 1) call result%store%take_parts(error)
@@ -236,7 +240,10 @@ contains
         if (.not. allocated(failure)) call fail(failure, "the motion diverges, or the step is "// &
                                                 "too long", status_numbers)
         result%reason = failure%message
-        if (result%failures == sweep%trajectories()) call move_alloc(failure, error)
+        if (result%failures < sweep%trajectories()) return
+        if (result%failures > 1) failure%message = "all "//to_text(result%failures)// &
+                                                   " trajectories fail: "//failure%message
+        call move_alloc(failure, error)
     end subroutine explain
 
     subroutine read_block(self, sweep, block, values, error)

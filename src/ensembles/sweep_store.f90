@@ -11,7 +11,8 @@ module lagrangia_sweep_store
     use lagrangia_c_library, only: c_fclose, c_fflush, c_fileno, c_flock, c_fopen, c_fread, &
         c_fseek, c_fwrite, c_remove
     use lagrangia_errors, only: error_t, fail, status_file, status_library
-    use lagrangia_files, only: facts_t, folder_of, last_error, look_at, make_folders, reason
+    use lagrangia_files, only: e_exists, facts_t, folder_of, last_error, look_at, make_folders, &
+                               reason
     use lagrangia_kinds, only: dp, i8
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -27,7 +28,7 @@ module lagrangia_sweep_store
         !! A file of records.
         character(:), allocatable :: name
         type(c_ptr) :: stream = c_null_ptr
-        integer(i8) :: length = 0            !! bytes up to the end of its last whole record
+        integer(i8) :: length = -1           !! bytes up to the end of its last whole record
     end type part_t
 
     type :: sweep_store_t
@@ -135,6 +136,13 @@ contains
         integer :: i, number, status
 
         call make_folders(folder_of(self%path), number, culprit)
+        if (number /= 0) then
+            call fail(error, "cannot write '"//part_name(self%path, image)//"': cannot make '"// &
+                      culprit//"': "//reason(number), status_file)
+            if (number == e_exists) error%message = "cannot write '"// &
+                part_name(self%path, image)//"': '"//culprit//"' is not a folder"
+            return
+        end if
         facts = look_at(part_name(self%path, image))
         if (image <= size(self%parts)) then
             if (c_associated(self%parts(image)%stream)) then
@@ -154,10 +162,11 @@ contains
             if (status == would_block) then  ! all else: the file system has no locks
                 call fail(error, "another sweep is writing '"//part%name//"' at this moment", &
                           status_file)
-            else if (.not. facts%found) then
-                call append(part, self%header, error)
-            else if (part%length == 0) then
+            else if (facts%found .and. part%length < 0) then
                 call fail(error, "'"//part%name//"' is there already", status_file)
+            else if (part%length <= 0) then
+                part%length = 0
+                call append(part, self%header, error)
             end if
         end associate
     end subroutine own_part
@@ -195,16 +204,18 @@ contains
         character(len(self%header)) :: header
         integer(i8), allocatable :: record(:)
         integer(i8) :: block, place
+        integer :: got
         logical :: whole
 
         associate (part => self%parts(which))
-            part%length = 0
-            if (c_fread(header, 1_c_size_t, len(header, c_size_t), part%stream) /= len(header) &
-                .or. header /= self%header) then
+            got = int(c_fread(header, 1_c_size_t, len(header, c_size_t), part%stream))
+            if (header(:got) /= self%header(:got)) then
                 call fail(error, "'"//part%name//"' is of another sweep, or another build of "// &
                           "lagrangia: remove it, or give this sweep another --output", status_file)
                 return
             end if
+            part%length = 0
+            if (got < len(header)) return  ! the sweep ended before all of it was written
             part%length = len(header)
             do
                 place = part%length

@@ -74,13 +74,14 @@ module lagrangia_workers
 
 contains
 
-    subroutine share_work(work, most, error)
+    subroutine share_work(work, most, error, used)
         !! Compute all pieces, each as soon as a process is free. Where the system allows no other
         !! process, this one computes them.
         class(work_t), intent(inout) :: work  !! hands out pieces and takes what they give
         integer, intent(in) :: most  !! processes that compute at a time, at least 1
         type(error_t), allocatable, intent(out) :: error
         !! interrupted; what `take` says; a process ended before its answer was whole
+        integer, intent(out), optional :: used  !! processes that computed: no more than pieces
         type(worker_t), allocatable :: workers(:)
         integer(i8) :: number
         integer :: count
@@ -97,6 +98,7 @@ contains
                 call work%next(number)
             end do
         end if
+        if (present(used)) used = max(1, count)
         if (count == 0) call work_alone(work, number, error)
         do while (any(workers(:count)%number > 0))
             call take_answers(work, workers(:count), number, error)
