@@ -205,28 +205,41 @@ contains
         class(displaced_t), intent(in) :: self
         real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
         real(dp), intent(out) :: a(lanes, self%ndof)
-        real(dp), dimension(lanes, self%ndof/2) :: backward, forward, step_q, step_v
-        real(dp) :: h
-        integer :: i, n
+        integer :: n
 
         n = self%ndof/2
         call self%of%accelerations_lanes(t, q(:, :n), v(:, :n), a(:, :n))
         if (self%exact%known) then
             call self%exact%change_lanes(t, q(:, :n), v(:, :n), q(:, n + 1:), v(:, n + 1:), &
                                          a(:, n + 1:))
-            return
+        else
+            call differences(self, n, t, q, v, a(:, n + 1:))
         end if
+    end subroutine accelerations_lanes
+
+    pure subroutine differences(self, n, t, q, v, change)
+        !! The derivative by central differences, in lanes. Its arrays take memory, which costs as
+        !! much as an evaluation where it is not needed.
+        class(displaced_t), intent(in) :: self
+        integer, intent(in) :: n
+        real(dp), intent(in) :: t(lanes), q(lanes, 2*n), v(lanes, 2*n)
+        real(dp), intent(out) :: change(lanes, n)
+        real(dp), dimension(lanes, n) :: backward, forward, step_q, step_v
+        real(dp) :: h(lanes)
+        integer :: i
+
         do i = 1, lanes
-            h = self%size*epsilon(h)**(1.0_dp/3.0_dp) &
-                /max(norm2([q(i, n + 1:), v(i, n + 1:)]), tiny(h))
-            step_q(i, :) = h*q(i, n + 1:)
-            step_v(i, :) = h*v(i, n + 1:)
-            a(i, n + 1:) = 2.0_dp*h
+            h(i) = self%size*epsilon(h)**(1.0_dp/3.0_dp) &
+                   /max(norm2([q(i, n + 1:), v(i, n + 1:)]), tiny(h))
+            step_q(i, :) = h(i)*q(i, n + 1:)
+            step_v(i, :) = h(i)*v(i, n + 1:)
         end do
         call self%of%accelerations_lanes(t, q(:, :n) + step_q, v(:, :n) + step_v, forward)
         call self%of%accelerations_lanes(t, q(:, :n) - step_q, v(:, :n) - step_v, backward)
-        a(:, n + 1:) = (forward - backward)/a(:, n + 1:)
-    end subroutine accelerations_lanes
+        do i = 1, n
+            change(:, i) = (forward(:, i) - backward(:, i))/(2.0_dp*h)
+        end do
+    end subroutine differences
 
     pure function lagrangian(self, t, q, v) result(l)
         !! See `system_t`: the displacement has none that is needed.
