@@ -62,6 +62,7 @@ module suites
     use test_exact_maps, only: exact_maps_suite
     use test_failure_contract, only: failure_contract_suite
     use test_film, only: film_suite
+    use test_folding, only: folding_suite
     use test_forced_oscillation, only: forced_oscillation_suite
     use test_formula_fuzz, only: formula_fuzz_suite
     use test_formula_latex, only: formula_latex_suite
@@ -278,6 +279,7 @@ contains
         call suite%addTest(exact_maps_suite())
         call suite%addTest(failure_contract_suite())
         call suite%addTest(film_suite())
+        call suite%addTest(folding_suite())
         call suite%addTest(formula_fuzz_suite())
         call suite%addTest(forced_oscillation_suite())
         call suite%addTest(formula_latex_suite())

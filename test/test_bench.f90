@@ -167,24 +167,37 @@ contains
 
     subroutine tables_are_lines_and_objects()
         !! Words to the left, numbers to the right; in JSON all digits, and null for what is not
-        !! known. More rows than there was room for.
+        !! known. More rows than there was room for. Where a line is too short, parts with the names
+        !! of the rows before each.
         type(printed_table_t) :: table
+        type(word_t), allocatable :: lines(:)
         integer :: i
 
         call table%begin("demo", "a title", [character(8) :: "method", "us", "count"])
         call table%add([word_cell("rk4"), number_cell(1.5_dp, 3), count_cell(12_i8)])
         call table%add([word_cell("gauss16"), number_cell(not_known(), 3), count_cell(1_i8)])
-        call assertEqual("method     us  count", table%head())
-        call assertEqual("rk4      1.50     12", table%line(1))
-        call assertEqual("gauss16     -      1", table%line(2))
+        call table%lines(huge(1), lines)
+        call assertEqual(3, size(lines))
+        call assertEqual("method     us  count", lines(1)%text)
+        call assertEqual("rk4      1.50     12", lines(2)%text)
+        call assertEqual("gauss16     -      1", lines(3)%text)
+        call table%lines(20, lines)
+        call assertEqual(3, size(lines), "20 columns")
+        call table%lines(19, lines)
+        call assertEqual(7, size(lines), "19 columns")
+        call assertEqual("gauss16     -", lines(3)%text)
+        call assertEqual("", lines(4)%text)
+        call assertEqual("method   count", lines(5)%text)
+        call assertEqual("rk4         12", lines(6)%text)
         call assertEqual('{"table": "demo", "method": "gauss16", "us": null, "count": 1}', &
                          table%object(2))
         do i = 1, 40
             call table%add([word_cell("more"), number_cell(real(i, dp), 3), count_cell(int(i, i8))])
         end do
         call assertEqual(42, table%rows)
-        call assertEqual("rk4      1.50     12", table%line(1))
-        call assertEqual("more     40.0     40", table%line(42))
+        call table%lines(huge(1), lines)
+        call assertEqual("rk4      1.50     12", lines(2)%text)
+        call assertEqual("more     40.0     40", lines(43)%text)
     end subroutine tables_are_lines_and_objects
 
     subroutine debug_builds_are_refused()

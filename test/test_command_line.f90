@@ -252,7 +252,7 @@ contains
         character(:), allocatable :: text
         integer :: i, k
 
-        text = help_text(1)
+        text = help_text(1, 80)
         do i = 1, size(commands)
             call assertTrue(index(text, trim("lagrangia "//commands(i)%name)) > 0, &
                             trim(commands(i)%name))
@@ -263,7 +263,7 @@ contains
             call assertTrue(index(text, "  --"//trim(options(k)%name)) > 0, trim(options(k)%name))
         end do
         do i = 2, size(commands)
-            text = help_text(i)
+            text = help_text(i, 80)
             do k = 1, size(options)
                 if (options(k)%name == "help" .or. options(k)%name == "version") cycle
                 call assertTrue(index(text, "  --"//trim(options(k)%name)//" ") + &

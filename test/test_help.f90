@@ -39,7 +39,7 @@ contains
         integer :: i
 
         do i = 1, size(commands)
-            rest = help_text(i)
+            rest = help_text(i, 80)
             do while (len(rest) > 0)
                 line = rest(:index(rest, lf) - 1)
                 call assertTrue(len(line) <= 80, line)
@@ -60,7 +60,7 @@ contains
         do i = 1, size(pages)
             call assertTrue(any(commands%name == pages(i)%name), pages(i)%name)
             call assertTrue(pages(i)%examples(1) /= "", pages(i)%name)
-            call assertTrue(index(help_text(findloc(commands%name, pages(i)%name, 1)), &
+            call assertTrue(index(help_text(findloc(commands%name, pages(i)%name, 1), 80), &
                                   "examples:"//lf//"  "//trim(pages(i)%examples(1))//lf) > 0, &
                             pages(i)%name)
         end do

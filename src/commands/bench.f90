@@ -3,8 +3,8 @@ module lagrangia_bench
     use lagrangia_bench_files, only: check_bench_files, write_bench_files
     use lagrangia_bench_options, only: bench_options_t, parts, read_options
     use lagrangia_bench_problems, only: bench_problem_t, read_problems
-    use lagrangia_command_line, only: command_line_t
-    use lagrangia_console, only: console_failed, flush_console, put_line
+    use lagrangia_command_line, only: command_line_t, word_t
+    use lagrangia_console, only: console_failed, flush_console, line_width, put_line
     use lagrangia_contestant, only: contestant_box_t
     use lagrangia_contestants, only: new_contestants
     use lagrangia_energy_bench, only: measure_energy
@@ -159,6 +159,7 @@ contains
         class(output_t), intent(inout) :: self
         type(printed_table_t), intent(in) :: table
         type(progress_t), intent(inout) :: progress
+        type(word_t), allocatable :: lines(:)
         integer :: i
 
         call progress%clear()
@@ -170,9 +171,9 @@ contains
         else if (.not. (self%quiet .or. table%silent)) then
             call put_line("")
             call put_line(trim(table%title))
-            call put_line("  "//table%head())
-            do i = 1, table%rows
-                call put_line("  "//table%line(i))
+            call table%lines(line_width() - 2, lines)
+            do i = 1, size(lines)
+                call put_line(repeat(" ", merge(2, 0, lines(i)%text /= ""))//lines(i)%text)
             end do
         end if
         call flush_console()

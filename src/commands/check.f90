@@ -4,13 +4,15 @@ module lagrangia_check
     use lagrangia_audit, only: audit_system
     use lagrangia_catalogue, only: new_system, system_names
     use lagrangia_command_line, only: command_line_t, word_t
-    use lagrangia_console, only: console_failed, flush_console, note, put_line, rewrites_lines
+    use lagrangia_console, only: console_failed, flush_console, note, put_line, put_row, &
+        rewrites_lines
     use lagrangia_description, only: described_by, description_t, name_length
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_ledger, only: ledger_t
-    use lagrangia_ledger_text, only: residual_head, residual_json, residual_line
+    use lagrangia_ledger_text, only: residual_columns, residual_head, residual_json, &
+        residual_line, residual_name
     use lagrangia_method_orders, only: audit_methods
     use lagrangia_namelist, only: apply_override, get_reals, has_key, namelist_t, &
                                   parse_namelist, refuse_unknown_groups, refuse_unknown_keys, &
@@ -89,7 +91,7 @@ contains
 
             if (.not. (json .or. quiet)) then
                 if (shown > 0) call put_line("")
-                call put_line(residual_head(name))
+                call put_row(residual_head(name), residual_name, residual_columns)
             end if
             call flush_console()
         end subroutine put_head
@@ -111,7 +113,7 @@ contains
 
             call progress%clear()
             do k = shown + 1, merge(shown, size(audit%rows), json .or. quiet)
-                call put_line(residual_line(audit%rows(k)))
+                call put_row(residual_line(audit%rows(k)), residual_name, residual_columns)
                 if (audit%rows(k)%remark /= "") call put_line("      "//trim(audit%rows(k)%remark))
             end do
             shown = size(audit%rows)

@@ -5,7 +5,7 @@ module lagrangia_compare
     use lagrangia_animation, only: animate_both
     use lagrangia_changed_scene, only: make_own_scene
     use lagrangia_command_line, only: command_line_t, word_t
-    use lagrangia_console, only: note, put_line
+    use lagrangia_console, only: line_width, note, put_line
     use lagrangia_data_files, only: check_format, film_path, script_path
     use lagrangia_errors, only: error_t, fail, is_signal
     use lagrangia_gnuplot, only: panel_t, series_t
@@ -267,6 +267,7 @@ contains
         type(compared_t), intent(in) :: runs(:)
         type(outcome_t), intent(in) :: outcomes(:)
         type(printed_table_t) :: table
+        type(word_t), allocatable :: lines(:)
         character(16) :: names(6)
         integer :: i
 
@@ -288,9 +289,9 @@ contains
                             error_cell(outcomes(i)), number_cell(outcomes(i)%seconds, 2)])
         end do
         call put_line(trim(table%title))
-        call put_line("  "//table%head())
-        do i = 1, table%rows
-            call put_line("  "//table%line(i))
+        call table%lines(line_width() - 2, lines)
+        do i = 1, size(lines)
+            call put_line(repeat(" ", merge(2, 0, lines(i)%text /= ""))//lines(i)%text)
         end do
     end subroutine put_results
 

@@ -3,7 +3,7 @@ module lagrangia_help
     use lagrangia_catalogue, only: system_names
     use lagrangia_command_line, only: command_line_t, option_t
     use lagrangia_command_pages, only: pages
-    use lagrangia_console, only: put
+    use lagrangia_console, only: line_width, put
     use lagrangia_errors, only: error_t, fail
     use lagrangia_names, only: name_length, nearest_name
     use lagrangia_registry, only: accepts, commands, options, usage
@@ -14,7 +14,7 @@ module lagrangia_help
     private
     public :: exit_status_text, help_command, help_text, value_words
 
-    integer, parameter :: width = 80, indentation = 27
+    integer, parameter :: indentation = 27
     character(*), parameter :: exit_status_text = "0 all is well, 1 a check or tolerance did "// &
         "not hold, 2 usage or scene error, 3 the numbers failed, 4 LAPACK or GSL refused, 5 "// &
         "file error, 128 + n signal n (130 interrupted, 141 the reader of a pipe has gone, 143 "// &
@@ -47,15 +47,17 @@ contains
                 end if
             end associate
         end if
-        call put(help_text(which))
+        call put(help_text(which, line_width()))
     end subroutine help_command
 
-    function help_text(which) result(text)
+    function help_text(which, most) result(text)
         !! Help for one command (`which` > 1) or for all.
         integer, intent(in) :: which  !! of `commands`
+        integer, intent(in) :: most   !! columns of a line; of more than 80 the rest stays empty
         character(:), allocatable :: text
-        integer :: i, page
+        integer :: i, page, width
 
+        width = max(60, min(80, most))
         text = ""
         page = 0
         if (which > 1) then
@@ -70,7 +72,8 @@ contains
             end if
             call add_values(which)
         else
-            call add("lagrangia: the systems of a classical-mechanics course, run and checked")
+            call add_item("", "lagrangia: the systems of a classical-mechanics course, run and "// &
+                          "checked", 0)
             call add("")
             call add("usage: lagrangia [command] [options]")
             call add("")

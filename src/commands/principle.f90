@@ -2,14 +2,15 @@ module lagrangia_principle
     !! `lagrangia principle NAME`: both sides of a principle's statement, their difference,
     !! and its picture as files: the data, and the gnuplot script beside it.
     use lagrangia_command_line, only: command_line_t
-    use lagrangia_console, only: put_line
+    use lagrangia_console, only: put_line, put_row
     use lagrangia_data_files, only: data_path, script_path
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_gnuplot, only: gnuplot_script, new_panels, new_series, panel_t, &
                                  series_t
     use lagrangia_json, only: json_object, json_pair
     use lagrangia_ledger, only: group_length
-    use lagrangia_ledger_text, only: statement_head, statement_json, statement_line
+    use lagrangia_ledger_text, only: statement_columns, statement_head, statement_json, &
+        statement_line, statement_name
     use lagrangia_output_file, only: commit_both, output_file_t, refuse_unwritable
     use lagrangia_output_options, only: show_picture, take_folder, take_picture
     use lagrangia_places, only: places_t
@@ -115,9 +116,9 @@ contains
                 heading = report%rows(i)%group
                 if (i > 1 .or. report%title /= "") call put_line("")
                 call put_line(trim(heading))
-                call put_line(statement_head())
+                call put_row(statement_head(), statement_name, statement_columns)
             end if
-            call put_line(statement_line(report%rows(i)))
+            call put_row(statement_line(report%rows(i)), statement_name, statement_columns)
         end do
         call put_line("")
         do i = 1, size(report%notes)

@@ -8,7 +8,7 @@ module lagrangia_program
     use lagrangia_command_line, only: command_line_t, command_words, parse_words, word_t
     use lagrangia_compare, only: compare_command
     use lagrangia_completion, only: completion_command
-    use lagrangia_console, only: finish_console, note, put, put_line, say_at_once
+    use lagrangia_console, only: finish_console, fold_lines, line_width, note, put, put_line, say_at_once
     use lagrangia_course_command, only: course_command
     use lagrangia_derive, only: derive_command
     use lagrangia_describe, only: describe_command
@@ -94,11 +94,12 @@ contains
         call check_line(line, which, error)
         if (allocated(error)) return
         call catch_interrupts(c_funloc(give_up))
+        if (.not. (line%has("json") .or. line%has("latex"))) call fold_lines()
         if (line%has("version")) then
             call put_line("lagrangia "//version)
             call put_line(build_text())
         else if (line%has("help")) then
-            call put(help_text(which))
+            call put(help_text(which, line_width()))
         else
             select case (commands(which)%name)
             case ("check"); call check_command(line, error)

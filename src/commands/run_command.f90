@@ -3,7 +3,7 @@ module lagrangia_run_command
     use lagrangia_animation, only: animate_scene
     use lagrangia_changed_scene, only: make_own_scene
     use lagrangia_command_line, only: command_line_t, word_t
-    use lagrangia_console, only: note, put, put_line
+    use lagrangia_console, only: note, put_line, put_lines
     use lagrangia_data_files, only: check_format, data_path, film_path, &
                                     picture_path, script_path
     use lagrangia_errors, only: error_t, fail, is_signal, status_not_held
@@ -127,10 +127,10 @@ contains
             call put_line("]")
         else if (.not. quiet) then
             call put_line("")
-            call put(scorecard_legend)
+            call put_lines(scorecard_legend)
             if (line%command == "") call put_line("'lagrangia run NAME' says more: steps, "// &
                                                   "period, omega")
-            if (stated) call put(final_values_legend//new_line("a"))
+            if (stated) call put_lines(final_values_legend)
             call put_line(files_line(line)//": "//folder)
             if (line%has("overlay") .and. .not. allocated(error)) call put_line( &
                 "all in one picture: "//overlay_file(folder, kind, line%has("plot")))

@@ -1,7 +1,7 @@
 module lagrangia_stress
     !! `lagrangia stress [ROW...]`: numerical stability, a table for each row.
     use lagrangia_command_line, only: command_line_t
-    use lagrangia_console, only: console_failed, flush_console, put_line
+    use lagrangia_console, only: console_failed, flush_console, put_line, put_row
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_ledger, only: claim_t, ledger_t
     use lagrangia_ledger_text, only: measured_json, measured_line
@@ -97,7 +97,7 @@ contains
         call put_line(trim(row%name)//": "//trim(row%title))
         call put_line("  "//trim(row%meaning))
         do i = 1, size(list)
-            call put_line(measured_line(list(i), wide))
+            call put_row(measured_line(list(i), wide), sum(wide) + 6, sum(wide) + 40)
         end do
     end subroutine put_table
 

@@ -10,7 +10,7 @@ module lagrangia_c_library
               c_fread_reals, c_free, c_fseek, c_fwrite, c_fwrite_reals, c_getpid, c_getppid, &
               c_getrlimit, c_isatty, c_kill, c_lstat, c_malloc, c_mkdir, c_pipe, c_poll, &
               c_realpath, c_remove, c_rename, c_signal, c_stat, c_statvfs, c_strerror, c_strlen, &
-              c_waitpid, c_write, poll_t
+              c_terminal_columns, c_waitpid, c_write, poll_t
 
     type, bind(c) :: poll_t
         !! C's `struct pollfd`.
@@ -148,6 +148,14 @@ module lagrangia_c_library
             integer(c_int), value :: descriptor
             integer(c_int) :: yes
         end function c_isatty
+
+        function c_terminal_columns(descriptor) &
+            bind(c, name="lagrangia_terminal_columns") result(columns)
+            import :: c_int
+            implicit none (type, external)
+            integer(c_int), value :: descriptor
+            integer(c_int) :: columns  !! 0: it does not say; -1: there is no terminal
+        end function c_terminal_columns
 
         function c_rename(old, new) bind(c, name="rename") result(status)
             import :: c_char, c_int

@@ -5,18 +5,22 @@ module lagrangia_console
     !! Do not mix with `print` and `write (output_unit, ...)`: their buffer is another one.
     use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_null_char, c_null_ptr, c_ptr, &
         c_size_t
-    use lagrangia_c_library, only: c_fdopen, c_fflush, c_fwrite, c_isatty, c_write
+    use lagrangia_c_library, only: c_fdopen, c_fflush, c_fwrite, c_isatty, &
+        c_terminal_columns, c_write
     use lagrangia_characters, only: printable
     use lagrangia_errors, only: error_t, fail, message_length, status_file, status_pipe
     use lagrangia_files, only: e_bad_unit, e_broken_pipe, last_error, reason
-    use lagrangia_text, only: shortened
+    use lagrangia_folding, only: folded
+    use lagrangia_text, only: shortened, word_t
     implicit none (type, external)
     private
-    public :: console_failed, finish_console, flush_console, note, put, put_line, rewrites_lines, &
-              say_at_once, show_progress
+    public :: console_failed, finish_console, flush_console, fold_lines, line_width, note, put, &
+              put_line, put_lines, put_row, rewrites_lines, say_at_once, show_progress
 
     type(c_ptr) :: stream = c_null_ptr  !! C's `FILE *` for stdout
     integer :: failure = 0              !! the system's number of the first failure
+    integer :: columns = huge(1)        !! of a line on stdout
+    integer, parameter :: least_columns = 20  !! of less nothing could be made
 
 contains
 
@@ -38,11 +42,74 @@ contains
     end subroutine put
 
     subroutine put_line(text)
-        !! Write `text` as one line to stdout, whatever is in it: see `printable`.
+        !! Write `text` as one line to stdout, whatever is in it: see `printable`. Behind
+        !! `fold_lines` a terminal gets as many lines as it takes.
         character(*), intent(in) :: text  !! without a newline
+        type(word_t), allocatable :: lines(:)
+        integer :: i
 
-        call put(printable(text)//new_line("a"))
+        if (len(text) <= columns) then
+            call put(printable(text)//new_line("a"))
+            return
+        end if
+        call folded(printable(text), columns, lines)
+        do i = 1, size(lines)
+            call put(lines(i)%text//new_line("a"))
+        end do
     end subroutine put_line
+
+    subroutine put_lines(text)
+        !! Write each line of `text` as `put_line` does.
+        character(*), intent(in) :: text  !! a newline behind each line
+        integer :: first, last
+
+        first = 1
+        do while (first <= len(text))
+            last = first + index(text(first:)//new_line("a"), new_line("a")) - 2
+            call put_line(text(first:last))
+            first = last + 2
+        end do
+    end subroutine put_lines
+
+    subroutine put_row(text, name, most)
+        !! Write a row of a table. Where the terminal is narrower than the table, what stands
+        !! behind the name goes on a line of its own, in all rows alike.
+        character(*), intent(in) :: text  !! without a newline
+        integer, intent(in) :: name       !! columns of the name
+        integer, intent(in) :: most       !! columns of the table
+
+        if (most <= columns .or. len(text) <= name) then
+            call put_line(text)
+            return
+        end if
+        if (text(:name) /= "") call put_line(trim(text(:name)))
+        call put_line("    "//text(name + 1:))
+    end subroutine put_row
+
+    subroutine fold_lines()
+        !! From now on no line on a terminal is wider than that: for text that people read. The
+        !! variable COLUMNS goes before what the terminal says; 80 where neither says anything.
+        character(8) :: value
+        integer :: number, status
+
+        number = int(c_terminal_columns(1_c_int))
+        if (number < 0) return
+        columns = number
+        call get_environment_variable("COLUMNS", value, status=status)
+        if (status == 0 .and. value /= "" .and. verify(trim(value), "0123456789") == 0) then
+            read (value, *, iostat=status) number
+            if (status == 0 .and. number > 0) columns = number
+        end if
+        if (columns == 0) columns = 80
+        columns = max(columns, least_columns)
+    end subroutine fold_lines
+
+    function line_width()
+        !! Columns of a line on stdout; the largest number where lines are not folded.
+        integer :: line_width
+
+        line_width = columns
+    end function line_width
 
     subroutine note(text)
         !! Write the one line `lagrangia: text` to stderr, in at most 300 bytes, whatever is in it:

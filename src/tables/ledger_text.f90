@@ -12,8 +12,13 @@ module lagrangia_ledger_text
     public :: residual_head, residual_json, residual_line
     public :: statement_head, statement_json, statement_line
     public :: allowed, measured_json, measured_line, verdict
+    public :: residual_columns, residual_name, statement_columns, statement_name
 
     integer, parameter :: residual_width = 40
+    integer, parameter :: residual_name = residual_width + 2        !! columns of the name
+    integer, parameter :: residual_columns = residual_name + 38     !! of a whole line
+    integer, parameter :: statement_name = claim_length             !! columns of the name
+    integer, parameter :: statement_columns = statement_name + 54   !! of a whole line
 
 contains
 
@@ -22,7 +27,7 @@ contains
         character(*), intent(in) :: system  !! its name
         character(:), allocatable :: line
 
-        line = left(system, residual_width + 2)//"   worst   noise   bound states"
+        line = left(system, residual_name)//"   worst   noise   bound states"
     end function residual_head
 
     pure function residual_line(row) result(line)

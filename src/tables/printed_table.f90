@@ -7,7 +7,7 @@ module lagrangia_printed_table
     use lagrangia_json, only: json_item, json_number, json_object, json_string
     use lagrangia_kinds, only: dp, i8
     use lagrangia_number_text, only: scientific
-    use lagrangia_text, only: to_text
+    use lagrangia_text, only: to_text, word_t
     implicit none (type, external)
     private
     public :: printed_table_t, cell_t
@@ -37,8 +37,7 @@ module lagrangia_printed_table
     contains
         procedure :: begin
         procedure :: add
-        procedure :: head
-        procedure :: line
+        procedure :: lines
         procedure :: object
     end type printed_table_t
 
@@ -75,49 +74,77 @@ contains
         self%row(self%rows)%cells(:self%columns) = cells
     end subroutine add
 
-    pure function head(self) result(text)
-        !! The titles over the columns.
+    pure subroutine lines(self, width, text)
+        !! The titles over the columns, and the rows. A table that is wider is cut into parts, one
+        !! below the other, each with the names of the rows: the words that its columns begin with.
         class(printed_table_t), intent(in) :: self
-        character(:), allocatable :: text
+        integer, intent(in) :: width                       !! columns of a line
+        type(word_t), allocatable, intent(out) :: text(:)  !! an empty line between two parts
+        integer :: first(most_columns), last(most_columns), wide(most_columns)
+        integer :: i, k, names, parts, n
 
-        text = aligned(self, self%names(:self%columns))
-    end function head
-
-    pure function line(self, i) result(text)
-        !! Row `i`.
-        class(printed_table_t), intent(in) :: self
-        integer, intent(in) :: i  !! from 1 to `rows`
-        character(:), allocatable :: text
-        character(width) :: words(self%columns)
-
-        words = self%row(i)%cells(:self%columns)%shown
-        text = aligned(self, words)
-    end function line
-
-    pure function aligned(self, words) result(text)
-        !! One word a column, two blanks behind each; numbers to the right.
-        class(printed_table_t), intent(in) :: self
-        character(*), intent(in) :: words(:)
-        character(:), allocatable :: text
-        logical :: word
-        integer :: k, most
-
-        text = ""
         do k = 1, self%columns
-            most = len_trim(self%names(k))
-            word = .true.
-            if (self%rows > 0) then
-                most = max(most, maxval(len_trim(self%row(:self%rows)%cells(k)%shown)))
-                word = self%row(1)%cells(k)%word
-            end if
-            if (word) then
-                text = text//left(words(k), most + 2)
-            else
-                text = text//repeat(" ", most - len_trim(words(k)))//trim(words(k))//"  "
-            end if
+            wide(k) = len_trim(self%names(k)) + 2
+            if (self%rows > 0) wide(k) = max(wide(k), 2 + &
+                                             maxval(len_trim(self%row(:self%rows)%cells(k)%shown)))
         end do
-        text = trim(text)
-    end function aligned
+        names = 1
+        do k = 2, self%columns
+            if (.not. is_word(self, k) .or. sum(wide(:k)) > width/2) exit
+            names = k
+        end do
+        parts = 1
+        first(1) = names + 1
+        do k = names + 1, self%columns
+            n = sum(wide(:names)) + sum(wide(first(parts):k)) - 2  ! no blanks at the end
+            if (n > width .and. k > first(parts)) then
+                parts = parts + 1
+                first(parts) = k
+            end if
+            last(parts) = k
+        end do
+        if (self%columns == names) last(1) = names
+        allocate (text(parts*(self%rows + 2) - 1))
+        n = 0
+        do i = 1, parts
+            n = n + 1
+            if (i > 1) text(n)%text = ""
+            if (i > 1) n = n + 1
+            text(n)%text = aligned(self%names)
+            do k = 1, self%rows
+                n = n + 1
+                text(n)%text = aligned(self%row(k)%cells%shown)
+            end do
+        end do
+    contains
+        pure function aligned(words) result(line)
+            !! One word a column, two blanks behind each; numbers to the right.
+            character(*), intent(in) :: words(:)
+            character(:), allocatable :: line
+            integer :: j
+
+            line = ""
+            do j = 1, last(i)
+                if (j > names .and. j < first(i)) cycle
+                if (is_word(self, j)) then
+                    line = line//left(words(j), wide(j))
+                else
+                    line = line//repeat(" ", wide(j) - 2 - len_trim(words(j)))//trim(words(j))//"  "
+                end if
+            end do
+            line = trim(line)
+        end function aligned
+    end subroutine lines
+
+    pure function is_word(self, k) result(yes)
+        !! Whether a column holds words, which stand to the left; one without rows does.
+        class(printed_table_t), intent(in) :: self
+        integer, intent(in) :: k
+        logical :: yes
+
+        yes = .true.
+        if (self%rows > 0) yes = self%row(1)%cells(k)%word
+    end function is_word
 
     pure function left(text, width) result(cell)
         !! `text` without trailing blanks in `width` columns, and at least one blank behind it.
