@@ -714,7 +714,14 @@ refuses 2 "--set goes with one scene" check "$spring" pendulum --set spring_pend
 refuses 2 "--set goes with one scene" check methods --set pendulum%l=2
 refuses 2 "--set pendulum%l=-1: &pendulum: l = -1: greater than 0.0 is needed" check pendulum --set pendulum%l=-1
 refuses 2 "event_columns, ...; 'lagrangia describe scene' has all" run pendulum --set scene%foo=1
-refuses 2 "theta4_dot, ...; 'lagrangia describe hanging_chain' has all" run hanging_chain --set scene%columns=foo
+chain="lagrangia describe hanging_chain --set hanging_chain%n=10"
+refuses 2 "theta4_dot, ...; '$chain' has all" run hanging_chain --set scene%columns=foo
+refuses 2 "energy_drift; 'columns' adds others, '$chain' has all" run hanging_chain --set scene%plot=foo
+refuses 2 "did you mean 'theta3', which 'columns' adds?" run hanging_chain --set scene%plot=thta3
+refuses 2 "'theta3' is none of this scene's columns; 'columns' adds it" run hanging_chain --set scene%plot=theta3
+run ${chain#lagrangia }
+check "the command that is named shows the columns of ten bobs" grep -q "theta10_ddot" "$work/out"
+refuses 2 "a sweep cannot change 'hanging_chain%l'; did you mean 'l'?" sweep hanging_chain --over hanging_chain%l=1:2:3 --keep period
 printf '%s\n' "&scene system = 'own', dt = 0.1, duration = 1, q = 20*0 /" "&lagrangian coordinates = 'x_1 .. x_20', parameters = 'k_1 .. k_40'," \
     "  T = 'sum(i, 1, 20, x_i_dot^2)', V = 'sum(i, 1, 40, k_i x_1^2)' /" "&own $(printf 'k_%s = 1, ' $(seq 40)) /" >"$work/own.nml"
 refuses 2 "...; 'lagrangia describe SCENE' has all; parameters are named in &lagrangian: parameters" run "$work/own.nml" --set own%foo=1

@@ -34,9 +34,10 @@ contains
 
     subroutine a_text_goes_on_below_itself()
         !! Below the last cell; indented by two where there is none, or none in the left half.
-        call assertEqual("name  some words|      of a text|", shown("name  some words of a text", 16))
+        call assertEqual("name  some words|      of a text|", &
+                         shown("name  some words of a text", 16))
         call assertEqual("  some words|    of a text|", shown("  some words of a text", 13))
-        call assertEqual("long name|  of a|  row: text|", shown("long name of a row:  text", 12))
+        call assertEqual("long name of|  a row:|  text|", shown("long name of a row:  text", 12))
     end subroutine a_text_goes_on_below_itself
 
     subroutine cells_stay_together()
@@ -46,7 +47,8 @@ contains
 
     subroutine a_long_word_stays_whole()
         !! A path can be copied from the terminal, which folds it as it likes.
-        call assertEqual("file:|  /a/very/long/path|  end|", shown("file: /a/very/long/path end", 8))
+        call assertEqual("file:|  /a/very/long/path|  end|", &
+                         shown("file: /a/very/long/path end", 8))
         call assertEqual("/a/very/long/path|", shown("/a/very/long/path", 8))
     end subroutine a_long_word_stays_whole
 
@@ -76,8 +78,9 @@ contains
             all = ""
             do k = 1, size(lines)
                 all = all//" "//lines(k)%text
-                if (index(trim(adjustl(lines(k)%text)), " ") > 0) &
+                if (index(trim(adjustl(lines(k)%text)), " ") > 0) then
                     call assertTrue(columns_of(lines(k)%text) <= width, text)
+                end if
                 call assertTrue(lines(k)%text == "" .or. verify(lines(min(k, 2))%text, " ") == &
                                 verify(lines(k)%text, " "), text)
             end do

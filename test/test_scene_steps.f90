@@ -140,7 +140,14 @@ contains
                      "event_columns = 'tetha': unknown column 'tetha'; did you mean 'theta'?")
         call refused(scene//"event = 'theta', event_plot = 'theta:tension'", &
                      "event_plot = 'theta:tension': 'tension' is none of this scene's columns; "// &
-                     "there are t, theta; 'columns' or 'event_columns' adds others")
+                     "'event_columns' adds it")
+        call refused(scene//"event = 'theta', event_plot = 'theta:tensoin'", &
+                     "event_plot = 'theta:tensoin': 'tensoin' is none of this scene's columns; "// &
+                     "did you mean 'tension', which 'event_columns' adds?")
+        call refused(scene//"event = 'theta', event_plot = 'foo'", &
+                     "event_plot = 'foo': 'foo' is none of this scene's columns; "// &
+                     "there are t, theta; 'event_columns' adds others, 'lagrangia describe "// &
+                     "pendulum' has all")
         call refused("system = 'bouncing_ball', duration = 1.0, q = -0.1, "//adaptive, &
                      "q = -0.1: violates the constraint, unilateral: y >= 0, lambda >= 0, "// &
                      "lambda y = 0")

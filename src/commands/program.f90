@@ -8,7 +8,8 @@ module lagrangia_program
     use lagrangia_command_line, only: command_line_t, command_words, parse_words, word_t
     use lagrangia_compare, only: compare_command
     use lagrangia_completion, only: completion_command
-    use lagrangia_console, only: finish_console, fold_lines, line_width, note, put, put_line, say_at_once
+    use lagrangia_console, only: finish_console, fold_lines, line_width, note, put, put_line, &
+        say_at_once
     use lagrangia_course_command, only: course_command
     use lagrangia_derive, only: derive_command
     use lagrangia_describe, only: describe_command

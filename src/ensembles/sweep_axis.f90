@@ -204,8 +204,9 @@ contains
         if (i == 0) then
             call system%describe(d)
             call fail(error, "a sweep cannot change "//quoted(name)//"; "// &
-                      advice(name, pack(names, index(names, "q(") /= 1 .and. &
-                                        index(names, "v(") /= 1), described_by(d)))
+                      advice(name(index(name, "%") + 1:), &
+                             pack(names, index(names, "q(") /= 1 .and. index(names, "v(") /= 1), &
+                             described_by(d)))
             return
         end if
         axis%name = targets(i)%name

@@ -2,13 +2,13 @@ module lagrangia_run_plan
     !! Everything that one run of a scene needs. What can be refused before anything is computed or
     !! any file is touched, is refused here, with its place in the scene's file.
     use lagrangia_accuracy, only: plan_finer
-    use lagrangia_columns, only: new_columns, refuse_work
+    use lagrangia_columns, only: column_names, new_columns, refuse_work
     use lagrangia_command_line, only: word_t
     use lagrangia_cross_check, only: new_other_method
-    use lagrangia_description, only: description_t, name_length
+    use lagrangia_description, only: described_by, description_t, name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_exact_motion, only: exact_motion_t
-    use lagrangia_gnuplot, only: new_panels, panel_t
+    use lagrangia_gnuplot, only: new_panels, other_columns_t, panel_t
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp
     use lagrangia_methods, only: exact, new_adaptive, workhorse
@@ -96,6 +96,7 @@ contains
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
         type(description_t) :: d
+        type(other_columns_t) :: others
         integer :: k
 
         associate (scene => plan%scene, record => plan%record)
@@ -118,16 +119,32 @@ contains
             call system%describe(d)
             if (scene%period_of /= "") plan%period%coordinate = &
                 findloc(d%coordinates%name == scene%period_of, .true., 1)
+            call find_others(system, d, plan%error_from > 0, "columns", others)
             call new_panels(scene%plots, scene%columns, record%columns%units(record%shown), &
-                            plan%panels, error)
+                            plan%panels, error, others)
         end associate
     end subroutine make_parts
+
+    pure subroutine find_others(system, d, has_error, key, others)
+        !! What a message about a picture offers.
+        class(system_t), intent(in) :: system
+        type(description_t), intent(in) :: d
+        logical, intent(in) :: has_error    !! `error` is one of them
+        character(*), intent(in) :: key     !! of the scene
+        type(other_columns_t), intent(out) :: others
+
+        others%names = column_names(system, has_error)
+        others%key = key
+        others%shown_by = described_by(d)
+    end subroutine find_others
 
     subroutine new_event_record(plan, system, error)
         !! Who writes the events down, if there are any, and how they are drawn.
         type(run_plan_t), intent(inout) :: plan
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
+        type(description_t) :: d
+        type(other_columns_t) :: others
 
         allocate (plan%event_panels(0))
         if (size(plan%trajectory%events) == 0) return
@@ -136,8 +153,10 @@ contains
             call refuse_work(columns, error)
             if (allocated(error)) error%key = "event_columns"
             if (allocated(error)) return
+            call system%describe(d)
+            call find_others(system, d, .false., "event_columns", others)
             call new_panels(plan%scene%event_plots, names, columns%units(size(names)), &
-                            plan%event_panels, error)
+                            plan%event_panels, error, others)
             if (allocated(error)) error%key = "event_plot"
         end associate
     end subroutine new_event_record

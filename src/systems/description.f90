@@ -321,11 +321,17 @@ contains
     end function value_names
 
     pure function described_by(d) result(command)
-        !! The command that shows all that a system has.
+        !! The command that shows all that a system has. A number of bobs decides how much that is.
         type(description_t), intent(in) :: d  !! of any system
         character(:), allocatable :: command
+        integer :: i
 
         command = "lagrangia describe "//trim(d%name)
+        do i = 1, size(d%parameters)
+            if (.not. d%parameters(i)%whole) cycle
+            command = command//" --set "//trim(d%name)//"%"//trim(d%parameters(i)%name)//"="// &
+                      to_text(nint(d%parameters(i)%value(1)))
+        end do
         if (d%named_in_scene) command = "lagrangia describe SCENE"
     end function described_by
 

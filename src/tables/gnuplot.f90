@@ -8,17 +8,17 @@ module lagrangia_gnuplot
     use lagrangia_gnuplot_panel, only: add_envelopes, curves, dots, draw_panel, variable
     use lagrangia_gnuplot_script, only: begin_script, gnuplot_string, lines_t
     use lagrangia_kinds, only: dp
-    use lagrangia_names, only: advice
+    use lagrangia_names, only: advice, name_length, nearest_name
     use lagrangia_plot_colour, only: colour_panels
     use lagrangia_plot_label, only: is_small
     use lagrangia_plot_panel, only: aspect, is_space, most_curves, panel_t, series_t, &
                                     shape_legend
     use lagrangia_plot_words, only: text_label
-    use lagrangia_text, only: quoted, to_text
+    use lagrangia_text, only: join, quoted, to_text
     use lagrangia_value_range, only: value_range_t
     implicit none (type, external)
     private
-    public :: panel_t, series_t, gnuplot_script, new_panels, new_series
+    public :: panel_t, series_t, gnuplot_script, new_panels, new_series, other_columns_t
     public :: curves, dots
 
     integer, parameter :: text_width = 86        !! characters of a title in its largest type
@@ -34,20 +34,28 @@ module lagrangia_gnuplot
     real(dp), parameter :: wide = 0.45_dp        !! aspect of what is drawn across the picture
     real(dp), parameter :: tallest = 760.0_dp    !! pixels of one panel
 
+    type :: other_columns_t
+        !! Columns that a scene does not have, but may have.
+        character(name_length), allocatable :: names(:)  !! with those that it has, or without them
+        character(:), allocatable :: key                 !! of the scene, which adds them
+        character(:), allocatable :: shown_by            !! a command that shows all
+    end type other_columns_t
+
 contains
 
-    subroutine new_panels(specs, names, units, panels, error)
+    subroutine new_panels(specs, names, units, panels, error, others)
         !! Panels as a scene's `plot` wants them: `'theta'`, `'x:y'`, `'t:theta1+theta2'`; with no
         !! specs, one panel for each unit over the first column, drifts and errors apart.
         character(*), intent(in) :: specs(:), names(:), units(:)  !! `x:y1+y2`; of the columns
         type(panel_t), allocatable, intent(out) :: panels(:)  !! one a spec
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
+        type(other_columns_t), intent(in), optional :: others  !! for the message
         integer :: i, k
 
         allocate (panels(0))
         do i = 1, size(specs)
             panels = [panels, panel_t()]
-            call read_panel(trim(specs(i)), names, panels(i), error)
+            call read_panel(trim(specs(i)), names, panels(i), error, others)
             if (allocated(error)) then
                 error%key = "plot"
                 error%element = i
@@ -67,11 +75,12 @@ contains
         end do
     end subroutine new_panels
 
-    subroutine read_panel(spec, names, panel, error)
+    subroutine read_panel(spec, names, panel, error, others)
         !! `[X:]Y1[+Y2...]`, all of them names of columns.
         character(*), intent(in) :: spec, names(:)
         type(panel_t), intent(inout) :: panel
         type(error_t), allocatable, intent(out) :: error
+        type(other_columns_t), intent(in), optional :: others
         integer :: first, last
 
         first = index(spec, ":") + 1
@@ -98,11 +107,35 @@ contains
                 if (names(column) == name) return
             end do
             near = advice(name, names)
-            if (index(near, "there are") == 1) near = near//"; 'columns' or 'event_columns' "// &
-                                                      "adds others"
+            if (present(others)) near = advice_with(others, name, names)
             call fail(error, quoted(name)//" is none of this scene's columns; "//near)
         end subroutine find
     end subroutine read_panel
+
+    pure function advice_with(others, name, names) result(text)
+        !! The nearest name of a column that there is or may be, or how to see them all.
+        type(other_columns_t), intent(in) :: others
+        character(*), intent(in) :: name, names(:)
+        character(:), allocatable :: text
+        character(name_length) :: all(size(names) + size(others%names))
+        integer, parameter :: most = 80  !! bytes of names
+
+        all(:size(names)) = names
+        all(size(names) + 1:) = others%names
+        text = nearest_name(name, all)
+        if (any(others%names == name)) then
+            text = "'"//others%key//"' adds it"
+        else if (any(names == text) .and. text /= "") then
+            text = "did you mean '"//text//"'?"
+        else if (text /= "") then
+            text = "did you mean '"//text//"', which '"//others%key//"' adds?"
+        else
+            text = join(names, ", ")
+            if (len(text) > most) text = text(:index(text(:most), ", ", back=.true.))//" ..."
+            text = "there are "//text//"; '"//others%key//"' adds others, '"//others%shown_by// &
+                   "' has all"
+        end if
+    end function advice_with
 
     pure subroutine new_series(series, file, reading, names, units, ranges, name)
         !! A data file as a picture needs it.
