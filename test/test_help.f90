@@ -67,7 +67,8 @@ contains
     end subroutine every_command_has_examples
 
     subroutine examples_are_taken()
-        !! By the program: command, options and how many arguments there are.
+        !! By the program: command, options and how many arguments there are. What stands between
+        !! apostrophes is one word.
         type(word_t), allocatable :: words(:)
         type(command_line_t) :: line
         type(error_t), allocatable :: error
@@ -78,6 +79,9 @@ contains
             do k = 1, size(pages(i)%examples)
                 text = trim(pages(i)%examples(k))
                 if (text == "") cycle
+                do first = index(text, "'") + 1, index(text, "'", back=.true.)
+                    if (text(first:first) == " ") text(first:first) = "_"
+                end do
                 first = index(text, "lagrangia ")
                 last = scan(text(first:)//" >", ">&)") + first - 2
                 call wrapped(text(first + len("lagrangia "):min(last, len(text))), 1, words)

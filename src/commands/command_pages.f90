@@ -24,7 +24,8 @@ module lagrangia_command_pages
                "the error; of two methods also a film with one beside the other.", &
                [character(76) :: "lagrangia compare pendulum --methods rk4,verlet --plot", &
                 "lagrangia compare pendulum --methods rk4,verlet --animate "// &
-                "--set scene%dt=0.2", "lagrangia compare pendulum --starts 0:7 --plot", ""]), &
+                "--set scene%dt=0.2", &
+                "lagrangia compare pendulum --starts '1 2 3 0:7' --plot", ""]), &
         page_t("report", "Makes one HTML page of scenes, without a name of all: scorecard, "// &
                "pictures, films, derivations and the slips in the notes. It needs no network "// &
                "and prints well.", &
