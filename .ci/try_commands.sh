@@ -722,6 +722,13 @@ refuses 2 "'theta3' is none of this scene's columns; 'columns' adds it" run hang
 run ${chain#lagrangia }
 check "the command that is named shows the columns of ten bobs" grep -q "theta10_ddot" "$work/out"
 refuses 2 "a sweep cannot change 'hanging_chain%l'; did you mean 'l'?" sweep hanging_chain --over hanging_chain%l=1:2:3 --keep period
+run run hanging_chain --set scene%duration=0.1 --animate --quiet --output "$work/whole"
+check "a film says how many bobs there are, by a whole number" grep -q '"n = 10"' "$work/whole/"hanging_chain*.html
+run run duffing --set scene%duration=30 --set scene%samples=30 --quiet --output "$work/whole"
+check "a picture of events says what vanishes" grep -q "where strobe = 0; strobe: zero once in each period of the drive" "$work/whole/"duffing*events.gp
+run sweep basins --over theta=-3:3:5 --over theta_dot=-4:4:5 --output "$work/whole"
+check "attractors are counted" grep -qE "^  attractor  [01] to [12]$" "$work/out"
+check "a sweep says its time in plain digits" grep -qE "^basins: 25 trajectories by rk4 in [0-9.]+(e-[45])? s by" "$work/out"
 printf '%s\n' "&scene system = 'own', dt = 0.1, duration = 1, q = 20*0 /" "&lagrangian coordinates = 'x_1 .. x_20', parameters = 'k_1 .. k_40'," \
     "  T = 'sum(i, 1, 20, x_i_dot^2)', V = 'sum(i, 1, 40, k_i x_1^2)' /" "&own $(printf 'k_%s = 1, ' $(seq 40)) /" >"$work/own.nml"
 refuses 2 "...; 'lagrangia describe SCENE' has all; parameters are named in &lagrangian: parameters" run "$work/own.nml" --set own%foo=1

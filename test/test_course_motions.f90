@@ -319,8 +319,8 @@ contains
     subroutine turning_wire()
         !! From rest on the wire \(r = r_0\cosh wt\); the wire pushes with \(2mw\dot r\), and what
         !! it has done is \(m w^2 r_0^2\sinh^2 wt\), which is also the energy that was gained.
-        real(dp), parameter :: times(3) = [0.0_dp, 0.7_dp, 3.0_dp], w = 1.2_dp, m = 0.5_dp, &
-                               r0 = 0.1_dp
+        real(dp), parameter :: times(3) = [0.0_dp, 0.7_dp, 1.5_dp], w = 1.2_dp, m = 0.5_dp, &
+                               r0 = 0.6_dp
         class(system_t), allocatable :: system
         type(scene_t) :: scene
         real(dp), allocatable :: q(:, :), v(:, :)

@@ -12,11 +12,12 @@ module lagrangia_sweep_command
     use lagrangia_kinds, only: dp, i8
     use lagrangia_namelist, only: has_key, refuse_value
     use lagrangia_number_reader, only: to_integer
-    use lagrangia_number_text, only: field_width, scientific
+    use lagrangia_number_text, only: field_width
     use lagrangia_observer, only: observer_t
     use lagrangia_output_file, only: output_file_t
     use lagrangia_output_options, only: show_picture, take_folder, take_picture
     use lagrangia_places, only: places_t
+    use lagrangia_printed_table, only: in_digits => short
     use lagrangia_progress, only: progress_t
     use lagrangia_resources, only: check_memory
     use lagrangia_scene, only: add_texts, scene_line_length, scene_t, &
@@ -318,14 +319,14 @@ contains
                       trim(merge(" trajectory  ", " trajectories", &
                                  sweep%trajectories() == 1))//" by "// &
                       trim(sweep%scene%method)//" in "// &
-                      scientific(result%seconds, 3)//" s"//how)
+                      in_digits(result%seconds, 3)//" s"//how)
         width = maxval(len_trim(sweep%kept%text)) + 2
         do i = 1, size(sweep%kept)
             call result%range_of(i, found, least, largest)
             associate (kept => sweep%kept(i))
                 if (found > 0) then
-                    call put_line("  "//kept%text(:width)//scientific(least, 6)//" to "// &
-                                  scientific(largest, 6)//trim(" "//unit(kept%unit))// &
+                    call put_line("  "//kept%text(:width)//shown(least)//" to "// &
+                                  shown(largest)//trim(" "//unit(kept%unit))// &
                                   missing(found))
                 else
                     call put_line("  "//kept%text(:width)//"none of them has it")
@@ -335,6 +336,15 @@ contains
         call put_line("data file: "//path)
         call put_line("gnuplot script: "//script_path(path))
     contains
+        pure function shown(number) result(text)
+            !! Attractors are counted.
+            real(dp), intent(in) :: number
+            character(:), allocatable :: text
+
+            text = in_digits(number, 6)
+            if (sweep%kept(i)%text == "attractor") text = to_text(nint(number))
+        end function shown
+
         pure function unit(text)
             character(*), intent(in) :: text
             character(:), allocatable :: unit

@@ -7,7 +7,7 @@ module lagrangia_events
     !! A zero at the very start counts by how the function leaves it: not, for where it came from
     !! is not known. Only a gap that closes at once is an impact at once.
     use lagrangia_columns, only: columns_t, new_columns, refuse_work
-    use lagrangia_description, only: line_length, name_length
+    use lagrangia_description, only: description_t, line_length, name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
     use lagrangia_number_reader, only: read_number
@@ -22,7 +22,7 @@ module lagrangia_events
 
     type, abstract :: event_t
         character(line_length) :: label = ""
-        character(line_length + 40) :: place = ""  !! for a picture: `where theta = 0.5, rising`
+        character(2*line_length) :: place = ""  !! for a picture: `where theta = 0.5, rising`
         integer :: direction = 0        !! 1: rising, -1: falling, 0: any
         logical :: terminal = .false.   !! the run ends here
         logical :: one_sided = .false.  !! an impact: the function cannot become negative
@@ -86,6 +86,7 @@ contains
         character(word_length) :: words(7)
         character(name_length) :: name(1)
         character(:), allocatable :: problem
+        type(description_t) :: d
         integer :: i, count
 
         call split(text, words, count)
@@ -126,6 +127,11 @@ contains
         end do
         if (self%direction > 0) self%place = trim(self%place)//", rising"
         if (self%direction < 0) self%place = trim(self%place)//", falling"
+        call system%describe(d)
+        i = findloc(d%quantities%name == name(1), .true., 1)
+        if (i == 0) return
+        if (d%quantities(i)%meaning /= "") self%place = trim(self%place)//"; "//trim(name(1))// &
+            ": "//d%quantities(i)%meaning
     end subroutine new_column_event
 
     pure function example() result(text)

@@ -142,6 +142,7 @@ contains
                 do k = 1, p%count
                     values = values//" "//to_text(p%value(k))
                 end do
+                if (p%whole) values = " "//to_text(nint(p%value(1)))
                 if (p%unit /= "1") values = values//" "//trim(p%unit)
                 facts = facts//", "//json_string(said(trim(p%name))//" ="//unicode_text(values))
             end associate

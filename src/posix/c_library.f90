@@ -9,8 +9,8 @@ module lagrangia_c_library
               c_fclose, c_fdopen, c_fflush, c_fileno, c_flock, c_fopen, c_fork, c_fread, &
               c_fread_reals, c_free, c_fseek, c_fwrite, c_fwrite_reals, c_getpid, c_getppid, &
               c_getrlimit, c_isatty, c_kill, c_lstat, c_malloc, c_mkdir, c_pipe, c_poll, &
-              c_realpath, c_remove, c_rename, c_signal, c_stat, c_statvfs, c_strerror, c_strlen, &
-              c_terminal_columns, c_waitpid, c_write, poll_t
+              c_realpath, c_remove, c_rename, c_setenv, c_signal, c_stat, c_statvfs, c_strerror, &
+              c_strlen, c_terminal_columns, c_waitpid, c_write, poll_t
 
     type, bind(c) :: poll_t
         !! C's `struct pollfd`.
@@ -284,6 +284,14 @@ module lagrangia_c_library
             integer(c_int), value :: milliseconds  !! negative: wait for ever
             integer(c_int) :: ready                !! -1 on failure, a signal among others
         end function c_poll
+
+        function c_setenv(name, value, overwrite) bind(c, name="setenv") result(status)
+            import :: c_char, c_int
+            implicit none (type, external)
+            character(kind=c_char), intent(in) :: name(*), value(*)
+            integer(c_int), value :: overwrite
+            integer(c_int) :: status
+        end function c_setenv
 
         function c_execvp(file, arguments) bind(c, name="execvp") result(status)
             import :: c_char, c_int, c_ptr

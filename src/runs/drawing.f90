@@ -1,5 +1,7 @@
 module lagrangia_drawing
     !! The pictures that gnuplot makes of data files, by the scripts beside them.
+    use, intrinsic :: iso_c_binding, only: c_int, c_null_char
+    use lagrangia_c_library, only: c_setenv
     use lagrangia_data_files, only: picture_path, pictures, script_path
     use lagrangia_errors, only: error_t, fail, status_file
     use lagrangia_files, only: facts_t, look_at, plain_path, read_whole_file
@@ -40,6 +42,8 @@ contains
         words(5)%text = kind
         words(6)%text = picture%temporary_name()
         bytes = bytes_to_read(script)
+        ! In the locale C gnuplot warns, at each `set encoding`, that it has no degree sign.
+        status = int(c_setenv("LC_ALL"//c_null_char, "C.UTF-8"//c_null_char, 1_c_int))
         status = 0
         call start_program(words, pid, error)
         do while (.not. allocated(error))

@@ -327,12 +327,13 @@ contains
         integer :: i
 
         command = "lagrangia describe "//trim(d%name)
+        if (d%named_in_scene) command = "lagrangia describe SCENE"
+        if (d%named_in_scene .or. .not. allocated(d%parameters)) return
         do i = 1, size(d%parameters)
             if (.not. d%parameters(i)%whole) cycle
             command = command//" --set "//trim(d%name)//"%"//trim(d%parameters(i)%name)//"="// &
                       to_text(nint(d%parameters(i)%value(1)))
         end do
-        if (d%named_in_scene) command = "lagrangia describe SCENE"
     end function described_by
 
     pure function constraint_text(d) result(text)

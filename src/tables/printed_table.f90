@@ -14,11 +14,11 @@ module lagrangia_printed_table
     public :: count_cell, number_cell, word_cell
     public :: left, right, short, two_digits
 
-    integer, parameter :: most_columns = 24, width = 72
+    integer, parameter :: most_columns = 24, width_of_cell = 72
 
     type :: cell_t
-        character(width) :: shown = ""   !! to people
-        character(width) :: json = ""    !! to programs
+        character(width_of_cell) :: shown = ""   !! to people
+        character(width_of_cell) :: json = ""    !! to programs
         logical :: word = .false.        !! stands to the left
     end type cell_t
 
@@ -28,10 +28,10 @@ module lagrangia_printed_table
 
     type :: printed_table_t
         !! One table.
-        character(width) :: name = ""                  !! key of its rows in JSON
+        character(width_of_cell) :: name = ""                  !! key of its rows in JSON
         character(200) :: title = ""
         integer :: columns = 0, rows = 0
-        character(width) :: names(most_columns) = ""
+        character(width_of_cell) :: names(most_columns) = ""
         type(row_t), allocatable :: row(:)
         logical :: silent = .false.                    !! in JSON only: too long to be read
     contains
@@ -81,6 +81,7 @@ contains
         integer, intent(in) :: width                       !! columns of a line
         type(word_t), allocatable, intent(out) :: text(:)  !! an empty line between two parts
         integer :: first(most_columns), last(most_columns), wide(most_columns)
+        character(width_of_cell) :: words(most_columns)
         integer :: i, k, names, parts, n
 
         do k = 1, self%columns
@@ -113,7 +114,8 @@ contains
             text(n)%text = aligned(self%names)
             do k = 1, self%rows
                 n = n + 1
-                text(n)%text = aligned(self%row(k)%cells%shown)
+                words = self%row(k)%cells%shown
+                text(n)%text = aligned(words)
             end do
         end do
     contains
@@ -221,7 +223,7 @@ contains
         real(dp), intent(in) :: number  !! `-` where it is not finite
         integer, intent(in) :: digits  !! significant ones
         character(:), allocatable :: text
-        character(width) :: buffer
+        character(width_of_cell) :: buffer
         character(16) :: layout
         integer :: behind, exponent
 
