@@ -17,7 +17,7 @@ module lagrangia_variational
     use lagrangia_symbols, only: symbols_t
     use lagrangia_system, only: system_t
     use lagrangia_written_motion, only: derive_motion, solve_motion, written_motion_t
-    use lagrangia_written_system, only: are_positive, written_system_t
+    use lagrangia_written_system, only: is_positive, written_system_t
     implicit none (type, external)
     private
     public :: variational_t, new_variational
@@ -221,7 +221,7 @@ contains
         call self%motion%evaluate(values, results)
         a = results(:, :n)
         do i = 1, lanes
-            if (are_positive(results(i, n + 1:2*n), results(i, 2*n + 1:))) cycle
+            if (all(is_positive(results(i, n + 1:2*n), results(i, 2*n + 1:), n))) cycle
             call set_to_nan(a(i, :))
         end do
     end subroutine accelerations_lanes

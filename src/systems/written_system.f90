@@ -22,7 +22,7 @@ module lagrangia_written_system
     use lagrangia_written_quantities, only: find_conserved
     implicit none (type, external)
     private
-    public :: are_positive, new_written_system, written_system_t
+    public :: is_positive, new_written_system, written_system_t
     public :: of_momentum, of_quantity
 
     ! programs of a system
@@ -226,10 +226,43 @@ contains
     end subroutine generalised_forces
 
     pure subroutine accelerations(self, t, q, v, a)
-        !! See `system_t`; NaN where a pivot is not positive.
+        !! See `system_t`; NaN where a pivot is not positive. Of up to two coordinates number by
+        !! number: a loop over so few, which becomes a call of memcpy, costs more than it does.
         class(written_system_t), intent(in) :: self
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
         real(dp), intent(out) :: a(self%ndof)
+        real(dp) :: values(5), results(6)
+        logical :: yes
+
+        values(1) = t
+        values(2) = q(1)
+        select case (self%ndof)
+        case (1)
+            values(3) = v(1)
+            call self%programs(of_motion)%evaluate(values, results)
+            a(1) = results(1)
+            yes = is_positive(results(2), results(3), 1)
+        case (2)
+            values(3) = q(2)
+            values(4) = v(1)
+            values(5) = v(2)
+            call self%programs(of_motion)%evaluate(values, results)
+            a(1) = results(1)
+            a(2) = results(2)
+            yes = is_positive(results(3), results(5), 2) .and. &
+                  is_positive(results(4), results(6), 2)
+        case default
+            call accelerations_of_many(self, t, q, v, a, yes)
+        end select
+        if (.not. yes) call set_to_nan(a)
+    end subroutine accelerations
+
+    pure subroutine accelerations_of_many(self, t, q, v, a, yes)
+        !! Of any number of coordinates; `yes`: all pivots are positive.
+        type(written_system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
+        real(dp), intent(out) :: a(self%ndof)
+        logical, intent(out) :: yes
         real(dp) :: values(1 + 2*self%ndof), results(3*self%ndof)
         integer :: n
 
@@ -239,23 +272,18 @@ contains
         values(2 + n:) = v
         call self%programs(of_motion)%evaluate(values, results)
         a = results(:n)
-        if (are_positive(results(n + 1:2*n), results(2*n + 1:))) return
-        call set_to_nan(a)
-    end subroutine accelerations
+        yes = all(is_positive(results(n + 1:2*n), results(2*n + 1:), n))
+    end subroutine accelerations_of_many
 
-    pure function are_positive(pivots, diagonal) result(yes)
-        !! None of the pivots is only rounding beside the mass matrix's diagonal.
-        real(dp), intent(in) :: pivots(:)    !! of its elimination
-        real(dp), intent(in) :: diagonal(:)  !! what each of them was before
+    elemental function is_positive(pivot, diagonal, n) result(yes)
+        !! It is not only rounding beside the mass matrix's diagonal.
+        real(dp), intent(in) :: pivot     !! of its elimination
+        real(dp), intent(in) :: diagonal  !! what it was before
+        integer, intent(in) :: n          !! rows of the matrix
         logical :: yes
-        integer :: i
 
-        yes = .false.
-        do i = 1, size(pivots)
-            if (.not. pivots(i) > max(0.0_dp, 2*size(pivots)*epsilon(pivots)*diagonal(i))) return
-        end do
-        yes = .true.
-    end function are_positive
+        yes = pivot > max(0.0_dp, 2*n*epsilon(pivot)*diagonal)
+    end function is_positive
 
     pure subroutine set_to_nan(a)
         !! Apart from what is called often: gfortran saves and restores the processor's flags around
@@ -280,7 +308,7 @@ contains
         call self%programs(of_motion)%evaluate(values, results)
         a = results(:, :n)
         do i = 1, lanes
-            if (are_positive(results(i, n + 1:2*n), results(i, 2*n + 1:))) cycle
+            if (all(is_positive(results(i, n + 1:2*n), results(i, 2*n + 1:), n))) cycle
             call set_to_nan(a(i, :))
         end do
     end subroutine accelerations_lanes
@@ -311,7 +339,7 @@ contains
         end if
         call self%programs(of_inverse)%evaluate([t, q, p], results)
         v = results(:n)
-        if (.not. are_positive(results(n + 1:2*n), results(2*n + 1:))) call set_to_nan(v)
+        if (.not. all(is_positive(results(n + 1:2*n), results(2*n + 1:), n))) call set_to_nan(v)
     end subroutine velocities
 
     pure subroutine invert_by_newton(self, t, q, p, v)
