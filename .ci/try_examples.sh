@@ -64,6 +64,9 @@ check "installed: nothing of lagrangia is compiled again" eval '[ "$(find data/e
 mkdir "$work/elsewhere"
 (cd "$work/elsewhere" && "$work/prefix/bin/lagrangia" run pendulum) >"$work/out" 2>"$work/err"
 check "installed: a scene by its name, from any folder" eval 'grep -q "^pendulum .* holds$" "$work/out" && [ -s "$work/elsewhere/data/output/pendulum.dat" ]'
+python3 .ci/try_fortran.py "$work/prefix" >"$work/written" || failures=$((failures + 1))
+sed '$d' "$work/written"
+count=$((count + $(grep -c . "$work/written") - 1))
 
 # Systems of one's own
 cd data/examples/spherical_pendulum || exit 2

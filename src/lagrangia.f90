@@ -42,7 +42,7 @@ module lagrangia
                                    operator(+), operator(-), operator(/), operator(<), &
                                    operator(>), sin, sinh, sqrt, sum, tan, tanh
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
-    use lagrangia_kinds, only: dp, i8
+    use lagrangia_kinds, only: dp, i8, lanes
     use lagrangia_lagrange, only: accelerations_from_lagrangian, energy_from_lagrangian, &
                                   energy_rate, euler_lagrange_t, expand_lagrangian
     use lagrangia_lagrangian_system, only: lagrangian_system_t
@@ -53,6 +53,7 @@ module lagrangia
     use lagrangia_program, only: lagrangia_main
     use lagrangia_recorder, only: recorder_t
     use lagrangia_reference, only: reference_t
+    use lagrangia_sine_cosine, only: sine_cosine
     use lagrangia_small_oscillations, only: find_modes, modes_t
     use lagrangia_solve, only: solve
     use lagrangia_system, only: check_parameters, default_values, reduced_t, system_t

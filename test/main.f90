@@ -68,6 +68,7 @@ module suites
     use test_formula_latex, only: formula_latex_suite
     use test_formula_parser, only: formula_parser_suite
     use test_formula_program, only: formula_program_suite
+    use test_fortran_module, only: fortran_module_suite
     use test_gauge, only: gauge_suite
     use test_gauss, only: gauss_suite
     use test_gauss_adaptive, only: gauss_adaptive_suite
@@ -285,6 +286,7 @@ contains
         call suite%addTest(formula_latex_suite())
         call suite%addTest(formula_parser_suite())
         call suite%addTest(formula_program_suite())
+        call suite%addTest(fortran_module_suite())
         call suite%addTest(gauge_suite())
         call suite%addTest(gauss_suite())
         call suite%addTest(gauss_adaptive_suite())

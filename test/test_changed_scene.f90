@@ -220,6 +220,10 @@ contains
         call assertEqual("t, x, x_dot, energy, energy_drift, error", join(scene%columns, ", "))
         call assertEqual("its energy is conserved now; left out of the file's scene: "// &
                          "expect_energy_balance_drift", scene%warning)
+        overrides(1)%text = "dry_friction%v0=1e-9"
+        call read_scene("data/scenes/dry_friction.nml", overrides, scene, system, error)
+        call assertFalse(allocated(error), "a friction that is always the same")
+        if (.not. allocated(error)) call assertTrue(system%velocity_forces, "it turns round with v")
         overrides(1)%text = "dry_friction%mu=0"
         call read_scene("data/scenes/dry_friction.nml", overrides, scene, system, error)
         call assertEqual("t, x, x_dot, energy_drift", join(scene%columns, ", "))

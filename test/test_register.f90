@@ -114,8 +114,10 @@ contains
         call refused(own_named_t(name=" own"), "system ' own': ' own' is no name: "//small)
         call refused(own_named_t(name=long), "system '"//long//"': the name is too long, or "// &
                      "was cut off: at most 31 characters")
-        call refused(own_named_t(parameter="M"), "system 'own': 'M' is no name: "//small)
+        call refused(own_named_t(parameter="_m"), "system 'own': '_m' is no name: letters, "// &
+                     "digits and _ make one, a letter first")
         call refused(own_named_t(parameter="l"), "system 'own': two parameters are called 'l'")
+        call refused(own_named_t(parameter="L"), "system 'own': two parameters are called 'l'")
         call refused(own_named_t(coordinate="my angle"), "system 'own': 'my angle' is no "// &
                      "name: letters, digits and _ make one, a letter first")
         call refused(own_named_t(coordinate="t"), "system 'own': two columns are called 't'")

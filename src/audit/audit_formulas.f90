@@ -159,7 +159,7 @@ contains
         integer :: i
 
         allocate (entries(0))
-        if (allocated(d%kinetic_energy) .and. size(masses_of(d)) > 0) then
+        if (allocated(d%kinetic_energy) .and. any(masses_of(d) > 0.0_dp)) then
             if (all(d%points%mass > 0.0_dp)) then
                 call add("T as printed", d%kinetic_energy, is_kinetic, 0)
             else

@@ -88,7 +88,7 @@ contains
             do i = 1, size(q)
                 call table%put("p_"//trim(d%coordinates(i)%name), not_followed(p(i)))
             end do
-            if (system%nonconservative) then
+            if (system%nonconservative .or. allocated(d%generalised_forces)) then
                 p = 0.0_dp
                 call add_generalised_forces(system, state%t, q, v, p)
                 do i = 1, size(q)

@@ -5,7 +5,7 @@ module lagrangia_system_validation
     use lagrangia_errors, only: error_t, fail
     use lagrangia_motion_check, only: check_motions
     use lagrangia_system, only: default_values, system_t
-    use lagrangia_text, only: quoted, to_text
+    use lagrangia_text, only: lower, quoted, to_text
     implicit none (type, external)
     private
     public :: validate_system
@@ -96,17 +96,19 @@ contains
     end subroutine check_completeness
 
     pure subroutine check_names(system, d, error)
-        !! Parameters are keys, so in small letters; columns may have capitals. None twice.
+        !! Capitals are allowed. Parameters are keys, which differ by more than capitals.
         class(system_t), intent(in) :: system
         type(description_t), intent(in) :: d
         type(error_t), allocatable, intent(out) :: error
         character(name_length), allocatable :: columns(:)
+        character(name_length) :: keys(size(d%parameters))
         integer :: i
 
         do i = 1, size(d%parameters)
-            call check_name(d%parameters(i)%name, letters, error)
+            call check_name(d%parameters(i)%name, letters//capitals, error)
             if (allocated(error)) return
-            if (all(d%parameters(:i - 1)%name /= d%parameters(i)%name)) cycle
+            keys(i) = lower(d%parameters(i)%name)
+            if (all(keys(:i - 1) /= keys(i))) cycle
             call fail(error, "two parameters are called "//quoted(trim(d%parameters(i)%name)))
             return
         end do

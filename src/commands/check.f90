@@ -22,7 +22,7 @@ module lagrangia_check
     use lagrangia_progress, only: about, progress_t, stage
     use lagrangia_scene_reader, only: names_scene, read_named_system
     use lagrangia_system, only: check_parameter, default_values, system_t
-    use lagrangia_text, only: to_text
+    use lagrangia_text, only: lower, to_text
     implicit none (type, external)
     private
     public :: check_command
@@ -242,15 +242,23 @@ contains
         type(audited_t), allocatable, intent(out) :: audited(:)
         type(error_t), allocatable, intent(out) :: error
         type(namelist_t) :: tree
+        type(description_t) :: d
+        integer :: first  ! that has parameters, so that its group will be asked for
         integer :: i
 
+        first = size(names) + 1
         allocate (audited(size(names)))
         do i = 1, size(names)
             call new_system(trim(names(i)), audited(i)%system, error)
             if (allocated(error)) return
+            call audited(i)%system%describe(d)
+            if (size(d%parameters) > 0) first = min(first, i)
         end do
         if (size(names) == 0) return
-        call parse_namelist("&"//trim(names(1))//" /", "check", tree, error)
+        if (first <= size(names) .or. size(words) > 0) then
+            call parse_namelist("&"//trim(names(min(first, size(names))))//" /", "check", tree, &
+                                error)
+        end if
         if (allocated(error)) return
         do i = 1, size(words)
             call apply_override(tree, words(i)%text, error)
@@ -279,19 +287,21 @@ contains
         allocate (audited%given, source=default_values(d))
         allocate (audited%fixed(size(audited%given)))
         audited%fixed = .false.
+        allocate (keys(size(d%parameters)))
         first = 1
         do i = 1, size(d%parameters)
             associate (p => d%parameters(i), last => first + d%parameters(i)%count - 1)
                 allocate (values, source=p%value(:p%count))
-                call get_reals(tree, trim(d%name), trim(p%name), p%count, p%count, values, error)
-                found = has_key(tree, trim(d%name), trim(p%name))
+                keys(i) = lower(p%name)
+                call get_reals(tree, trim(d%name), trim(keys(i)), p%count, p%count, values, error)
+                found = has_key(tree, trim(d%name), trim(keys(i)))
                 if (allocated(error)) return
                 audited%given(first:last) = values
                 audited%fixed(first:last) = found
                 p%value(:p%count) = values
                 call check_parameter(p, refusal)
                 if (found .and. allocated(refusal)) then
-                    call refuse_value(tree, trim(d%name), trim(p%name), &
+                    call refuse_value(tree, trim(d%name), trim(keys(i)), &
                                       p%domain()//" is needed", error)
                     return
                 end if
@@ -299,8 +309,6 @@ contains
             deallocate (values)
             first = first + d%parameters(i)%count
         end do
-        allocate (keys(size(d%parameters)))
-        keys = d%parameters%name
         call refuse_unknown_keys(tree, trim(d%name), keys, error, &
                                  shown_by=described_by(d))
     end subroutine read_parameters

@@ -88,10 +88,12 @@ module lagrangia_command_pages
                 "lagrangia describe atwood --set atwood%pulley_inertia=0.1", ""]), &
         page_t("derive", "Derives the equations of motion as on the blackboard, from the "// &
                "positions of the masses to omega^2, each line compared with the program's own "// &
-               "numbers. --slip shows what a slip of the notes leads to.", &
+               "numbers. --slip shows what a slip of the notes leads to; --fortran prints "// &
+               "a system in formulas as a module to be compiled.", &
                [character(76) :: "lagrangia derive cart_pendulum", &
                 "lagrangia derive cart_pendulum --slip E1", &
-                "lagrangia derive double_pendulum --latex", ""]), &
+                "lagrangia derive double_pendulum --latex", &
+                "lagrangia derive spring_pendulum --fortran >spring_pendulum.f90"]), &
         page_t("help", "Prints the help of a command, or all commands.", &
                [character(76) :: "lagrangia help run", "lagrangia run --help", "", ""]), &
         page_t("completion", "Prints a script for the shell, made from the table that --help "// &

@@ -14,6 +14,8 @@ module lagrangia_derive
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_formula_latex, only: latex
     use lagrangia_formula_text, only: formula_text
+    use lagrangia_fortran_module, only: write_fortran_module
+    use lagrangia_fortran_statements, only: fortran_lines_t
     use lagrangia_json, only: json_item, json_object, json_pair
     use lagrangia_kinds, only: dp
     use lagrangia_number_text, only: scientific
@@ -22,6 +24,7 @@ module lagrangia_derive
     use lagrangia_system, only: system_t
     use lagrangia_system_lines, only: line_of_system
     use lagrangia_text, only: to_text
+    use lagrangia_written_system, only: written_system_t
     implicit none (type, external)
     private
     public :: derive_command
@@ -45,10 +48,17 @@ contains
             call fail(error, "derive what? 'lagrangia list systems' shows the names")
         else if (line%has("latex") .and. line%has("json")) then
             call fail(error, "the options '--latex' and '--json' do not go together")
+        else if (line%has("fortran") .and. any([line%has("latex"), line%has("json"), &
+                                                line%has("numbers"), line%has("slip")])) then
+            call fail(error, "the option '--fortran' goes with '--set' only")
         end if
         if (allocated(error)) return
         call read_named_system(line%arguments(1)%text, line%values_of("set"), system, error)
         if (allocated(error)) return
+        if (line%has("fortran")) then
+            call put_fortran(system, line%arguments(1)%text, error)
+            return
+        end if
         call system%describe(d)
         if (line%has("slip")) call find_slip(line%value_of("slip", ""), trim(d%name), slip, error)
         if (.not. allocated(error)) call derive(system, slip, derivation, error)
@@ -67,6 +77,29 @@ contains
         call fail(error, trim(d%name)//": a line of the derivation is not what the program "// &
                   "computes", status_not_held)
     end subroutine derive_command
+
+    subroutine put_fortran(system, source, error)
+        !! A module; of a system in formulas, since the others are in Fortran.
+        class(system_t), intent(in) :: system
+        character(*), intent(in) :: source  !! the scene
+        type(error_t), allocatable, intent(out) :: error
+        type(fortran_lines_t) :: lines
+        type(description_t) :: d
+        integer :: i
+
+        select type (system)
+        class is (written_system_t)
+            call write_fortran_module(system, source, lines, error)
+        class default
+            call system%describe(d)
+            call fail(error, trim(d%name)//" is in Fortran already; --fortran is for a scene "// &
+                      "with formulas, such as spring_pendulum")
+        end select
+        if (allocated(error)) return
+        do i = 1, lines%count
+            call put_line(lines%list(i)%text)
+        end do
+    end subroutine put_fortran
 
     subroutine put_text(derivation, comparisons, values, numbers)
         !! For the eye.

@@ -49,6 +49,7 @@ module lagrangia_registry
         option_t("numbers", no_value, "", "each line of a derivation at a random state, twice"), &
         option_t("slip", needs_value, "ID", "derive with this slip of the notes"), &
         option_t("latex", no_value, "", "print LaTeX for slides"), &
+        option_t("fortran", no_value, "", "print a system in formulas as a module"), &
         option_t("json", no_value, "", "print the results as JSON"), &
         option_t("quiet", no_value, "", "print nothing but errors"), &
         option_t("help", no_value, "", "this text, or a command's"), &
@@ -94,7 +95,7 @@ module lagrangia_registry
         command_t("describe", "SYSTEM|SCENE|scene", "L, equations, ...; of the word scene: "// &
                   "every key of a scene", 1, "set", takes="systems scenes scene"), &
         command_t("derive", "SYSTEM|SCENE", "from x(q) to the equations of motion, line by line", &
-                  1, "set numbers slip latex json", takes="systems scenes"), &
+                  1, "set numbers slip latex fortran json", takes="systems scenes"), &
         command_t("help", "[COMMAND]", "what a command is for, with examples", 1, "", &
                   takes="commands"), &
         command_t("completion", "bash|zsh", "a script by which the shell completes our words", 1, &

@@ -233,24 +233,25 @@ contains
         end if
         call system%describe(d)
         allocate (scene%parameters(0))
+        allocate (names(size(d%parameters)))
         do i = 1, size(d%parameters)
             associate (p => d%parameters(i))
                 if (allocated(values)) deallocate (values)
                 allocate (values(p%count), source=p%value(:p%count))
                 if (p%computed /= "") values = ieee_value(values, ieee_quiet_nan)
-                call get_reals(tree, scene%system, trim(p%name), p%count, p%count, values, error)
+                names(i) = lower(p%name)
+                call get_reals(tree, scene%system, trim(names(i)), p%count, p%count, values, error)
                 if (allocated(error)) return
                 p%value(:p%count) = values
                 call check_parameter(p, found)
                 if (allocated(found)) then
-                    call refuse_value(tree, scene%system, trim(p%name), &
+                    call refuse_value(tree, scene%system, trim(names(i)), &
                                       p%domain()//" is needed", error)
                     return
                 end if
                 scene%parameters = [scene%parameters, values]
             end associate
         end do
-        names = d%parameters%name
         call refuse_unknown_keys(tree, scene%system, names, error, &
                                  shown_by=described_by(d))
         if (allocated(error)) return

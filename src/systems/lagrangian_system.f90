@@ -141,7 +141,7 @@ contains
             self%time_dependent = self%time_dependent .or. abs(terms%dl_dt) > 0.0_dp &
                                   .or. any(abs(beside%d1) > 0.0_dp)
             call self%accelerations(t, q, v, a)
-            v = 2.0_dp*v
+            v = -0.5_dp*v  ! a friction that is always the same turns round, too
             call self%accelerations(t, q, v, b)
             if (all(ieee_is_finite([a, b]))) then
                 moves = .true.
