@@ -501,7 +501,8 @@ pairs = re.findall(r"^\$ lagrangia (.*)\n((?:(?!\$ ).*\n)*)", block, re.M)
 got = [subprocess.run([sys.argv[1]] + words.split(), text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE) for words, _ in pairs]
 sys.exit(len(pairs) != 4 or any(g.stdout + g.stderr != text for g, (_, text) in zip(got, pairs)))' "$program"
 printf 'system: pendulum\ntheta_ddot + 3\n' >"$work/sheet"
-refuses 2 "sheet:2: no '='; a statement is 'left = right', not 'theta_ddot + 3'" grade "$work/sheet"
+run grade "$work/sheet"
+check "grade: a line without an equals sign cannot be read, with its column" eval '[ $status -eq 2 ] && grep -q "column [0-9]*: .*=" "$work/out" && grep -q "^1 unreadable" "$work/out"'
 printf 'system: pendulun\ntheta_ddot = 3\n' >"$work/sheet"
 refuses 2 "sheet:1: unknown system 'pendulun'; did you mean 'pendulum'?" grade "$work/sheet"
 refuses 2 "grade what?" grade

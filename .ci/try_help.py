@@ -29,7 +29,7 @@ INSTEAD = {
     ("bench", "systems"): ["steps", "--methods", "rk4", "--quick"], ("bench", "quick"): ["output"], ("sweep", "over"): ["pendulum", "--keep", "period"],
     ("bench", "tolerances"): ["precision", "--problems", "oscillator", "--methods", "gauss16", "--quick"],
     ("bench", "plot"): ["precision", "--problems", "oscillator", "--methods", "rk4", "--quick"],
-    ("sweep", "keep"): ["pendulum", "--over", "q=0.1:1:3"], ("derive", "slip"): ["cart_pendulum"],
+    ("sweep", "keep"): ["pendulum", "--over", "q=0.1:1:3"], ("derive", "slip"): ["cart_pendulum"], ("derive", "fortran"): ["duffing"],
     ("describe", "set"): ["pendulum"], ("report", "set"): ["pendulum"],
 }
 GOOD = {

@@ -196,6 +196,7 @@ module suites
     use test_whole_file, only: whole_file_suite
     use test_work, only: work_suite
     use test_workers, only: workers_suite
+    use test_written_mass, only: written_mass_suite
     use test_written_quantities, only: written_quantities_suite
     use test_written_refusals, only: written_refusals_suite
     use test_written_system, only: written_system_suite
@@ -403,6 +404,7 @@ contains
         call suite%addTest(whole_file_suite())
         call suite%addTest(work_suite())
         call suite%addTest(workers_suite())
+        call suite%addTest(written_mass_suite())
         call suite%addTest(written_quantities_suite())
         call suite%addTest(written_refusals_suite())
         call suite%addTest(written_system_suite())
