@@ -122,7 +122,8 @@ contains
         type(fortran_lines_t) :: lines
 
         call write_of("coordinates = 'x', 'y' parameters = 'k', 'c' "// &
-                      "T = '(x_dot^2 + y_dot^2)/2' V = 'k/2 (x^2 + y^2) + c x^2' quantities = 'L = x y_dot - y x_dot', "// &
+                      "T = '(x_dot^2 + y_dot^2)/2' V = 'k/2 (x^2 + y^2) + c x^2' "// &
+                      "quantities = 'L = x y_dot - y x_dot', "// &
                       "'E = (x_dot^2 + y_dot^2)/2 + k/2 (x^2 + y^2) + c x^2', 'W = x y'", &
                       "k = 2, c = 0", lines)
         call has(lines, "if (allocated(self%p)) d%quantities(3)%conserved = all(abs(self%p - "// &
