@@ -275,8 +275,8 @@ contains
         real(dp) :: together(1, 9), v
         integer(i8) :: failures, first, i
 
-        call make("&scene system = 'thrown', method = 'dop853', tolerance = 1e-9, duration = 5, "// &
-                  "samples = 1, q = 0 / &lagrangian coordinates = 'u [rad]', "// &
+        call make("&scene system = 'thrown', method = 'dop853', tolerance = 1e-9, "// &
+                  "duration = 5, samples = 1, q = 0 / &lagrangian coordinates = 'u [rad]', "// &
                   "L = 'u_dot^2/2 - u' /", ["u_dot=2.3:2.7:9"], ["flip u"], sweep)
         call compute_lanes(sweep, 1_i8, 9_i8, together, failures, first)
         call assertEqual(5, count(ieee_is_nan(together)), "not beyond")
