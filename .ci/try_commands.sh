@@ -665,7 +665,8 @@ if command -v gnuplot >/dev/null; then
     status=$?
     check "a folder called <touch: drawn, nothing is run" eval '[ $status -eq 0 ] && [ -n "$(find "$work/<touch owned;true " -name "*.svg" -size +0)" ] && [ ! -e "$work/owned" ]'
 fi
-for words in list "describe pendulum" errata "errata E1" principle "principle gauge" "check pendulum" "modes pendulum" "run pendulum --output $work/o" --help; do
+printf "&scene system = 'own' dt = 0.1 duration = 1 q = 1.0 /&lagrangian coordinates = 'x' L = 'x_dot^2/2 - x^2/2' /" >"$work/untitled.nml"
+for words in list "describe pendulum" "describe $work/untitled.nml" "derive $work/untitled.nml" "derive $work/untitled.nml --fortran" "modes $work/untitled.nml" "check $work/untitled.nml" errata "errata E1" principle "principle gauge" "check pendulum" "modes pendulum" "run pendulum --output $work/o" --help; do
     run $words
     check "$words: no line ends with a blank" eval '! grep -q " $" "$work/out"'
     check "$words: no empty line first, last, or beside another" eval '[ $status -eq 0 ] && [ -n "$(head -n 1 "$work/out")" ] && [ -n "$(tail -n 1 "$work/out")" ] && [ "$(cat -s "$work/out")" = "$(cat "$work/out")" ]'

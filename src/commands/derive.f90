@@ -108,10 +108,13 @@ contains
         real(dp), intent(in) :: values(:)
         logical, intent(in) :: numbers
         logical :: slipped, true_so_far
+        character(:), allocatable :: heading
         integer :: at, digits, i, step
 
         digits = merge(16, 6, numbers)
-        call put_line(trim(derivation%d%name)//": "//trim(derivation%d%title))
+        heading = trim(derivation%d%name)
+        if (derivation%d%title /= "") heading = heading//": "//trim(derivation%d%title)
+        call put_line(heading)
         if (line_of_system(trim(derivation%d%name)) /= "") then
             call put_line(line_of_system(trim(derivation%d%name)))
         end if
