@@ -151,7 +151,7 @@ for block in blocks:
         bad += 1
         print(f"in no source:\n{block}")
 print(f"{commands} commands, {len(blocks)} pieces of code, {bad} differ")
-sys.exit(bad > 0 or commands != 15 or len(blocks) != 4)
+sys.exit(bad > 0 or commands != 16 or len(blocks) != 4)
 END
 }
 root=$(realpath ../../..)

@@ -135,6 +135,8 @@ contains
         !! At terms and commas, not in brackets within brackets, nor in texts; quotes are doubled.
         type(fortran_lines_t) :: lines
         character(*), parameter :: words = "twenty-five characters, a"
+        character(:), allocatable :: all_of_them, line
+        integer :: first, i
 
         call lines%add(8, "x = "//repeat("abcdefghij*", 4)//"klm + "//repeat("nop(q, r)*", 5)//"s")
         call assertEqual("        x = "//repeat("abcdefghij*", 4)//"klm &", lines%list(1)%text)
@@ -147,5 +149,17 @@ contains
         call lines%add(4, "!! "//repeat(words//" ", 5))
         call assertEqual("    !! "//repeat(words//" ", 3)//"twenty-five", lines%list(3)%text)
         call assertEqual("    !! characters, a "//words, lines%list(4)%text)
+        call lines%assign(0, "x", repeat("a(b + c) - ", 900)//"d")
+        call assertEqual("x = a(b + c) - a(b + c)", lines%list(5)%text(:23))
+        all_of_them = ""
+        do i = 5, lines%count
+            line = trim(adjustl(lines%list(i)%text))
+            if (line(len(line):) == "&") line = line(:len(line) - 1)
+            all_of_them = all_of_them//trim(line)//" "
+        end do
+        first = index(all_of_them, " x = x ")
+        call assertTrue(first > 8000, "a second statement")
+        call assertEqual("x = "//repeat("a(b + c) - ", 900)//"d", &
+                         all_of_them(:first)//trim(all_of_them(first + 7:)))
     end subroutine long_lines_are_broken
 end module test_fortran_module

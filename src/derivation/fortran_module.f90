@@ -163,7 +163,7 @@ contains
                              "type(hyperdual_t) :: value"], lines)
         call open_names(d, names, .true., .false., lines)
         call fortran_text(system%expressions%lagrangian, names, text)
-        call lines%add(12, "value = "//text)
+        call lines%assign(12, "value", text)
         call lines%add(8, "end associate")
         call lines%add(4, "end function lagrangian")
     end subroutine add_lagrangian
@@ -186,7 +186,7 @@ contains
         call open_names(d, names, .true., .false., lines)
         do i = 1, size(d%coordinates)
             call fortran_text(system%expressions%forces(i), names, text)
-            call lines%add(12, "f("//to_text(i)//") = "//text)
+            call lines%assign(12, "f("//to_text(i)//")", text)
         end do
         call lines%add(8, "end associate")
         call lines%add(4, "end subroutine generalised_forces")
@@ -264,7 +264,7 @@ contains
                              "real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)", &
                              "real(dp) :: value"], lines)
         call open_names(d, names, .true., .false., lines)
-        call lines%add(12, "value = "//text)
+        call lines%assign(12, "value", text)
         call lines%add(8, "end associate")
         call lines%add(4, "end function energy")
     end subroutine add_energy
@@ -289,7 +289,7 @@ contains
         do i = 1, size(d%coordinates)
             momentum = simplified(system%motion%momenta(i), system%expressions%symbols)
             call fortran_text(momentum, names, text)
-            call lines%add(12, "p("//to_text(i)//") = "//text)
+            call lines%assign(12, "p("//to_text(i)//")", text)
         end do
         call lines%add(8, "end associate")
         call lines%add(4, "end subroutine momenta")
@@ -317,7 +317,7 @@ contains
         do i = 1, size(system%expressions%quantities)
             call fortran_text(system%expressions%quantities(i), names, text)
             call lines%add(12, "case ("//to_text(n + i)//")")
-            call lines%add(16, "value = "//text)
+            call lines%assign(16, "value", text)
         end do
         call lines%add(12, "case default")
         call lines%add(16, "call self%momenta(t, q, v, p)")
@@ -346,7 +346,7 @@ contains
         do i = 1, size(d%points)
             do k = 1, 3
                 call fortran_text(system%expressions%places(3*i - 3 + k), names, text)
-                call lines%add(12, "r("//to_text(k)//", "//to_text(i)//") = "//text)
+                call lines%assign(12, "r("//to_text(k)//", "//to_text(i)//")", text)
             end do
         end do
         call lines%add(8, "end associate")

@@ -192,16 +192,33 @@ contains
             end do
             if (size(items) > 0) call add_list(8, "letters", "", items, lines)
         end if
-        if (allocated(d%kinetic_energy)) call lines%add(8, "d%kinetic_energy = "// &
-                                                        literal(d%kinetic_energy))
-        if (allocated(d%potential_energy)) call lines%add(8, "d%potential_energy = "// &
-                                                          literal(d%potential_energy))
-        if (allocated(d%lagrangian)) call lines%add(8, "d%lagrangian = "//literal(d%lagrangian))
-        if (allocated(d%energy)) call lines%add(8, "d%energy = "//literal(d%energy))
+        if (allocated(d%kinetic_energy)) call add_text("kinetic_energy", d%kinetic_energy)
+        if (allocated(d%potential_energy)) call add_text("potential_energy", d%potential_energy)
+        if (allocated(d%lagrangian)) call add_text("lagrangian", d%lagrangian)
+        if (allocated(d%energy)) call add_text("energy", d%energy)
         if (allocated(d%generalised_forces)) call add_texts("generalised_forces", &
                                                             d%generalised_forces)
         if (allocated(d%equations)) call add_texts("equations", d%equations)
     contains
+        subroutine add_text(component, text)
+            !! Of any length.
+            character(*), intent(in) :: component, text
+            integer, parameter :: longest = 5000  ! characters in one statement
+            character(:), allocatable :: before
+            integer :: first, last
+
+            before = "d%"//component//" = "
+            first = 1
+            do
+                last = min(first + longest - 1, len_trim(text))
+                last = len_trim(text(:last))  ! no blank at the end of a piece
+                call lines%add(8, before//literal(text(first:last)))
+                if (last == len_trim(text)) exit
+                first = last + 1
+                before = "d%"//component//" = d%"//component//"//"
+            end do
+        end subroutine add_text
+
         subroutine add_texts(component, texts)
             !! `character(formula_length)` each.
             character(*), intent(in) :: component, texts(:)

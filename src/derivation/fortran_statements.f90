@@ -7,6 +7,7 @@ module lagrangia_fortran_statements
     public :: literal
 
     integer, parameter :: widest = 98           !! characters of a line before ` &`
+    integer, parameter :: longest_sum = 8000    !! characters of one statement
     integer, parameter :: longest_literal = 50  !! characters in one pair of quotes
 
     type :: fortran_lines_t
@@ -16,6 +17,7 @@ module lagrangia_fortran_statements
         integer :: longest = 0                !! lines of the longest statement
     contains
         procedure :: add
+        procedure :: assign
         procedure, private :: append
     end type fortran_lines_t
 
@@ -49,6 +51,29 @@ contains
         call self%append(head//rest)
         self%longest = max(self%longest, lines)
     end subroutine add
+
+    pure subroutine assign(self, indentation, name, total)
+        !! A variable becomes a sum; a long one in several statements, its terms in their order.
+        class(fortran_lines_t), intent(inout) :: self
+        integer, intent(in) :: indentation        !! columns
+        character(*), intent(in) :: name, total   !! left and right side
+        character(:), allocatable :: before
+        integer :: depth, first, i
+
+        depth = 0
+        first = 1
+        before = name//" = "
+        do i = 2, len(total) - 1
+            if (total(i - 1:i - 1) == "(") depth = depth + 1
+            if (total(i - 1:i - 1) == ")") depth = depth - 1
+            if (depth > 0 .or. i - first < longest_sum) cycle
+            if (all(total(i - 1:i + 1) /= [" + ", " - "])) cycle
+            call self%add(indentation, before//total(first:i - 2))
+            before = name//" = "//name//" "
+            first = i
+        end do
+        call self%add(indentation, before//total(first:))
+    end subroutine assign
 
     pure subroutine append(self, line)
         !! A line at the end.
