@@ -21,6 +21,7 @@ module test_derivation_rest
 
     character, parameter :: line_feed = new_line("a")
     character(*), parameter :: one = "coordinates = 'x' ", two = "coordinates = 'x', 'y' "
+    character(*), parameter :: three = "coordinates = 'x', 'y', 'z' "
 
 contains
 
@@ -31,6 +32,7 @@ contains
         suite = TestSuite("derivation_rest")
         call suite%addTest(TestMethod("drag_of_one_coordinate", drag_of_one_coordinate))
         call suite%addTest(TestMethod("drag_of_two", drag_of_two))
+        call suite%addTest(TestMethod("one_of_three_is_unstable", one_of_three_is_unstable))
         call suite%addTest(TestMethod("places_that_are_not_zero", places_that_are_not_zero))
         call suite%addTest(TestMethod("places_are_refused", places_are_refused))
         call suite%addTest(TestMethod("no_such_angle", no_such_angle))
@@ -50,6 +52,7 @@ contains
 
         start = "1.0"
         if (index(formulas, two) == 1 .or. index(formulas, "'r', 'theta'") > 0) start = "1.0, 0.5"
+        if (index(formulas, three) == 1) start = "1.0, 0.5, 0.3"
         call parse_scene("&scene system = 'own' dt = 0.1 duration = 1.0 q = "//start//" /"// &
                          line_feed//"&lagrangian "//formulas//" parameters = 'm', 'k', 'b', "// &
                          "'w' domain = 'm > 0', 'k > 0', 'b > 0', 'w > 0' /"//line_feed// &
@@ -123,6 +126,13 @@ contains
                    "q goes as exp(Lambda t): det(Lambda^2 M + Lambda B + K) = 0")
         call holds(two//"T = 'm/2 ((x_dot - w y)^2 + (y_dot + w x)^2)'", "omega^2 = w^2")
     end subroutine drag_of_two
+
+    subroutine one_of_three_is_unstable()
+        !! The polynomial of \(\omega^2\) holds where \(\omega\) is imaginary, too.
+        call holds(three//"T = 'm/2 (x_dot^2 + 2 y_dot^2 + 3 z_dot^2 + x_dot y_dot)' "// &
+                   "V = 'k/2 (x^2 + 2 y^2 - 3 z^2 + x z)'", "K33 = -3 k|"// &
+                   "21 m^3 omega^6 - 27 m^2 k omega^4 - 26 m k^2 omega^2 + 26 k^3 = 0")
+    end subroutine one_of_three_is_unstable
 
     subroutine places_that_are_not_zero()
         !! Those that the scene says; one that is none is called wrong, and one that is not said is

@@ -4,11 +4,11 @@ module lagrangia_derivation_rest
     use lagrangia_damped_rates, only: damped_rates, damping_matrix
     use lagrangia_derivation, only: derivation_t, line_damped_omega2, line_decay, &
                                     line_equilibrium, line_gyroscopic, line_linear, line_omega2, &
-                                    line_rates, &
-                                    line_rest_mass, line_stiffness, line_t
+                                    line_rates, line_rest_mass, line_stiffness, line_t
     use lagrangia_equilibrium, only: stiffness_beside
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: function_value
+    use lagrangia_expression, only: expression_t, function_value, kind_negation, kind_number, &
+                                    kind_power, kind_symbol
     use lagrangia_formula_size, only: evaluate
     use lagrangia_kinds, only: dp
     use lagrangia_small_oscillations, only: modes_t
@@ -87,8 +87,12 @@ contains
             c%noise = huge(c%noise)
             c%formula = 0.0_dp
             do k = 1, size(modes%omega2)
-                values(derivation%omega()) = sqrt(max(0.0_dp, modes%omega2(k)))
-                call evaluate(line%right, values, value, noise)
+                values(derivation%omega()) = sqrt(abs(modes%omega2(k)))
+                if (modes%omega2(k) < 0.0_dp) then
+                    call evaluate(imaginary(line%right, derivation%omega()), values, value, noise)
+                else
+                    call evaluate(line%right, values, value, noise)
+                end if
                 if (abs(value)*c%noise < abs(c%formula)*noise) cycle
                 c%formula = value
                 c%noise = 64.0_dp*noise
@@ -96,6 +100,37 @@ contains
         end select
         c%noise = c%noise + 64.0_dp*epsilon(1.0_dp)*abs(c%program)
     end subroutine compare_modes
+
+    pure function imaginary(polynomial, omega) result(turned)
+        !! A polynomial of \(\omega^2\) with \(i\omega\) for \(\omega\): \((i\omega)^m =
+        !! (-1)^{m/2}\omega^m\).
+        type(expression_t), intent(in) :: polynomial
+        integer, intent(in) :: omega  !! which symbol
+        type(expression_t) :: turned
+        integer :: place(0:polynomial%count), i, node
+
+        place(0) = 0
+        do i = 1, polynomial%count
+            associate (this => polynomial%nodes(i))
+                select case (this%kind)
+                case (kind_number)
+                    call turned%add_number(this%number, place(i))
+                case (kind_symbol)
+                    call turned%add_symbol(this%which, place(i))
+                case default
+                    call turned%add_operation(this%kind, place(this%left), place(this%right), &
+                                              place(i), this%which)
+                end select
+                if (this%kind /= kind_power) cycle
+                associate (base => polynomial%nodes(this%left), m => polynomial%nodes(this%right))
+                    if (base%kind /= kind_symbol .or. base%which /= omega) cycle
+                    if (mod(nint(m%number%value), 4) /= 2) cycle
+                end associate
+                call turned%add_operation(kind_negation, place(i), 0, node)
+                place(i) = node
+            end associate
+        end do
+    end function imaginary
 
     subroutine compare_linear(derivation, system, modes, values, line, c)
         !! Row i of \(M\ddot q + (G + C)\dot q + Kq\), less as much of row k as takes
