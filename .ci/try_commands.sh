@@ -554,6 +554,8 @@ refuses 2 "did you mean 'wedge'?" describe wegde
 refuses 2 "unknown format 'txt'" run pendulum --format txt
 refuses 2 "needs a value" run pendulum --set
 refuses 2 "these methods work" run cart_pendulum --set scene%method=verlet --output "$work/none"
+printf "&scene system = 'pendulum' dt = 0.1 duration = 1 q = 1.0 /&lagrangian coordinates = 'x' L = 'x_dot^2/2' /" >"$work/taken.nml"
+refuses 2 "system = 'pendulum': is a system that the program has; leave &lagrangian out" run "$work/taken.nml" --output "$work/none"
 refuses 2 "alpha = 2: from 0.0 to pi/2 is needed" run wedge --set wedge%alpha=2 --output "$work/none"
 refuses 2 " of pendulum are one file: one would be lost" run pendulum pendulum_rotation --set scene%output=a --output "$work/none"
 refuses 2 "given twice, as 'a' and 'b'" run pendulum --output a --output=b

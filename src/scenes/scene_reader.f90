@@ -276,8 +276,8 @@ contains
         integer :: i
 
         if (any(system_names() == scene%system)) then
-            call refuse_value(tree, "scene", "system", "is a system of the lectures; give that "// &
-                              "of &lagrangian another name", error)
+            call refuse_value(tree, "scene", "system", "is a system that the program has; "// &
+                              "leave &lagrangian out, or give its system another name", error)
         else if (any(["scene     ", "methods   ", "lagrangian", "sweep     "] == scene%system)) then
             call refuse_value(tree, "scene", "system", "is the name of something else; give "// &
                               "the system of &lagrangian another one", error)
