@@ -80,6 +80,8 @@ contains
         call has(lines, "force2 = -m*g*l*sine1")
         call has(lines, "sine1 = sin(theta)")
         call has(lines, "call sine_cosine(angle1, sine1, cosine1)")
+        call has(lines, "real(dp) :: a1, force1, mass1_1, mass1_2, a2, force2, mass2_2, sine1, "// &
+                 "factor")
         call has(lines, "factor = mass1_2/mass1_1")
         call has(lines, "force2 = force2 - factor*force1")
         call has(lines, "mass2_2 = mass2_2 - factor*mass1_2")

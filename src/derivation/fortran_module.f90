@@ -200,7 +200,7 @@ contains
         type(fortran_lines_t), intent(inout) :: lines
         type(word_t), allocatable :: names(:)
         type(motion_statements_t) :: body
-        character(:), allocatable :: kind, name, of, number, purpose, time
+        character(:), allocatable :: kind, name, name_of, of, number, purpose, time
         character(80) :: arguments(2)
         integer :: i
 
@@ -232,8 +232,12 @@ contains
                 call lines%add(12, "call sine_cosine(angle"//number//", sine"//number// &
                                ", cosine"//number//")")
             else
-                call lines%add(12, "sine"//number//" = sin("//body%angles(i)%text//")")
-                call lines%add(12, "cosine"//number//" = cos("//body%angles(i)%text//")")
+                name_of = "sine"//number
+                if (body%mentions(name_of)) call lines%add(12, name_of//" = sin("// &
+                                                           body%angles(i)%text//")")
+                name_of = "cosine"//number
+                if (body%mentions(name_of)) call lines%add(12, name_of//" = cos("// &
+                                                           body%angles(i)%text//")")
             end if
         end do
         do i = 1, body%count

@@ -22,6 +22,7 @@ module lagrangia_fortran_motion
         logical, allocatable :: mass(:, :)       !! is there this element of M, \(i \le j\)?
     contains
         procedure :: locals
+        procedure :: mentions
         procedure, private :: add
     end type motion_statements_t
 
@@ -119,6 +120,44 @@ contains
         self%list(self%count)%text = statement
     end subroutine add
 
+    pure function mentions(self, name) result(yes)
+        !! Is a sine or cosine in one of the statements, or in another angle?
+        class(motion_statements_t), intent(in) :: self
+        character(*), intent(in) :: name  !! such as `sine1`, which is not in `cosine1` or `sine12`
+        logical :: yes
+        integer :: i
+
+        yes = .false.
+        do i = 1, self%count
+            yes = yes .or. has_name(self%list(i)%text, name)
+        end do
+        do i = 1, size(self%angles)
+            yes = yes .or. has_name(self%angles(i)%text, name)
+        end do
+    end function mentions
+
+    pure function has_name(text, name) result(yes)
+        !! With neither letter nor digit beside it.
+        character(*), intent(in) :: text, name
+        logical :: yes
+        character(*), parameter :: inside = "abcdefghijklmnopqrstuvwxyz_0123456789"
+        character(:), allocatable :: padded
+        integer :: at, first
+
+        padded = " "//text//" "
+        yes = .false.
+        first = 2
+        do
+            at = index(padded(first:), name)
+            if (at == 0) return
+            first = first + at - 1
+            yes = scan(padded(first - 1:first - 1), inside) == 0 .and. &
+                  scan(padded(first + len(name):first + len(name)), inside) == 0
+            if (yes) return
+            first = first + len(name)
+        end do
+    end function has_name
+
     pure function locals(self, lanes) result(text)
         !! The names that the statements need, `a1, force1, mass1_1, sine1`.
         class(motion_statements_t), intent(in) :: self
@@ -136,7 +175,8 @@ contains
         end do
         do i = 1, size(self%angles)
             if (lanes) text = text//", angle"//to_text(i)
-            text = text//", sine"//to_text(i)//", cosine"//to_text(i)
+            if (lanes .or. self%mentions("sine"//to_text(i))) text = text//", sine"//to_text(i)
+            if (lanes .or. self%mentions("cosine"//to_text(i))) text = text//", cosine"//to_text(i)
         end do
         if (self%count > 3*n) text = text//", factor"  ! something was eliminated
         text = text(3:)
