@@ -27,13 +27,14 @@ module test_docs_formulae
 
     character(*), parameter :: syntax(*) = [character(52) :: &
         "lagrangia = { path = ""..."" }", "let NAME = FORMULA", "set: g = 9.81", "a = b", &
-        "a = b = c", "D = theta1 - theta2", "'D = theta1 - theta2'", &
+        "a = b = c", "D = theta1 - theta2", "v^2 = l^2 theta_dot^2", "'D = theta1 - theta2'", &
         "T = 'm/2 r_dot^2', '+ m/2 r^2 theta_dot^2'", "columns = 't', 'theta', ...", &
         "method = 'auto'", "'x^2 + y^2 = l^2'", "'x_dot = r sin(theta) phi_dot'", &
         "'y cos(w t) = x sin(w t)'", "'cos(theta) = g/(w^2 r)'", "'cos(theta) = g/l0'", &
         "'L_z [kg m^2/s] angular momentum = m r^2 theta_dot'", &
         "constraint = 'd_1 .. d_3 = l^2'", "definitions = 'd_1 .. d_3 = (x_(i + 1) - x_i)^2'", &
-        "p_x = const", "T = 2 pi sqrt(l/g)"]
+        "p_x = const", "T = 2 pi sqrt(l/g)", &
+        "g = 4 pi^2 l/T^2"]
     !! spans with '=' that state nothing about a system
 
     character(*), parameter :: spherical = "&scene system = 'spherical', dt = 0.1, "// &

@@ -6,6 +6,8 @@ module test_statement_forms
     use lagrangia_kinds, only: dp
     use lagrangia_random_draws, only: random_t
     use lagrangia_text, only: to_text
+    use traced_sheets, only: traced
+    use traced_sheets, only: traced
     use tried_responses, only: graded
     implicit none (type, external)
     private
@@ -22,6 +24,10 @@ contains
         call suite%addTest(TestMethod("derivatives_of_energies", derivatives_of_energies))
         call suite%addTest(TestMethod("constants_of_the_motion", constants_of_the_motion))
         call suite%addTest(TestMethod("periods_and_motions", periods_and_motions))
+        call suite%addTest(TestMethod("periods_anywhere", periods_anywhere))
+        call suite%addTest(TestMethod("names_of_frequencies", names_of_frequencies))
+        call suite%addTest(TestMethod("names_by_their_square", names_by_their_square))
+        call suite%addTest(TestMethod("true_of_small_motions", true_of_small_motions))
         call suite%addTest(TestMethod("signs_of_word_processors", signs_of_word_processors))
         call suite%addTest(TestMethod("several_letters_are_missing", several_letters_are_missing))
         call suite%addTest(TestMethod("the_same_slip_in_several_places", &
@@ -82,6 +88,72 @@ contains
         call wrong("oscillator", "x = x_dot t", "")
         call wrong("pendulum", "theta_ddot = -1.618034 g/l sin(theta)", "counted 1.618 times")
     end subroutine periods_and_motions
+
+    subroutine periods_anywhere()
+        !! T as a period on either side and in a definition; squares where most equilibria are
+        !! unstable, and whose signs tell nothing.
+        call right("pendulum", "T^2 = 4 pi^2 l/g")
+        call right("pendulum", "g = 4 pi^2 l/T^2")
+        call right("pendulum", "T sqrt(g/l) = 2 pi")
+        call right("pendulum", "1/T = sqrt(g/l)/(2 pi)")
+        call right("pendulum", "omega = 2 pi/T")
+        call wrong("pendulum", "T^2 = 4 pi l/g", "'4 pi l/g' must")
+        call wrong("pendulum", "T = -2 pi sqrt(l/g)", "the sign")
+        call wrong("pendulum", "g = 2 pi^2 l/T^2", "")
+        call traced("rotating_hoop", "rrrrrrwwww0rr0r", "T = 2 pi/sqrt(g/r - omega^2)"// &
+            "; T = 2 pi sqrt(1/(g/r - omega^2)); T^2 = 4 pi^2/(g/r - omega^2)"// &
+            "; (2 pi/T)^2 = g/r - omega^2; T sqrt(g/r - omega^2) = 2 pi"// &
+            "; T^2 (g/r - omega^2) = 4 pi^2; T = 2 pi/sqrt(g/r + omega^2)"// &
+            "; T = 4 pi/sqrt(g/r - omega^2); T = -2 pi/sqrt(g/r - omega^2)"// &
+            "; Omega = -sqrt(g/r - omega^2); f = 1/T; 4 pi^2 f^2 = g/r - omega^2"// &
+            "; f = sqrt(g/r - omega^2)/(2 pi); K = T"// &
+            "; K = m r^2/2 (theta_dot^2 + omega^2 sin(theta)^2)")
+    end subroutine periods_anywhere
+
+    subroutine names_of_frequencies()
+        !! `omega_1`, `T_1`, `f` are judged where they are what they are called, and else new names.
+        character(*), parameter :: new = " taken for a new name: no small oscillation has this "
+
+        call traced("double_pendulum", "00rrr00w", "omega_3^2 = g/l1; omega_1 = theta1_dot"// &
+            "; omega_3^2 = g/l1; omega_1 = theta1_dot; omega_3 = sqrt(g/l1)"// &
+            "; T_4 = 2 pi sqrt(2 l1/g); f = sqrt(g/l1); omega_3^2 = 2 g/l1", &
+            remarks="1"//new//"frequency; 6"//new//"period; 7"//new//"frequency")
+        call traced("coupled_oscillators", "rrrrrwr", "omega_1^2 = k/m"// &
+            "; omega_2^2 = (k + 2 k_c)/m; omega_2^2 - omega_1^2 = 2 k_c/m; T_1 = 2 pi sqrt(m/k)"// &
+            "; T_2 = 2 pi/sqrt(k/m + 2 k_c/m); omega_1^2 omega_2^2 = k^2/m^2"// &
+            "; f_2 = sqrt((k + 2 k_c)/m)/(2 pi)")
+        call right("pendulum", "omega_0 = sqrt(g/l)")
+        call right("pendulum", "nu = 1/(2 pi) sqrt(g/l)")
+        ! which is no square of omega
+        call unreadable("pendulum", "omega_2 + 0 = g/l", "column 1: unknown name 'omega_2'")
+    end subroutine names_of_frequencies
+
+    subroutine names_by_their_square()
+        !! `v^2 = ...` leaves the sign of v open.
+        call traced("double_pendulum", "0r0rw", "v_1^2 = l1^2 theta1_dot^2; v_1 = l1 theta1_dot"// &
+            "; v_2^2 = x_bob2_dot^2 + y_bob2_dot^2; T = m1/2 v_1^2 + m2/2 v_2^2"// &
+            "; T = m1/2 v_1^2 + m2/2 v_1^2")
+        call traced("pendulum", "0rrww", "v^2 = l^2 theta_dot^2; v = l theta_dot"// &
+            "; v = -l theta_dot; v = 2 l theta_dot; T = m v^2")
+        call traced("pendulum", "0w", "a^2 = g/l; a = -sqrt(g/l)")
+    end subroutine names_by_their_square
+
+    subroutine true_of_small_motions()
+        !! A linear equation without `small:` is wrong, and says why; 0 = 0 is no reason.
+        character(*), parameter :: small = "; true of small motions: write 'small:' in front"
+        character(:), allocatable :: said
+        integer :: verdict
+
+        call wrong("pendulum", "theta_ddot = -omega^2 theta", "in 'omega^2 theta'"//small)
+        call wrong("pendulum", "theta_ddot = -g/l theta", small)
+        call graded("pendulum", "theta_ddot theta_dot^2 = theta^3", verdict, said)
+        call assertEqual(0, index(said, small), said)
+        call graded("pendulum", "theta_ddot = -2 g/l theta", verdict, said)
+        call assertEqual(0, index(said, small), said)
+        call graded("rotating_hoop", "theta_ddot = omega^2 sin(theta) - g/r sin(theta)", verdict, &
+                    said)
+        call assertEqual(0, index(said, small), said)
+    end subroutine true_of_small_motions
 
     subroutine signs_of_word_processors()
         !! Dots over letters, before and behind their indices, roots, partial derivatives, squares.
@@ -179,7 +251,7 @@ contains
         call unreadable("pendulum", "l theta_ddot = 5 cm", "column 18: 'cm' is a unit")
         call unreadable("pendulum", "phi_ddot = 0", "column 1: unknown name 'phi_ddot'; there "// &
                         "are t, theta, m, l, g, b, L_z, tension, x_bob, y_bob, z_bob, L, E, "// &
-                        "p_theta, T, V, omega, omega_2, theta_eq, pi")
+                        "p_theta, T, V, omega, theta_eq, pi")
     end subroutine remedies
 
     subroutine typos_have_a_place()

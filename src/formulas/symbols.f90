@@ -125,7 +125,7 @@ contains
     end function spelling
 
     pure subroutine all_names(self, names)
-        !! Symbols, definitions and `pi`.
+        !! Symbols, definitions and `pi`, without symbols such as `omega^2` that nobody can type.
         class(symbols_t), intent(in) :: self
         character(name_length), allocatable, intent(out) :: names(:)  !! in this order
         integer :: i, n
@@ -140,6 +140,7 @@ contains
             names(n + i) = self%definitions(i)%name
         end do
         names(size(names)) = "pi"
+        names = pack(names, index(names, "^") == 0)
     end subroutine all_names
 
     pure subroutine refuse_taken(self, name, error)

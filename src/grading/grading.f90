@@ -9,7 +9,7 @@ module lagrangia_grading
     use lagrangia_expression, only: expression_t, kind_number
     use lagrangia_formula_parser, only: parse_equation, parse_formula
     use lagrangia_homework, only: homework_t
-    use lagrangia_judgement, only: is_consequence, is_definition, is_right, is_wrong, judge, &
+    use lagrangia_judgement, only: is_consequence, is_right, is_wrong, judge, &
                                    judgement_t
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: matrix_rank
@@ -63,9 +63,8 @@ contains
         do i = 1, size(homework%statements)
             call judge(homework%statements(i), samples, library, .true., result%of(i))
             associate (judgement => result%of(i))
+                call consequences%add_names(samples%symbols)
                 select case (judgement%verdict)
-                case (is_definition)
-                    call consequences%add_names(samples%symbols)
                 case (is_wrong)
                     call consequences%find(homework%statements(i), judgement%residual, samples, &
                                            judgement%because)

@@ -5,10 +5,11 @@ module lagrangia_judgement
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_characters, only: characters
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: expression_t, f_sqrt, kind_function, kind_symbol, operator(-), &
-                                    symbol, whole
+    use lagrangia_expression, only: apply, expression_t, f_sqrt, kind_function, kind_symbol, &
+                                    operator(-), whole
     use lagrangia_formula_characters, only: plain_formula
     use lagrangia_formula_parser, only: parse_formula
+    use lagrangia_frequency_squares, only: square, with_squares
     use lagrangia_homework, only: statement_t
     use lagrangia_kinds, only: dp
     use lagrangia_motion_samples, only: put_places
@@ -18,12 +19,13 @@ module lagrangia_judgement
     use lagrangia_slip_search, only: explain_slip, holds, is_trivial
     use lagrangia_small_energies, only: is_energy, put_same_constant
     use lagrangia_small_judgement, only: judge_small
-    use lagrangia_statement_forms, only: define_rates, is_constancy, is_motion, is_new_name, &
-                                         is_slope, is_value, read_as_period, speaks_of_place
+    use lagrangia_statement_forms, only: define_by_period, define_rates, drop_root_of_name, &
+                                         find_frequency, is_constancy, is_motion, is_slope, &
+                                         is_value, read_as_period, read_new_name, speaks_of_place
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: to_text
-    use lagrangia_verdict, only: exchange, is_consequence, is_definition, is_right, &
-                                 is_unreadable, is_wrong, judgement_t, put_example, put_squares
+    use lagrangia_verdict, only: is_consequence, is_definition, is_right, is_unreadable, is_wrong, &
+                                 judgement_t, put_example
     implicit none (type, external)
     private
     public :: judgement_t
@@ -41,10 +43,10 @@ contains
         type(judgement_t), intent(out) :: judgement     !! of it
         type(error_t), allocatable :: error
         type(expression_t) :: left, right
-        character(:), allocatable :: side, text
+        character(:), allocatable :: name, side, text
         integer, allocatable :: columns(:)
         integer :: begun, first, next, last
-        logical :: chained
+        logical :: chained, squared
 
         chained = .false.
         begun = 1
@@ -52,17 +54,15 @@ contains
         judgement%example = ""
         text = statement%text
         if (statement%small) text(:index(text, ":")) = ""
-        call exchange(text, trim(samples%symbols%names(samples%frequency)), "^2", "_2")
         next = index(text, "=")
         call find_empty_side(text, judgement)
         if (judgement%verdict == is_unreadable) return
         call plain_formula(text(:next - 1), side, columns, error)
         if (allocated(error)) side = text(:next - 1)
-        if (is_new_name(side, samples)) then
-            if (index(text(next + 1:), "=") == 0) then
-                call define(trim(adjustl(side)), text, next, samples, judgement)
-                return
-            end if
+        call read_new_name(side, samples, name, squared)
+        if (name /= "" .and. index(text(next + 1:), "=") == 0) then
+            call define(name, squared, text, next, samples, library, judgement)
+            return
         end if
         call parse_formula(text(:next - 1), samples%symbols, left, error)
         if (allocated(error)) then
@@ -87,10 +87,16 @@ contains
                 call put_unreadable(error, judgement)
                 return
             end if
+            call drop_root_of_name(side, left, right, samples)
+            left = with_squares(left, samples%frequency)
+            right = with_squares(right, samples%frequency)
             if (statement%small) then
                 call judge_small(left, right, chained, samples, library, explain, judgement)
             else
                 call judge_pair(left, right, chained, samples, library, explain, judgement)
+                if (judgement%verdict == is_wrong .and. explain) then
+                    call add_small(left, right, samples, judgement%remark)
+                end if
             end if
             if (judgement%verdict /= is_right .or. next > len(text)) return
             ! of L, V and E = a = b each side may have a constant of its own
@@ -134,24 +140,41 @@ contains
             ": one side of '=' is empty; write 'left = right'"
     end subroutine find_empty_side
 
-    subroutine define(name, text, equals, samples, judgement)
-        !! A name of the student's own.
+    subroutine define(name, squared, text, equals, samples, library, judgement)
+        !! A name of the student's own, or the square of one; right if it is called like a frequency
+        !! or a period and is one.
         character(*), intent(in) :: name, text
-        integer, intent(in) :: equals  !! place of '='
+        logical, intent(in) :: squared  !! `v^2 = ...`
+        integer, intent(in) :: equals   !! place of '='
         type(samples_t), intent(inout) :: samples
+        type(library_t), intent(in) :: library(:)
         type(judgement_t), intent(inout) :: judgement
-        type(expression_t) :: meaning
+        type(expression_t) :: meaning, truth
+        type(judgement_t) :: attempt
         type(error_t), allocatable :: error
 
         judgement%verdict = is_definition
         call parse_formula(repeat(" ", characters(text(:equals)))//text(equals + 1:), &
                            samples%symbols, meaning, error)
-        if (.not. allocated(error)) call samples%symbols%define(name, meaning, error)
+        if (.not. allocated(error)) then
+            call define_by_period(meaning, samples)
+            if (squared) meaning = apply(f_sqrt, meaning)
+            call samples%symbols%define(name, meaning, error)
+        end if
         if (allocated(error)) then
             call put_unreadable(error, judgement)
-        else
-            call define_rates(name, meaning, samples)
+            return
         end if
+        call define_rates(name, meaning, samples)
+        call find_frequency(name, meaning, samples, truth)
+        if (truth%count == 0) return
+        attempt%remark = ""
+        attempt%example = ""
+        call judge_pair(truth, meaning, .true., samples, library, .false., attempt)
+        if (attempt%verdict == is_right) judgement = attempt
+        if (attempt%verdict /= is_wrong .or. samples%decay > 0 .or. index(name, "_0") > 0) return
+        judgement%remark = "taken for a new name: no small oscillation has this "// &
+            trim(merge("period   ", "frequency", name(1:1) == "T"))
     end subroutine define
 
     pure subroutine put_unreadable(error, judgement)
@@ -227,25 +250,44 @@ contains
                 call explain_slip(judgement%residual, merge(left%count + 1, 1, chained), samples, &
                                   values, library, judgement%remark)
             end if
-            call put_squares(samples, judgement)
         end if
     end subroutine judge_pair
 
+    subroutine add_small(left, right, samples, remark)
+        !! Say so if a wrong statement without functions holds for small motions, and not only as
+        !! 0 = 0.
+        type(expression_t), intent(in) :: left, right
+        type(samples_t), intent(in) :: samples
+        character(:), allocatable, intent(inout) :: remark
+        type(judgement_t) :: small, opposite
+        type(library_t) :: none(0)
+
+        if (any(left%nodes(:left%count)%kind == kind_function) .or. &
+            any(right%nodes(:right%count)%kind == kind_function)) return
+        small%remark = ""
+        opposite%remark = ""
+        call judge_small(left, right, .false., samples, none, .false., small)
+        if (small%verdict /= is_right .or. small%remark /= "") return
+        call judge_small(left, -right, .false., samples, none, .false., opposite)
+        if (opposite%verdict == is_wrong) remark = remark// &
+            "; true of small motions: write 'small:' in front"
+    end subroutine add_small
+
     subroutine compare_squares(left, right, samples, right_one, found)
-        !! Of `omega = sqrt(...)`, which for many parameters at random has no number: not where the
-        !! equilibrium is unstable, as \(\omega^2\) is negative there.
+        !! Of `omega = sqrt(...)` or `T = 2 pi/sqrt(...)`, which has no number for those of the
+        !! parameters at which the equilibrium is unstable: \(\omega^2\) is negative there.
         type(expression_t), intent(in) :: left, right
         type(samples_t), intent(in) :: samples
         logical, intent(inout) :: right_one, found  !! become true where the squares agree
-        type(expression_t) :: root, squares
+        type(expression_t) :: one, other, squares
         real(dp), allocatable :: values(:, :)
         logical :: known, yes
 
-        if (left%count /= 1 .or. .not. left%depends_on(samples%frequency)) return
-        root = right%pruned(right%count)
-        if (root%nodes(root%count)%kind /= kind_function) return
-        if (root%nodes(root%count)%which /= f_sqrt) return
-        squares = symbol(samples%frequency + 1) - root%pruned(root%nodes(root%count)%left)
+        one = square(left, samples%frequency)
+        other = square(right, samples%frequency)
+        if (one%count == 0 .or. other%count == 0) return
+        squares = one - other
+        if (.not. squares%depends_on(samples%frequency + 1)) return
         values = samples%values
         call choose_modes(squares, samples, values, yes, known)
         right_one = yes

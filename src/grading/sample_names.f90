@@ -50,7 +50,7 @@ module lagrangia_sample_names
         integer :: first_point = 0, last_point = -1
         !! places of `x_bob`, `x_bob_dot`, ..., what the masses and rotors do
         integer :: frequency = 0                   !! place of omega, or of Omega if omega is taken;
-        !! behind it that of its square, `omega_2`, which is negative where it is unstable
+        !! behind it that of its square, `omega^2`, which is negative where it is unstable
         integer :: decay = 0
         !! place of gamma, or of Gamma, where one coordinate is damped; behind it that of `omega_0`,
         !! the frequency without the drag; 0: no drag
@@ -116,10 +116,10 @@ contains
         if (allocated(d%potential_energy)) call add_energy("V")
         if (samples%symbols%find("omega") == 0) then
             call add("omega", role_frequency)
-            call add("omega_2", role_frequency)
+            call add("omega^2", role_frequency)
         else
             call add("Omega", role_frequency)
-            call add("Omega_2", role_frequency)
+            call add("Omega^2", role_frequency)
         end if
         samples%frequency = size(samples%role) - 1  ! its square behind it
         if (damped) then

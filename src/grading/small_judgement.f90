@@ -9,7 +9,7 @@ module lagrangia_small_judgement
     use lagrangia_small_motion, only: linear_states, small_motion
     use lagrangia_statement_forms, only: speaks_of_place
     use lagrangia_term_search, only: library_t
-    use lagrangia_verdict, only: is_unreadable, is_wrong, judgement_t, put_example, put_squares
+    use lagrangia_verdict, only: is_unreadable, is_wrong, judgement_t, put_example
     use lagrangia_written_out, only: energy_places, written_out
     implicit none (type, external)
     private
@@ -65,7 +65,6 @@ contains
             if (index(judgement%remark, "no single") == 1) call explain_slip( &
                 judgement%residual, first, samples, values, library, judgement%remark)
             call put_example(left, right, samples, shown, judgement%example)
-            call put_squares(samples, judgement)
         end if
     contains
         subroutine compare(other, counted_from_it)

@@ -3,16 +3,87 @@ module lagrangia_statement_forms
     !! period, a motion, a value.
     use lagrangia_derivative, only: time_derivative
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: constant, expression_t, kind_symbol, operator(/), symbol
+    use lagrangia_expression, only: constant, expression_t, f_sqrt, kind_function, &
+                                    kind_quotient, kind_symbol, operator(**), operator(-), &
+                                    operator(/), symbol, whole
     use lagrangia_kinds, only: dp
-    use lagrangia_sample_names, only: role_coordinate, role_frequency, role_parameter, samples_t
+    use lagrangia_sample_names, only: role_coordinate, role_frequency, role_known, role_parameter, &
+                                      samples_t
+    use lagrangia_substitution, only: substituted
     use lagrangia_symbols, only: check_name
     implicit none (type, external)
     private
-    public :: define_rates, speaks_of_place
-    public :: is_constancy, is_motion, is_new_name, is_slope, is_value, read_as_period
+    public :: define_by_period, define_rates, speaks_of_place
+    public :: drop_root_of_name, find_frequency, read_as_period, read_new_name
+    public :: is_constancy, is_motion, is_slope, is_value
 
 contains
+
+    pure subroutine read_new_name(side, samples, name, squared)
+        !! `v = ...` and `v^2 = ...`.
+        character(*), intent(in) :: side                  !! the left one
+        type(samples_t), intent(in) :: samples            !! know the names
+        character(:), allocatable, intent(out) :: name    !! empty: it is none
+        logical, intent(out) :: squared                   !! it stands in a square
+        integer :: power
+
+        name = trim(adjustl(side))
+        power = index(name, "^")
+        squared = power > 1
+        if (squared) squared = adjustl(name(power + 1:)) == "2"
+        if (squared) name = trim(name(:power - 1))
+        if (.not. is_new_name(name, samples)) name = ""
+    end subroutine read_new_name
+
+    pure subroutine drop_root_of_name(side, left, right, samples)
+        !! After `v^2 = l^2 theta_dot^2` says `v = l theta_dot` no more than the square of it.
+        character(*), intent(in) :: side                  !! the left one, as typed
+        type(expression_t), intent(inout) :: left, right  !! both sides; become their squares
+        type(samples_t), intent(in) :: samples            !! know the names
+        integer :: k
+
+        if (samples%symbols%find_definition(trim(adjustl(side))) == 0) return
+        if (left%nodes(left%count)%kind /= kind_function) return
+        if (left%nodes(left%count)%which /= f_sqrt) return
+        do k = 1, size(samples%role)
+            if (is_fixed(samples, k) .or. .not. right%depends_on(k)) cycle
+            left = left%pruned(left%nodes(left%count)%left)
+            right = right**2
+            return
+        end do
+    end subroutine drop_root_of_name
+
+    pure subroutine find_frequency(name, meaning, samples, truth)
+        !! What `omega_1`, `T_1`, `f` and `nu` must be if they are what they are called: only where
+        !! they stand for a formula of constants.
+        character(*), intent(in) :: name              !! a new one
+        type(expression_t), intent(in) :: meaning     !! of it
+        type(samples_t), intent(in) :: samples        !! know the names
+        type(expression_t), intent(out) :: truth      !! with omega; empty: it may be anything
+        character(:), allocatable :: stem
+        integer :: k
+        logical :: constants
+
+        constants = .false.
+        do k = 1, size(samples%role)
+            if (.not. meaning%depends_on(k)) cycle
+            if (.not. is_fixed(samples, k)) return
+            constants = .true.
+        end do
+        if (.not. constants) return
+        stem = name
+        k = index(name, "_", back=.true.)
+        if (k > 1) then
+            if (verify(name(k + 1:), "0123456789") == 0) stem = name(:k - 1)
+        end if
+        if (stem == trim(samples%symbols%names(samples%frequency))) then
+            truth = symbol(samples%frequency)
+        else if (stem == "T") then
+            truth = period(samples)
+        else if (stem == "f" .or. stem == "nu") then
+            truth = whole(1)/period(samples)
+        end if
+    end subroutine find_frequency
 
     pure function is_new_name(text, samples) result(yes)
         !! Is it a name alone, which nobody has given yet? What looks like a velocity or a momentum
@@ -59,22 +130,61 @@ contains
     end function is_constancy
 
     pure subroutine read_as_period(left, right, samples, is_period)
-        !! `T = 2 pi sqrt(l/g)`: a kinetic energy moves. T is then \(2\pi/\omega\).
-        type(expression_t), intent(inout) :: left   !! becomes that
-        type(expression_t), intent(in) :: right     !! the other side
-        type(samples_t), intent(in) :: samples      !! know the names
-        logical, intent(inout) :: is_period         !! becomes true: the left side is as it must be
-        integer :: k
+        !! `T = 2 pi sqrt(l/g)`, `T^2 = 4 pi^2 l/g`, `omega = 2 pi/T`: a kinetic energy moves, and
+        !! never alone. T is then \(2\pi/\omega\).
+        type(expression_t), intent(inout) :: left, right  !! both sides; T is written out there
+        type(samples_t), intent(in) :: samples            !! know the names
+        logical, intent(inout) :: is_period  !! becomes true: the left side, T, is as it must be
+        integer :: letter
 
-        if (left%count /= 1 .or. left%nodes(1)%kind /= kind_symbol) return
-        if (samples%symbols%names(left%nodes(1)%which) /= "T") return
-        do k = 1, size(samples%role)
-            if (.not. right%depends_on(k)) cycle
-            if (samples%role(k) /= role_frequency .and. .not. is_fixed(samples, k)) return
-        end do
-        is_period = .true.
-        left = constant(2.0_dp*acos(-1.0_dp))/symbol(samples%frequency)
+        letter = period_letter(left - right, samples)
+        if (letter == 0) return
+        is_period = is_period .or. .not. right%depends_on(letter)
+        left = substituted(left, [letter], [period(samples)])
+        right = substituted(right, [letter], [period(samples)])
     end subroutine read_as_period
+
+    pure subroutine define_by_period(meaning, samples)
+        !! `f = 1/T` divides by a period; `K = T` may be a kinetic energy.
+        type(expression_t), intent(inout) :: meaning  !! of a new name
+        type(samples_t), intent(in) :: samples        !! know the names
+        type(expression_t) :: divisor
+        integer :: i, letter
+
+        letter = period_letter(meaning, samples)
+        if (letter == 0) return
+        do i = 1, meaning%count
+            if (meaning%nodes(i)%kind /= kind_quotient) cycle
+            divisor = meaning%pruned(meaning%nodes(i)%right)
+            if (.not. divisor%depends_on(letter)) cycle
+            meaning = substituted(meaning, [letter], [period(samples)])
+            return
+        end do
+    end subroutine define_by_period
+
+    pure function period_letter(formula, samples) result(letter)
+        !! The place of T in a formula in which nothing else moves; 0: it is no period.
+        type(expression_t), intent(in) :: formula
+        type(samples_t), intent(in) :: samples
+        integer :: letter, k
+
+        letter = samples%symbols%find("T")
+        if (letter == 0) return
+        if (samples%role(letter) /= role_known .or. .not. formula%depends_on(letter)) letter = 0
+        do k = 1, size(samples%role)
+            if (letter == 0) return
+            if (k == letter .or. .not. formula%depends_on(k)) cycle
+            if (samples%role(k) /= role_frequency .and. .not. is_fixed(samples, k)) letter = 0
+        end do
+    end function period_letter
+
+    pure function period(samples) result(formula)
+        !! \(2\pi/\omega\).
+        type(samples_t), intent(in) :: samples
+        type(expression_t) :: formula
+
+        formula = constant(2.0_dp*acos(-1.0_dp))/symbol(samples%frequency)
+    end function period
 
     pure function is_motion(left, right, samples) result(yes)
         !! A coordinate alone on the left, and on the right side a function of the time.

@@ -10,7 +10,7 @@ module lagrangia_verdict
     implicit none (type, external)
     private
     public :: judgement_t
-    public :: exchange, put_example, put_squares
+    public :: put_example
     public :: is_right, is_definition, is_wrong, is_unreadable, is_consequence
 
     integer, parameter :: is_right = 1, is_definition = 2, is_wrong = 3, is_unreadable = 4
@@ -29,29 +29,6 @@ module lagrangia_verdict
     end type judgement_t
 
 contains
-
-    pure subroutine exchange(text, name, before, after)
-        !! `omega^2` becomes `omega_2`, or the other way, as long as it was.
-        character(:), allocatable, intent(inout) :: text     !! a statement, or a remark
-        character(*), intent(in) :: name, before, after      !! `omega`, `^2`, `_2`
-        integer :: i, n
-
-        n = len(name)
-        do i = 1, len(text) - n - 1
-            if (text(i:i + n + 1) == name//before) text(i + n:i + n + 1) = after
-        end do
-    end subroutine exchange
-
-    subroutine put_squares(samples, judgement)
-        !! `omega^2` where the formula has the name `omega_2`.
-        type(samples_t), intent(in) :: samples           !! know the name
-        type(judgement_t), intent(inout) :: judgement     !! its texts change
-
-        associate (name => samples%symbols%names(samples%frequency))
-            call exchange(judgement%remark, trim(name), "_2", "^2")
-            call exchange(judgement%example, trim(name), "_2", "^2")
-        end associate
-    end subroutine put_squares
 
     subroutine put_example(left, right, samples, values, text)
         !! `at theta = 0.123, g = 2.4: left 1.23, right 4.56`, where they differ most.

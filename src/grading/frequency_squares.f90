@@ -1,0 +1,115 @@
+module lagrangia_frequency_squares
+    !! Where an equilibrium is unstable \(\omega^2\) is negative and omega has no number, so that
+    !! formulas are compared by their squares.
+    use lagrangia_expression, only: constant, expression_t, f_sqrt, kind_function, kind_number, &
+                                    kind_power, kind_product, kind_quotient, kind_symbol, &
+                                    operator(*), operator(**), operator(/), symbol
+    use lagrangia_kinds, only: dp
+    implicit none (type, external)
+    private
+    public :: square, with_squares
+
+contains
+
+    pure function square(formula, frequency) result(squared)
+        !! Of products and quotients of positive numbers, letters and roots, which are taken for
+        !! positive, so that two of them are equal if their squares are.
+        type(expression_t), intent(in) :: formula  !! may be anything
+        integer, intent(in) :: frequency           !! the symbol omega; behind it that of its square
+        type(expression_t) :: squared              !! empty: the sign is not known
+        type(expression_t) :: squares(formula%count)
+        integer :: i
+
+        do i = 1, formula%count
+            associate (node => formula%nodes(i))
+                select case (node%kind)
+                case (kind_number)
+                    if (node%number%value > 0.0_dp) squares(i) = constant(node%number%value**2)
+                case (kind_symbol)
+                    squares(i) = symbol(node%which)**2
+                    if (node%which == frequency) squares(i) = symbol(frequency + 1)
+                case (kind_product, kind_quotient)
+                    if (squares(node%left)%count == 0 .or. squares(node%right)%count == 0) cycle
+                    if (node%kind == kind_product) then
+                        squares(i) = squares(node%left)*squares(node%right)
+                    else
+                        squares(i) = squares(node%left)/squares(node%right)
+                    end if
+                case (kind_function)
+                    if (node%which == f_sqrt) squares(i) = formula%pruned(node%left)
+                case default
+                    continue
+                end select
+            end associate
+        end do
+        if (formula%count > 0) squared = squares(formula%count)
+    end function square
+
+    pure function with_squares(formula, frequency) result(e)
+        !! The formula with the square's symbol for `omega^2`, `(2 pi/omega)^2`, and without the
+        !! roots of `sqrt(x)^2`.
+        type(expression_t), intent(in) :: formula  !! may be anything
+        integer, intent(in) :: frequency           !! the symbol omega; behind it that of its square
+        type(expression_t) :: e
+        type(expression_t) :: base
+        integer :: becomes(0:formula%count), half, i
+
+        e = formula
+        if (.not. with_root(formula, frequency)) return
+        e%count = 0
+        becomes = 0
+        do i = 1, formula%count
+            associate (node => formula%nodes(i))
+                select case (node%kind)
+                case (kind_number)
+                    call e%add_number(node%number, becomes(i))
+                case (kind_symbol)
+                    call e%add_symbol(node%which, becomes(i))
+                case default
+                    half = 0
+                    if (node%kind == kind_power) then
+                        base = formula%pruned(node%left)
+                        if (with_root(base, frequency)) half = half_exponent(formula, node%right)
+                        if (half /= 0) base = square(base, frequency)
+                        if (base%count == 0) half = 0
+                    end if
+                    if (half == 0) then
+                        call e%add_operation(node%kind, becomes(node%left), becomes(node%right), &
+                                             becomes(i), node%which)
+                    else
+                        if (half /= 1) base = base**half
+                        call e%append(base, becomes(i))
+                    end if
+                end select
+            end associate
+        end do
+        e = e%pruned(e%count)
+    end function with_squares
+
+    pure function with_root(formula, frequency) result(yes)
+        !! Does it depend on omega, or has it a square root?
+        type(expression_t), intent(in) :: formula
+        integer, intent(in) :: frequency  !! the symbol omega
+        logical :: yes
+
+        associate (nodes => formula%nodes(:formula%count))
+            yes = formula%depends_on(frequency) .or. &
+                  any(nodes%kind == kind_function .and. nodes%which == f_sqrt)
+        end associate
+    end function with_root
+
+    pure function half_exponent(formula, place) result(half)
+        !! n of the exponent 2 n; 0: it is none.
+        type(expression_t), intent(in) :: formula
+        integer, intent(in) :: place  !! of the exponent
+        integer :: half
+
+        half = 0
+        if (formula%nodes(place)%kind /= kind_number) return
+        associate (number => formula%nodes(place)%number%value)
+            if (abs(number) > 20.0_dp) return
+            half = nint(number/2.0_dp)
+            if (abs(number - 2*half) > 0.0_dp) half = 0
+        end associate
+    end function half_exponent
+end module lagrangia_frequency_squares
