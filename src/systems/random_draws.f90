@@ -37,12 +37,17 @@ contains
         !! Another sequence, the same one for the same `seed`.
         class(random_t), intent(inout) :: self
         integer, intent(in) :: seed  !! any number
+        integer(i8), parameter :: low = 4294967295_i8, factor = 73244475_i8
+        integer(i8) :: x
         integer :: i
 
-        self%seed = 1 + modulo(int(seed, i8), modulus - 1)
-        do i = 1, 10  ! the first numbers of neighbouring seeds are alike
-            self%seed = mod(48271_i8*self%seed, modulus)
+        ! The sequence is linear in where it begins: seeds 1, 2, 3 would give numbers at equal
+        ! distances. These 32 bits are mixed by products and shifts, which are not linear.
+        x = iand(int(seed, i8), low)
+        do i = 1, 2
+            x = iand(factor*ieor(x, ishft(x, -16)), low)
         end do
+        self%seed = 1 + modulo(ieor(x, ishft(x, -16)), modulus - 1)
     end subroutine start
 
     subroutine uniform(self, lower, upper, x)
