@@ -29,6 +29,28 @@ MOVES = """new Promise(done => {  // whether the picture changes, within ten sec
 })"""
 
 
+WRITTEN = """(() => {  // what a graph writes beyond its edges
+  const pen = CanvasRenderingContext2D.prototype, old = pen.fillText, outside = [];
+  pen.fillText = function (text, x, y) {
+    const wide = this.measureText(text).width, left = x - { left: 0, center: 0.5, right: 1 }[this.textAlign] * wide;
+    const { clientWidth: w, clientHeight: h } = this.canvas.parentElement;
+    if (left < -0.5 || left + wide > w + 0.5 || y < 0 || y > h) outside.push([text, left, left + wide, y]);
+    old.call(this, text, x, y);
+  };
+  films[0].draw();
+  pen.fillText = old;
+  return outside;
+})()"""
+GROUND = """(() => {
+  const { film, stage } = films[0], [w, h] = stage.size;
+  return film.parts.filter(part => part.kind === "ground").every(part => {
+    const [, d, [a, b]] = stage.through(part.at.map(k => film.places[k].map(x => typeof x === "number" ? x : x[0])));
+    const middle = (w / 2 - a[0]) * d[0] + (h / 2 - a[1]) * d[1], long = Math.hypot(b[0] - a[0], b[1] - a[1]);
+    return middle > (w + h) / 2 && long - middle > (w + h) / 2;
+  });
+})()"""
+
+
 def make(program, folder, words):
     done = subprocess.run([program, *words, "--animate", "--quiet", "--output", folder], capture_output=True, text=True)
     check(" ".join(words), done.returncode in (0, 1), done.stderr.strip())
@@ -105,13 +127,18 @@ def examine(browser, path, title=None):
     for complaint in page.complaints():
         check(f"{name}: quiet on a phone", False, complaint)
     page.close()
-    page = browser.open(path, 1000, 700)  # the smallest with graphs beside the mechanism
-    page.value("films[0].play(false)")
-    for place in (0, 0.5, 1):
-        page.value(f"films[0].seek(films[0].film.time(Math.round({place} * (films[0].film.count - 1))))")
-        right = page.value("Math.max(...[...document.querySelectorAll('canvas, td, button, select, label')].map(e => e.getBoundingClientRect().right))")
-        check(f"{name}: nothing is cut off at 1000 pixels, at {place}", right <= 1000, str(right))
-    page.close()
+    for width, height in ((390, 844), (1000, 700), (1280, 720)):  # 1000: the smallest with graphs beside the mechanism
+        page = browser.open(path, width, height)  # a phone widens its window to what is too wide: innerWidth says nothing
+        page.value("films[0].play(false)")
+        for place in (0, 0.31, 0.6, 1):
+            page.value(f"films[0].seek(films[0].film.time(Math.round({place} * (films[0].film.count - 1))))")
+            right = page.value("Math.max(...[...document.querySelectorAll('canvas, td, button, select, label')].map(e => e.getBoundingClientRect().right))")
+            check(f"{name}: nothing is cut off at {width} pixels, at {place}", right <= width, str(right))
+            texts = page.value(WRITTEN)
+            check(f"{name}: the graphs' texts are inside them at {width} pixels, at {place}", not texts, str(texts))
+            level = page.value(GROUND)
+            check(f"{name}: a ground goes from edge to edge, at {place}", level, str(level))
+        page.close()
 
 
 def examine_report(browser, path):

@@ -313,6 +313,9 @@
     through([a, b]) {  // a line beyond the picture's edges
       const [p, q] = [a, b].map(this.project), reach = 2 * (this.size[0] + this.size[1]);
       const length = Math.hypot(q[0] - p[0], q[1] - p[1]) || 1, d = [(q[0] - p[0]) / length, (q[1] - p[1]) / length];
+      const hatch = 5 * this.unit, away = (this.size[0] / 2 - p[0]) * d[0] + (this.size[1] / 2 - p[1]) * d[1];
+      const near = Math.round(away / hatch) * hatch;  // the picture may be far along it
+      p.forEach((_, k) => { p[k] += near * d[k]; });
       return [p, d, [[p[0] - reach * d[0], p[1] - reach * d[1]], [p[0] + reach * d[0], p[1] + reach * d[1]]]];
     }
     line(r) { this.stroke(this.through(r)[2], 0.9, this.colors.faint); }
@@ -367,13 +370,13 @@
     }
     dials(film, s) {  // nothing says where the masses are: each coordinate is a hand or a mark
       const [w, h] = this.size, pen = this.context, n = film.states.length, u = this.unit;
-      const columns = Math.ceil(Math.sqrt(n * w / h)), rows = Math.ceil(n / columns);
+      const columns = Math.min(n, Math.ceil(Math.sqrt(n * w / h))), rows = Math.ceil(n / columns);
       film.states.forEach(([q], i) => {
         const cell = [w / columns, h / rows], c = [(i % columns + 0.5) * cell[0], (Math.floor(i / columns) + 0.5) * cell[1]];
         const radius = 0.34 * Math.min(...cell), x = at(q, s), { name, unit } = film.coordinates[i];
         pen.fillStyle = this.colors.faint;
         pen.textAlign = "center";
-        pen.fillText(letter(name), c[0], c[1] + radius + 7 * u);
+        pen.fillText(letter(name), c[0], c[1] + (unit === "rad" ? radius : 0) + 8 * u);
         if (unit === "rad") {
           const circle = Array.from({ length: 64 }, (_, k) => [c[0] + radius * Math.cos(k * Math.PI / 32), c[1] + radius * Math.sin(k * Math.PI / 32)]);
           this.stroke(circle, 0.6, this.colors.grid, true);
@@ -389,13 +392,17 @@
     }
   }
 
-  function range(list) {
+  const largest = series => typeof series === "number" ? Math.abs(series) : series.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
+
+  // From the least to the largest, and some more; what is below `noise` is as good as 0.
+  function range(list, noise = 0) {
     let lo = Infinity, hi = -Infinity;
     for (const series of list) {
       if (typeof series === "number") { lo = Math.min(lo, series); hi = Math.max(hi, series); continue; }
       for (const x of series) { if (x < lo) lo = x; if (x > hi) hi = x; }
     }
-    const pad = hi - lo > 1e-6 * Math.abs(hi) ? 0.06 * (hi - lo) : 1e-3 * Math.abs(hi) || 1;
+    if (Math.max(-lo, hi) <= noise) lo = hi = 0;
+    const pad = hi - lo > 1e-6 * Math.abs(hi) ? 0.06 * (hi - lo) : 0.5 * Math.abs(hi) || 1;
     return [lo - pad, hi + pad];
   }
 
@@ -413,17 +420,26 @@
         if (Math.abs(v) < step / 2) return "0";
         return power(places > 5 || Math.abs(v) >= 1e5 ? v.toExponential(Math.min(digits, 8)) : v.toFixed(places));
       };
-      const ticks = ([lo, hi], count, draw) => {
-        const step = niceStep(hi - lo, count);
-        for (let k = Math.ceil(lo / step); k * step <= hi; k++) draw(k * step, label(k * step, step));
+      const ticks = ([lo, hi], count) => {
+        const step = niceStep(hi - lo, count), list = [];
+        for (let k = Math.ceil(lo / step); k * step <= hi; k++) list.push([k * step, label(k * step, step)]);
+        return list;
       };
+      const upright = ticks(ys, Math.max(2, h / (4 * size)));
+      this.left = Math.max(this.left, ...upright.map(([, text]) => pen.measureText(text).width + 0.8 * size));
       pen.strokeStyle = colors.grid;
       pen.fillStyle = colors.faint;
       const rule = (x0, y0, x1, y1) => { pen.beginPath(); pen.moveTo(x0, y0); pen.lineTo(x1, y1); pen.stroke(); };
       pen.textAlign = "center";
-      ticks(xs, Math.max(2, w / (6 * size)), (v, text) => { rule(this.x(v), this.top, this.x(v), this.bottom); pen.fillText(text, this.x(v), this.bottom + 1.2 * size); });
+      for (const [v, text] of ticks(xs, Math.max(2, w / (6 * size)))) {
+        rule(this.x(v), this.top, this.x(v), this.bottom);
+        pen.fillText(text, Math.min(this.x(v), w - pen.measureText(text).width / 2), this.bottom + 1.2 * size);
+      }
       pen.textAlign = "right";
-      ticks(ys, Math.max(2, h / (4 * size)), (v, text) => { rule(this.left, this.y(v), this.right, this.y(v)); pen.fillText(text, this.left - 0.4 * size, this.y(v) + 0.35 * size); });
+      for (const [v, text] of upright) {
+        rule(this.left, this.y(v), this.right, this.y(v));
+        pen.fillText(text, this.left - 0.4 * size, this.y(v) + 0.35 * size);
+      }
       pen.fillStyle = colors.ink;
       pen.fillText(xLabel, this.right, this.bottom + 2.3 * size);
       pen.textAlign = "left";
@@ -531,9 +547,8 @@
       const rate = film.omega !== undefined ? `ω = ${number(film.omega)} rad/s` : film.growth !== undefined ? `grows as exp(${number(film.growth)} t/s)` : "";
       const base = film.factor === 1 ? "real time" : film.factor < 1 ? `slow motion, 1 s of film is ${number(film.factor, 2)} s` : `time lapse, 1 s of film is ${number(film.factor, 2)} s`;
       this.pace.textContent = [rate, film.note, base].filter(text => text).join(" · ");
-      const largest = series => typeof series === "number" ? Math.abs(series) : series.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
       const cells = [], rows = [];
-      const value = (name, unit, get, scale) => {
+      const value = (name, unit, get, scale) => {  // an error has no scale: two digits of it are shown
         const cell = make("td");
         cells.push([cell, get, scale]);
         return [make("th", { scope: "row" }, name), cell, make("td", { class: "unit" }, written(unit))];
@@ -543,8 +558,8 @@
         ...film.distance ? value(`off ${film.reference}`, film.parts.length ? "m" : "", s => { const x = 10 ** at(film.distance, s); return x < 2e-18 ? 0 : x; }) : []]);
       film.coordinates.forEach(({ name, unit }, i) => rows.push([...series(letter(name), unit, film.states[i][0]),
         ...series(dotted(name), unit === "1" ? "1/s" : `${unit}/s`, film.states[i][1])]));
-      const e = at(film.energy, 0), change = typeof film.energy === "number" ? 0 : film.energy.map(x => x - e);
-      rows.push([...series("E", "J", film.energy), ...film.conserved ? series("E − E(0)", "J", change) : series("T", "J", film.kinetic)]);
+      const e = at(film.energy, 0), energy = (name, get) => value(name, "J", get, Math.max(largest(film.energy), largest(film.kinetic)));
+      rows.push([...energy("E", s => at(film.energy, s)), ...film.conserved ? value("E − E(0)", "J", s => at(film.energy, s) - e) : energy("T", s => at(film.kinetic, s))]);
       this.cells = cells;
       this.values.replaceChildren(...rows.map(row => make("tr", {}, ...row)));
       this.draw();
@@ -632,16 +647,25 @@
       this.drawEnergies(film, s, colors);
       for (const [cell, get, scale] of this.cells) {
         const x = get(s);
-        cell.textContent = number(x, 4, scale ?? Math.abs(x));
+        cell.textContent = scale === undefined ? number(x, 2) : number(x, 4, scale);
       }
+      this.fit();
       this.scrub.value = film.duration > 0 ? 1000 * (time - film.start) / film.duration : 0;
       this.scrub.setAttribute("aria-valuetext", `t = ${number(time)} s`);
+    }
+    fit() {  // what is too wide for its column is written smaller
+      const room = this.values.parentElement.clientWidth, { style } = this.values;
+      if (room !== this.room) { this.room = room; this.small = 1; style.fontSize = ""; }
+      const wide = this.values.offsetWidth / room;
+      if (!(wide > 1)) return;
+      this.small = Math.max(0.5, 0.98 * this.small / wide);
+      style.fontSize = `${this.small}em`;
     }
     drawPhase(film, s, colors, ghost) {
       const [q, v] = film.states[this.coordinate], { name, unit } = film.coordinates[this.coordinate], other = ghost && film.ghostStates?.[this.coordinate];
       const get = series => i => at(series, i), graph = this.phase;
       const bounds = film.phaseRange ??= new Map(), key = `${this.coordinate} ${Boolean(other)}`;
-      if (!bounds.has(key)) bounds.set(key, [range(other ? [q, other[0]] : [q]), range(other ? [v, other[1]] : [v])]);
+      if (!bounds.has(key)) bounds.set(key, [range(other ? [q, other[0]] : [q]), range(other ? [v, other[1]] : [v], 1e-12 * largest(q) / film.duration)]);
       graph.axes(...bounds.get(key), `${letter(name)} [${unit}]`, `${dotted(name)} [${unit}/s]`, colors);
       if (other) graph.curve(get(other[0]), get(other[1]), film.count, colors.ghost, { alpha: 0.5, dash: [5, 4] });
       graph.curve(get(q), get(v), film.count, colors.body, { alpha: 0.35 });

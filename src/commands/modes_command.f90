@@ -20,7 +20,7 @@ module lagrangia_modes_command
     use lagrangia_progress, only: progress_t
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, &
-                                            likely_equilibrium, modes_t
+                                            likely_equilibrium, modes_t, twin_of
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -158,6 +158,10 @@ contains
             end if
             row(105:) = labels(modes%label(j))
             call put_line(trim(row))
+        end do
+        do j = 2, n
+            if (twin_of(modes, j) > 0) call put_line("modes "//to_text(twin_of(modes, j))// &
+                " and "//to_text(j)//" have one omega and one shape; the other motion grows as t")
         end do
         if (system%nonconservative .and. n <= widest) call put_damped(system, modes)
         if (n <= widest) then

@@ -23,7 +23,7 @@ module lagrangia_small_oscillations
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: modes_t, find_modes, likely_equilibrium
+    public :: modes_t, find_modes, likely_equilibrium, stays, twin_of
     public :: is_oscillation, is_zero_mode, is_unstable
 
     integer, parameter :: largest_expansion = 60  !! coordinates; beyond, L is not differentiated
@@ -250,6 +250,44 @@ contains
         modes%shapes = real(shapes, dp)
         modes%quadrature = aimag(shapes)
     end subroutine solve_gyroscopic
+
+    pure function twin_of(modes, j) result(k)
+        !! The mode before `j` that has its \(\omega\) and its shape; 0: there is none. With
+        !! gyroscopic forces a double \(\omega\) may have one shape only; the other motion is then
+        !! \(t\,e^{i\omega t}\), as of a free particle in a rotating frame. Rounding splits such a
+        !! pair by some \(\sqrt\epsilon\).
+        type(modes_t), intent(in) :: modes  !! solved
+        integer, intent(in) :: j            !! which
+        integer :: k
+        real(dp), parameter :: near = 1e-6_dp
+        complex(dp) :: u(size(modes%shapes, 1)), w(size(modes%shapes, 1))
+
+        if (allocated(modes%quadrature)) then
+            w = cmplx(modes%shapes(:, j), modes%quadrature(:, j), dp)
+            do k = 1, j - 1
+                if (.not. abs(modes%omega(j) - modes%omega(k)) <= near*modes%omega(j) .or. &
+                    modes%label(j) /= is_oscillation .or. modes%label(k) /= is_oscillation) cycle
+                u = cmplx(modes%shapes(:, k), modes%quadrature(:, k), dp)
+                if (abs(dot_product(u, w)) >= (1.0_dp - near)*norm2(abs(u))*norm2(abs(w))) return
+            end do
+        end if
+        k = 0
+    end function twin_of
+
+    pure function stays(modes, j) result(yes)
+        !! Is a zero mode at rest wherever it is, as a charge in a magnetic field? \(u\,t\) obeys
+        !! \(M\ddot u + G\dot u + Ku = 0\) only where \(Gu = 0\); \(u\) itself always does.
+        type(modes_t), intent(in) :: modes  !! solved
+        integer, intent(in) :: j            !! a zero mode
+        logical :: yes
+
+        yes = .false.
+        if (.not. allocated(modes%gyroscopic)) return
+        if (size(modes%gyroscopic, 2) /= size(modes%shapes, 1)) return
+        associate (g => modes%gyroscopic, u => modes%shapes(:, j))
+            yes = maxval(abs(matmul(g, u))) > 1e-9_dp*maxval(abs(g))*maxval(abs(u))
+        end associate
+    end function stays
 
     pure subroutine label_modes(modes)
         !! A zero mode has \(u^\top Ku = 0\) to rounding (see `zero_modes`), and \(\omega = 0\)

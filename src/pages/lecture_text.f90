@@ -28,8 +28,12 @@ contains
         integer :: i
 
         call system%describe(d)
-        html = "<h3>What the lecture has</h3>"//newline
-        if (d%source /= "") html = html//paragraph(d%source)
+        if (d%source == "your own") then
+            html = "<h3>The system</h3>"//newline
+        else
+            html = "<h3>What the lecture has</h3>"//newline
+            if (d%source /= "") html = html//paragraph(d%source)
+        end if
         if (line_of_system(trim(d%name)) /= "") then
             html = html//paragraph(line_of_system(trim(d%name)))
         end if

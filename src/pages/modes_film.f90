@@ -8,7 +8,8 @@ module lagrangia_modes_film
     use lagrangia_frames, only: film_speed, frames_t
     use lagrangia_json, only: json_object, json_pair
     use lagrangia_kinds, only: dp
-    use lagrangia_small_oscillations, only: is_oscillation, is_unstable, modes_t
+    use lagrangia_small_oscillations, only: is_oscillation, is_unstable, is_zero_mode, &
+                                            modes_t, stays
     use lagrangia_system, only: system_t
     use lagrangia_text, only: in_words, to_text
     implicit none (type, external)
@@ -34,7 +35,7 @@ contains
         type(description_t) :: d
         type(frames_t) :: frames, nothing
         real(dp), allocatable :: kinetic(:), potential(:)
-        character(:), allocatable :: films, members, name
+        character(:), allocatable :: films, members, name, title
         real(dp) :: rate
         integer :: channels, j, shown
 
@@ -60,6 +61,13 @@ contains
             rate = sqrt(abs(modes%omega2(j)))
             name = "mode "//to_text(j)
             if (shown < size(modes%omega2)) name = name//" of "//to_text(size(modes%omega2))
+            if (modes%label(j) == is_zero_mode) then
+                if (stays(modes, j)) then
+                    name = name//": at rest beside the equilibrium"
+                else
+                    name = name//": uniform motion"
+                end if
+            end if
             if (j > 1) films = films//", "
             members = json_pair("factor", speed(frames, rate))// &
                       json_pair("loop", modes%label(j) == is_oscillation)//members
@@ -67,9 +75,10 @@ contains
             if (modes%label(j) == is_unstable) members = json_pair("growth", rate)//members
             films = films//json_object(json_pair("name", name)//members)
         end do
-        call write_page(path, in_words(d%name)//": small oscillations", &
-                        page_of_films(system, in_words(d%name)//": small oscillations", &
-                                      "linear equations of motion", films), error)
+        title = in_words(d%name)//": small oscillations"
+        if (lge(title(:1), "a") .and. lle(title(:1), "z")) title(:1) = achar(iachar(title(:1)) - 32)
+        call write_page(path, title, page_of_films(system, title, "linear equations of motion", &
+                                                   films), error)
     end subroutine animate_modes
 
     pure function speed(frames, rate) result(factor)
@@ -114,6 +123,9 @@ contains
             else if (modes%label(j) == is_unstable) then
                 u = even*cosh(rate*t)/cosh(2.0_dp)
                 v = rate*even*sinh(rate*t)/cosh(2.0_dp)
+            else if (stays(modes, j)) then
+                u = even
+                v = 0.0_dp
             else
                 u = even*t
                 v = even

@@ -12,7 +12,8 @@ module lagrangia_modes_files
     use lagrangia_output_file, only: commit_both, output_file_t, refuse_unwritable
     use lagrangia_places, only: places_t
     use lagrangia_scene_claims, only: claim_table
-    use lagrangia_small_oscillations, only: is_oscillation, is_unstable, modes_t
+    use lagrangia_small_oscillations, only: is_oscillation, is_unstable, is_zero_mode, &
+                                            modes_t, stays
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     use lagrangia_text_table, only: text_table_t
@@ -90,6 +91,7 @@ contains
         real(dp) :: shape(system%ndof)
         real(dp) :: t, rate, factor, duration
         character(:), allocatable :: path
+        logical :: resting
         integer :: k
 
         call system%describe(d)
@@ -105,12 +107,14 @@ contains
         call table%begin(header, names, units, error)
         if (allocated(error)) return
         rate = sqrt(abs(modes%omega2(j)))
+        resting = stays(modes, j)
         duration = 1.0_dp
         if (modes%label(j) == is_oscillation) duration = 2.0_dp*acos(-1.0_dp)/rate
         if (modes%label(j) == is_unstable) duration = 2.0_dp/rate
         do k = 0, samples
             t = duration*k/samples
             factor = t
+            if (modes%label(j) == is_zero_mode .and. resting) factor = 1.0_dp
             if (modes%label(j) == is_oscillation) factor = cos(rate*t)
             if (modes%label(j) == is_unstable) factor = cosh(rate*t)
             row(1) = t
