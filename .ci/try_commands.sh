@@ -770,6 +770,50 @@ run check two_bodies
 check "quantities: the audit knows them" eval '[ $status -eq 0 ] && grep -q "X_0 is conserved .* holds" "$work/out" && grep -q "X_0 as printed .* holds" "$work/out"'
 refuses 2 "column 'A_x_drift': A_x of this kepler is not conserved; there is 'A_x'" run kepler_precession --set "scene%columns='t','A_x_drift'" --output "$work/none"
 refuses 2 "two columns would be called 'energy'" run kepler --set "lagrangian%quantities='energy=r'" --output "$work/none"
+# what a student types first
+refuses 2 "unknown command 'plot'; '--plot' is an option, as in 'lagrangia run SCENE... --plot'" plot pendulum
+refuses 2 "unknown command 'keep'; did you mean 'sweep'?" keep
+refuses 2 "theta = 1: is a coordinate; its start is q(1) of &scene, as in --set 'scene%q(1)=0.5'" run pendulum --set pendulum%theta=1 --output "$work/none"
+refuses 2 "theta2_dot = 1: is a velocity; its start is v(2) of &scene, as in --set 'scene%v(2)=0.5'" run double_pendulum --set double_pendulum%theta2_dot=1 --output "$work/none"
+refuses 2 "phi = 1: is a coordinate; its start is q(2) of &scene" run kepler --set kepler%phi=1 --output "$work/none"
+check "a coordinate is no parameter: nothing is said of parameters" eval '! grep -q "parameters are" "$work/err"'
+run run double_pendulum --set 'scene%q(2)=0.5' --json --output "$work/first"
+check "a coordinate is no parameter: the remedy works" eval '[ $status -eq 0 ] && [ "$(sed -n "/^[^#]/{p;q}" "$work/first/double_pendulum_q_2_0.5.dat" | awk "{ print \$2*1, \$3*1 }")" = "0.3 0.5" ]'
+refuses 2 "alpha = 45: from 0.0 to pi/2 is needed; angles are in radians: 45.0 degrees are 0.7853981633974483" run wedge --set wedge%alpha=45 --output "$work/none"
+run run pendulum --set scene%q=90 --quiet --output "$work/first"
+check "90 rad, --quiet: nothing is said" eval '[ $status -eq 0 ] && [ ! -s "$work/err" ]'
+run run pendulum --set scene%q=90 --output "$work/first"
+check "90 rad may be meant as degrees" eval '[ $status -eq 0 ] && one_line && grep -qF "theta starts at 90.0 rad; angles are in radians: 90.0 degrees are 1.5707963267948966" "$work/err"'
+run run pendulum --set scene%q=91 --output "$work/first"
+check "91 rad are no degrees" eval '[ $status -eq 0 ] && [ ! -s "$work/err" ]'
+run run oscillator --set scene%q=90 --output "$work/first"
+check "90 m are no degrees" eval '[ $status -eq 0 ] && [ ! -s "$work/err" ]'
+run run pendulum --set pendulum%b=5 --output "$work/first"
+check "omega of a pendulum with drag is that without" eval '[ $status -eq 0 ] && grep -q "^    omega .* the slowest small oscillation without forces beside L" "$work/out"'
+run run pendulum --output "$work/first"
+check "omega of a pendulum without" eval '[ $status -eq 0 ] && grep -q "^    omega .* the slowest small oscillation, by LAPACK" "$work/out"'
+run modes rotating_frame
+check "modes of a free particle in a rotating frame: it does not stay near" eval '[ $status -eq 0 ] && grep -q "^modes 1 and 2 have one omega and one shape; the other motion grows as t$" "$work/out"'
+run modes foucault
+check "modes of a Foucault pendulum: two" eval '[ $status -eq 0 ] && ! grep -q "grows as t" "$work/out"'
+run modes cart_pendulum --animate --output "$work/first"
+check "the film of a zero mode says what it is" eval 'grep -qF "\"name\": \"mode 1: uniform motion\"" "$work/first/cart_pendulum_modes.html" && grep -qF "<title>Cart pendulum: small oscillations</title>" "$work/first/cart_pendulum_modes.html"'
+run modes charged_particle --set charged_particle%electric=0,0,0 --animate --output "$work/first"
+check "a charge in a magnetic field is at rest in a zero mode across it, and moves along it" eval '[ $status -eq 0 ] && grep -qF "mode 1: at rest beside the equilibrium" "$work/first/charged_particle_modes.html" && grep -qF "mode 2: uniform motion" "$work/first/charged_particle_modes.html" && grep -v "^#" "$work/first/charged_particle_mode_1.dat" | awk "{ if (NR == 1) x = \$2; if (\$2 != x || x*1 == 0) bad = 1 } END { exit bad }" && grep -v "^#" "$work/first/charged_particle_mode_2.dat" | awk "{ if (\$4 < z) bad = 1; z = \$4 } END { exit bad || z < 0.099 }"'
+run compare pendulum --starts "1 2" --output "$work/first"
+check "compare --starts: its title, and no columns without numbers" eval '[ $status -eq 0 ] && [ "$(sed -n "1p;2p" "$work/out" | tr -s " " | tr "\n" ";")" = "pendulum from 2 starts; start steps evaluations seconds;" ]'
+refuses 2 "--starts: '1' is given twice; Q1,Q2,... each, perhaps with :V1,V2,..., and blanks between them" compare double_pendulum --starts "1 1, 1 1.001"
+refuses 2 "--methods: two at least are needed, to be compared; names with commas between them: rk4,verlet" compare pendulum --methods all
+mkdir "$work/mine"
+sed 's/^  title.*//' data/scenes/pendulum.nml >"$work/mine/min.nml"
+refuses 5 "$work/mine/min: no such file; did you mean '$work/mine/min.nml'?" report "$work/mine/min"
+(cd "$work/mine" && for words in "run min" "sweep min" "modes min" "describe min" "derive min"; do "$program" $words; done >/dev/null 2>"$work/err")
+check "a file's name without its ending" [ "$(grep -c "; did you mean 'min.nml'?$" "$work/err")" -eq 5 ]
+run compare "$work/mine/min.nml" --methods rk4,verlet --output "$work/first"
+check "compare: the name of a scene without a title" [ "$(head -n 1 "$work/out")" = min ]
+run run pendulum --output data/scenes/pendulum.nml
+check "where no file is written, none is promised" eval '[ $status -eq 5 ] && grep -q failed "$work/out" && ! grep -q "data files" "$work/out"'
+
 refuses 2 "quantities: column 5: unknown name 'rr'; did you mean 'r'" run kepler --set "lagrangian%quantities='d = rr'" --output "$work/none"
 refuses 2 "a quantity is written 'L_z [kg m^2/s] angular momentum = m r^2 phi_dot'" run kepler --set "lagrangian%quantities='r^2'" --output "$work/none"
 check "quantities: nothing refused left a file" [ ! -e "$work/none" ]

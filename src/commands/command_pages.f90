@@ -13,8 +13,8 @@ module lagrangia_command_pages
     type(page_t), parameter :: pages(*) = [ &
         page_t("run", "Runs scenes: integrates the motion, writes a data file and a gnuplot "// &
                "script for each, and says how far energy, period and positions are from what "// &
-               "is known exactly. A scene changed by --set is not judged by what the file "// &
-               "expects, and its files have names of their own.", &
+               "is known exactly. A scene whose motion --set changes is not judged by what the "// &
+               "file expects, and its files have names of their own.", &
                [character(76) :: "lagrangia run cart_pendulum --plot", &
                 "lagrangia run pendulum --set pendulum%l=2 --set scene%dt=1e-3", &
                 "lagrangia run mine.nml --format csv --output results", &

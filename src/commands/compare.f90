@@ -86,6 +86,7 @@ contains
         if (allocated(error)) return
         remark = ""
         title = trim(runs(1)%plan%scene%title)
+        if (title == "") title = trim(runs(1)%plan%scene%name)
         if (line%has("starts")) then
             remark = method_text(runs(1)%plan%settled)
             title = trim(runs(1)%plan%scene%system)//" from "//to_text(size(runs))//" starts"
@@ -94,7 +95,7 @@ contains
         end if
         call write_overlay(folder, name, series, panels, title, remark, error)
         if (allocated(error)) return
-        call put_results(line, runs, outcomes)
+        call put_results(line, title, runs, outcomes)
         if (is_told(line)) call put_line("gnuplot script: "// &
                                          script_path(overlay_path(folder, name)))
         if (line%has("plot")) call show_picture(overlay_path(folder, name), kind, line, error)
@@ -117,9 +118,11 @@ contains
         integer :: i
 
         if (line%has("methods")) then
-            call split(line%value_of("methods", ""), ",", "--methods", words, error)
+            call split(line%value_of("methods", ""), ",", "--methods", "names with commas "// &
+                       "between them: rk4,verlet", words, error)
         else
-            call split(line%value_of("starts", ""), " ", "--starts", words, error)
+            call split(line%value_of("starts", ""), " ", "--starts", "Q1,Q2,... each, perhaps "// &
+                       "with :V1,V2,..., and blanks between them", words, error)
         end if
         if (allocated(error)) return
         if (line%has("animate") .and. size(words) /= 2) call fail(error, "--animate: a film "// &
@@ -198,9 +201,9 @@ contains
         if (colon <= len(word)) overrides(n + 2)%text = "scene%v="//word(colon + 1:)
     end subroutine overrides_of
 
-    pure subroutine split(text, separator, option, words, error)
+    pure subroutine split(text, separator, option, form, words, error)
         !! Two words at least, each once.
-        character(*), intent(in) :: text, separator, option
+        character(*), intent(in) :: text, separator, option, form
         type(word_t), allocatable, intent(out) :: words(:)
         type(error_t), allocatable, intent(out) :: error
         type(word_t) :: found(most_runs)
@@ -219,7 +222,8 @@ contains
                 found(n)%text = trim(adjustl(text(first:last)))
                 do i = 1, n - 1
                     if (found(i)%text == found(n)%text) then
-                        call fail(error, option//": "//quoted(found(n)%text)//" is given twice")
+                        call fail(error, option//": "//quoted(found(n)%text)// &
+                                  " is given twice; "//form)
                         return
                     end if
                 end do
@@ -227,7 +231,7 @@ contains
             first = last + 2
         end do
         if (n < 2) then
-            call fail(error, option//": two at least are needed, to be compared")
+            call fail(error, option//": two at least are needed, to be compared; "//form)
             return
         end if
         allocate (words(n))
@@ -261,14 +265,17 @@ contains
         end do
     end subroutine run_all
 
-    subroutine put_results(line, runs, outcomes)
+    subroutine put_results(line, title, runs, outcomes)
         !! A row each.
         type(command_line_t), intent(in) :: line
+        character(*), intent(in) :: title
         type(compared_t), intent(in) :: runs(:)
         type(outcome_t), intent(in) :: outcomes(:)
         type(printed_table_t) :: table
         type(word_t), allocatable :: lines(:)
         character(16) :: names(6)
+        type(cell_t) :: cells(6)
+        integer, allocatable :: shown(:)
         integer :: i
 
         if (line%has("json")) then
@@ -281,12 +288,17 @@ contains
         end if
         if (line%has("quiet")) return
         names = [character(16) :: "method", "steps", "evaluations", "drift", "error", "seconds"]
-        if (line%has("starts")) names(1) = "start"
-        call table%begin("compare", trim(runs(1)%plan%scene%title), names)
+        shown = [(i, i=1, size(names))]
+        if (line%has("starts")) then  ! each is a motion of its own: there is nothing to compare
+            names(1) = "start"
+            shown = [1, 2, 3, 6]
+        end if
+        call table%begin("compare", title, names(shown))
         do i = 1, size(runs)
-            call table%add([word_cell(runs(i)%name%text), count_cell(outcomes(i)%steps), &
-                            count_cell(outcomes(i)%evaluations), drift_cell(outcomes(i)), &
-                            error_cell(outcomes(i)), number_cell(outcomes(i)%seconds, 2)])
+            cells = [word_cell(runs(i)%name%text), count_cell(outcomes(i)%steps), &
+                     count_cell(outcomes(i)%evaluations), drift_cell(outcomes(i)), &
+                     error_cell(outcomes(i)), number_cell(outcomes(i)%seconds, 2)]
+            call table%add(cells(shown))
         end do
         call put_line(trim(table%title))
         call table%lines(line_width() - 2, lines)

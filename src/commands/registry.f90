@@ -121,7 +121,9 @@ contains
         if (which > size(commands)) then
             near = nearest_name(line%command, [character(18) :: commands(2:)%name, &
                                                "--"//options%name])
-            if (near /= "") then
+            if (index(near, "--") == 1) then
+                near = "; '"//near//"' is an option"//with_command(near(3:))
+            else if (near /= "") then
                 near = "; did you mean '"//near//"'?"
             else
                 near = "; there are "//join(commands(2:)%name, ", ")// &
@@ -153,6 +155,23 @@ contains
             end associate
         end do
     end subroutine check_line
+
+    pure function with_command(name) result(text)
+        !! `, as in 'lagrangia run SCENE... --plot'`: the first command that takes the option; ""
+        !! where it stands alone.
+        character(*), intent(in) :: name  !! of an option, without hyphens
+        character(:), allocatable :: text
+        integer :: i
+
+        text = ""
+        if (name == "help" .or. name == "version") return
+        do i = 2, size(commands)
+            if (.not. accepts(commands(i), name)) cycle
+            text = ", as in 'lagrangia "//trim(commands(i)%name)//" "// &
+                   trim(commands(i)%arguments)//" --"//name//"'"
+            return
+        end do
+    end function with_command
 
     pure subroutine refuse_option(name, which, error)
         !! There is no such option: say which one of this command's is near, or all of them.

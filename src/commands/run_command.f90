@@ -6,6 +6,7 @@ module lagrangia_run_command
     use lagrangia_console, only: note, put_line, put_lines
     use lagrangia_data_files, only: check_format, data_path, film_path, &
                                     picture_path, script_path
+    use lagrangia_degrees, only: degrees_warning
     use lagrangia_errors, only: error_t, fail, is_signal, status_not_held
     use lagrangia_final_values, only: final_values_legend, final_values_line
     use lagrangia_gnuplot, only: panel_t, series_t
@@ -54,7 +55,7 @@ contains
         type(outcome_t) :: outcome
         character(:), allocatable :: folder, format, kind
         type(word_t), allocatable :: lines(:), remarks(:), warnings(:)
-        logical :: json, quiet, stated
+        logical :: json, quiet, stated, written
         integer :: i, k, missed
 
         json = line%has("json")
@@ -76,6 +77,7 @@ contains
         missed = 0
         allocate (remarks(2*size(chosen)))
         stated = .false.
+        written = .false.
         allocate (warnings(size(chosen)))
         do i = 1, size(chosen)
             call warn(chosen(i), folder, format, quiet, warnings(i)%text)
@@ -131,7 +133,7 @@ contains
             if (line%command == "") call put_line("'lagrangia run NAME' says more: steps, "// &
                                                   "period, omega")
             if (stated) call put_lines(final_values_legend)
-            call put_line(files_line(line)//": "//folder)
+            if (written) call put_line(files_line(line)//": "//folder)
             if (line%has("overlay") .and. .not. allocated(error)) call put_line( &
                 "all in one picture: "//overlay_file(folder, kind, line%has("plot")))
         end if
@@ -146,6 +148,7 @@ contains
             call progress%restart(trim(plan%scene%name), quiet)
             call run_scene(plan, folder, format, observer, outcome, error)
             outcome%warning = warning
+            written = written .or. outcome%file /= "" .or. outcome%events /= ""
             if (.not. allocated(error) .and. line%has("animate")) call animate_scene(plan, &
                 outcome%file, error)
             if (allocated(error) .or. .not. line%has("plot")) return
@@ -184,13 +187,14 @@ contains
         character(*), intent(in) :: folder, format
         logical, intent(in) :: quiet
         character(:), allocatable, intent(out) :: text  !! `; ` between two; "": nothing
-        type(word_t) :: parts(3)
+        type(word_t) :: parts(4)
         integer :: i
 
         parts(1)%text = ""
         if (allocated(one%plan%scene%warning)) parts(1)%text = one%plan%scene%warning
         parts(2)%text = step_warning(one%plan%scene, one%plan%system)
         parts(3)%text = size_warning(one%plan%scene, folder, format)
+        parts(4)%text = degrees_warning(one%plan%scene, one%plan%system)
         text = ""
         do i = 1, size(parts)
             if (parts(i)%text == "") cycle

@@ -85,6 +85,7 @@ contains
             if (modes%label(j) /= is_oscillation) cycle
             if (outcome%omega <= 0.0_dp) then
                 outcome%omega = sqrt(modes%omega2(j))
+                outcome%undamped = system%nonconservative
                 call find_formula(system, modes%at, modes%omega2(j), outcome%omega_formula)
             end if
             if (.not. allocated(modes%analytic%omega2)) cycle

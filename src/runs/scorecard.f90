@@ -92,8 +92,9 @@ contains
                 "2 pi/omega of small swings: "//difference("small_period"))
         end if
         if (self%omega > 0.0_dp) then
-            call add_number("omega", self%omega, "rad/s", &
-                            "the slowest small oscillation, by LAPACK")
+            call add_number("omega", self%omega, "rad/s", "the slowest small oscillation"// &
+                            trim(merge(" without forces beside L", repeat(" ", 24), &
+                                       self%undamped))//", by LAPACK")
             if (allocated(self%omega_formula)) call add(self%omega_formula, 12)
             if (self%omega_error >= 0.0_dp) call add("all frequencies: LAPACK and closed forms "// &
                 "differ by at most "//short(self%omega_error, 2), 12)

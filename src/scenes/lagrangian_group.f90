@@ -8,6 +8,7 @@ module lagrangia_lagrangian_group
     use lagrangia_namelist, only: get_real, get_strings, has_key, namelist_t, refuse_unknown_keys, &
                                   refuse_value
     use lagrangia_parameter_domains, only: set_domain
+    use lagrangia_parameter_keys, only: refuse_parameter, refuse_unknown_parameters
     use lagrangia_scene, only: add_texts, scene_line_length
     use lagrangia_text, only: lower, quoted, to_text
     use lagrangia_written_formulas, only: longest_formula, written_formulas_t
@@ -194,14 +195,13 @@ contains
                           formulas%parameters(i)%value(1), error, required=.true.)
             if (allocated(error)) return
             call check_parameter(formulas%parameters(i), found)
-            if (allocated(found)) call refuse_value(tree, trim(formulas%name), trim(names(i)), &
-                formulas%parameters(i)%domain()//" is needed", error)
+            if (allocated(found)) call refuse_parameter(tree, trim(formulas%name), &
+                trim(names(i)), formulas%parameters(i), error)
             if (allocated(error)) return
         end do
-        call refuse_unknown_keys(tree, trim(formulas%name), names, error, &
-                                 shown_by="lagrangia describe SCENE")
-        if (allocated(error)) error%message = error%message//"; parameters are named in "// &
-                                              "&lagrangian: parameters"
+        call refuse_unknown_parameters(tree, trim(formulas%name), names, formulas%coordinates, &
+                                       "lagrangia describe SCENE", "; parameters are "// &
+                                       "named in &lagrangian: parameters", error)
     end subroutine read_values
 
     subroutine read_names(tree, key, required, items, error)

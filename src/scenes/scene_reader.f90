@@ -16,10 +16,11 @@ module lagrangia_scene_reader
                                   refuse_unknown_keys, refuse_value
     use lagrangia_names, only: nearest_name
     use lagrangia_overridden_keys, only: fit_columns, fit_times
+    use lagrangia_parameter_keys, only: refuse_parameter, refuse_unknown_parameters
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_keys, only: coordinates, drift_keys, expectation_keys, key_length, keys, &
                                     read_columns, read_state, read_times
-    use lagrangia_shipped, only: find_scene, looks_like_path, scene_name
+    use lagrangia_shipped, only: file_advice, find_scene, looks_like_path, names_file, scene_name
     use lagrangia_shipped_files, only: read_file_or_shipped
     use lagrangia_sweep_group, only: read_sweep_group, sweep_group => group
     use lagrangia_system, only: check_parameter, default_values, system_t
@@ -70,7 +71,11 @@ contains
             return
         end if
         call new_system(name, system, error)
-        if (allocated(error)) return
+        if (allocated(error)) then
+            if (names_file(name)) error%message = "unknown system "//quoted(name)// &
+                                                  file_advice(name)
+            return
+        end if
         call parse_namelist("&scene system = '"//name//"' /", name, tree, error)
         if (allocated(error)) return
         do i = 1, size(overrides)
@@ -245,15 +250,14 @@ contains
                 p%value(:p%count) = values
                 call check_parameter(p, found)
                 if (allocated(found)) then
-                    call refuse_value(tree, scene%system, trim(names(i)), &
-                                      p%domain()//" is needed", error)
+                    call refuse_parameter(tree, scene%system, trim(names(i)), p, error)
                     return
                 end if
                 scene%parameters = [scene%parameters, values]
             end associate
         end do
-        call refuse_unknown_keys(tree, scene%system, names, error, &
-                                 shown_by=described_by(d))
+        call refuse_unknown_parameters(tree, scene%system, names, d%coordinates, &
+                                       described_by(d), "", error)
         if (allocated(error)) return
         call system%configure(scene%parameters, error)
         if (allocated(error)) return

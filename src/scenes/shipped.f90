@@ -12,7 +12,7 @@ module lagrangia_shipped
     implicit none (type, external)
     private
     public :: shipped_scenes, named_scenes, named_sweeps, find_scene, find_sweep
-    public :: looks_like_path, scene_name
+    public :: file_advice, looks_like_path, names_file, scene_name
 
     character(*), parameter :: folder = "data/scenes/", sweeps = "data/sweeps/"
     character(*), parameter :: ending = ".nml"
@@ -167,12 +167,33 @@ contains
         facts = look_at(trim(adjustl(name)))
         if (has_outer_blanks(name) .and. facts%found) near = "; there is one without "// &
             "that blank"
+        if (names_file(name)) near = file_advice(name)
         if (is_path) then
             call fail(error, trim(short_source(name))//": no such file"//near, status_file)
         else
             call fail(error, "unknown scene "//quoted(name)//near, status_usage)
         end if
     end subroutine find_scene
+
+    function names_file(name) result(yes)
+        !! Is it a scene's file but for its ending?
+        character(*), intent(in) :: name  !! what was typed
+        logical :: yes
+        type(facts_t) :: facts
+
+        yes = .false.
+        if (name == "" .or. has_outer_blanks(name)) return
+        facts = look_at(name//ending)
+        yes = facts%found
+    end function names_file
+
+    pure function file_advice(name) result(text)
+        !! `; did you mean 'mine.nml'?`
+        character(*), intent(in) :: name  !! without its ending
+        character(:), allocatable :: text
+
+        text = "; did you mean '"//trim(short_source(name//ending))//"'?"
+    end function file_advice
 
     pure function looks_like_path(name) result(yes)
         !! Is it a file's rather than a shipped scene's name?

@@ -1,0 +1,45 @@
+module lagrangia_degrees
+    !! Angles are in radians. Who types 45 most probably means degrees, and is told what they are.
+    use lagrangia_description, only: description_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_scene, only: scene_t
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: degrees_advice, degrees_warning
+
+contains
+
+    pure function degrees_advice(value, unit) result(text)
+        !! `; angles are in radians: 45.0 degrees are 0.7853981633974483`, or "" where `value` is no
+        !! multiple of 5 from 10 to 360, or no angle.
+        real(dp), intent(in) :: value      !! as it was typed
+        character(*), intent(in) :: unit   !! `rad`: it is an angle
+        character(:), allocatable :: text
+        real(dp), parameter :: degree = acos(-1.0_dp)/180.0_dp
+
+        text = ""
+        if (unit /= "rad" .or. .not. (abs(value) >= 10.0_dp .and. abs(value) <= 360.0_dp)) return
+        if (abs(value - 5.0_dp*anint(value/5.0_dp)) > 0.0_dp) return
+        text = "; angles are in radians: "//to_text(value)//" degrees are "//to_text(value*degree)
+    end function degrees_advice
+
+    function degrees_warning(scene, system) result(text)
+        !! Of the first coordinate whose start looks like degrees; "": none does.
+        type(scene_t), intent(in) :: scene     !! says where the motion starts
+        class(system_t), intent(in) :: system  !! with the scene's parameters
+        character(:), allocatable :: text
+        type(description_t) :: d
+        integer :: i
+
+        call system%describe(d)
+        text = ""
+        do i = 1, min(size(d%coordinates), size(scene%q))
+            text = degrees_advice(scene%q(i), trim(d%coordinates(i)%unit))
+            if (text == "") cycle
+            text = trim(d%coordinates(i)%name)//" starts at "//to_text(scene%q(i))//" rad"//text
+            return
+        end do
+    end function degrees_warning
+end module lagrangia_degrees
