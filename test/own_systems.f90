@@ -30,12 +30,13 @@ module own_systems
     end type own_pivot_t
 
     type, extends(lagrangian_system_t) :: own_slope_t
-        !! A mass that \(\dot y = c\,\dot x\) keeps on a slope. Set `constraints` to 1.
+        !! A mass that \(y = c\,x\) keeps on a slope.
     contains
         procedure :: outline => slope_outline
         procedure :: lagrangian => slope_lagrangian
         procedure :: constraint_rows => slope_rows
-        procedure :: complete_velocities => slope_velocities
+        procedure :: constraint_values => slope_values
+        procedure :: prepare => prepare_slope
     end type own_slope_t
 
     type, extends(lagrangian_system_t) :: own_skin_t
@@ -159,14 +160,21 @@ contains
         drift(1) = hyperdual_t()
     end subroutine slope_rows
 
-    pure subroutine slope_velocities(self, t, q, given, v, error)
+    pure subroutine slope_values(self, t, q, values)
         class(own_slope_t), intent(in) :: self
-        real(dp), intent(in) :: t, q(self%ndof), given(:)
-        real(dp), intent(out) :: v(self%ndof)
-        type(error_t), allocatable, intent(out) :: error
+        real(dp), intent(in) :: t, q(self%ndof)
+        real(dp), intent(out) :: values(:)
 
-        v = [1.0_dp, self%p(1)]*given(1)
-    end subroutine slope_velocities
+        values(1) = q(2) - self%p(1)*q(1)
+    end subroutine slope_values
+
+    pure subroutine prepare_slope(self)
+        class(own_slope_t), intent(inout) :: self
+
+        self%constraints = 1
+        self%is_projected = .true.
+        self%holonomic = [.true.]
+    end subroutine prepare_slope
 
     pure subroutine skin_outline(self, d)
         class(own_skin_t), intent(in) :: self

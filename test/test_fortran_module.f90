@@ -25,6 +25,7 @@ contains
         call suite%addTest(TestMethod("names_that_are_taken", names_that_are_taken))
         call suite%addTest(TestMethod("numbers_and_powers", numbers_and_powers))
         call suite%addTest(TestMethod("what_is_conserved", what_is_conserved))
+        call suite%addTest(TestMethod("constraints_as_procedures", constraints_as_procedures))
         call suite%addTest(TestMethod("long_lines_are_broken", long_lines_are_broken))
     end function fortran_module_suite
 
@@ -132,6 +133,31 @@ contains
                  "[2.0_dp, 0.0_dp]) <= &")
         call has(lines, "d%quantities(4)%conserved = .true.")
     end subroutine what_is_conserved
+
+    subroutine constraints_as_procedures()
+        !! Their multipliers are more unknowns; what is left of them are quantities.
+        type(fortran_lines_t) :: lines
+
+        call write_of("coordinates = 'x', 'drift' parameters = 'm', 'w' "// &
+                      "T = 'm/2 (x_dot^2 + drift_dot^2)' constraint = 'drift = 10/3 x^2 + w t'", &
+                      "m = 1.5, w = 0.2", lines)
+        call has(lines, "mass1_3 = 20.0_dp/3.0_dp*x")
+        call has(lines, "mass2_3 = -1.0_dp")
+        call has(lines, "force3 = -20.0_dp/3.0_dp*x_dot**2")
+        call has(lines, "a3 = force3/mass3_3")
+        call has(lines, "self%constraints = 1")
+        call has(lines, "self%is_projected = .true.")
+        call has(lines, "self%holonomic = [.true.]")
+        call has(lines, "rows(1, 1) = -20.0_dp/3.0_dp*x")
+        call has(lines, "rows(1, 2) = 1.0_dp")
+        call has(lines, "drift(1) = -w")
+        call has(lines, "values(1) = drift - (10.0_dp/3.0_dp*x**2 + w*t)")
+        call has(lines, "case (3)")
+        call has(lines, "value = lambda(i - 2)")
+        call has(lines, "case (4)")
+        call has(lines, 'd%constraint = "holonomic, rheonomic"')
+        call has(lines, "d%quantities(4:)%scale = 1.0_dp")
+    end subroutine constraints_as_procedures
 
     subroutine long_lines_are_broken()
         !! At terms and commas, not in brackets within brackets, nor in texts; quotes are doubled.

@@ -148,12 +148,28 @@ contains
         !! Down a slope c: \(\ddot x = -g c/(1 + c^2)\), \(\ddot y = c\,\ddot x\).
         type(own_slope_t) :: slope
         type(error_t), allocatable :: error
-        real(dp) :: a(2)
+        real(dp) :: a(2), force(1), q(2), v(2)
 
-        slope%constraints = 1
         call slope%configure([0.75_dp], error)
         call slope%accelerations(0.0_dp, [0.3_dp, 0.2_dp], [4.0_dp, 3.0_dp], a)
         call assertEqual([-4.8_dp, -3.6_dp], a, 1e-14_dp)
+        call slope%multipliers(0.0_dp, [0.3_dp, 0.2_dp], [4.0_dp, 3.0_dp], force)
+        call assertEqual([2.0_dp*(10.0_dp - 3.6_dp)], force, 1e-14_dp, "m (y_ddot + g)")
+        call slope%complete_velocities(0.0_dp, [0.3_dp, 0.2_dp], [4.0_dp], v, error)
+        call assertEqual([4.0_dp, 3.0_dp], v, 1e-15_dp, "y_dot = c x_dot")
+        call slope%complete_velocities(0.0_dp, [0.3_dp, 0.2_dp], [4.0_dp, 2.0_dp], v, error)
+        call assertTrue(allocated(error), "velocities that leave it")
+        if (allocated(error)) call assertEqual( &
+            "v does not keep the constraints; give those of x_dot only", error%message)
+        call slope%check_places(0.0_dp, [4.0_dp, 4.0_dp], error)
+        call assertTrue(allocated(error), "a place beside it")
+        q = [4.0_dp, 4.0_dp]
+        v = [1.0_dp, 0.0_dp]
+        call slope%keep_constraints(0.0_dp, q, v)
+        call assertEqual([4.48_dp, 3.36_dp], q, 1e-14_dp, "the nearest place on the slope")
+        call assertEqual([0.64_dp, 0.48_dp], v, 1e-15_dp, "and velocity")
+        call assertEqual(0, slope%cyclic, "no coordinate is free")
+        call assertFalse(slope%constraints_work, "a slope at rest")
     end subroutine constraints_are_kept
 
     subroutine no_inertia_is_not_a_number()
@@ -201,7 +217,6 @@ contains
         integer :: k
 
         call audit_system(double, audit)
-        slope%constraints = 1
         call audit_system(slope, audit)
         do k = 1, 2
             skin%kind = k
@@ -213,7 +228,7 @@ contains
                                 row%remark)
             end associate
         end do
-        call assertEqual(37, size(audit%rows), message="claims")
+        call assertEqual(36, size(audit%rows), message="claims")
         skin%kind = 3
         call audit_system(skin, audit)
         associate (row => audit%rows(size(audit%rows)))

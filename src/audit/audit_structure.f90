@@ -30,8 +30,9 @@ contains
         type(euler_lagrange_t) :: terms, later
         type(hyperdual_t), dimension(system%ndof) :: qq, vv, now, then
         type(hyperdual_t) :: rows(system%constraints, system%ndof), b(system%constraints)
+        type(hyperdual_t) :: new_rows(system%constraints, system%ndof), new_b(system%constraints)
         real(dp) :: by_velocity, by_time
-        logical :: bound
+        logical :: bound, moving
 
         by_velocity = change(system, t, q, v, t, other_v)
         by_time = change(system, t, q, v, other_t, v)
@@ -50,6 +51,9 @@ contains
         vv%re = v
         call system%generalised_forces(hyperdual_t(re=t), qq, vv, now)
         call system%generalised_forces(hyperdual_t(re=other_t), qq, vv, then)
+        call system%constraint_rows(hyperdual_t(re=t), qq, rows, b)
+        call system%constraint_rows(hyperdual_t(re=other_t), qq, new_rows, new_b)
+        moving = any(abs(new_rows%re - rows%re) > 0.0_dp) .or. any(abs(new_b%re) > 0.0_dp)
         if (.not. system%nonconservative) then
             if (any(abs(now%re) > 0.0_dp)) call verdict(.false., "nonconservative", &
                 "nonconservative is false, yet there are generalised forces")
@@ -64,10 +68,9 @@ contains
                          "time_dependent is false, yet L depends on the time")
         else if (generic) then
             call verdict(abs(later%l - terms%l) > 0.0_dp .or. any(abs(then%re - now%re) > 0.0_dp) &
-                         .or. by_time > 0.0_dp, &
+                         .or. by_time > 0.0_dp .or. moving, &
                          "time_dependent", "time_dependent is true, yet L has no time in it")
         end if
-        call system%constraint_rows(hyperdual_t(re=t), qq, rows, b)
         if (.not. system%constraints_work .and. any(abs(b%re) > 0.0_dp)) call verdict(.false., &
             "constraints_work", "constraints_work is false, yet a constraint A v + b = 0 has a b")
     contains

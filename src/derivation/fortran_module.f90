@@ -7,11 +7,15 @@ module lagrangia_fortran_module
     use lagrangia_errors, only: error_t, fail
     use lagrangia_expression, only: expression_t
     use lagrangia_formula_fortran, only: fortran_text
+    use lagrangia_fortran_constraints, only: add_constraints
     use lagrangia_fortran_motion, only: find_motion, motion_statements_t
     use lagrangia_fortran_names, only: find_names
     use lagrangia_fortran_outline, only: add_outline
+    use lagrangia_fortran_procedures, only: element, open_names, open_procedure
     use lagrangia_fortran_statements, only: fortran_lines_t
     use lagrangia_text, only: lower, quoted, to_text, word_t
+    use lagrangia_written_constraints, only: with_multipliers
+    use lagrangia_written_motion, only: written_motion_t
     use lagrangia_written_system, only: written_system_t
     implicit none (type, external)
     private
@@ -23,25 +27,25 @@ contains
 
     subroutine write_fortran_module(system, source, lines, error)
         !! The whole module, to be compiled against the library.
-        class(written_system_t), intent(in) :: system       !! without constraints
+        class(written_system_t), intent(in) :: system       !! with its parameters
         character(*), intent(in) :: source                  !! where its formulas are
         type(fortran_lines_t), intent(out) :: lines         !! of the module
-        type(error_t), allocatable, intent(out) :: error    !! constraints, or a formula too long
+        type(error_t), allocatable, intent(out) :: error    !! a formula is too long
         type(description_t) :: d
+        type(written_motion_t) :: motion
 
         call system%describe(d)
         d%name = lower(d%name)
-        if (system%constraints > 0) then
-            call fail(error, trim(d%name)//" has constraints, and only a system without any is "// &
-                      "written in Fortran")
-            return
-        end if
+        motion = system%motion
+        if (system%constraints > 0) call with_multipliers(system%motion, &
+            system%expressions%constraints, system%expressions%symbols, motion)
         call add_head(system, d, source, lines)
         call add_outline(system, d, lines)
         call add_lagrangian(system, d, lines)
         if (system%nonconservative) call add_forces(system, d, lines)
-        call add_motion(system, d, .false., lines)
-        call add_motion(system, d, .true., lines)
+        call add_motion(system, d, motion, .false., lines)
+        call add_motion(system, d, motion, .true., lines)
+        if (system%constraints > 0) call add_constraints(system, d, lines)
         call add_energy(system, d, lines)
         call add_momenta(system, d, lines)
         call add_quantities(system, d, lines)
@@ -72,9 +76,10 @@ contains
         call lines%add(4, "!! Its scenes say system = '"//name//"' and have no group &lagrangian.")
         call lines%add(4, "use lagrangia, only: abs, assignment(=), atan, coordinate, cos, "// &
                        "cosh, description_t, dp, exp, formula_length, hyperdual_t, "// &
-                       "lagrangian_system_t, lanes, letter_t, log, mass_point, nonnegative, "// &
-                       "operator(*), operator(**), operator(+), operator(-), operator(/), "// &
-                       "positive, quantity, real_number, sin, sine_cosine, sinh, sqrt, tan, tanh")
+                       "lagrangian_system_t, lanes, letter_t, line_length, log, mass_point, "// &
+                       "nonnegative, operator(*), operator(**), operator(+), operator(-), "// &
+                       "operator(/), positive, quantity, real_number, sin, sine_cosine, sinh, "// &
+                       "sqrt, tan, tanh")
         call lines%add(4, "implicit none (type, external)")
         call lines%add(4, "private")
         call lines%add(4, "public :: "//name//"_t")
@@ -86,6 +91,11 @@ contains
         if (system%nonconservative) call lines%add(8, "procedure :: generalised_forces")
         call lines%add(8, "procedure :: accelerations")
         call lines%add(8, "procedure :: accelerations_lanes")
+        if (system%constraints > 0) then
+            call lines%add(8, "procedure :: prepare")
+            call lines%add(8, "procedure :: constraint_rows")
+            if (any(system%holonomic)) call lines%add(8, "procedure :: constraint_values")
+        end if
         call lines%add(8, "procedure :: energy")
         call lines%add(8, "procedure :: momenta")
         call lines%add(8, "procedure :: quantity => momentum_or_own")
@@ -94,58 +104,6 @@ contains
         call lines%add(0, "")
         call lines%add(0, "contains")
     end subroutine add_head
-
-    subroutine open_procedure(d, heading, purpose, arguments, lines)
-        !! To the declarations of the arguments.
-        type(description_t), intent(in) :: d
-        character(*), intent(in) :: heading, purpose
-        character(*), intent(in) :: arguments(:)  !! declarations
-        type(fortran_lines_t), intent(inout) :: lines
-        integer :: i
-
-        call lines%add(0, "")
-        call lines%add(4, heading)
-        call lines%add(8, "!! "//purpose)
-        call lines%add(8, "class("//trim(d%name)//"_t), intent(in) :: self")
-        do i = 1, size(arguments)
-            call lines%add(8, trim(arguments(i)))
-        end do
-    end subroutine open_procedure
-
-    subroutine open_names(d, names, velocities, lanes, lines)
-        !! The coordinates, velocities and parameters by their names.
-        type(description_t), intent(in) :: d
-        type(word_t), intent(in) :: names(:)
-        logical, intent(in) :: velocities, lanes
-        type(fortran_lines_t), intent(inout) :: lines
-        character(:), allocatable :: text
-        integer :: i, n
-
-        n = size(d%coordinates)
-        text = ""
-        do i = 1, n
-            text = text//", "//names(1 + i)%text//" => "//element("q", i, lanes)
-        end do
-        do i = 1, merge(n, 0, velocities)
-            text = text//", "//names(1 + n + i)%text//" => "//element("v", i, lanes)
-        end do
-        do i = 1, size(names) - 1 - 2*n
-            text = text//", "//names(1 + 2*n + i)%text//" => self%p("//to_text(i)//")"
-        end do
-        call lines%add(0, "")
-        call lines%add(8, "associate ("//text(3:)//")")
-    end subroutine open_names
-
-    pure function element(array, i, lanes) result(text)
-        !! `q(1)`, or `q(:, 1)` of all lanes.
-        character(*), intent(in) :: array
-        integer, intent(in) :: i
-        logical, intent(in) :: lanes
-        character(:), allocatable :: text
-
-        text = array//"("//to_text(i)//")"
-        if (lanes) text = array//"(:, "//to_text(i)//")"
-    end function element
 
     subroutine add_lagrangian(system, d, lines)
         !! L, as it was typed.
@@ -192,10 +150,11 @@ contains
         call lines%add(4, "end subroutine generalised_forces")
     end subroutine add_forces
 
-    subroutine add_motion(system, d, lanes, lines)
-        !! M and the right side, then the accelerations by elimination.
+    subroutine add_motion(system, d, motion, lanes, lines)
+        !! M and the right side, then the accelerations by elimination, and the multipliers.
         class(written_system_t), intent(in) :: system
         type(description_t), intent(in) :: d
+        type(written_motion_t), intent(in) :: motion  !! with a row for each constraint
         logical, intent(in) :: lanes  !! of eight states at once
         type(fortran_lines_t), intent(inout) :: lines
         type(word_t), allocatable :: names(:)
@@ -206,9 +165,11 @@ contains
 
         call find_names(system%expressions%symbols%names, &
                         [character(name_length) :: d%name, "a"], names)
-        call find_motion(system%motion, system%expressions%symbols, names, body)
+        call find_motion(motion, system%expressions%symbols, names, body)
         name = "accelerations"
         purpose = "Lagrange's equations, solved for the second derivatives of the coordinates."
+        if (system%constraints > 0) purpose = purpose//" Behind them, from a"// &
+            to_text(system%ndof + 1)//", come the multipliers of the constraints."
         kind = "real(dp) :: "
         of = "self%ndof"
         time = "t"
@@ -306,29 +267,50 @@ contains
         type(fortran_lines_t), intent(inout) :: lines
         type(word_t), allocatable :: names(:)
         character(:), allocatable :: text
-        integer :: i, n
+        integer :: i, m, n, own
 
         n = size(d%coordinates)
+        m = system%constraints
+        own = size(system%expressions%quantities)
         call find_names(system%expressions%symbols%names, &
-                        [character(name_length) :: d%name, "i", "p", "value"], names)
+                        [character(name_length) :: d%name, "i", "lambda", "p", "value"], names)
         call open_procedure(d, "pure function momentum_or_own(self, i, t, q, v) result(value)", &
                             "The momenta, then the quantities of `outline`.", [character(70) :: &
                              "integer, intent(in) :: i", &
                              "real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)", &
                              "real(dp) :: value, p(self%ndof)"], lines)
+        if (m > 0) call lines%add(8, "real(dp) :: lambda("//to_text(m)//")")
         call open_names(d, names, .true., .false., lines)
         call lines%add(12, "select case (i)")
-        do i = 1, size(system%expressions%quantities)
-            call fortran_text(system%expressions%quantities(i), names, text)
-            call lines%add(12, "case ("//to_text(n + i)//")")
-            call lines%assign(16, "value", text)
+        do i = 1, own
+            call add_value(n + i, system%expressions%quantities(i))
         end do
+        do i = 1, m
+            call add_value(n + own + m + i, system%expressions%constraints(i))
+        end do
+        if (m > 0) then
+            text = to_text(n + own + 1)
+            if (m > 1) text = text//":"//to_text(n + own + m)
+            call lines%add(12, "case ("//text//")")
+            call lines%add(16, "call self%multipliers(t, q, v, lambda)")
+            call lines%add(16, "value = lambda(i - "//to_text(n + own)//")")
+        end if
         call lines%add(12, "case default")
         call lines%add(16, "call self%momenta(t, q, v, p)")
         call lines%add(16, "value = p(i)")
         call lines%add(12, "end select")
         call lines%add(8, "end associate")
         call lines%add(4, "end function momentum_or_own")
+    contains
+        subroutine add_value(number, formula)
+            !! A case.
+            integer, intent(in) :: number
+            type(expression_t), intent(in) :: formula
+
+            call fortran_text(formula, names, text)
+            call lines%add(12, "case ("//to_text(number)//")")
+            call lines%assign(16, "value", text)
+        end subroutine add_value
     end subroutine add_quantities
 
     subroutine add_positions(system, d, lines)

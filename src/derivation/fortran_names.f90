@@ -7,8 +7,8 @@ module lagrangia_fortran_names
     public :: find_names
 
     character(*), parameter :: always(*) = [character(11) :: "coordinate", "dp", "factor", &
-        "lanes", "letter_t", "mass_point", "nonnegative", "positive", "q", "quantity", &
-        "real_number", "self", "sine_cosine", "v"]
+        "lanes", "letter_t", "line_length", "mass_point", "nonnegative", "positive", "q", &
+        "quantity", "real_number", "self", "sine_cosine", "v"]
     character(*), parameter :: numbered(*) = [character(6) :: "a", "angle", "cosine", "force", &
                                               "mass", "sine"]
     !! of the statements for the accelerations, with numbers behind

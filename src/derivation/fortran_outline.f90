@@ -50,6 +50,7 @@ contains
         call lines%add(8, "if (allocated(self%cyclic_coordinates)) d%quantities(:"//to_text(n)// &
                        ")%conserved = self%cyclic_coordinates")
         call add_conserved(system, d, lines)
+        if (system%constraints > 0) call add_constraint_texts(system, d, lines)
         call add_formulas(d, lines)
         if (size(d%points) + size(system%expressions%equilibrium) > 0) then
             call add_places(system, d, lines)
@@ -83,6 +84,27 @@ contains
         end do
         call lines%add(indentation + 4, items(size(items))%text//"]")
     end subroutine add_list
+
+    subroutine add_constraint_texts(system, d, lines)
+        !! Their class and equations; what is left of each is compared with 1.
+        class(written_system_t), intent(in) :: system
+        type(description_t), intent(in) :: d
+        type(fortran_lines_t), intent(inout) :: lines
+        type(word_t) :: items(system%constraints)
+        integer :: first, k
+
+        first = size(d%quantities) - system%constraints + 1
+        call lines%add(8, "d%quantities("//to_text(first)//":)%scale = 1.0_dp")
+        call lines%add(8, "d%constraint = "//literal(d%constraint))
+        do k = 1, size(items)
+            items(k)%text = literal(d%constraint_equations(k))
+        end do
+        call add_list(8, "constraint_equations", "character(line_length) ::", items, lines)
+        do k = 1, size(items)
+            items(k)%text = literal(d%notes(k))
+        end do
+        call add_list(8, "notes", "character(line_length) ::", items, lines)
+    end subroutine add_constraint_texts
 
     subroutine add_conserved(system, d, lines)
         !! Which of the scene's own quantities are conserved: with any parameters, so far as three

@@ -10,6 +10,7 @@ module lagrangia_lagrangian_system
     !! L must be of degree two in the velocities, its mass matrix positive definite. Forces that L
     !! lacks are in `generalised_forces`.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+    use lagrangia_bound_system, only: bound_system_t
     use lagrangia_description, only: description_t
     use lagrangia_elimination, only: solve_positive
     use lagrangia_errors, only: error_t
@@ -17,13 +18,13 @@ module lagrangia_lagrangian_system
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: accelerations_from_lagrangian, energy_from_lagrangian, &
                                   euler_lagrange_t, expand_lagrangian
-    use lagrangia_system, only: check_parameters, system_t
+    use lagrangia_system, only: check_parameters
     implicit none (type, external)
     private
     public :: lagrangian_system_t
     public :: find_structure, trial_state
 
-    type, abstract, extends(system_t) :: lagrangian_system_t
+    type, abstract, extends(bound_system_t) :: lagrangian_system_t
         real(dp), allocatable :: p(:)  !! the parameters, in the order of `describe`
         logical, allocatable :: cyclic_coordinates(:)  !! all that are cyclic with them, (ndof)
     contains
@@ -156,9 +157,54 @@ contains
             self%time_dependent = .true.
             cyclic = .false.
         end if
+        if (self%constraints > 0) call find_bonds(self, cyclic)
         self%cyclic = findloc(cyclic, .true., 1)
         self%cyclic_coordinates = cyclic
     end subroutine find_structure
+
+    pure subroutine find_bonds(self, cyclic)
+        !! What the constraints change, from up to four states at which they are finite:
+        !! accelerations depend on velocities, and a momentum is conserved only where they leave
+        !! its coordinate alone. Without any such state they count as dependent on everything.
+        class(lagrangian_system_t), intent(inout) :: self
+        logical, intent(inout) :: cyclic(:)
+        type(hyperdual_t) :: tt, qq(self%ndof), rows(self%constraints, self%ndof)
+        type(hyperdual_t) :: drift(self%constraints)
+        real(dp) :: q(self%ndof), t, v(self%ndof)
+        logical :: moving(self%constraints)
+        integer :: i, k, used
+
+        self%velocity_forces = .true.
+        self%constraints_work = .false.
+        used = 0
+        do k = 1, 60
+            call trial_state(k, t, q, v)
+            tt = hyperdual_t(re=t, d1=1.0_dp)
+            qq = hyperdual_t()
+            qq%re = q
+            call self%constraint_rows(tt, qq, rows, drift)
+            if (.not. (all(ieee_is_finite(rows%re)) .and. all(ieee_is_finite(drift%re)))) cycle
+            moving = abs(drift%re) > 0.0_dp
+            self%constraints_work = self%constraints_work .or. any(moving)
+            self%time_dependent = self%time_dependent .or. any(abs(rows%d1) > 0.0_dp) .or. &
+                                  any(abs(drift%d1) > 0.0_dp)
+            if (allocated(self%holonomic)) self%time_dependent = self%time_dependent .or. &
+                any(moving .and. self%holonomic)
+            do i = 1, self%ndof
+                qq(i)%d1 = 1.0_dp
+                call self%constraint_rows(hyperdual_t(re=t), qq, rows, drift)
+                qq(i)%d1 = 0.0_dp
+                if (any(abs(rows(:, i)%re) > 0.0_dp) .or. any(abs(rows%d1) > 0.0_dp) .or. &
+                    any(abs(drift%d1) > 0.0_dp)) cyclic(i) = .false.
+            end do
+            used = used + 1
+            if (used == 4) return
+        end do
+        if (used > 0) return
+        self%time_dependent = .true.
+        self%constraints_work = .true.
+        cyclic = .false.
+    end subroutine find_bonds
 
     pure subroutine trial_state(k, t, q, v)
         !! One of many states, of which some will do for any Lagrangian: \(|q| \le 0.8^k\).

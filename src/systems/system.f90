@@ -17,7 +17,7 @@ module lagrangia_system
     private
     public :: system_t, system_box_t, reduced_t
     public :: lanes, check_parameter, check_parameters, check_state, default_values
-    public :: each_lane
+    public :: all_velocities, each_lane
 
     type, abstract :: system_t
         integer :: ndof = 0                  !! number of coordinates
@@ -47,7 +47,7 @@ module lagrangia_system
         procedure :: natural_size => no_natural_size
         procedure :: positions => no_positions
         procedure :: constraint_rows => no_constraint_rows
-        procedure :: complete_velocities
+        procedure :: complete_velocities => all_velocities
         procedure :: check_places => any_place
         procedure :: keep_constraints => nothing_to_keep
         procedure :: linearise => nothing_by_hand
@@ -298,7 +298,7 @@ contains
         drift = hyperdual_t()
     end subroutine no_constraint_rows
 
-    pure subroutine complete_velocities(self, t, q, given, v, error)
+    pure subroutine all_velocities(self, t, q, given, v, error)
         !! All velocities from those that a scene gives: here every one must be given.
         class(system_t), intent(in) :: self
         real(dp), intent(in) :: t, q(self%ndof), given(:)
@@ -314,7 +314,7 @@ contains
             return
         end if
         v = given
-    end subroutine complete_velocities
+    end subroutine all_velocities
 
     pure subroutine any_place(self, t, q, error)
         !! Refuse coordinates that are not on the holonomic constraints beside L: here there are

@@ -2,17 +2,19 @@ module lagrangia_written_constraints
     !! The constraints of a scene's group `&lagrangian`: holonomic, \(f(t, q) = 0\), or in the
     !! velocities, \(A(t, q)\,\dot q + b(t, q) = 0\).
     use lagrangia_canonical_form, only: simplified
-    use lagrangia_derivative, only: derivative
+    use lagrangia_derivative, only: derivative, time_derivative
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_expression, only: expression_t, kind_number, operator(*), operator(-), symbol, &
-                                    whole
+    use lagrangia_expression, only: expression_t, kind_number, operator(*), operator(+), &
+                                    operator(-), symbol, whole
     use lagrangia_formula_parser, only: parse_equation, parse_formula
     use lagrangia_kinds, only: dp
     use lagrangia_symbols, only: symbols_t
     use lagrangia_written_formulas, only: longest_formula
+    use lagrangia_written_motion, only: written_motion_t
     implicit none (type, external)
     private
     public :: constraint_drift, constraint_row, is_in_velocities, is_zero, read_constraints
+    public :: with_multipliers
 
 contains
 
@@ -114,6 +116,42 @@ contains
         end if
         drift = simplified(drift, symbols)
     end function constraint_drift
+
+    pure subroutine with_multipliers(motion, constraints, symbols, bound)
+        !! One symmetric linear system for \(\ddot q\) and the multipliers,
+        !! \(M\ddot q - A^\top\lambda = f\) and \(-A\,\ddot q = \dot A\,\dot q + \dot b\).
+        type(written_motion_t), intent(in) :: motion      !! without the constraints, (n)
+        type(expression_t), intent(in) :: constraints(:)  !! of t, q, q_dot, parameters, (m)
+        type(symbols_t), intent(in) :: symbols            !! their names
+        type(written_motion_t), intent(out) :: bound      !! `mass` and `right` only, of n + m
+        type(expression_t) :: along, row
+        integer :: i, j, k, n, rates(size(symbols%names))
+
+        n = size(motion%right)
+        rates = 0
+        rates(2:1 + n) = [(1 + n + i, i=1, n)]
+        allocate (bound%mass(n + size(constraints), n + size(constraints)), &
+                  bound%right(n + size(constraints)))
+        do i = 1, n
+            do j = 1, n
+                bound%mass(i, j) = motion%mass(i, j)
+            end do
+            bound%right(i) = motion%right(i)
+        end do
+        do k = 1, size(constraints)
+            along = constraint_drift(constraints(k), n, symbols)
+            do i = 1, n
+                row = constraint_row(constraints(k), i, n, symbols)
+                along = along + row*symbol(1 + n + i)
+                bound%mass(i, n + k) = simplified(whole(0) - row, symbols)
+                bound%mass(n + k, i) = bound%mass(i, n + k)
+            end do
+            bound%right(n + k) = simplified(time_derivative(along, rates, 1), symbols)
+            do i = 1, size(constraints)
+                bound%mass(n + i, n + k) = whole(0)
+            end do
+        end do
+    end subroutine with_multipliers
 
     pure function is_zero(expression) result(yes)
         !! By its form.

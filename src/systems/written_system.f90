@@ -23,7 +23,7 @@ module lagrangia_written_system
     implicit none (type, external)
     private
     public :: is_positive, new_written_system, written_system_t
-    public :: of_momentum, of_quantity
+    public :: of_momentum
 
     ! programs of a system
     integer, parameter :: of_l = 1         !! L
