@@ -505,6 +505,10 @@ run grade "$work/sheet"
 check "grade: a line without an equals sign cannot be read, with its column" eval '[ $status -eq 2 ] && grep -q "column [0-9]*: .*=" "$work/out" && grep -q "^1 unreadable" "$work/out"'
 printf 'system: pendulun\ntheta_ddot = 3\n' >"$work/sheet"
 refuses 2 "sheet:1: unknown system 'pendulun'; did you mean 'pendulum'?" grade "$work/sheet"
+printf 'system: kepler\nset: h = 0.1\nset: m = 0\nset: k = 2\nL_z = const\n' > "$work/sheet"
+refuses 2 "sheet:3: set: m=0: &kepler: m = 0: greater than 0.0 is needed" grade "$work/sheet"
+printf 'system: charged_particle\ndT/dt = 0\nset: electric = 0 0 0\nset: m = 1 000\n' > "$work/sheet"
+refuses 2 "sheet:4: set: m=1 000: &charged_particle: m has 2 values; one is needed" grade "$work/sheet"
 refuses 2 "grade what?" grade
 refuses 5 "no such file" grade "$work/none.txt"
 

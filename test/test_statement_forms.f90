@@ -52,7 +52,7 @@ contains
         call unreadable("pendulum", "d/dt theta^2 = 0", "column 1: of what is it the derivative?")
         call unreadable("pendulum", "d^2/dt^2 theta = 0", "column 1: a derivative is written d/dt(")
         call unreadable("pendulum", "d(theta) = 0", "column 9: behind d(...) stands '/dt'")
-        call unreadable("pendulum", "0 = d/dt(tension)", "column 5: d/dt of 'tension' is not")
+        call wrong("pendulum", "0 = d/dt(tension)", "")
     end subroutine derivatives_by_the_time
 
     subroutine derivatives_of_energies()
@@ -75,7 +75,17 @@ contains
         call right("cart_pendulum", "(m1 + m2) x_dot + m2 l theta_dot cos(theta) = constant")
         call wrong("cart_pendulum", "p_theta = const", "")
         call wrong("oscillator", "E + 0 b = const", "")
-        call unreadable("pendulum", "tension = const", "column 1: d/dt of 'tension' is not known")
+        call wrong("pendulum", "tension = const", "")
+        call wrong("pendulum", "L_z = const", "")
+        call right("pendulum", "dtension/dt = -3 m g sin(theta) theta_dot")
+        call right("pendulum", "dL_z/dt = -m g l sin(theta)")
+        call right("pendulum", "L_z_dot = -m g l sin(theta)")
+        call unreadable("double_pendulum", "tension1 = const", "column 1: d/dt of 'tension1' "// &
+                        "is not known")
+        ! what is conserved has the rate 0, not a rounding error
+        call traced("kepler", "rrwru0", "L_z = const; A_x = const; p_x = const; d/dt(p_x) = "// &
+            "-k cos(phi)/r^2; L_z = 3; A_y = const + 0")
+        call right("rolling_disk", "dT/dt = m g x_dot sin(incline)")
     end subroutine constants_of_the_motion
 
     subroutine periods_and_motions()

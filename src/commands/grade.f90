@@ -72,21 +72,33 @@ contains
         type(error_t), allocatable, intent(out) :: error
         type(word_t), allocatable :: settings(:)
         type(description_t) :: d
-        integer :: i
+        type(error_t), allocatable :: without
+        character(:), allocatable :: option
+        integer :: i, line, n
 
-        allocate (settings(0))
-        call read_named_system(homework%system, settings, system, error)
-        if (.not. allocated(error) .and. size(homework%settings) > 0) then
+        line = homework%system_line
+        n = size(homework%settings)
+        allocate (settings(n))
+        call read_named_system(homework%system, settings(:0), system, error)
+        if (.not. allocated(error) .and. n > 0) then
             call system%describe(d)
-            deallocate (settings)
-            allocate (settings(size(homework%settings)))
-            do i = 1, size(settings)
+            do i = 1, n
                 settings(i)%text = trim(d%name)//"%"//homework%settings(i)%text
             end do
             call read_named_system(homework%system, settings, system, error)
+            do i = n, 1, -1  ! the first line with which it fails
+                if (.not. allocated(error)) exit
+                line = homework%setting_lines(i)
+                call read_named_system(homework%system, settings(:i - 1), system, without)
+                if (.not. allocated(without)) exit
+                call move_alloc(without, error)
+            end do
         end if
-        if (allocated(error)) call error%add_context(trim(short_source(homework%source))//":"// &
-                                                     to_text(homework%system_line))
+        if (.not. allocated(error)) return
+        option = "--set "//trim(d%name)//"%"
+        if (index(error%message, option) == 1) error%message = "set: "// &
+                                                              error%message(len(option) + 1:)
+        call error%add_context(trim(short_source(homework%source))//":"//to_text(line))
     end subroutine find_system
 
     pure function number_of_statements(number) result(text)

@@ -40,6 +40,7 @@ module lagrangia_homework
         character(:), allocatable :: system              !! a name, or the path of a scene
         integer :: system_line = 0                       !! where that stands
         type(word_t), allocatable :: settings(:)         !! `name=value`, behind `set:`
+        integer, allocatable :: setting_lines(:)         !! where these stand
         type(statement_t), allocatable :: statements(:)  !! in the order of the file
     end type homework_t
 
@@ -102,7 +103,7 @@ contains
 
         homework%source = source
         homework%system = ""
-        allocate (homework%settings(0), homework%statements(0))
+        allocate (homework%settings(0), homework%setting_lines(0), homework%statements(0))
         whole = ""
         begun = 0
         number = 0
@@ -205,7 +206,7 @@ contains
                 if (index(text, "=") == 0) then
                     call refuse("'set:' needs a parameter and its value, say 'set: g = 9.81'")
                 else
-                    call add_setting(without_blanks(plainly(text(colon + 1:))))
+                    call add_setting(plainly(text(colon + 1:)))
                 end if
             case ("small")
                 call take_statement()
@@ -231,17 +232,21 @@ contains
         end subroutine take_statement
 
         subroutine add_setting(setting)
+            !! Blanks stay between several values only, `electric = 0 0 1`.
             character(*), intent(in) :: setting
             type(word_t), allocatable :: longer(:)
-            integer :: i, n
+            integer :: equals, i, n
 
+            equals = index(setting, "=")
             n = size(homework%settings)
             allocate (longer(n + 1))
             do i = 1, n
                 call move_alloc(homework%settings(i)%text, longer(i)%text)
             end do
-            longer(n + 1)%text = setting
+            longer(n + 1)%text = trim(adjustl(setting(:equals - 1)))//"="// &
+                                 trim(adjustl(setting(equals + 1:)))
             call move_alloc(longer, homework%settings)
+            homework%setting_lines = [homework%setting_lines, number]
         end subroutine add_setting
 
         subroutine add_statement()
@@ -268,15 +273,4 @@ contains
         end subroutine refuse
     end subroutine take
 
-    pure function without_blanks(text) result(dense)
-        !! `g = 0` as `g=0`.
-        character(*), intent(in) :: text
-        character(:), allocatable :: dense
-        integer :: i
-
-        dense = ""
-        do i = 1, len(text)
-            if (text(i:i) /= " ") dense = dense//text(i:i)
-        end do
-    end function without_blanks
 end module lagrangia_homework

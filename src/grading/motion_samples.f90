@@ -13,7 +13,7 @@ module lagrangia_motion_samples
     use lagrangia_named_values, only: motion_state_t, path
     use lagrangia_parameter_choice, only: keep, spread_values
     use lagrangia_random_draws, only: random_t
-    use lagrangia_sample_names, only: axes, draws, follow_letters, name_symbols, &
+    use lagrangia_sample_names, only: axes, draws, follow_elsewhere, follow_letters, name_symbols, &
                                       role_acceleration, role_frequency, role_known, samples_t, &
                                       states
     use lagrangia_small_oscillations, only: find_modes, likely_equilibrium, modes_t
@@ -74,6 +74,7 @@ contains
         do k = 1, size(samples%role)
             call move_away(samples, k)
         end do
+        call follow_elsewhere(samples)
     end subroutine new_samples
 
     pure subroutine put_places(samples, equilibrium, values)
@@ -89,8 +90,8 @@ contains
     end subroutine put_places
 
     subroutine take_energies(system, fixed, given, d)
-        !! L, T and V as the page has them with parameters at random: those that a sheet names are
-        !! not zero, as the pulley's inertia of Atwood's machine is by default.
+        !! L, T, V and quantities as the page has them with parameters at random: those that a sheet
+        !! names are not zero, as the pulley's inertia of Atwood's machine is by default.
         class(system_t), intent(in) :: system
         logical, intent(in) :: fixed(:)
         real(dp), intent(in) :: given(:)
@@ -111,6 +112,7 @@ contains
         if (allocated(now%lagrangian)) d%lagrangian = now%lagrangian
         if (allocated(now%kinetic_energy)) d%kinetic_energy = now%kinetic_energy
         if (allocated(now%potential_energy)) d%potential_energy = now%potential_energy
+        d%quantities%formula = now%quantities%formula
     end subroutine take_energies
 
     function is_damped(system, d, fixed, given) result(yes)

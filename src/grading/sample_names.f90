@@ -1,8 +1,8 @@
 module lagrangia_sample_names
     !! What a statement about a system may name: coordinates, velocities, accelerations, parameters,
     !! letters, L, energies, momenta, derivatives of L, quantities, places of the masses, omega.
-    use lagrangia_derivative, only: derivative
-    use lagrangia_description, only: description_t, name_length, value_names
+    use lagrangia_derivative, only: derivative, time_derivative
+    use lagrangia_description, only: description_t, name_length, quantity_t, value_names
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, symbol
     use lagrangia_formula_parser, only: parse_formula
@@ -10,12 +10,13 @@ module lagrangia_sample_names
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_random_draws, only: random_t
+    use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_symbols, only: symbols_t
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
     public :: compiled_t, samples_t
-    public :: follow_letters, name_symbols
+    public :: follow_elsewhere, follow_letters, name_symbols
     public :: axes, draws, states
     public :: role_time, role_coordinate, role_velocity, role_acceleration, role_parameter, &
               role_known, role_frequency
@@ -35,7 +36,8 @@ module lagrangia_sample_names
         !! A name that stands for a formula.
         integer :: symbol = 0              !! its place
         type(expression_t) :: formula
-        type(formula_program_t) :: program  !! of it
+        type(expression_t) :: rate          !! its derivative by the time
+        type(formula_program_t) :: program  !! of the formula
     end type compiled_t
 
     type :: samples_t
@@ -103,6 +105,7 @@ contains
         end if
         do i = 1, size(d%quantities)
             call add(trim(d%quantities(i)%name), role_known)
+            if (has_rate(d%quantities(i))) call add(trim(d%quantities(i)%name)//"_dot", role_known)
         end do
         call add("E_dot", role_known)
         call add_points()
@@ -206,6 +209,25 @@ contains
             call add(letter//"_ddot", role_parameter)
         end subroutine add_letter
 
+        function has_rate(quantity) result(yes)
+            !! Has it a formula without accelerations and other quantities, and is no momentum?
+            type(quantity_t), intent(in) :: quantity
+            logical :: yes
+            type(expression_t) :: formula
+            type(error_t), allocatable :: error
+            integer :: j
+
+            yes = .false.
+            if (quantity%formula == "") return
+            do j = 1, size(d%coordinates)  ! whose rate is that of dL/dx_dot
+                if (quantity%name == "p_"//trim(d%coordinates(j)%name)) return
+            end do
+            call parse_formula(trim(quantity%formula), samples%symbols, formula, error)
+            if (allocated(error)) return
+            yes = .not. any([(formula%depends_on(j), j=1, size(samples%role))] .and. &
+                            (samples%role == role_acceleration .or. samples%role == role_known))
+        end function has_rate
+
         subroutine add(called, role)
             character(*), intent(in) :: called
             integer, intent(in) :: role
@@ -283,7 +305,7 @@ contains
     end subroutine define_derivatives
 
     subroutine compile_letters(d, samples)
-        !! The definitions, T and V, in this order.
+        !! The definitions, the quantities that have rates, T and V, in this order.
         type(description_t), intent(in) :: d
         type(samples_t), intent(inout) :: samples
         type(error_t), allocatable :: refusal
@@ -293,10 +315,16 @@ contains
                                                         samples%lagrangian, refusal)
         n = 0
         if (allocated(d%letters)) n = size(d%letters)
-        allocate (samples%compiled(n + 2))
+        allocate (samples%compiled(n + size(d%quantities) + 2))
         k = 0
         do i = 1, n
             call add(trim(d%letters(i)%name), trim(d%letters(i)%formula))
+        end do
+        do i = 1, size(d%quantities)
+            associate (quantity => d%quantities(i))
+                if (samples%symbols%find(trim(quantity%name)//"_dot") == 0) cycle
+                call add(trim(quantity%name), trim(quantity%formula))
+            end associate
         end do
         if (allocated(d%kinetic_energy)) call add("T", d%kinetic_energy)
         if (allocated(d%potential_energy)) call add("V", d%potential_energy)
@@ -312,37 +340,77 @@ contains
             k = k + 1
             samples%compiled(k)%symbol = samples%symbols%find(name)
             samples%compiled(k)%formula = expression(1)
+            samples%compiled(k)%rate = time_derivative(expression(1), samples%rate, 1)
             call new_formula_program(samples%compiled(k)%program, expression, size(samples%role))
         end subroutine add
     end subroutine compile_letters
 
     subroutine follow_letters(samples, row)
-        !! The letters, T and V, with their rates, at a state whose other values are known.
+        !! The letters, quantities, T and V, with their rates, at a state whose other values are
+        !! known.
         type(samples_t), intent(inout) :: samples  !! names, and values that change
         integer, intent(in) :: row                 !! of the values
+        real(dp) :: values(size(samples%role))
+
+        values = samples%values(row, :)
+        call follow(samples, .false., values)
+        samples%values(row, :) = values
+    end subroutine follow_letters
+
+    subroutine follow_elsewhere(samples)
+        !! The letters with their rates where accelerations and known values are others.
+        type(samples_t), intent(inout) :: samples  !! names, and values elsewhere that change
+        real(dp) :: values(size(samples%role))
+        integer :: row
+
+        do row = 1, size(samples%elsewhere, 1)
+            values = samples%elsewhere(row, :)
+            call follow(samples, .true., values)
+            samples%elsewhere(row, :) = values
+        end do
+    end subroutine follow_elsewhere
+
+    subroutine follow(samples, only_letters, values)
+        type(samples_t), intent(in) :: samples
+        logical, intent(in) :: only_letters   !! quantities, T and V keep their values
+        real(dp), intent(inout) :: values(:)  !! of the symbols
         type(hyperdual_t) :: inputs(size(samples%role)), result(1)
         integer :: i, j, rate
 
         do i = 1, size(samples%compiled)
+            if (only_letters .and. samples%role(samples%compiled(i)%symbol) == role_known) cycle
             inputs = hyperdual_t()
-            inputs%re = samples%values(row, :)
+            inputs%re = values
             inputs(1)%d1 = 1.0_dp
             do j = 2, size(inputs)
                 rate = samples%rate(j)
                 if (rate == 0) cycle
-                inputs(j)%d1 = samples%values(row, rate)
+                inputs(j)%d1 = values(rate)
                 rate = samples%rate(rate)
-                if (rate > 0) inputs(j)%d12 = samples%values(row, rate)
+                if (rate > 0) inputs(j)%d12 = values(rate)
             end do
             inputs%d2 = inputs%d1
             call samples%compiled(i)%program%evaluate(inputs, result)
             j = samples%compiled(i)%symbol
-            samples%values(row, j) = result(1)%re
+            values(j) = result(1)%re
             rate = samples%rate(j)
             if (rate == 0) cycle
-            samples%values(row, rate) = result(1)%d1
+            values(rate) = result(1)%d1
+            if (is_rounding(samples%compiled(i)%rate, values)) values(rate) = 0.0_dp
             rate = samples%rate(rate)
-            if (rate > 0) samples%values(row, rate) = result(1)%d12
+            if (rate > 0) values(rate) = result(1)%d12
         end do
-    end subroutine follow_letters
+    end subroutine follow
+
+    function is_rounding(formula, values) result(yes)
+        !! Is its value no larger than the rounding errors of what is added up? What is conserved
+        !! has the rate 0.
+        type(expression_t), intent(in) :: formula
+        real(dp), intent(in) :: values(:)          !! of the symbols
+        logical :: yes
+        real(dp), dimension(1, formula%count) :: results, sizes
+
+        call evaluate_nodes(formula, reshape(values, [1, size(values)]), results, sizes=sizes)
+        yes = abs(results(1, formula%count)) <= 1e-13_dp*sizes(1, formula%count)
+    end function is_rounding
 end module lagrangia_sample_names

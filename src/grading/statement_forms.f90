@@ -210,6 +210,7 @@ contains
 
         yes = left%count == 1 .and. left%nodes(1)%kind == kind_symbol
         if (yes) yes = samples%role(left%nodes(1)%which) == role_parameter .and. &
+                       index(samples%symbols%names(left%nodes(1)%which), "_dot") == 0 .and. &
                        .not. any(right%nodes(:right%count)%kind == kind_symbol)
     end function is_value
 
