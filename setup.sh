@@ -279,6 +279,10 @@ report() {
     for tool in ${missing_tools[@]+"${missing_tools[@]}"}; do
         if [ -n "${tools:-}" ] && [ -x "$tools/bin/$tool" ]; then
             found=$(command -v "$tool")
+            if [ "$found" -ef "$tools/bin/$tool" ]; then
+                complain "$found does not start: $("$found" --version 2>&1 | tail -n 1)"
+                continue
+            fi
             complain "$tool is in $link_directory, but this shell finds ${found:-none};" \
                 "type 'export PATH=\"$link_directory:\$PATH\"', then ./setup.sh again"
         elif [ "$tool" = fpm ]; then

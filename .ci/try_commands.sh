@@ -545,7 +545,7 @@ refuses 2 "take fewer bodies" derive hanging_chain --set hanging_chain%n=6
 
 # status 1: a tolerance that does not hold
 run run pendulum --set scene%expect_error=1e-30 --output "$work/o"
-check "status 1: a tolerance is missed" eval '[ $status -eq 1 ] && one_line && grep -q "1 of 1 scenes did not hold" "$work/err" && grep -q "NOT as expected: error is 2.*, expect_error = 1e-30" "$work/out" && [ -s "$work/o/pendulum.dat" ]'
+check "status 1: a tolerance is missed" eval '[ $status -eq 1 ] && one_line && grep -q "1 of 1 scene did not hold" "$work/err" && grep -q "NOT as expected: error is 2.*, expect_error = 1e-30" "$work/out" && [ -s "$work/o/pendulum.dat" ]'
 
 # status 2: usage, scenes, parameters; before any file is touched
 refuses 2 "did you mean 'cart_pendulum'?" run cart_pendulm --output "$work/none"
@@ -788,6 +788,11 @@ run run pendulum --set scene%q=90 --quiet --output "$work/first"
 check "90 rad, --quiet: nothing is said" eval '[ $status -eq 0 ] && [ ! -s "$work/err" ]'
 run run pendulum --set scene%q=90 --output "$work/first"
 check "90 rad may be meant as degrees" eval '[ $status -eq 0 ] && one_line && grep -qF "theta starts at 90.0 rad; angles are in radians: 90.0 degrees are 1.5707963267948966" "$work/err"'
+refuses 2 "latitude = 48: from -pi/2 to pi/2 is needed; angles are in radians: 48.0 degrees are 0.837" run foucault --set foucault%latitude=48 --output "$work/none"
+run run duffing --set duffing%f=0 --output "$work/first"
+check "one step is no steps" eval '[ $status -eq 0 ] && grep -q "^    1 step, [0-9]* evaluations of the accelerations" "$work/out"'
+run run pendulum --set scene%expect_error=1e-20 --output "$work/first"
+check "one scene does not hold its tolerances" eval '[ $status -eq 1 ] && [ "$(cat "$work/err")" = "lagrangia: 1 of 1 scene did not hold its tolerances" ]'
 run run pendulum --set scene%q=91 --output "$work/first"
 check "91 rad are no degrees" eval '[ $status -eq 0 ] && [ ! -s "$work/err" ]'
 run run oscillator --set scene%q=90 --output "$work/first"

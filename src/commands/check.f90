@@ -6,6 +6,7 @@ module lagrangia_check
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: console_failed, flush_console, note, put_line, put_row, &
         rewrites_lines
+    use lagrangia_counted, only: counted
     use lagrangia_description, only: described_by, description_t, name_length
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_hyperdual, only: hyperdual_t
@@ -82,7 +83,8 @@ contains
             call put_summary(audit)
         end if
         if (audit%broken() > 0) call fail(error, to_text(audit%broken())//" of "// &
-            to_text(size(audit%rows))//" claims do not hold", status_not_held)
+            counted(size(audit%rows, kind=i8), "claim")//not_holding(audit%broken()), &
+            status_not_held)
     contains
         subroutine put_head(name)
             !! Above the columns of a table, before it is computed: a stdout that takes nothing is
@@ -221,13 +223,22 @@ contains
         audited%fixed = .true.
     end subroutine read_scene_system
 
+    pure function not_holding(number) result(text)
+        !! The verb.
+        integer, intent(in) :: number  !! of claims
+        character(:), allocatable :: text
+
+        text = " do not hold"
+        if (number == 1) text = " does not hold"
+    end function not_holding
+
     subroutine put_summary(audit)
         !! Below all tables.
         type(ledger_t), intent(in) :: audit
 
         call put_line("")
-        call put_line(to_text(size(audit%rows))//" claims, "//to_text(audit%broken())// &
-                      " do not hold")
+        call put_line(counted(size(audit%rows, kind=i8), "claim")//", "// &
+                      to_text(audit%broken())//not_holding(audit%broken()))
         call put_line("worst: the residual that is largest beside its noise, relative to the "// &
                       "terms that add up; noise: what")
         call put_line("rounding or the difference formula does to it; bound: what is allowed; "// &

@@ -17,7 +17,7 @@ module lagrangia_report_command
     use lagrangia_run_command, only: choose_scenes, chosen_t
     use lagrangia_run_plan, only: run_plan_t
     use lagrangia_scene_run, only: run_scene
-    use lagrangia_text, only: to_text
+    use lagrangia_scorecard, only: missed_text
     implicit none (type, external)
     private
     public :: report_command
@@ -76,8 +76,8 @@ contains
             return
         end if
         if (.not. line%has("quiet")) call put_line("report: "//path)
-        if (missed > 0 .and. .not. allocated(error)) call fail(error, to_text(missed)//" of "// &
-            to_text(size(chosen))//" scenes did not hold their tolerances", status_not_held)
+        if (missed > 0 .and. .not. allocated(error)) call fail(error, missed_text(missed, &
+            size(chosen)), status_not_held)
     end subroutine report_command
 
     subroutine add_scene(page, plan, outcome, quiet, error)

@@ -4,6 +4,7 @@ module lagrangia_run_command
     use lagrangia_changed_scene, only: make_own_scene
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: note, put_line, put_lines
+    use lagrangia_counted, only: counted
     use lagrangia_data_files, only: check_format, data_path, film_path, &
                                     picture_path, script_path
     use lagrangia_degrees, only: degrees_warning
@@ -22,11 +23,11 @@ module lagrangia_run_command
     use lagrangia_scene_claims, only: claim_files, claim_scene, claim_table, size_warning
     use lagrangia_scene_reader, only: read_scene
     use lagrangia_scene_run, only: run_scene
-    use lagrangia_scorecard, only: scorecard_head, scorecard_legend, scorecard_lines, scorecard_row
+    use lagrangia_scorecard, only: missed_text, scorecard_head, scorecard_legend, scorecard_lines, &
+                                   scorecard_row
     use lagrangia_shipped, only: find_scene, shipped_scenes
     use lagrangia_step_warning, only: step_warning
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: to_text
     use lagrangia_version, only: is_optimised
     implicit none (type, external)
     private
@@ -110,7 +111,7 @@ contains
                 stated = stated .or. allocated(outcome%state)
             end if
             if (outcome%choice /= "") remarks(2*i - 1)%text = outcome%choice
-            if (outcome%remark /= "") remarks(2*i)%text = to_text(outcome%steps)//" steps"// &
+            if (outcome%remark /= "") remarks(2*i)%text = counted(outcome%steps, "step")// &
                                                           outcome%remark
             if (allocated(scene_error)) then
                 call note(scene_error%message)
@@ -137,8 +138,8 @@ contains
             if (line%has("overlay") .and. .not. allocated(error)) call put_line( &
                 "all in one picture: "//overlay_file(folder, kind, line%has("plot")))
         end if
-        if (missed > 0 .and. .not. allocated(error)) call fail(error, to_text(missed)//" of "// &
-            to_text(size(chosen))//" scenes did not hold their tolerances", status_not_held)
+        if (missed > 0 .and. .not. allocated(error)) call fail(error, missed_text(missed, &
+            size(chosen)), status_not_held)
     contains
         subroutine run_one(plan, warning, error)
             type(run_plan_t), intent(inout) :: plan

@@ -2,6 +2,7 @@ module lagrangia_sweep_command
     !! `lagrangia sweep SCENE`: many trajectories of a scene, and a number or more of each.
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: note, put_line
+    use lagrangia_counted, only: counted
     use lagrangia_data_files, only: check_format, data_path, path_beside, script_path
     use lagrangia_disk_space, only: free_space, short, space_warning
     use lagrangia_errors, only: error_t, fail, status_library
@@ -361,7 +362,7 @@ contains
             text = ""
             number = sweep%trajectories() - found
             if (sweep%keeps_points) then
-                text = " in "//to_text(found)//" points"
+                text = " in "//counted(found, "point")
             else if (number > 0) then
                 text = "; "//to_text(number)//" of them "// &
                        trim(merge("has ", "have", number == 1))//" none"

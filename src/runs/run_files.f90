@@ -2,6 +2,7 @@ module lagrangia_run_files
     !! The files of one run: data and events while it goes on, gnuplot scripts when it is done. All
     !! get their names together; what remains of a run that fails is called `NAME.partial`.
     use lagrangia_characters, only: printable
+    use lagrangia_counted, only: counted
     use lagrangia_data_files, only: data_path, event_path, new_table, scene_path, &
                                     script_path
     use lagrangia_description, only: description_t, name_length
@@ -274,10 +275,11 @@ contains
 
         associate (times => plan%trajectory%times, record => plan%record, &
                    events => plan%event_record)
-            steps = to_text(outcome%steps)
-            if (times%steps > 0) steps = steps//" of "//to_text(times%step_count())
-            ending = "the run ended at t = "//to_text(outcome%t)//" s after "//steps// &
-                     " steps: "//error%message
+            steps = counted(outcome%steps, "step")
+            if (times%steps > 0) steps = to_text(outcome%steps)//" of "// &
+                                         counted(times%step_count(), "step")
+            ending = "the run ended at t = "//to_text(outcome%t)//" s after "//steps//": "// &
+                     error%message
             outcome%file = ""
             call keep_part(events, ending, file_error)
             if (allocated(file_error)) then

@@ -2,7 +2,8 @@ module lagrangia_scorecard
     !! The scorecard: a row a scene in 80 columns and, for those who name the scene, lines below it
     !! that say in words what was measured.
     use lagrangia_characters, only: printable
-    use lagrangia_kinds, only: dp
+    use lagrangia_counted, only: counted
+    use lagrangia_kinds, only: dp, i8
     use lagrangia_ledger, only: claim_t
     use lagrangia_number_text, only: fixed, scientific
     use lagrangia_outcome, only: outcome_t, within
@@ -11,7 +12,7 @@ module lagrangia_scorecard
     use lagrangia_wrapping, only: wrapped
     implicit none (type, external)
     private
-    public :: scorecard_head, scorecard_legend, scorecard_lines, scorecard_row
+    public :: missed_text, scorecard_head, scorecard_legend, scorecard_lines, scorecard_row
     public :: scorecard_width
 
     integer, parameter :: scorecard_width = 80  !! columns of a terminal
@@ -28,6 +29,19 @@ module lagrangia_scorecard
         "         a hyphen: nothing is expected of it"//lf
 
 contains
+
+    pure function missed_text(missed, scenes) result(text)
+        !! `1 of 51 scenes did not hold its tolerances`.
+        integer, intent(in) :: missed, scenes  !! how many, at least 1; of how many
+        character(:), allocatable :: text
+
+        text = to_text(missed)//" of "//counted(int(scenes, i8), "scene")//" did not hold "
+        if (missed == 1) then
+            text = text//"its tolerances"
+        else
+            text = text//"their tolerances"
+        end if
+    end function missed_text
 
     function scorecard_head() result(line)
         !! The titles over the rows.
@@ -79,8 +93,8 @@ contains
                      "does not judge this one; data file: "//printable(self%file))
         end if
         if (self%steps > 0) then
-            call add(to_text(self%steps)//" steps, "//to_text(self%evaluations)// &
-                     " evaluations of the accelerations, "//fixed(self%seconds, 4)//" s")
+            call add(counted(self%steps, "step")//", "//counted(self%evaluations, &
+                     "evaluation")//" of the accelerations, "//fixed(self%seconds, 4)//" s")
         else if (.not. allocated(self%failure)) then
             call add("no steps: the motion by its closed form, "//fixed(self%seconds, 4)//" s")
         end if

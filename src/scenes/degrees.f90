@@ -12,21 +12,20 @@ module lagrangia_degrees
 contains
 
     pure function degrees_advice(value, unit) result(text)
-        !! `; angles are in radians: 45.0 degrees are 0.7853981633974483`, or "" where `value` is no
-        !! multiple of 5 from 10 to 360, or no angle.
+        !! `; angles are in radians: 45.0 degrees are 0.7853981633974483`, or "" where `value` is
+        !! not between 7 and 360, or no angle.
         real(dp), intent(in) :: value      !! as it was typed
         character(*), intent(in) :: unit   !! `rad`: it is an angle
         character(:), allocatable :: text
         real(dp), parameter :: degree = acos(-1.0_dp)/180.0_dp
 
         text = ""
-        if (unit /= "rad" .or. .not. (abs(value) >= 10.0_dp .and. abs(value) <= 360.0_dp)) return
-        if (abs(value - 5.0_dp*anint(value/5.0_dp)) > 0.0_dp) return
+        if (unit /= "rad" .or. .not. (abs(value) >= 7.0_dp .and. abs(value) <= 360.0_dp)) return
         text = "; angles are in radians: "//to_text(value)//" degrees are "//to_text(value*degree)
     end function degrees_advice
 
     function degrees_warning(scene, system) result(text)
-        !! Of the first coordinate whose start looks like degrees; "": none does.
+        !! Of the first coordinate whose start is a multiple of 5 from 10 to 360; "": none is.
         type(scene_t), intent(in) :: scene     !! says where the motion starts
         class(system_t), intent(in) :: system  !! with the scene's parameters
         character(:), allocatable :: text
@@ -36,6 +35,7 @@ contains
         call system%describe(d)
         text = ""
         do i = 1, min(size(d%coordinates), size(scene%q))
+            if (abs(scene%q(i) - 5.0_dp*anint(scene%q(i)/5.0_dp)) > 0.0_dp) cycle
             text = degrees_advice(scene%q(i), trim(d%coordinates(i)%unit))
             if (text == "") cycle
             text = trim(d%coordinates(i)%name)//" starts at "//to_text(scene%q(i))//" rad"//text
