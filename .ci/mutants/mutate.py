@@ -374,16 +374,20 @@ def noticed_by_users(program, root, work, limits, shells):
 def sites_of(root, only, skip):
     """All changes of all lines: (file, line, kind, new line)."""
     sites = []
-    for folder, _, files in (entry for room in only.split(",") for entry in os.walk(os.path.join(root, room))):
+    for folder, _, files in os.walk(os.path.join(root, "src")):
         for name in sorted(files):
             source = os.path.relpath(os.path.join(folder, name), root)
             if not name.endswith(".f90") or (skip and skip in source):
+                continue
+            if not source.startswith(tuple(only.split(","))):
                 continue
             lines = open(os.path.join(root, source)).readlines()
             for k, line in enumerate(lines):
                 for kind, new in changes_of(line, lines[k - 1] if k else ""):
                     if new != line:
                         sites.append((source, k, kind, new))
+    if not sites:
+        sys.exit(f"no source begins with {only}; write --only src/runs,src/grading/judgement, say")
     return sorted(sites)
 
 
