@@ -144,7 +144,7 @@ contains
             "m g r_eq theta^2/2; small: V = k/2 (r - r_eq)^2 + m g l0 theta^2/2"// &
             "; small: V = k/2 r^2 - m g r_eq theta^2/2", &
             remarks="2 if the coordinates are counted; 6 'r_eq' must have the exponent 2"// &
-            "; 7 the sign of 'k/2 (r - r_eq)^2'; 8 no single change"// &
+            "; 7 the sign of 'k/2 (r - r_eq)^2'; 8 'l0' must be 'r_eq'"// &
             "; 9 the sign of 'm g r_eq theta^2/2', if the coordinates are counted from")
         call traced("rotating_hoop", "rrwr", "small: L = m/2 r^2 theta_dot^2 + m r^2 omega^2 "// &
             "cos(theta_eq)^2/2 (theta - theta_eq)^2 - m r^2 omega^2 (theta - theta_eq)^2/2"// &

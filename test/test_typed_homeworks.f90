@@ -16,6 +16,7 @@ contains
         suite = TestSuite("typed_homeworks")
         call suite%addTest(TestMethod("one_coordinate", one_coordinate))
         call suite%addTest(TestMethod("several_coordinates", several_coordinates))
+        call suite%addTest(TestMethod("shipped_scenes", shipped_scenes))
     end function typed_homeworks_suite
 
     subroutine one_coordinate()
@@ -36,7 +37,8 @@ contains
             "; Omega = sqrt(omega^2 - g^2/(r^2 omega^2)); Omega = sqrt(g/r - omega^2)"// &
             "; Omega = sqrt(g/r + omega^2); Omega = sqrt(omega^2 - g/r)"// &
             "; E = T + V; cos(theta_eq) = g/(r omega)", &
-            remarks="8 on the left is missing m r^2 omega^2; 9 'omega' must have the exponent 2")
+            remarks="6 squared: the sign of 'omega^2'; 8 on the left is missing m r^2 omega^2"// &
+            "; 9 'omega' must have the exponent 2")
         call traced("driven_pendulum", "rrrrwwww", "y_bob_dot = -a W sin(W t) + "// &
             "l theta_dot sin(theta); T = m/2 (l^2 theta_dot^2 - 2 a W l theta_dot sin(W t) "// &
             "sin(theta) + a^2 W^2 sin(W t)^2); theta_ddot + (g/l - a W^2/l cos(W t)) sin(theta)"// &
@@ -85,4 +87,37 @@ contains
             "; small: theta1_ddot + theta2_ddot + theta3_ddot - 3 g/l theta3 = 0", &
             remarks="5 the sign of 'cos(theta3)'; 6 the sign of '3 g/l theta3'")
     end subroutine several_coordinates
+
+    subroutine shipped_scenes()
+        !! Systems in formulas: conserved quantities, generalised forces, a letter d; slips named
+        !! by the letter that it is, and no factor that is chance.
+        call traced("two_bodies", "rrrrrwww", "L_z = const; d/dt(p_x1 + p_x2) = 0"// &
+            "; dL_z/dt = 0; x2_ddot - x1_ddot = -gamma M x/d^3; T = (p_x1^2 + p_y1^2)/(2 m1) "// &
+            "+ (p_x2^2 + p_y2^2)/(2 m2); x2_ddot - x1_ddot = -gamma m2 x/d^3"// &
+            "; m1 x1_ddot = gamma m1 m2 (x2 - x1)/d^2; T = M/2 (P_x^2 + P_y^2)/M^2 + M/2 "// &
+            "(u^2 + w^2)", remarks="6 'm2' must be 'M'; 7 the exponent of 'd^2' must be 3"// &
+            "; 8 'M' must be 'mu'")
+        call traced("duffing", "rrrww", "m x_ddot = -dV/dx + Q_x; d/dt(p_x) + a x + c x^3 = Q_x"// &
+            "; dE/dt = x_dot Q_x; m x_ddot + b x_dot + a x + c x^3 = f cos(t)"// &
+            "; m x_ddot = dV/dx + Q_x", remarks="4 't' lacks the factor 'w'; 5 the sign of")
+        call traced("spring_pendulum", "rrww", "small: theta_ddot + g/r_eq theta = 0"// &
+            "; r_eq = l0 + m g/k; small: theta_ddot + g/l0 theta = 0"// &
+            "; small: m r_ddot + k (r - l0) = 0", &
+            remarks="3 'l0' must be 'r_eq'; 4 'l0' must be 'r_eq'")
+        call traced("symmetric_top", "rrrww", "omega_3 = const; p_psi = I3 omega_3"// &
+            "; phi_dot = (p_phi - p_psi cos(theta))/(I1 sin(theta)^2)"// &
+            "; phi_dot = (p_phi + p_psi cos(theta))/(I1 sin(theta)^2); p_theta = const", &
+            remarks="4 the sign of 'p_psi cos(theta)'; 5 on the left is missing -I1 theta_ddot")
+        call traced("foucault", "rrww", "x_ddot - 2 W y_dot + g/l x = 0; p_x = m x_dot - m W y"// &
+            "; x_ddot - W y_dot + g/l x = 0; x_ddot - 4 pi/day cos(latitude) y_dot + g/l x = 0", &
+            remarks="3 'W y_dot' must be counted 2 times"// &
+            "; 4 'cos(latitude)' must be 'sin(latitude)'")
+        call traced("rotating_wire", "rrww", "d/dt(m r_dot) = m omega^2 r"// &
+            "; dL_z/dt = r wire_force; L_z = const; E = m/2 (r_dot^2 + omega^2 r^2)", &
+            remarks="4 the sign of 'omega^2 r^2'")
+        call traced("oscillator", "rwww", "T = 2 pi sqrt(m/k); x_ddot = -40.74 k/m x"// &
+            "; T = sqrt(m/k); T = pi sqrt(m/k)", &
+            remarks="2 the number '40.74' must be 1; 3 'sqrt(m/k)' must be counted 2 pi times"// &
+            "; 4 'pi sqrt(m/k)' must be counted 2 times")
+    end subroutine shipped_scenes
 end module test_typed_homeworks

@@ -105,10 +105,12 @@ contains
         node = 0
         if (.not. allocated(symbols%rates)) return
         name = reader%tokens%word(reader%at)
-        if (symbols%find(name) > 0 .or. symbols%find_definition(name) > 0) return
         first = reader%at
         below = ""
         if (words(first + 1, 1) == "/") below = words(first + 2, 1)
+        if (symbols%find(name) > 0 .or. symbols%find_definition(name) > 0) then
+            if (name /= "d" .or. below /= "dt" .or. symbols%find("dt") > 0) return
+        end if
         if (name == "d" .and. below == "dt") then
             reader%at = first + 3
             call read_factor(reader, symbols, node, error)
@@ -165,7 +167,8 @@ contains
         do i = 1, size(symbols%rates)
             if (symbols%rates(i) >= 0 .or. .not. operand%depends_on(i)) cycle
             reader%at = first
-            call refuse(reader, "d/dt of '"//trim(symbols%names(i))//"' is not known here", error)
+            call refuse(reader, "d/dt of '"//trim(symbols%names(i))//"' is not known here; "// &
+                        "write the formula for it", error)
             return
         end do
         rate = time_derivative(operand, symbols%rates, 1)

@@ -140,7 +140,7 @@ contains
             names(n + i) = self%definitions(i)%name
         end do
         names(size(names)) = "pi"
-        names = pack(names, index(names, "^") == 0)
+        names = pack(names, scan(names, "^/") == 0)
     end subroutine all_names
 
     pure subroutine refuse_taken(self, name, error)

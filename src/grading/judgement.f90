@@ -245,6 +245,8 @@ contains
             call explain_slip(judgement%residual, merge(left%count + 1, 1, chained), samples, &
                               values, library, judgement%remark)
             call put_example(left, right, samples, values, judgement%example)
+            if (index(judgement%remark, "no single") == 1) call explain_squares( &
+                left, right, samples, library, judgement%remark)
             if (index(judgement%remark, "no single") == 1 .and. is_energy(left, samples)) then
                 call put_same_constant(left, judgement%residual, samples, values)
                 call explain_slip(judgement%residual, merge(left%count + 1, 1, chained), samples, &
@@ -293,6 +295,30 @@ contains
         right_one = yes
         found = found .or. yes
     end subroutine compare_squares
+
+    subroutine explain_squares(left, right, samples, library, remark)
+        !! Of a wrong `omega = sqrt(...)`: which change makes its square right.
+        type(expression_t), intent(in) :: left, right
+        type(samples_t), intent(in) :: samples
+        type(library_t), intent(in) :: library(:)
+        character(:), allocatable, intent(inout) :: remark  !! changes if there is one
+        type(expression_t) :: one, other, squares
+        real(dp), allocatable :: values(:, :)
+        character(:), allocatable :: text
+        logical :: known, yes
+
+        if (right%nodes(right%count)%kind /= kind_function) return  ! no root
+        one = square(left, samples%frequency)
+        other = square(right, samples%frequency)
+        if (one%count == 0 .or. other%count == 0) return
+        squares = one - other
+        if (.not. squares%depends_on(samples%frequency + 1)) return
+        values = samples%values
+        call choose_modes(squares, samples, values, yes, known)
+        if (.not. known) return
+        call explain_slip(squares, one%count + 1, samples, values, library, text)
+        if (index(text, "no single") /= 1) remark = "squared: "//text
+    end subroutine explain_squares
 
     subroutine choose_modes(residual, samples, values, right_one, found)
         !! Give omega its values: of that equilibrium, and for each draw of parameters that mode,

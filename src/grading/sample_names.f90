@@ -283,9 +283,24 @@ contains
                     samples%symbols%find("d_dt_dL_d"//trim(name)//"_dot")), error)
             end associate
         end do
+        if (allocated(d%generalised_forces)) then
+            do i = 1, size(d%generalised_forces)
+                associate (text => d%generalised_forces(i))
+                    call define_force(text(:index(text, "=") - 1), text(index(text, "=") + 1:))
+                end associate
+            end do
+        end if
         if (allocated(d%kinetic_energy)) call define_of("T", d%kinetic_energy)
         if (allocated(d%potential_energy)) call define_of("V", d%potential_energy)
     contains
+        subroutine define_force(name, formula)
+            character(*), intent(in) :: name, formula
+            type(expression_t) :: force
+
+            call parse_formula(trim(formula), samples%symbols, force, error)
+            if (.not. allocated(error)) call samples%symbols%define(trim(name), force, error)
+        end subroutine define_force
+
         subroutine define_of(energy, formula)
             character(*), intent(in) :: energy, formula
             type(expression_t) :: expression

@@ -161,7 +161,9 @@ contains
                         do k = 1, size(samples%role)
                             if (k == node%which .or. &
                                 expression%depends_on(k) .neqv. pass == 1) cycle
-                            if (.not. exchangeable(samples%role(node%which), samples%role(k))) cycle
+                            if (.not. (exchangeable(samples%role(node%which), samples%role(k)) &
+                                       .or. (samples%role(node%which) == role_parameter .and. &
+                                             any(samples%place == k)))) cycle
                             if (is_zero(k)) cycle
                             if (.not. mends(change_t(change_symbol, i, k))) cycle
                             text = node_text(i)//" must be '"//trim(samples%symbols%names(k))// &
@@ -289,10 +291,21 @@ contains
                                                   0.25_dp, -1.0_dp, -2.0_dp, -0.5_dp, 1.5_dp, &
                                                   2.0_dp/3.0_dp]
             real(dp) :: number
-            integer :: i, k
+            integer :: i, k, n
 
             text = ""
-            do i = 1, expression%count
+            do n = 1, 2*expression%count  ! numbers first, then the largest part
+                i = merge(n, 2*expression%count + 1 - n, n <= expression%count)
+                if (expression%nodes(i)%kind == kind_number .neqv. n <= expression%count) cycle
+                if (expression%nodes(i)%kind == kind_number) then
+                    number = expression%nodes(i)%number%value
+                    if (abs(number) <= 0.0_dp) cycle
+                    if (mends(change_t(change_factor, i, 0, 1.0_dp/number))) then
+                        text = "the number "//node_text(i)//" must be 1"// &
+                               context(expression, samples, i)
+                        return
+                    end if
+                end if
                 do k = 1, size(factors)
                     if (.not. mends(change_t(change_factor, i, 0, factors(k)))) cycle
                     text = node_text(i)//" must be counted "//number_text(factors(k))//" times"// &
@@ -310,15 +323,17 @@ contains
         subroutine try_inner_factors(text)
             !! A letter too few or too many, within brackets.
             character(:), allocatable, intent(out) :: text
-            integer :: i, k
+            integer :: i, k, n
 
             text = ""
-            do i = 1, expression%count
+            do n = 1, 2*expression%count  ! the statement's own letters first
+                i = 1 + mod(n - 1, expression%count)
                 associate (nodes => expression%nodes(:expression%count))
                     if (any(nodes%kind == kind_power .and. nodes%right == i)) cycle  ! exponents
                 end associate
                 do k = 1, size(samples%role)
                     if (samples%role(k) > role_parameter .or. is_zero(k)) cycle
+                    if (expression%depends_on(k) .neqv. n <= expression%count) cycle
                     if (mends(change_t(change_multiplied, i, k))) then
                         text = node_text(i)//" lacks the factor '"// &
                             trim(samples%symbols%names(k))//"'"

@@ -17,6 +17,7 @@ module lagrangia_term_search
     public :: number_text, part_text, try_factors, try_missing_terms, try_products
 
     real(dp), parameter :: equal = 1e-7_dp  !! relative difference of factors that are one
+    real(dp), parameter :: pi = acos(-1.0_dp)
     integer, parameter :: enough = 4        !! samples at which all is finite
 
     type :: library_t
@@ -50,7 +51,7 @@ contains
         real(dp), allocatable :: results(:, :), signs(:), needed(:), term(:, :)
         integer, allocatable :: nodes(:)
         character(:), allocatable :: text
-        integer :: i, k, m
+        integer :: i, k, m, pass
 
         remark = ""
         allocate (results(size(values, 1), expression%count), needed(size(values, 1)))
@@ -65,17 +66,18 @@ contains
             text = part_text(expression, nodes(k), samples)
             if (count(ieee_is_finite(needed)) < enough) cycle
             if (is_constant(needed)) then
-                if (abs(needed(1)) < equal) then
-                    remark = text//" does not belong there"
-                else
-                    remark = text//" must be counted "//number_text(needed(1))//" times"
-                end if
-                return
-            end if
-            do i = 1, size(samples%role)
-                if (samples%role(i) > role_parameter) cycle
-                call try_letter(values(:, i), "'"//trim(samples%symbols%names(i))//"'")
+                if (abs(needed(1)) < equal) remark = text//" does not belong there"
+                if (is_simple(needed(1))) remark = text//" must be counted "// &
+                                                   number_text(needed(1))//" times"
                 if (remark /= "") return
+            end if
+            do pass = 1, 2  ! the statement's own letters first
+                do i = 1, size(samples%role)
+                    if (samples%role(i) > role_parameter) cycle
+                    if (expression%depends_on(i) .neqv. pass == 1) cycle
+                    call try_letter(values(:, i), "'"//trim(samples%symbols%names(i))//"'")
+                    if (remark /= "") return
+                end do
             end do
             do i = 1, size(library)
                 do m = 1, library(i)%term%count
@@ -95,12 +97,12 @@ contains
             real(dp) :: one(size(letter))
 
             one = needed/letter
-            if (is_constant(one) .and. abs(one(1)) > equal) then
+            if (is_constant(one) .and. is_simple(one(1))) then
                 remark = text//" lacks the factor "//times(one(1))//name
                 return
             end if
             one = needed*letter
-            if (is_constant(one) .and. abs(one(1)) > equal) then
+            if (is_constant(one) .and. is_simple(one(1))) then
                 remark = text//" has the factor "//name//" too many"
                 if (abs(one(1) - 1.0_dp) > equal) remark = text//" must be divided by "// &
                                                            times(1.0_dp/one(1))//name
@@ -171,12 +173,12 @@ contains
             call evaluate_nodes(library(k)%term, values, term)
             needed = -results(:, expression%count)/term(:, library(k)%term%count)
             if (.not. is_steady(needed) .or. any(abs(needed) < equal)) cycle
-            if (is_constant(needed)) then
+            if (is_constant(needed) .and. is_simple(needed(1))) then
                 remark = "on the left is missing "//times(needed(1))// &
                          formula_text(library(k)%term, samples%symbols)
                 return
             end if
-            if (remark == "") remark = "a term with "// &
+            if (remark == "" .and. .not. is_constant(needed)) remark = "a term with "// &
                 formula_text(library(k)%term, samples%symbols)//" is missing"
             call find_product(needed(1::states), letters, product, found)
             if (.not. found) cycle
@@ -245,8 +247,28 @@ contains
         if (abs(factor + 1.0_dp) < equal) text = "-"
     end function times
 
-    pure function number_text(value) result(text)
-        !! A fraction of small numbers, or three decimals.
+    pure function is_simple(value) result(yes)
+        !! A fraction of small numbers, perhaps with \(\pi\): a number that a student may have
+        !! forgotten. Any other is chance.
+        real(dp), intent(in) :: value
+        logical :: yes
+
+        yes = is_fraction(value) .or. is_fraction(value/pi) .or. is_fraction(value*pi) .or. &
+              is_fraction(value/pi**2)
+    end function is_simple
+
+    pure function is_fraction(value) result(yes)
+        !! Numerator up to 144, denominator up to 12.
+        real(dp), intent(in) :: value
+        logical :: yes
+        integer :: i
+
+        yes = abs(value) > equal .and. abs(value) <= 144.0_dp .and. &
+              any([(abs(value*i - anint(value*i)) <= equal*i, i=1, 12)])
+    end function is_fraction
+
+    pure recursive function number_text(value) result(text)
+        !! A fraction of small numbers, perhaps with \(\pi\), or three decimals.
         real(dp), intent(in) :: value  !! finite
         character(:), allocatable :: text
         integer :: denominator
@@ -257,6 +279,14 @@ contains
             if (denominator > 1) text = text//"/"//to_text(denominator)
             return
         end do
-        text = to_text(anint(1000.0_dp*value)/1000.0_dp)
+        if (is_fraction(value/pi)) then
+            text = number_text(value/pi)//" pi"
+        else if (is_fraction(value*pi)) then
+            text = number_text(value*pi)//"/pi"
+        else if (is_fraction(value/pi**2)) then
+            text = number_text(value/pi**2)//" pi^2"
+        else
+            text = to_text(anint(1000.0_dp*value)/1000.0_dp)
+        end if
     end function number_text
 end module lagrangia_term_search
