@@ -101,6 +101,7 @@ module suites
     use test_ledger_text, only: ledger_text_suite
     use test_library_arguments, only: library_arguments_suite
     use test_library_calls, only: library_calls_suite
+    use test_lyapunov_lanes, only: lyapunov_lanes_suite
     use test_machine, only: machine_suite
     use test_maupertuis, only: maupertuis_suite
     use test_measure_g, only: measure_g_suite
@@ -316,6 +317,7 @@ contains
         call suite%addTest(least_time_suite())
         call suite%addTest(library_arguments_suite())
         call suite%addTest(library_calls_suite())
+        call suite%addTest(lyapunov_lanes_suite())
         call suite%addTest(machine_suite())
         call suite%addTest(method_refusals_suite())
         call suite%addTest(method_structure_suite())

@@ -133,6 +133,9 @@ contains
         call read_axis("q(2)=1:3:3", axis, error)
         call axis%set(2, q, v, p)
         call assertEqual([0.0_dp, 2.0_dp], q, 0.0_dp, "a coordinate by its number")
+        call read_axis("theta1=-1.D-1:pi/2d0+.5d0:2", axis, error)
+        call assertFalse(allocated(error), "exponents of doubles")
+        call assertEqual([-0.1_dp, acos(0.0_dp) + 0.5_dp], axis%values, 1e-15_dp, "doubles")
     end subroutine axes_have_their_ends
 
     subroutine an_axis_is_drawn_by_its_seed()
@@ -152,7 +155,7 @@ contains
 
     subroutine bad_axes_are_refused()
         !! In one line that says what is wrong.
-        character(*), parameter :: bad(2, 15) = reshape([character(40) :: &
+        character(*), parameter :: bad(2, 17) = reshape([character(40) :: &
             "theta1", "has no '='", &
             "theta=0:1:5", "did you mean 'theta1'?", &
             "theta1=0:1", "needs FROM:TO:COUNT", &
@@ -167,7 +170,9 @@ contains
             "theta1=-1e308:1e308:3:random", "too far apart", &
             "theta1=0: :5", "axis theta1: an end is missing", &
             "theta1=0:y:5", "axis theta1: 'y': column 1: unknown", &
-            "theta1=0:1/0:5", "axis theta1: '1/0' is no number"], [2, 15])
+            "theta1=0:1d:5", "a blank is missing", &
+            "theta1=0:1d+:5", "a blank is missing", &
+            "theta1=0:1/0:5", "axis theta1: '1/0' is no number"], [2, 17])
         type(sweep_axis_t) :: axis
         type(error_t), allocatable :: error
         integer :: i

@@ -1,6 +1,6 @@
 module test_sweep_store
     !! The blocks of a sweep in files: they come back bit by bit, what is cut is computed again,
-    !! what is damaged or of another sweep is refused.
+    !! what is damaged is computed again, what is of another sweep is refused.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_command_line, only: word_t
@@ -34,7 +34,7 @@ contains
         call suite%addTest(TestMethod("a_block_that_is_cut_is_lost", a_block_that_is_cut_is_lost))
         call suite%addTest(TestMethod("a_beginning_that_is_cut_is_written_again", &
                                       a_beginning_that_is_cut_is_written_again))
-        call suite%addTest(TestMethod("every_damaged_byte_is_seen", every_damaged_byte_is_seen))
+        call suite%addTest(TestMethod("what_is_sound_is_kept", what_is_sound_is_kept))
         call suite%addTest(TestMethod("another_sweep_is_refused", another_sweep_is_refused))
         call suite%addTest(TestMethod("one_writes_at_a_time", one_writes_at_a_time))
         call suite%addTest(TestMethod("files_of_other_images_are_read", &
@@ -195,31 +195,55 @@ contains
         end do
     end subroutine a_beginning_that_is_cut_is_written_again
 
-    subroutine every_damaged_byte_is_seen()
-        !! In the text as in every word of a record.
+    subroutine what_is_sound_is_kept()
+        !! A byte of any record may be wrong, or any number of them from any place on: the other
+        !! record is there. In the text nothing may be.
         type(sweep_store_t) :: store
         type(error_t), allocatable :: error
         character(:), allocatable :: path, text
-        integer :: place
+        integer :: first, place, second, third, unit
 
         path = new_folder("store")//"/a.dat"
-        call write_blocks(path, [4, 2], 1)
+        call write_blocks(path, [4, 2, 5], 1)
         call read_whole_file(path//".part", text, error)
+        third = len(text) - 8*(4 + 2*3)  ! bytes before the third record, which is shorter
+        second = third - 8*(4 + 2*int(size_of_block))
+        first = second - 8*(4 + 2*int(size_of_block))
         do place = 1, len(text)
             call change(path//".part", 0, place, achar(ieor(iachar(text(place:place)), 4)))
             call take(path, told, store, error)
-            call assertTrue(allocated(error), "a byte is wrong")
-            if (allocated(error)) call assertTrue(index(error%message, "damaged at byte") > 0 .or. &
-                                                  index(error%message, "another sweep") > 0, &
-                                                  error%message)
+            call assertTrue(allocated(error) .eqv. place <= first, "the text tells the sweep")
+            if (allocated(error)) then
+                call assertTrue(index(error%message, "another sweep") > 0, error%message)
+            else
+                call assertTrue(allocated(store%damage) .or. place > third, "it is said")
+                if (place <= second) then
+                    call compare(store, [2, 5])
+                else if (place <= third) then
+                    call compare(store, [4, 5])
+                else
+                    call compare(store, [2, 4])
+                end if
+            end if
             call store%release()
             call change(path//".part", 0, place, text(place:place))
         end do
+        do place = first + 1, len(text)
+            call change(path//".part", place, 0, " ")
+            call take(path, told, store, error)
+            call assertFalse(allocated(error), "cut")
+            call assertFalse(allocated(store%damage), "an end that is missing is no damage")
+            call store%release()
+            open (newunit=unit, file=path//".part", access="stream", form="unformatted", &
+                  status="replace", action="write")
+            write (unit) text
+            close (unit)
+        end do
         call take(path, told, store, error)
-        call assertFalse(allocated(error), "as it was")
-        call compare(store, [2, 4])
+        call assertFalse(allocated(error) .or. allocated(store%damage), "as it was")
+        call compare(store, [2, 4, 5])
         call store%remove()
-    end subroutine every_damaged_byte_is_seen
+    end subroutine what_is_sound_is_kept
 
     subroutine another_sweep_is_refused()
         !! By what tells it.

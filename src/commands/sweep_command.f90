@@ -94,6 +94,7 @@ contains
         end if
         if (allocated(error) .or. image_number() > 1) return
         call result%store%remove()
+        if (allocated(result%damage) .and. .not. quiet) call note(result%damage)
         if (allocated(result%reason) .and. .not. quiet) call note( &
             to_text(result%failures)//" of "//to_text(sweep%trajectories())// &
             " trajectories failed and are NaN; the first: "//result%reason)

@@ -41,6 +41,8 @@ module lagrangia_dop853_lanes
         procedure :: state_at
         procedure :: may_flip
         procedure :: flip_time
+        procedure :: go_on
+        procedure :: scale
         procedure, private :: see_inside
     end type dop853_lanes_t
 
@@ -127,6 +129,7 @@ contains
         end do
         call next_steps(h, scaled, self%last_error, next)
         next = merge(min(next, self%h), next, self%moved .and. self%retry)
+        next = merge(max(next, self%h), next, self%moved .and. last)  ! for `go_on`
         self%h = merge(next, self%h, self%busy)
         self%retry = self%busy .and. .not. self%moved
         self%inside_known = self%inside_known .and. .not. self%moved
@@ -134,6 +137,33 @@ contains
         self%t_old = merge(self%t, self%t_old, self%moved)
         self%t = merge(t_new, self%t, self%moved)
     end subroutine step
+
+    pure subroutine go_on(self, lane, t_end)
+        !! A trajectory that has come to its end has a later one.
+        class(dop853_lanes_t), intent(inout) :: self
+        integer, intent(in) :: lane      !! which
+        real(dp), intent(in) :: t_end    !! s
+
+        self%t_end(lane) = t_end
+    end subroutine go_on
+
+    pure subroutine scale(self, lane, coordinates, factor)
+        !! Multiply coordinates of a state, and their velocities, whose equations of motion are
+        !! linear in them: their slopes need not be evaluated again. After a step.
+        class(dop853_lanes_t), intent(inout) :: self
+        integer, intent(in) :: lane, coordinates(:)  !! which
+        real(dp), intent(in) :: factor               !! positive
+        integer :: i, k, n
+
+        n = size(self%y, 2)/2
+        do k = 1, size(coordinates)
+            do i = coordinates(k), coordinates(k) + n, n
+                self%y(lane, i) = factor*self%y(lane, i)
+                self%k(lane, i, [1, 13]) = factor*self%k(lane, i, [1, 13])
+            end do
+        end do
+        self%inside_known(lane) = .false.
+    end subroutine scale
 
     pure subroutine see_inside(self, system, lane)
         !! The dense output of the lane's latest step, unless it is known.

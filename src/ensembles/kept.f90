@@ -28,7 +28,7 @@ module lagrangia_kept
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
     private
-    public :: keeper_t, kept_t, read_kept, wrapped
+    public :: is_lyapunov, keeper_t, kept_t, read_kept, wrapped
     public :: keeps_attractor, keeps_wrapped
     public :: keeps_end, keeps_event, keeps_exact_period, keeps_flip, keeps_largest
     public :: keeps_lyapunov, keeps_lyapunov_error, keeps_period, keeps_smallest
@@ -71,6 +71,14 @@ module lagrangia_kept
     end type keeper_t
 
 contains
+
+    elemental function is_lyapunov(kind) result(yes)
+        !! It is measured by a run of its own.
+        integer, intent(in) :: kind  !! of a `kept_t`
+        logical :: yes
+
+        yes = kind == keeps_lyapunov .or. kind == keeps_lyapunov_error
+    end function is_lyapunov
 
     subroutine read_kept(texts, system, kept, columns, events, error)
         !! What is to be kept; the columns and the events, as a scene has them, that it takes.

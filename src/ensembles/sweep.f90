@@ -5,9 +5,8 @@ module lagrangia_sweep
     use lagrangia_columns, only: columns_t
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail, status_numbers
-    use lagrangia_kept, only: keeps_attractor, keeps_end, keeps_event, keeps_flip, keeps_largest, &
-                              keeps_lyapunov, keeps_lyapunov_error, keeps_smallest, &
-                              keeps_wrapped, kept_t, read_kept
+    use lagrangia_kept, only: is_lyapunov, keeps_attractor, keeps_end, keeps_event, keeps_flip, &
+                              keeps_largest, keeps_smallest, keeps_wrapped, kept_t, read_kept
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: auto, workhorse
     use lagrangia_names, only: advice
@@ -21,7 +20,7 @@ module lagrangia_sweep
     implicit none (type, external)
     private
     public :: sweep_t, sweep_box_t
-    public :: fits_lanes, new_sweep
+    public :: fits_lanes, follows_displacements, new_sweep
 
     type :: sweep_t
         !! A grid of trajectories. The first axis is the one that varies slowest.
@@ -113,8 +112,7 @@ contains
         call plan_points(sweep, events, error)
         if (.not. allocated(error)) call plan_energy(sweep, error)
         if (allocated(error)) return
-        if (any(sweep%axes%is_parameter()) .or. any(sweep%kept%kind == keeps_lyapunov .or. &
-                                                    sweep%kept%kind == keeps_lyapunov_error)) then
+        if (any(sweep%axes%is_parameter()) .or. any(is_lyapunov(sweep%kept%kind))) then
             call new_variational(sweep%variational, system)
         end if
         call adapt_scene(sweep, events)
@@ -300,6 +298,8 @@ contains
         logical :: yes
         class(reduced_t), allocatable :: reduced
 
+        yes = follows_displacements(sweep)
+        if (yes) return
         associate (scene => sweep%scene, system => sweep%system, kept => sweep%kept)
             yes = .not. scene%compensated .and. system%contacts == 0 .and. &
                   system%constraints == 0 .and. &
@@ -316,6 +316,19 @@ contains
             yes = .not. allocated(reduced)
         end associate
     end function fits_lanes
+
+    pure function follows_displacements(sweep) result(yes)
+        !! Are Lyapunov exponents all that is kept, and can they be computed in lanes: by `dop853`
+        !! and formulas of the variational equations?
+        type(sweep_t), intent(in) :: sweep  !! as `new_sweep` made it
+        logical :: yes
+
+        associate (scene => sweep%scene)
+            yes = all(is_lyapunov(sweep%kept%kind)) .and. sweep%variational%known .and. &
+                  scene%method == "dop853" .and. scene%tolerance > 0.0_dp .and. &
+                  sweep%after < scene%t0 + scene%duration
+        end associate
+    end function follows_displacements
 
     pure function stopping(events) result(texts)
         !! The same, each of which ends the run.

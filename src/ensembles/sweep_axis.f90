@@ -161,7 +161,7 @@ contains
     end subroutine cut
 
     subroutine read_constant(text, value, error)
-        !! A number, or a formula of numbers: `-pi/2`.
+        !! A number, or a formula of numbers: `-pi/2`. As in a namelist, `1d-3` is a number too.
         character(*), intent(in) :: text
         real(dp), intent(out) :: value
         type(error_t), allocatable, intent(out) :: error
@@ -176,7 +176,7 @@ contains
             return
         end if
         allocate (none%names(0))
-        call parse_formula(text, none, formula, error)
+        call parse_formula(with_e(text), none, formula, error)
         if (allocated(error)) then
             error%message = quoted(trim(adjustl(text)))//": "//error%message
             return
@@ -186,6 +186,23 @@ contains
         value = results(1)
         if (.not. ieee_is_finite(value)) call fail(error, quoted(trim(text))//" is no number")
     end subroutine read_constant
+
+    pure function with_e(text) result(plain)
+        !! The exponents of Fortran's doubles as a formula has them: a `d` between digits can be
+        !! nothing else where no name is known.
+        character(*), intent(in) :: text
+        character(len(text)) :: plain
+        character(*), parameter :: digits = "0123456789"
+        integer :: behind, i
+
+        plain = text
+        do i = 2, len(text) - 1
+            if (scan(text(i:i), "dD") == 0 .or. scan(text(i - 1:i - 1), digits//".") == 0) cycle
+            behind = i + 1
+            if (scan(text(behind:behind), "+-") == 1) behind = behind + 1
+            if (scan(text(min(behind, len(text)):), digits) == 1) plain(i:i) = "e"
+        end do
+    end function with_e
 
     subroutine find_target(axis, name, system, error)
         !! Which number of the scene `name` is.

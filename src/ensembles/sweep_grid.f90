@@ -8,9 +8,10 @@ module lagrangia_sweep_grid
     use lagrangia_images, only: all_agree, begin_dealing, deal, image_count, image_number
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_kept, only: keeps_attractor
-    use lagrangia_kinds, only: dp, i8
+    use lagrangia_kinds, only: dp, i8, lanes
+    use lagrangia_lyapunov_lanes, only: compute_exponents
     use lagrangia_observer, only: observer_t
-    use lagrangia_sweep, only: fits_lanes, sweep_t
+    use lagrangia_sweep, only: fits_lanes, follows_displacements, sweep_t
     use lagrangia_sweep_lanes, only: compute_lanes
     use lagrangia_sweep_store, only: part_name, sweep_store_t
     use lagrangia_sweep_trajectory, only: compute_one
@@ -29,6 +30,7 @@ module lagrangia_sweep_grid
         type(sweep_store_t) :: store
         integer(i8) :: failures = 0              !! trajectories that failed
         character(:), allocatable :: reason      !! of the first of these; absent: none failed
+        character(:), allocatable :: damage      !! of the file that was there; absent: none
         real(dp) :: seconds = 0.0_dp             !! on the clock
         integer :: processes = 1                 !! of this image, that computed
         integer(i8) :: resumed = 0               !! trajectories that were there already
@@ -73,9 +75,12 @@ contains
         type(sweep_t), intent(in) :: sweep  !! as `new_sweep` made it
         integer(i8) :: n
         integer(i8), parameter :: usual = 64, most_blocks = 1000000, most_numbers = 2000000
+        integer(i8) :: least
 
-        n = usual
-        if (.not. fits_lanes(sweep)) n = min(usual, max(1_i8, sweep%trajectories()/usual))
+        least = 1
+        if (fits_lanes(sweep)) least = usual
+        if (follows_displacements(sweep)) least = lanes
+        n = min(usual, max(least, sweep%trajectories()/usual))
         n = max(n, usual*(sweep%trajectories()/(usual*most_blocks)))
         n = min(n, max(1_i8, most_numbers/sweep%width()))
     end function block_size
@@ -110,6 +115,11 @@ contains
         call agree(error)
         if (allocated(error)) return
         result%resumed = result%store%trajectories_there()
+        associate (store => result%store)
+            if (allocated(store%damage)) result%damage = store%damage//": "// &
+                to_text(store%there)//" sound blocks are kept, the other "// &
+                to_text(store%blocks - store%there)//" computed again"
+        end associate
         call system_clock(start, rate)
         blocks%sweep => sweep
         blocks%result => result
@@ -191,7 +201,9 @@ contains
         allocate (values(self%sweep%width(), last - first + 1))
         failures = 0
         first_failed = huge(first_failed)
-        if (self%result%in_lanes) then
+        if (follows_displacements(self%sweep)) then
+            call compute_exponents(self%sweep, first, last, values, failures, first_failed)
+        else if (self%result%in_lanes) then
             call compute_lanes(self%sweep, first, last, values, failures, first_failed)
         else
             do i = first, last

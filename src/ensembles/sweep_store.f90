@@ -37,6 +37,7 @@ module lagrangia_sweep_store
         integer(i8) :: there = 0                  !! blocks that are there
         integer(i8) :: failures = 0               !! of their trajectories
         integer(i8) :: first_failed = huge(1_i8)  !! number of the first of these
+        character(:), allocatable :: damage       !! what is damaged, and where; absent: nothing is
         integer(i8), private :: block_size = 0, total = 0  !! trajectories
         integer, private :: width = 0             !! numbers of a trajectory
         character(:), allocatable, private :: path, header
@@ -104,11 +105,12 @@ contains
     subroutine take_parts(self, error)
         !! Find the blocks in all files that there are.
         class(sweep_store_t), intent(inout) :: self
-        type(error_t), allocatable, intent(out) :: error  !! another sweep's, or a damaged one
+        type(error_t), allocatable, intent(out) :: error  !! another sweep's, or no file
         type(facts_t) :: facts
         integer :: i
 
         call self%release()
+        if (allocated(self%damage)) deallocate (self%damage)
         self%places = -1
         self%there = 0
         self%failures = 0
@@ -197,15 +199,12 @@ contains
     end subroutine add_part
 
     subroutine scan_part(self, which, error)
-        !! Read a file from its beginning: is it of this sweep, and which blocks are in it?
+        !! Is this file of this sweep, and which blocks are in it?
         class(sweep_store_t), intent(inout) :: self
         integer, intent(in) :: which
         type(error_t), allocatable, intent(out) :: error
         character(len(self%header)) :: header
-        integer(i8), allocatable :: record(:)
-        integer(i8) :: block, place
         integer :: got
-        logical :: whole
 
         associate (part => self%parts(which))
             got = int(c_fread(header, 1_c_size_t, len(header, c_size_t), part%stream))
@@ -214,34 +213,64 @@ contains
                           "lagrangia: remove it, or give this sweep another --output", status_file)
                 return
             end if
-            part%length = 0
-            if (got < len(header)) return  ! the sweep ended before all of it was written
-            part%length = len(header)
-            do
-                place = part%length
-                call read_record(self, part, record, whole)
-                if (.not. whole) exit
-                block = record(1)
-                if (check_sum(record(:size(record) - 1)) /= record(size(record)) .or. &
-                    block < 1 .or. block > self%blocks) then
-                    call fail(error, "'"//part%name//"' is damaged at byte "//to_text(place)// &
-                              ": remove it and begin anew", status_file)
-                    return
-                end if
-                part%length = place + word*size(record)
-                if (self%has(block)) cycle
-                call note_block(self, block, which, place, record(2), record(3))
-            end do
+            part%length = merge(len(header), 0, got == len(header))  ! 0: that was being written
+            if (part%length > 0) call find_records(self, which)
         end associate
     end subroutine scan_part
 
-    subroutine read_record(self, part, record, whole)
-        !! The record at `part%length`; `whole` is false where the file ends before it does. A block
-        !! number that cannot be is a record of its first word and a check sum that does not hold.
+    subroutine find_records(self, which)
+        !! Note all records that are sound. Where one is not, the next may begin at any word.
+        class(sweep_store_t), intent(inout) :: self
+        integer, intent(in) :: which
+        integer(i8), allocatable :: record(:)
+        integer(i8) :: bad, first_bad, place
+        logical :: ends, whole
+
+        associate (part => self%parts(which))
+            bad = -1
+            first_bad = -1
+            place = part%length
+            do
+                call read_record(self, part, place, record, whole, ends)
+                if (ends) exit
+                if (is_sound(record, whole)) then
+                    if (first_bad < 0) first_bad = bad
+                    bad = -1
+                    if (.not. self%has(record(1))) call note_block(self, record(1), which, place, &
+                                                                   record(2), record(3))
+                    place = place + word*size(record)
+                    part%length = place
+                else
+                    if (bad < 0) bad = place
+                    place = place + word
+                end if
+            end do
+            call read_record(self, part, part%length, record, whole, ends)
+            if (first_bad < 0 .and. whole) first_bad = bad  ! else it was being written
+            if (first_bad < 0 .or. allocated(self%damage)) return
+            self%damage = "'"//part%name//"' is damaged at byte "//to_text(first_bad)
+        end associate
+    end subroutine find_records
+
+    pure function is_sound(record, whole) result(yes)
+        !! A block of this sweep, with the check sum of its words.
+        integer(i8), intent(in) :: record(:)
+        logical, intent(in) :: whole
+        logical :: yes
+
+        yes = whole
+        if (yes) yes = check_sum(record(:size(record) - 1)) == record(size(record))
+    end function is_sound
+
+    subroutine read_record(self, part, place, record, whole, ends)
+        !! The record at byte `place`; `whole` is false where the file ends before it does, `ends`
+        !! where it ends before its first word. A block number that cannot be is a record of its
+        !! first word and a check sum that does not hold.
         class(sweep_store_t), intent(in) :: self
         type(part_t), intent(in) :: part
+        integer(i8), intent(in) :: place
         integer(i8), allocatable, intent(out) :: record(:)
-        logical, intent(out) :: whole
+        logical, intent(out) :: whole, ends
         character(word) :: start
         character(:), allocatable :: bytes
         integer(i8) :: block
@@ -249,14 +278,16 @@ contains
         integer :: n
 
         allocate (record(0))
-        whole = c_fseek(part%stream, int(part%length, c_long), 0_c_int) == 0
-        if (.not. whole) return
+        whole = c_fseek(part%stream, int(place, c_long), 0_c_int) == 0
+        ends = .not. whole
+        if (ends) return
         got = c_fread(start, 1_c_size_t, int(word, c_size_t), part%stream)
         whole = got == word
-        if (.not. whole) return
+        ends = .not. whole
+        if (ends) return
         block = transfer(start, block)
         if (block < 1 .or. block > self%blocks) then
-            record = [block, 0_i8, 0_i8]
+            record = [block, not(block)]
             return
         end if
         n = before + self%width*int(self%last_of(block) - self%first_of(block) + 1)
@@ -378,21 +409,18 @@ contains
         real(dp), intent(out) :: values(:, :)     !! (width, trajectories of the block)
         type(error_t), allocatable, intent(out) :: error  !! it cannot be read
         integer(i8), allocatable :: record(:)
-        type(part_t) :: part
-        logical :: whole
+        logical :: ends, whole
 
         if (self%own == 0) then
             values = self%values(:, self%first_of(block):self%last_of(block))
             return
         end if
-        part = self%parts(self%part_of(block))
-        part%length = self%places(block)
-        call read_record(self, part, record, whole)
-        if (whole) whole = check_sum(record(:size(record) - 1)) == record(size(record))
-        if (.not. whole) then
-            call fail(error, "cannot read '"//part%name//"' again", status_file)
-            return
-        end if
+        associate (part => self%parts(self%part_of(block)))
+            call read_record(self, part, self%places(block), record, whole, ends)
+            if (.not. is_sound(record, whole)) call fail(error, "cannot read '"//part%name// &
+                                                         "' again", status_file)
+        end associate
+        if (allocated(error)) return
         values = reshape(transfer(record(before + 1:size(record) - 1), values), shape(values))
     end subroutine get
 

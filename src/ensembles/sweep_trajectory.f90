@@ -4,7 +4,7 @@ module lagrangia_sweep_trajectory
     use lagrangia_dense_run, only: drive
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_integrator, only: dense_integrator_t
-    use lagrangia_kept, only: keeper_t, keeps_attractor, keeps_end, keeps_event, &
+    use lagrangia_kept, only: is_lyapunov, keeper_t, keeps_attractor, keeps_end, keeps_event, &
                               keeps_exact_period, keeps_flip, keeps_largest, keeps_lyapunov, &
                               keeps_lyapunov_error, keeps_period, keeps_smallest, keeps_wrapped, &
                               wrapped
@@ -17,6 +17,8 @@ module lagrangia_sweep_trajectory
     use lagrangia_scene, only: scene_t
     use lagrangia_sweep, only: sweep_t
     use lagrangia_system, only: check_state, system_t
+    use lagrangia_text, only: to_text
+    use lagrangia_tolerance_floor, only: sensible_tolerance
     use lagrangia_trajectory_plan, only: plan_events, plan_steps, trajectory_plan_t
     implicit none (type, external)
     private
@@ -151,14 +153,6 @@ contains
         end do
     end subroutine take_points
 
-    elemental function is_lyapunov(kind) result(yes)
-        !! It is measured by a run of its own.
-        integer, intent(in) :: kind
-        logical :: yes
-
-        yes = kind == keeps_lyapunov .or. kind == keeps_lyapunov_error
-    end function is_lyapunov
-
     subroutine keep_lyapunov(sweep, scene, system, values, error)
         !! The Lyapunov exponent and its error, by the scene's method and tolerance; where it takes
         !! steps of `dt`, by the workhorse and its own.
@@ -168,11 +162,16 @@ contains
         real(dp), intent(inout) :: values(:)
         type(error_t), allocatable, intent(out) :: error
         class(dense_integrator_t), allocatable :: method
-        real(dp) :: exponent, uncertainty
+        real(dp) :: exponent, least, uncertainty
 
         if (scene%tolerance > 0.0_dp .and. scene%method /= exact) then
             call new_adaptive(trim(scene%method), method)
             method%tolerance = scene%tolerance
+            least = sensible_tolerance(method, system, scene%t0, scene%duration, scene%q, scene%v)
+            if (scene%tolerance < least) call fail(error, to_text(scene%tolerance)//" is less "// &
+                "than rounding of so large coordinates or times leaves: the smallest sensible "// &
+                "tolerance is "//to_text(least), key="tolerance")
+            if (allocated(error)) return
         else
             call new_adaptive(workhorse, method)
         end if

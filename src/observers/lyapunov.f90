@@ -16,7 +16,7 @@ module lagrangia_lyapunov
     use lagrangia_variational, only: new_variational, variational_t
     implicit none (type, external)
     private
-    public :: lyapunov_exponent
+    public :: displace, displaced_t, lyapunov_exponent, mean_rate, new_displaced, windows
 
     integer, parameter :: windows = 16  !! whose scatter gives the uncertainty
     integer, parameter :: intervals = 8 !! in each window
@@ -53,9 +53,9 @@ contains
         type(variational_t), intent(in), optional :: variational
         !! of a system like this one, perhaps with other parameters: it need not be derived again
         type(displaced_t) :: displaced
-        real(dp) :: q(2*size(q0)), v(2*size(v0)), finish, growth, length, start
+        real(dp) :: q(2*size(q0)), v(2*size(v0)), finish, growth, start
         real(dp) :: rates(0:windows)  ! of each window; number 0 is before `after`
-        integer :: i, k, n
+        integer :: i, k
         logical :: fits
 
         exponent = 0.0_dp
@@ -63,18 +63,11 @@ contains
         call check_state(system, q0, v0, error)
         if (system%contacts > 0) call fail(error, "no Lyapunov exponent is measured across impacts")
         if (allocated(error)) return
-        n = size(q0)
         call new_displaced(displaced, system, q0)
         if (present(variational)) displaced%exact = variational
         call displaced%exact%fits(system, fits)
         if (.not. fits) call new_variational(displaced%exact, system)
-        q = [q0, [(1.0_dp/(i + 1), i=1, n)]]
-        v = [v0, [((-1.0_dp)**i/(i + 2), i=1, n)]]
-        if (.not. after > t0) then  ! else it has length 1 when the measuring begins
-            length = norm2([q(n + 1:), v(n + 1:)])
-            q(n + 1:) = q(n + 1:)/length
-            v(n + 1:) = v(n + 1:)/length
-        end if
+        call displace(q0, v0, after > t0, q, v)
         call method%prepare(displaced, error)
         if (allocated(error)) return
         start = t0
@@ -93,9 +86,36 @@ contains
             end do
             rates(k) = growth*windows/(t_end - after)
         end do
-        exponent = sum(rates(1:))/windows
-        uncertainty = sqrt(sum((rates(1:) - exponent)**2)/(windows*(windows - 1.0_dp)))
+        call mean_rate(rates(1:), exponent, uncertainty)
     end subroutine lyapunov_exponent
+
+    pure subroutine displace(q0, v0, settles, q, v)
+        !! A state, and a displacement of it that lies in no plane of symmetry.
+        real(dp), intent(in) :: q0(:), v0(:)    !! the state, (ndof)
+        logical, intent(in) :: settles
+        !! it has length 1 when the measuring begins; otherwise now
+        real(dp), intent(out) :: q(:), v(:)     !! of a `displaced_t`, (2 ndof)
+        real(dp) :: length
+        integer :: i, n
+
+        n = size(q0)
+        q = [q0, [(1.0_dp/(i + 1), i=1, n)]]
+        v = [v0, [((-1.0_dp)**i/(i + 2), i=1, n)]]
+        if (settles) return
+        length = norm2([q(n + 1:), v(n + 1:)])
+        q(n + 1:) = q(n + 1:)/length
+        v(n + 1:) = v(n + 1:)/length
+    end subroutine displace
+
+    pure subroutine mean_rate(rates, exponent, uncertainty)
+        !! The exponent, from the rates of growth of all windows.
+        real(dp), intent(in) :: rates(windows)      !! 1/s
+        real(dp), intent(out) :: exponent           !! their mean, 1/s
+        real(dp), intent(out) :: uncertainty        !! its standard error, 1/s
+
+        exponent = sum(rates)/windows
+        uncertainty = sqrt(sum((rates - exponent)**2)/(windows*(windows - 1.0_dp)))
+    end subroutine mean_rate
 
     subroutine go_on(displaced, method, t0, t_end, q, v, growth, error)
         !! From `t0` to `t_end`, in steps of the method's own. The displacement has length 1 again
@@ -134,9 +154,9 @@ contains
     subroutine new_displaced(self, system, q0)
         !! The motion of `system` and a displacement. How far is far is told by the coordinates of
         !! the start; from 0, and for angles, it is 1.
-        type(displaced_t), intent(out) :: self
-        class(system_t), intent(in) :: system
-        real(dp), intent(in) :: q0(:)
+        class(displaced_t), intent(out) :: self  !! by differences, until it has `exact`
+        class(system_t), intent(in) :: system  !! with its parameters
+        real(dp), intent(in) :: q0(:)          !! where the motion starts
         type(description_t) :: d
 
         allocate (self%of, source=system)

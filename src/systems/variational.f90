@@ -30,6 +30,7 @@ module lagrangia_variational
         logical :: known = .false.
         type(formula_program_t), private :: motion   !! accelerations, pivots, diagonal of M
         type(formula_program_t), private :: program  !! their changes
+        type(formula_program_t), private :: both     !! `motion`, then the changes
         logical :: is_code = .false.                 !! the system computes by the same formulas
         integer, private :: n = 0                    !! coordinates
         real(dp), allocatable :: parameters(:)       !! of the system that it has seen last
@@ -38,6 +39,7 @@ module lagrangia_variational
         procedure :: accelerations_lanes
         procedure :: change
         procedure :: change_lanes
+        procedure :: displaced_lanes
     end type variational_t
 
 contains
@@ -162,16 +164,21 @@ contains
         type(variational_t), intent(inout) :: self
         type(expression_t), intent(in) :: solved(:)
         integer, intent(in) :: symbols
-        type(expression_t) :: changes(self%n)
+        type(expression_t) :: both(size(solved) + self%n), changes(self%n)
         integer :: i, rates(symbols)
 
         rates = 0
         rates(2:1 + 2*self%n) = [(symbols + i, i=1, 2*self%n)]
         do i = 1, self%n
             changes(i) = time_derivative(solved(i), rates, 0)
+            both(size(solved) + i) = changes(i)
+        end do
+        do i = 1, size(solved)
+            both(i) = solved(i)
         end do
         call new_formula_program(self%motion, solved, symbols)
         call new_formula_program(self%program, changes, symbols + 2*self%n)
+        call new_formula_program(self%both, both, symbols + 2*self%n)
     end subroutine compile
 
     subroutine fits(self, system, yes)
@@ -265,4 +272,33 @@ contains
         values(:, first + n + 1:) = dv
         call self%program%evaluate(values, da)
     end subroutine change_lanes
+
+    pure subroutine displaced_lanes(self, t, q, v, parameters, a)
+        !! Accelerations of eight systems of the family, each with its own parameters, and how they
+        !! change along displacements; NaN where a pivot of the mass matrix is not positive.
+        class(variational_t), intent(in) :: self            !! one that is `known`
+        real(dp), intent(in) :: t(lanes)                    !! times, s
+        real(dp), intent(in) :: q(lanes, 2*self%n)          !! coordinates, then displacements
+        real(dp), intent(in) :: v(lanes, 2*self%n)          !! their velocities
+        real(dp), intent(in) :: parameters(:, :)            !! in the order of the description
+        real(dp), intent(out) :: a(lanes, 2*self%n)         !! accelerations, then their changes
+        real(dp) :: results(lanes, 4*self%n), values(lanes, self%both%inputs)
+        integer :: first, i, n
+
+        n = self%n
+        first = 1 + 2*n + size(parameters, 2)
+        values(:, 1) = t
+        values(:, 2:1 + n) = q(:, :n)
+        values(:, 2 + n:1 + 2*n) = v(:, :n)
+        values(:, 2 + 2*n:first) = parameters
+        values(:, first + 1:first + n) = q(:, n + 1:)
+        values(:, first + n + 1:) = v(:, n + 1:)
+        call self%both%evaluate(values, results)
+        a(:, :n) = results(:, :n)
+        a(:, n + 1:) = results(:, 3*n + 1:)
+        do i = 1, lanes
+            if (all(is_positive(results(i, n + 1:2*n), results(i, 2*n + 1:3*n), n))) cycle
+            call set_to_nan(a(i, :))
+        end do
+    end subroutine displaced_lanes
 end module lagrangia_variational
