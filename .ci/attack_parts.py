@@ -88,9 +88,12 @@ def killed(command):
     """What a sweep has kept that was killed in the middle."""
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     while process.poll() is None:
-        if os.path.exists(PART) and os.path.getsize(PART) > 2500:
-            process.send_signal(signal.SIGKILL)
-            break
+        try:
+            if os.path.getsize(PART) > 2500:
+                process.send_signal(signal.SIGKILL)
+                break
+        except FileNotFoundError:  # not yet, or no more
+            pass
     process.wait()
     return read(PART)
 
