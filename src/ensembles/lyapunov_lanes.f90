@@ -24,7 +24,8 @@ module lagrangia_lyapunov_lanes
     public :: compute_exponents
 
     real(dp), parameter :: shortest = 0.1_dp, longest = 1e6_dp
-    !! displacements: errors are absolute below 1, and beyond a number of them would overflow
+    !! of a displacement before it is scaled to 1: errors are absolute below 1, and one that only
+    !! grows would overflow
 
     type, extends(displaced_t) :: displaced_lanes_t
         !! Motions of systems with different parameters, one a lane.
