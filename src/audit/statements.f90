@@ -3,8 +3,9 @@ module lagrangia_statements
     !! described, T and V are letters too.
     !!
     !! Call `begin`, then `add_formula` or `add_equation` for each, then `finish`; then `evaluate`.
+    use lagrangia_characters, only: printable
     use lagrangia_description, only: description_t
-    use lagrangia_errors, only: error_t, fail
+    use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, whole
     use lagrangia_formula_parser, only: parse_equation, parse_formula
     use lagrangia_formula_program, only: formula_program_t, new_formula_program
@@ -90,11 +91,11 @@ contains
             call parse_formula(formula, self%symbols, one(1), error)
             if (.not. allocated(error)) then
                 call new_formula_program(letter%program, one, size(self%symbols%names))
-                letter%symbol = new_symbol(name)
-                if (letter%symbol == 0) call fail(error, "the name is another's")
+                call self%symbols%add(name, error)
+                letter%symbol = self%symbols%find(name)
             end if
             if (allocated(error)) then
-                call error%add_context(name)
+                call error%add_context(printable(name))
                 return
             end if
             letter%dot = new_symbol(name//"_dot")

@@ -135,20 +135,22 @@ contains
         type(expression_t), intent(inout) :: left, right  !! both sides; T is written out there
         type(samples_t), intent(in) :: samples            !! know the names
         logical, intent(inout) :: is_period  !! becomes true: the left side, T, is as it must be
+        type(expression_t) :: meaning(1)  ! gfortran 12 does not free what a constructor makes
         integer :: letter
 
         letter = period_letter(left - right, samples)
         if (letter == 0) return
         is_period = is_period .or. .not. right%depends_on(letter)
-        left = substituted(left, [letter], [period(samples)])
-        right = substituted(right, [letter], [period(samples)])
+        meaning(1) = period(samples)
+        left = substituted(left, [letter], meaning)
+        right = substituted(right, [letter], meaning)
     end subroutine read_as_period
 
     pure subroutine define_by_period(meaning, samples)
         !! `f = 1/T` divides by a period; `K = T` may be a kinetic energy.
         type(expression_t), intent(inout) :: meaning  !! of a new name
         type(samples_t), intent(in) :: samples        !! know the names
-        type(expression_t) :: divisor
+        type(expression_t) :: divisor, of_letter(1)
         integer :: i, letter
 
         letter = period_letter(meaning, samples)
@@ -157,7 +159,8 @@ contains
             if (meaning%nodes(i)%kind /= kind_quotient) cycle
             divisor = meaning%pruned(meaning%nodes(i)%right)
             if (.not. divisor%depends_on(letter)) cycle
-            meaning = substituted(meaning, [letter], [period(samples)])
+            of_letter(1) = period(samples)
+            meaning = substituted(meaning, [letter], of_letter)
             return
         end do
     end subroutine define_by_period
