@@ -510,6 +510,8 @@ refuses 2 "sheet:3: set: m=0: &kepler: m = 0: greater than 0.0 is needed" grade 
 printf 'system: charged_particle\ndT/dt = 0\nset: electric = 0 0 0\nset: m = 1 000\n' > "$work/sheet"
 refuses 2 "sheet:4: set: m=1 000: &charged_particle: m has 2 values; one is needed" grade "$work/sheet"
 refuses 2 "grade what?" grade
+sed "s/figure = /figure = 'let a b = l1', /" data/scenes/double_pendulum_formulas.nml >"$work/figure.nml"
+refuses 2 "figure = 'let a b = l1': 'a b' is no name for a formula" run "$work/figure.nml"
 refuses 5 "no such file" grade "$work/none.txt"
 
 # Derivations: every line holds, or the command says so by its status

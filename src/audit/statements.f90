@@ -3,7 +3,6 @@ module lagrangia_statements
     !! described, T and V are letters too.
     !!
     !! Call `begin`, then `add_formula` or `add_equation` for each, then `finish`; then `evaluate`.
-    use lagrangia_characters, only: printable
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, whole
@@ -13,7 +12,7 @@ module lagrangia_statements
     use lagrangia_kinds, only: dp
     use lagrangia_named_values, only: motion_state_t, name_values, named_values_t
     use lagrangia_random_draws, only: random_t
-    use lagrangia_symbols, only: symbols_t
+    use lagrangia_symbols, only: check_name, symbols_t
     use lagrangia_system, only: system_t
     use lagrangia_term_sizes, only: make_smaller
     implicit none (type, external)
@@ -88,6 +87,8 @@ contains
             character(*), intent(in) :: name, formula
             type(expression_t) :: one(1)
 
+            call check_name(name, error)
+            if (allocated(error)) return
             call parse_formula(formula, self%symbols, one(1), error)
             if (.not. allocated(error)) then
                 call new_formula_program(letter%program, one, size(self%symbols%names))
@@ -95,7 +96,7 @@ contains
                 letter%symbol = self%symbols%find(name)
             end if
             if (allocated(error)) then
-                call error%add_context(printable(name))
+                call error%add_context(name)
                 return
             end if
             letter%dot = new_symbol(name//"_dot")
