@@ -7,8 +7,8 @@ module lagrangia_derivation_rest
                                     line_rates, line_rest_mass, line_stiffness, line_t
     use lagrangia_equilibrium, only: stiffness_beside
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: expression_t, function_value, kind_negation, kind_number, &
-                                    kind_power, kind_symbol
+    use lagrangia_expression, only: expression_t, function_value, kind_negation, kind_power, &
+                                    kind_symbol
     use lagrangia_formula_size, only: evaluate
     use lagrangia_kinds, only: dp
     use lagrangia_small_oscillations, only: modes_t
@@ -112,15 +112,7 @@ contains
         place(0) = 0
         do i = 1, polynomial%count
             associate (this => polynomial%nodes(i))
-                select case (this%kind)
-                case (kind_number)
-                    call turned%add_number(this%number, place(i))
-                case (kind_symbol)
-                    call turned%add_symbol(this%which, place(i))
-                case default
-                    call turned%add_operation(this%kind, place(this%left), place(this%right), &
-                                              place(i), this%which)
-                end select
+                call turned%add_copy(polynomial, i, place)
                 if (this%kind /= kind_power) cycle
                 associate (base => polynomial%nodes(this%left), m => polynomial%nodes(this%right))
                     if (base%kind /= kind_symbol .or. base%which /= omega) cycle

@@ -41,6 +41,7 @@ module lagrangia_expression
         integer :: count = 0                        !! of nodes
         type(node_t), allocatable :: nodes(:)       !! the first `count` of them count
     contains
+        procedure :: add_copy
         procedure :: add_number
         procedure :: add_operation
         procedure :: add_symbol
@@ -198,6 +199,21 @@ contains
         call e%append(b, right)
         call e%add_operation(kind, left, right, node)
     end subroutine combine
+
+    pure subroutine add_copy(self, other, i, places)
+        !! A node of another formula at the end, with operands that are there.
+        class(expression_t), intent(inout) :: self
+        type(expression_t), intent(in) :: other  !! whose node it is
+        integer, intent(in) :: i                 !! its place there
+        integer, intent(inout) :: places(0:)
+        !! of the other's nodes here, of which that of node `i` is set; of 0 it is 0
+        type(node_t) :: new
+
+        new = other%nodes(i)
+        new%left = places(new%left)
+        new%right = places(new%right)
+        call self%add_node(new, places(i))
+    end subroutine add_copy
 
     pure subroutine add_number(self, number, node)
         !! A number at the end.

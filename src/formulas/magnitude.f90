@@ -1,8 +1,7 @@
 module lagrangia_magnitude
     !! How large the terms of a formula are, which may cancel in it.
     use lagrangia_expression, only: expression_t, f_abs, kind_difference, kind_function, &
-                                    kind_negation, kind_number, kind_power, kind_product, &
-                                    kind_quotient, kind_sum, kind_symbol
+                                    kind_negation, kind_product, kind_quotient, kind_sum
     implicit none (type, external)
     private
     public :: magnitude
@@ -14,45 +13,28 @@ contains
         !! sums in place of differences: a value of a few epsilon of it is rounding.
         type(expression_t), intent(in) :: expression  !! of any symbols
         type(expression_t) :: bound                   !! of the same symbols
-        integer, dimension(expression%count) :: plain, size_of
+        integer, dimension(0:expression%count) :: plain, size_of
         ! the nodes of `bound` with the value of each node, and with its magnitude
         integer :: i
 
+        plain(0) = 0
         do i = 1, expression%count
             associate (node => expression%nodes(i))
+                call bound%add_copy(expression, i, plain)
                 select case (node%kind)
-                case (kind_number)
-                    call bound%add_number(node%number, plain(i))
-                    call in_bars(bound, plain(i), size_of(i))
-                case (kind_symbol)
-                    call bound%add_symbol(node%which, plain(i))
-                    call in_bars(bound, plain(i), size_of(i))
                 case (kind_negation)
-                    call bound%add_operation(kind_negation, plain(node%left), 0, plain(i))
                     size_of(i) = size_of(node%left)
                 case (kind_sum, kind_difference)
-                    call bound%add_operation(node%kind, plain(node%left), plain(node%right), &
-                                             plain(i))
                     call bound%add_operation(kind_sum, size_of(node%left), size_of(node%right), &
                                              size_of(i))
                 case (kind_product)
-                    call bound%add_operation(node%kind, plain(node%left), plain(node%right), &
-                                             plain(i))
                     call bound%add_operation(node%kind, size_of(node%left), size_of(node%right), &
                                              size_of(i))
                 case (kind_quotient)
-                    call bound%add_operation(node%kind, plain(node%left), plain(node%right), &
-                                             plain(i))
                     call in_bars(bound, plain(node%right), size_of(i))
                     call bound%add_operation(node%kind, size_of(node%left), size_of(i), &
                                              size_of(i))
-                case (kind_function)
-                    call bound%add_operation(kind_function, plain(node%left), 0, plain(i), &
-                                             node%which)
-                    call in_bars(bound, plain(i), size_of(i))
                 case default
-                    call bound%add_operation(kind_power, plain(node%left), plain(node%right), &
-                                             plain(i))
                     call in_bars(bound, plain(i), size_of(i))
                 end select
             end associate

@@ -1,6 +1,6 @@
 module lagrangia_substitution
     !! Formulas in the places of symbols.
-    use lagrangia_expression, only: expression_t, kind_number, kind_symbol
+    use lagrangia_expression, only: expression_t, kind_symbol
     implicit none (type, external)
     private
     public :: substituted
@@ -19,21 +19,14 @@ contains
         root = 0
         do i = 1, expression%count
             associate (node => expression%nodes(i))
-                select case (node%kind)
-                case (kind_number)
-                    call e%add_number(node%number, becomes(i))
-                case (kind_symbol)
-                    k = findloc(places, node%which, 1)
-                    if (k == 0) then
-                        call e%add_symbol(node%which, becomes(i))
-                    else
-                        if (root(k) == 0) call e%append(meanings(k), root(k))
-                        becomes(i) = root(k)
-                    end if
-                case default
-                    call e%add_operation(node%kind, becomes(node%left), becomes(node%right), &
-                                         becomes(i), node%which)
-                end select
+                k = 0
+                if (node%kind == kind_symbol) k = findloc(places, node%which, 1)
+                if (k == 0) then
+                    call e%add_copy(expression, i, becomes)
+                else
+                    if (root(k) == 0) call e%append(meanings(k), root(k))
+                    becomes(i) = root(k)
+                end if
             end associate
         end do
     end function substituted

@@ -60,27 +60,19 @@ contains
         becomes = 0
         do i = 1, formula%count
             associate (node => formula%nodes(i))
-                select case (node%kind)
-                case (kind_number)
-                    call e%add_number(node%number, becomes(i))
-                case (kind_symbol)
-                    call e%add_symbol(node%which, becomes(i))
-                case default
-                    half = 0
-                    if (node%kind == kind_power) then
-                        base = formula%pruned(node%left)
-                        if (with_root(base, frequency)) half = half_exponent(formula, node%right)
-                        if (half /= 0) base = square(base, frequency)
-                        if (base%count == 0) half = 0
-                    end if
-                    if (half == 0) then
-                        call e%add_operation(node%kind, becomes(node%left), becomes(node%right), &
-                                             becomes(i), node%which)
-                    else
-                        if (half /= 1) base = base**half
-                        call e%append(base, becomes(i))
-                    end if
-                end select
+                half = 0
+                if (node%kind == kind_power) then
+                    base = formula%pruned(node%left)
+                    if (with_root(base, frequency)) half = half_exponent(formula, node%right)
+                    if (half /= 0) base = square(base, frequency)
+                    if (base%count == 0) half = 0
+                end if
+                if (half == 0) then
+                    call e%add_copy(formula, i, becomes)
+                else
+                    if (half /= 1) base = base**half
+                    call e%append(base, becomes(i))
+                end if
             end associate
         end do
         e = e%pruned(e%count)
