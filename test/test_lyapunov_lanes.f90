@@ -3,17 +3,13 @@ module test_lyapunov_lanes
     !! a time, and the same bytes whatever the neighbours are.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
-    use lagrangia_command_line, only: word_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_lyapunov_lanes, only: compute_exponents
-    use lagrangia_scene, only: scene_t
-    use lagrangia_scene_reader, only: parse_scene
-    use lagrangia_sweep, only: fits_lanes, follows_displacements, new_sweep, sweep_t
+    use lagrangia_sweep, only: fits_lanes, follows_displacements, sweep_t
     use lagrangia_sweep_trajectory, only: compute_one
-    use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
-    use sweep_numbers, only: compute_numbers, sweep_numbers_t
+    use sweep_numbers, only: compute_numbers, make => make_sweep, sweep_numbers_t
     implicit none (type, external)
     private
     public :: lyapunov_lanes_suite
@@ -46,22 +42,6 @@ contains
         call suite%addTest(TestMethod("what_is_refused_alone", what_is_refused_alone))
         call suite%addTest(TestMethod("what_fits", what_fits))
     end function lyapunov_lanes_suite
-
-    subroutine make(text, over, keep, sweep)
-        !! The sweep of a scene in `text`.
-        character(*), intent(in) :: text, over(:), keep(:)
-        type(sweep_t), intent(out) :: sweep
-        type(error_t), allocatable :: error
-        class(system_t), allocatable :: system
-        type(scene_t) :: scene
-        type(word_t) :: none(0)
-
-        call parse_scene(text, "text", none, scene, system, error)
-        if (allocated(error)) call assertEqual("", error%message, "the scene")
-        if (allocated(error)) return
-        call new_sweep(sweep, scene, system, over, keep, 1, scene%sweep%after, error)
-        call assertFalse(allocated(error), "the sweep")
-    end subroutine make
 
     subroutine compute(sweep, values, failed)
         !! All trajectories, in lanes.

@@ -9,14 +9,14 @@ module test_sweep
     use lagrangia_random_draws, only: random_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene
-    use lagrangia_sweep, only: fits_lanes, new_sweep, sweep_t
+    use lagrangia_sweep, only: fits_lanes, sweep_t
     use lagrangia_sweep_axis, only: new_sweep_axis, sweep_axis_t
     use lagrangia_sweep_files, only: write_sweep
     use lagrangia_sweep_lanes, only: compute_lanes
     use lagrangia_sweep_trajectory, only: compute_one
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
-    use sweep_numbers, only: compute_numbers, sweep_numbers_t
+    use sweep_numbers, only: compute_numbers, make => make_sweep, sweep_numbers_t
     use test_scratch, only: new_folder
     implicit none (type, external)
     private
@@ -56,20 +56,6 @@ contains
                                       lyapunov_exponents_that_are_known))
         call suite%addTest(TestMethod("lyapunov_exponent_of_ueda", lyapunov_exponent_of_ueda))
     end function sweep_suite
-
-    subroutine make(text, over, keep, sweep, error)
-        !! The sweep of a scene in `text`.
-        character(*), intent(in) :: text, over(:), keep(:)
-        type(sweep_t), intent(out) :: sweep
-        type(error_t), allocatable, intent(out) :: error
-        class(system_t), allocatable :: system
-        type(scene_t) :: scene
-        type(word_t) :: none(0)
-
-        call parse_scene(text, "text", none, scene, system, error)
-        if (allocated(error)) return
-        call new_sweep(sweep, scene, system, over, keep, 1, scene%sweep%after, error)
-    end subroutine make
 
     subroutine compute(text, over, keep, threads, result, error, sweep)
         !! What a sweep gives.

@@ -8,17 +8,13 @@ module test_sweep_lanes
     !! let grow a hundredfold, \(10^6\epsilon < 3\cdot10^{-10}\).
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
-    use lagrangia_command_line, only: word_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_scene, only: scene_t
-    use lagrangia_scene_reader, only: parse_scene
-    use lagrangia_sweep, only: fits_lanes, new_sweep, sweep_t
+    use lagrangia_sweep, only: fits_lanes, sweep_t
     use lagrangia_sweep_lanes, only: compute_lanes
     use lagrangia_sweep_trajectory, only: compute_one
-    use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
-    use sweep_numbers, only: compute_numbers, sweep_numbers_t
+    use sweep_numbers, only: compute_numbers, make => make_sweep, sweep_numbers_t
     implicit none (type, external)
     private
     public :: sweep_lanes_suite
@@ -62,22 +58,6 @@ contains
         call suite%addTest(TestMethod("processes_change_no_byte", processes_change_no_byte))
         call suite%addTest(TestMethod("what_fits", what_fits))
     end function sweep_lanes_suite
-
-    subroutine make(text, over, keep, sweep)
-        !! The sweep of a scene in `text`.
-        character(*), intent(in) :: text, over(:), keep(:)
-        type(sweep_t), intent(out) :: sweep
-        type(error_t), allocatable :: error
-        class(system_t), allocatable :: system
-        type(scene_t) :: scene
-        type(word_t) :: none(0)
-
-        call parse_scene(text, "text", none, scene, system, error)
-        if (allocated(error)) call assertEqual("", error%message, "the scene")
-        if (allocated(error)) return
-        call new_sweep(sweep, scene, system, over, keep, 1, scene%sweep%after, error)
-        call assertFalse(allocated(error), "the sweep")
-    end subroutine make
 
     subroutine compare(sweep, found)
         !! All trajectories in lanes and alone, a number within `rounding` of its size; `found` of

@@ -2,20 +2,16 @@ module test_sweep_points
     !! Points of a stroboscope and of a section, one energy for all starts, attractors.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
-    use lagrangia_command_line, only: word_t
     use lagrangia_errors, only: error_t
     use lagrangia_files, only: read_whole_file
     use lagrangia_kept, only: wrapped
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_scene, only: scene_t
-    use lagrangia_scene_reader, only: parse_scene
-    use lagrangia_sweep, only: fits_lanes, new_sweep, sweep_t
+    use lagrangia_sweep, only: fits_lanes, sweep_t
     use lagrangia_sweep_files, only: write_sweep
     use lagrangia_sweep_lanes, only: compute_lanes
     use lagrangia_sweep_trajectory, only: compute_one
-    use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
-    use sweep_numbers, only: compute_numbers, sweep_numbers_t
+    use sweep_numbers, only: compute_numbers, make => make_sweep, sweep_numbers_t
     use test_scratch, only: new_folder
     implicit none (type, external)
     private
@@ -56,20 +52,6 @@ contains
         call suite%addTest(TestMethod("bad_points_are_refused", bad_points_are_refused))
         call suite%addTest(TestMethod("a_row_is_a_point", a_row_is_a_point))
     end function sweep_points_suite
-
-    subroutine make(text, over, keep, sweep, error)
-        !! The sweep of a scene in `text`.
-        character(*), intent(in) :: text, over(:), keep(:)
-        type(sweep_t), intent(out) :: sweep
-        type(error_t), allocatable, intent(out) :: error
-        class(system_t), allocatable :: system
-        type(scene_t) :: scene
-        type(word_t) :: none(0)
-
-        call parse_scene(text, "text", none, scene, system, error)
-        if (allocated(error)) return
-        call new_sweep(sweep, scene, system, over, keep, 1, scene%sweep%after, error)
-    end subroutine make
 
     subroutine compute(text, over, keep, result, error, sweep)
         !! What a sweep gives, by three processes.

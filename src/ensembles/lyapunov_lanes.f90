@@ -11,21 +11,18 @@ module lagrangia_lyapunov_lanes
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_kept, only: keeps_lyapunov, keeps_lyapunov_error
     use lagrangia_kinds, only: dp, i8, lanes
-    use lagrangia_lyapunov, only: displace, displaced_t, mean_rate, new_displaced, windows
+    use lagrangia_lane_queue, only: lane_queue_t
+    use lagrangia_lyapunov, only: displace, displaced_t, longest, mean_rate, new_displaced, &
+                                  shortest, windows
     use lagrangia_methods, only: new_adaptive
     use lagrangia_scene, only: scene_t
     use lagrangia_sweep, only: sweep_t
-    use lagrangia_sweep_trajectory, only: compute_one
     use lagrangia_system, only: check_state
     use lagrangia_tolerance_floor, only: sensible_tolerance
     use lagrangia_workers, only: is_deserted
     implicit none (type, external)
     private
     public :: compute_exponents
-
-    real(dp), parameter :: shortest = 0.1_dp, longest = 1e6_dp
-    !! of a displacement before it is scaled to 1: errors are absolute below 1, and one that only
-    !! grows would overflow
 
     type, extends(displaced_t) :: displaced_lanes_t
         !! Motions of systems with different parameters, one a lane.
@@ -61,7 +58,7 @@ contains
         type(scene_t) :: scene, start            ! of the motion that begins, without displacement
         real(dp) :: due(lanes)  ! time at which the window ends, s; huge: the lane is empty
         real(dp) :: length(lanes)
-        integer(i8) :: next
+        type(lane_queue_t) :: queue
         integer :: i
         logical :: due_now
 
@@ -74,10 +71,8 @@ contains
         all_lanes%parameters = spread(sweep%variational%parameters, 1, lanes)
         call method%prepare(all_lanes)
         call new_adaptive("dop853", adaptive)
-        failures = 0
-        first_failed = huge(first_failed)
         values = ieee_value(1.0_dp, ieee_quiet_nan)
-        next = first
+        queue = lane_queue_t(first, first, last)
         do i = 1, lanes
             call load(i)
         end do
@@ -95,6 +90,8 @@ contains
             if (.not. due_now) cycle
             if (is_deserted()) exit
         end do
+        failures = queue%failures
+        first_failed = queue%first_failed
     contains
         subroutine look_at_lane(i)
             !! Its displacement, and the end of its window.
@@ -103,7 +100,7 @@ contains
 
             if (method%stuck(i) .or. &
                 .not. (ieee_is_finite(length(i)) .and. length(i) > 0.0_dp)) then
-                call count_failure(lane(i)%index)
+                call queue%count_failure(lane(i)%index)
                 call load(i)
                 return
             end if
@@ -127,14 +124,6 @@ contains
             end associate
         end subroutine look_at_lane
 
-        subroutine count_failure(index)
-            !! Of trajectory number `index`, whose numbers are NaN.
-            integer(i8), intent(in) :: index
-
-            failures = failures + 1
-            first_failed = min(first_failed, index)
-        end subroutine count_failure
-
         subroutine finish(this)
             !! The exponent is known.
             type(lane_t), intent(in) :: this
@@ -151,22 +140,17 @@ contains
             !! The next trajectory that can be begun, if there is one, into lane `i`.
             integer, intent(in) :: i
             type(error_t), allocatable :: error
-            logical :: fits
+            logical :: fits, there
 
             due(i) = huge(due)
-            do while (next <= last)
-                lane(i)%index = next
-                next = next + 1
+            do
+                call queue%take(lane(i)%index, there)
+                if (.not. there) return
                 call set_start(lane(i)%index, fits, error)
-                if (.not. (fits .or. allocated(error))) then
-                    call compute_one(sweep, lane(i)%index, &
-                                     values(:, lane(i)%index - first + 1), error)
-                end if
-                if (allocated(error)) call count_failure(lane(i)%index)
-                if (.not. fits .or. allocated(error)) cycle
-                call begin(i)
-                return
+                if (fits .and. .not. allocated(error)) exit
+                call queue%compute_alone(sweep, lane(i)%index, values, error)
             end do
+            call begin(i)
         end subroutine load
 
         subroutine set_start(index, fits, error)

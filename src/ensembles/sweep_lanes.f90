@@ -14,12 +14,12 @@ module lagrangia_sweep_lanes
                               keeps_wrapped, wrapped
     use lagrangia_kinds, only: dp, i8, lanes
     use lagrangia_lane_method, only: lane_method_t
+    use lagrangia_lane_queue, only: lane_queue_t
     use lagrangia_lane_systems, only: lane_systems_t, new_lane_systems
     use lagrangia_methods, only: new_adaptive
     use lagrangia_rk4_lanes, only: rk4_lanes_t
     use lagrangia_scene, only: scene_t
     use lagrangia_sweep, only: sweep_t
-    use lagrangia_sweep_trajectory, only: compute_one
     use lagrangia_system, only: reduced_t, system_t
     use lagrangia_time_grid, only: new_sample_times, new_time_grid, time_grid_t
     use lagrangia_tolerance_floor, only: sensible_tolerance
@@ -61,7 +61,7 @@ contains
         type(lane_systems_t), target :: all_own   ! the lanes' own systems together
         class(system_t), pointer :: all_systems   ! what is stepped
         real(dp) :: due(lanes)  ! time at which something is to be done, s; huge: the lane is empty
-        integer(i8) :: next
+        type(lane_queue_t) :: queue
         integer :: angles(count(sweep%kept%kind == keeps_flip))  ! coordinates whose flip is kept
         integer :: i
         logical :: extremes, flips_only, own_systems, samples
@@ -85,10 +85,8 @@ contains
         angles = pack([(sweep%kept(i)%coordinate, i=1, size(sweep%kept))], &
                       sweep%kept%kind == keeps_flip)
         call method%prepare(sweep%system)
-        failures = 0
-        first_failed = huge(first_failed)
         values = ieee_value(1.0_dp, ieee_quiet_nan)
-        next = first
+        queue = lane_queue_t(first, first, last)
         do i = 1, lanes
             call load(i)
         end do
@@ -104,6 +102,8 @@ contains
             end do
             if (is_deserted()) exit
         end do
+        failures = queue%failures
+        first_failed = queue%first_failed
     contains
         subroutine look_at_lane(i)
             !! Its samples, and its end.
@@ -111,7 +111,7 @@ contains
 
             if (due(i) >= huge(due)) return
             if (method%stuck(i)) then
-                call count_failure(lane(i)%index)
+                call queue%count_failure(lane(i)%index)
                 call load(i)
             else if (method%t(i) >= due(i)) then
                 if (samples) call see_samples(i)
@@ -121,34 +121,21 @@ contains
             end if
         end subroutine look_at_lane
 
-        subroutine count_failure(index)
-            !! Of trajectory number `index`, whose numbers are NaN.
-            integer(i8), intent(in) :: index
-
-            failures = failures + 1
-            first_failed = min(first_failed, index)
-        end subroutine count_failure
-
         subroutine load(i)
             !! The next trajectory that can be begun, if there is one, into lane `i`.
             integer, intent(in) :: i
             type(error_t), allocatable :: error
-            logical :: fits
+            logical :: fits, there
 
             due(i) = huge(due)
-            do while (next <= last)
-                lane(i)%index = next
-                next = next + 1
+            do
+                call queue%take(lane(i)%index, there)
+                if (.not. there) return
                 call set_scene(i, fits, error)
-                if (.not. (fits .or. allocated(error))) then
-                    call compute_one(sweep, lane(i)%index, &
-                                     values(:, lane(i)%index - first + 1), error)
-                end if
-                if (allocated(error)) call count_failure(lane(i)%index)
-                if (.not. fits .or. allocated(error)) cycle
-                call begin(i)
-                return
+                if (fits .and. .not. allocated(error)) exit
+                call queue%compute_alone(sweep, lane(i)%index, values, error)
             end do
+            call begin(i)
         end subroutine load
 
         subroutine set_scene(i, fits, error)
@@ -299,7 +286,7 @@ contains
             n = size(sweep%kept)
             call method%state_at(system_of(i), i, method%t(i), q, v)
             if (.not. all(ieee_is_finite([q, v]))) then
-                call count_failure(lane(i)%index)
+                call queue%count_failure(lane(i)%index)
                 return
             end if
             associate (numbers => values(:, lane(i)%index - first + 1))

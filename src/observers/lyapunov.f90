@@ -16,10 +16,14 @@ module lagrangia_lyapunov
     use lagrangia_variational, only: new_variational, variational_t
     implicit none (type, external)
     private
-    public :: displace, displaced_t, lyapunov_exponent, mean_rate, new_displaced, windows
+    public :: displace, displaced_t, lyapunov_exponent, mean_rate, new_displaced
+    public :: longest, shortest, windows
 
     integer, parameter :: windows = 16  !! whose scatter gives the uncertainty
     integer, parameter :: intervals = 8 !! in each window
+    real(dp), parameter :: shortest = 0.1_dp, longest = 1e6_dp
+    !! of a displacement before it is scaled to 1: errors are absolute below 1, and one that only
+    !! grows would overflow
 
     type, extends(system_t) :: displaced_t
         !! A motion and a displacement of it, as one system of twice as many coordinates: first
@@ -119,15 +123,13 @@ contains
 
     subroutine go_on(displaced, method, t0, t_end, q, v, growth, error)
         !! From `t0` to `t_end`, in steps of the method's own. The displacement has length 1 again
-        !! at the end, and on the way wherever it has become so short that its errors, which are
-        !! absolute below 1, count, or so long that it might overflow.
+        !! at the end, and on the way wherever it is not between `shortest` and `longest`.
         type(displaced_t), intent(in) :: displaced
         class(dense_integrator_t), intent(inout) :: method
         real(dp), intent(in) :: t0, t_end
         real(dp), intent(inout) :: q(:), v(:)
         real(dp), intent(inout) :: growth                 !! logarithms of its lengths are added
         type(error_t), allocatable, intent(out) :: error
-        real(dp), parameter :: shortest = 0.1_dp, longest = 1e6_dp
         real(dp) :: length
         integer :: n
 
