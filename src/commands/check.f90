@@ -83,7 +83,7 @@ contains
             call put_summary(audit)
         end if
         if (audit%broken() > 0) call fail(error, to_text(audit%broken())//" of "// &
-            counted(size(audit%rows, kind=i8), "claim")//not_holding(audit%broken()), &
+            counted(size(audit%rows), "claim")//not_holding(audit%broken()), &
             status_not_held)
     contains
         subroutine put_head(name)
@@ -237,7 +237,7 @@ contains
         type(ledger_t), intent(in) :: audit
 
         call put_line("")
-        call put_line(counted(size(audit%rows, kind=i8), "claim")//", "// &
+        call put_line(counted(size(audit%rows), "claim")//", "// &
                       to_text(audit%broken())//not_holding(audit%broken()))
         call put_line("worst: the residual that is largest beside its noise, relative to the "// &
                       "terms that add up; noise: what")

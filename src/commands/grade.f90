@@ -2,6 +2,7 @@ module lagrangia_grade
     !! `lagrangia grade FILE...`: a student's statements, each right, or which term is wrong.
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: put, put_line
+    use lagrangia_counted, only: counted
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail, status_not_held, status_usage
     use lagrangia_grading, only: grade, grade_t
@@ -58,10 +59,10 @@ contains
         end do
         if (line%has("json")) call put_line("]")
         if (unreadable > 0) then
-            call fail(error, "not readable: "//number_of_statements(unreadable), &
+            call fail(error, "not readable: "//counted(unreadable, "statement"), &
                       status_usage)
         else if (wrong > 0) then
-            call fail(error, "wrong: "//number_of_statements(wrong), status_not_held)
+            call fail(error, "wrong: "//counted(wrong, "statement"), status_not_held)
         end if
     end subroutine grade_command
 
@@ -101,14 +102,6 @@ contains
         call error%add_context(trim(short_source(homework%source))//":"//to_text(line))
     end subroutine find_system
 
-    pure function number_of_statements(number) result(text)
-        !! `1 statement`, `2 statements`.
-        integer, intent(in) :: number
-        character(:), allocatable :: text
-
-        text = trim(to_text(number)//" statement"//merge("s", " ", number /= 1))
-    end function number_of_statements
-
     subroutine print_sheet(homework, system, result)
         !! For the eye.
         type(homework_t), intent(in) :: homework
@@ -117,7 +110,7 @@ contains
         integer :: i
 
         call put_line(trim(short_source(homework%source))//": "// &
-                      number_of_statements(size(result%of))// &
+                      counted(size(result%of), "statement")// &
                       " about "//homework%system)
         do i = 1, size(result%of)
             associate (statement => homework%statements(i), judgement => result%of(i))

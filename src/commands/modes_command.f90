@@ -121,7 +121,7 @@ contains
         type(modes_t), intent(in) :: modes
         type(description_t) :: d
         character(140) :: row
-        integer :: j, n
+        integer :: j, k, n
 
         call system%describe(d)
         n = size(modes%omega2)
@@ -160,8 +160,9 @@ contains
             call put_line(trim(row))
         end do
         do j = 2, n
-            if (twin_of(modes, j) > 0) call put_line("modes "//to_text(twin_of(modes, j))// &
-                " and "//to_text(j)//" have one omega and one shape; the other motion grows as t")
+            k = twin_of(modes, j)
+            if (k > 0) call put_line("modes "//to_text(k)//" and "//to_text(j)//" have one "// &
+                                     "omega and one shape; the other motion grows as t")
         end do
         if (system%nonconservative .and. n <= widest) call put_damped(system, modes)
         if (n <= widest) then

@@ -6,15 +6,28 @@ module lagrangia_counted
     private
     public :: counted
 
+    interface counted
+        !! A number and its noun.
+        module procedure counted_integer
+        module procedure counted_int64
+    end interface counted
+
 contains
 
-    pure function counted(number, noun) result(text)
-        !! The number and its noun.
+    pure function counted_integer(number, noun) result(text)
+        integer, intent(in) :: number      !! how many
+        character(*), intent(in) :: noun   !! what, in the singular; its plural has an s
+        character(:), allocatable :: text
+
+        text = counted_int64(int(number, i8), noun)
+    end function counted_integer
+
+    pure function counted_int64(number, noun) result(text)
         integer(i8), intent(in) :: number  !! how many
         character(*), intent(in) :: noun   !! what, in the singular; its plural has an s
         character(:), allocatable :: text
 
         text = to_text(number)//" "//noun
         if (number /= 1) text = text//"s"
-    end function counted
+    end function counted_int64
 end module lagrangia_counted

@@ -272,5 +272,4 @@ contains
             call fail(error, trim(short_source(homework%source))//":"//to_text(number)//": "//what)
         end subroutine refuse
     end subroutine take
-
 end module lagrangia_homework

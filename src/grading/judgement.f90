@@ -281,15 +281,13 @@ contains
         type(expression_t), intent(in) :: left, right
         type(samples_t), intent(in) :: samples
         logical, intent(inout) :: right_one, found  !! become true where the squares agree
-        type(expression_t) :: one, other, squares
+        type(expression_t) :: squares
         real(dp), allocatable :: values(:, :)
         logical :: known, yes
+        integer :: first
 
-        one = square(left, samples%frequency)
-        other = square(right, samples%frequency)
-        if (one%count == 0 .or. other%count == 0) return
-        squares = one - other
-        if (.not. squares%depends_on(samples%frequency + 1)) return
+        call subtract_squares(left, right, samples, squares, first)
+        if (first == 0) return
         values = samples%values
         call choose_modes(squares, samples, values, yes, known)
         right_one = yes
@@ -302,23 +300,38 @@ contains
         type(samples_t), intent(in) :: samples
         type(library_t), intent(in) :: library(:)
         character(:), allocatable, intent(inout) :: remark  !! changes if there is one
-        type(expression_t) :: one, other, squares
+        type(expression_t) :: squares
         real(dp), allocatable :: values(:, :)
         character(:), allocatable :: text
         logical :: known, yes
+        integer :: first
 
         if (right%nodes(right%count)%kind /= kind_function) return  ! no root
+        call subtract_squares(left, right, samples, squares, first)
+        if (first == 0) return
+        values = samples%values
+        call choose_modes(squares, samples, values, yes, known)
+        if (.not. known) return
+        call explain_slip(squares, first, samples, values, library, text)
+        if (index(text, "no single") /= 1) remark = "squared: "//text
+    end subroutine explain_squares
+
+    pure subroutine subtract_squares(left, right, samples, squares, first)
+        !! \(\text{left}^2 - \text{right}^2\), where the signs of both are known and it speaks of
+        !! \(\omega^2\).
+        type(expression_t), intent(in) :: left, right
+        type(samples_t), intent(in) :: samples
+        type(expression_t), intent(out) :: squares
+        integer, intent(out) :: first  !! node of the right square; 0: they are not known
+        type(expression_t) :: one, other
+
+        first = 0
         one = square(left, samples%frequency)
         other = square(right, samples%frequency)
         if (one%count == 0 .or. other%count == 0) return
         squares = one - other
-        if (.not. squares%depends_on(samples%frequency + 1)) return
-        values = samples%values
-        call choose_modes(squares, samples, values, yes, known)
-        if (.not. known) return
-        call explain_slip(squares, one%count + 1, samples, values, library, text)
-        if (index(text, "no single") /= 1) remark = "squared: "//text
-    end subroutine explain_squares
+        if (squares%depends_on(samples%frequency + 1)) first = one%count + 1
+    end subroutine subtract_squares
 
     subroutine choose_modes(residual, samples, values, right_one, found)
         !! Give omega its values: of that equilibrium, and for each draw of parameters that mode,

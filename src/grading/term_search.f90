@@ -258,14 +258,23 @@ contains
     end function is_simple
 
     pure function is_fraction(value) result(yes)
-        !! Numerator up to 144, denominator up to 12.
+        !! Up to 144, with a small denominator; not 0.
         real(dp), intent(in) :: value
         logical :: yes
-        integer :: i
 
-        yes = abs(value) > equal .and. abs(value) <= 144.0_dp .and. &
-              any([(abs(value*i - anint(value*i)) <= equal*i, i=1, 12)])
+        yes = abs(value) > equal .and. abs(value) <= 144.0_dp .and. denominator_of(value) > 0
     end function is_fraction
+
+    pure function denominator_of(value) result(denominator)
+        !! The least one up to 12 with which it is a fraction; 0: it is none.
+        real(dp), intent(in) :: value
+        integer :: denominator
+
+        do denominator = 1, 12
+            if (abs(value*denominator - anint(value*denominator)) <= equal*denominator) return
+        end do
+        denominator = 0
+    end function denominator_of
 
     pure recursive function number_text(value) result(text)
         !! A fraction of small numbers, perhaps with \(\pi\), or three decimals.
@@ -273,13 +282,11 @@ contains
         character(:), allocatable :: text
         integer :: denominator
 
-        do denominator = 1, 12
-            if (abs(value*denominator - anint(value*denominator)) > equal*denominator) cycle
+        denominator = denominator_of(value)
+        if (denominator > 0) then
             text = to_text(nint(value*denominator))
             if (denominator > 1) text = text//"/"//to_text(denominator)
-            return
-        end do
-        if (is_fraction(value/pi)) then
+        else if (is_fraction(value/pi)) then
             text = number_text(value/pi)//" pi"
         else if (is_fraction(value*pi)) then
             text = number_text(value*pi)//"/pi"

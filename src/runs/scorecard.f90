@@ -35,7 +35,7 @@ contains
         integer, intent(in) :: missed, scenes  !! how many, at least 1; of how many
         character(:), allocatable :: text
 
-        text = to_text(missed)//" of "//counted(int(scenes, i8), "scene")//" did not hold "
+        text = to_text(missed)//" of "//counted(scenes, "scene")//" did not hold "
         if (missed == 1) then
             text = text//"its tolerances"
         else
