@@ -31,6 +31,9 @@ while IFS= read -r row; do # `suite`: test, test
 done < <(awk -F'|' 'NF >= 4 { print $3 }' docs/reliability.md | grep -oE '`[a-z_ ]+`(: [a-z_, ]+)?')
 scenes=$(find data/scenes -name '*.nml' | wc -l)
 grep -q "of the $scenes rows" README.md || complain "README.md: the main job prints $scenes rows"
+compiled=$(find src app -name '*.f90' -o -name '*.c' | wc -l)
+grep -q "more than ${compiled::-2}00 files are compiled" README.md || complain "README.md: $compiled files are compiled"
+grep -n "^\$ .*\bcut -c" docs/*.md && complain "a number that is cut may lose its exponent"
 [ "$(wc -l <README.md)" -lt 200 ] || complain "README.md has 200 lines or more"
 [ "$(wc -l <CONTRIBUTING.md)" -lt 250 ] || complain "CONTRIBUTING.md is too long for an evening"
 exit $bad

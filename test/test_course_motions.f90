@@ -351,7 +351,7 @@ contains
         !! a\frac W\Omega\sin\Omega t\), \(\Omega^2 = g/\ell + W^2\), \(W = 2\pi\sin(\lambda)/
         !! \mathrm{day}\). Where it stands after a day is turned by \(-2\pi\sin\lambda\) against
         !! that: not at all on the equator, and not by \(2\pi\).
-        real(dp), parameter :: lambda = 0.8525933371_dp, day = 60.0_dp, w = 2*pi/day*sin(lambda)
+        real(dp), parameter :: lambda = 48.85_dp*pi/180, day = 60.0_dp, w = 2*pi/day*sin(lambda)
         real(dp), parameter :: rate = sqrt(g/2.0_dp + w**2), a = 0.3_dp
         class(system_t), allocatable :: system
         type(scene_t) :: scene

@@ -883,7 +883,7 @@ static const char *const files[][2] = {
         "    'y_still [m] seen by who does not turn = x sin(W t) + y cos(W t)'\n"
         "  positions = 'bob: x, y, (x^2 + y^2)/(2 l)'\n"
         "/\n"
-        "&foucault m = 1.0, l = 2.0, g = 9.81, day = 60.0, latitude = 0.8525933371 /\n"
+        "&foucault m = 1.0, l = 2.0, g = 9.81, day = 60.0, latitude = 0.8525933396 /\n"
     },
     {"data/scenes/hanging_chain.nml",
         "! Ten bobs released as one stiff line: all ten modes at once; omega is the slowest of them.\n"

@@ -40,8 +40,9 @@ contains
         call draw_paths(true, inside, report)
         call report%note("Inside L: L + mu1 (x_dot - R phi_dot sin(theta)) + mu2 (y_dot + R "// &
                          "phi_dot cos(theta)),")
-        call report%note("'vakonomic'. x points down the incline of 0.1 rad. The disk of the "// &
-                         "scene rolling_disk_incline.")
+        call report%note("'vakonomic'. x points down the incline of 0.1 rad. A disk of 1.3 kg, "// &
+                         "R = 0.3 m,")
+        call report%note("that rolls with 4 rad/s and steers with 1.1 rad/s at first.")
     end subroutine vakonomic_principle
 
     subroutine start_of(heading, steering, disk, inside, q0, v0, error)
