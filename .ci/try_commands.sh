@@ -790,6 +790,16 @@ run run pendulum --set scene%q=90 --quiet --output "$work/first"
 check "90 rad, --quiet: nothing is said" eval '[ $status -eq 0 ] && [ ! -s "$work/err" ]'
 run run pendulum --set scene%q=90 --output "$work/first"
 check "90 rad may be meant as degrees" eval '[ $status -eq 0 ] && one_line && grep -qF "theta starts at 90.0 rad; angles are in radians: 90.0 degrees are 1.5707963267948966" "$work/err"'
+run sweep pendulum --over theta=0:180:3 --keep "max theta" --output "$work/sweep"
+check "an axis to 180 rad may be meant as degrees" eval '[ $status -eq 0 ] && one_line && grep -qF "the axis theta is in rad; angles are in radians: 180.0 degrees are 3.141592653589793" "$work/err"'
+run sweep pendulum --over theta=0:3:3 --keep "max theta" --output "$work/sweep"
+check "an axis to 3 rad is not" eval '[ $status -eq 0 ] && [ ! -s "$work/err" ]'
+refuses 2 "; angles are in radians: 180.0 degrees are 3.141592653589793" modes pendulum --at 180
+refuses 2 "--at takes 1 value for pendulum, not 2; a decimal point, no comma, is needed in a number" modes pendulum --at 3,14
+run run rotating_wire --set rotating_wire%omega=100 --output "$work/o"
+check "an energy that rounding has swallowed is said to be that" eval '[ $status -eq 0 ] && tr -s " \n" " " <"$work/out" | grep -q "the terms of the energy have grown to [0-9.]*E+259 times .* that drift is their rounding"'
+run run symmetric_top --set symmetric_top%i1=1.5 --output "$work/o"
+check "a changed parameter keeps its letters" grep -q "(I1=1.5)" "$work/out"
 refuses 2 "latitude = 48: from -pi/2 to pi/2 is needed; angles are in radians: 48.0 degrees are 0.837" run foucault --set foucault%latitude=48 --output "$work/none"
 run run duffing --set duffing%f=0 --output "$work/first"
 check "one step is no steps" eval '[ $status -eq 0 ] && grep -q "^    1 step, [0-9]* evaluations of the accelerations" "$work/out"'

@@ -26,6 +26,8 @@ contains
                                       another_motion_is_another_scene))
         call suite%addTest(TestMethod("the_same_motion_is_the_same_scene", &
                                       the_same_motion_is_the_same_scene))
+        call suite%addTest(TestMethod("parameters_keep_their_letters", &
+                                      parameters_keep_their_letters))
         call suite%addTest(TestMethod("what_is_given_is_kept", what_is_given_is_kept))
         call suite%addTest(TestMethod("names_are_those_of_files", names_are_those_of_files))
         call suite%addTest(TestMethod("every_parameter_can_be_changed", &
@@ -43,6 +45,7 @@ contains
         type(scene_t), intent(out) :: scene
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
+        type(description_t) :: d
         type(word_t), allocatable :: overrides(:)
         character(:), allocatable :: rest
         integer :: i, n
@@ -56,7 +59,9 @@ contains
         end do
         call read_scene("data/scenes/pendulum.nml", overrides, scene, system, error)
         call assertFalse(allocated(error), settings)
-        if (.not. allocated(error)) call make_own_scene(scene, overrides)
+        if (allocated(error)) return
+        call system%describe(d)
+        call make_own_scene(scene, overrides, d%parameters%name)
     end subroutine change
 
     subroutine another_motion_is_another_scene()
@@ -72,6 +77,22 @@ contains
         call assertTrue(size(scene%expectations) > 1, "the scene expects something")
         call assertFalse(any(scene%expectations%judged), "of another motion")
     end subroutine another_motion_is_another_scene
+
+    subroutine parameters_keep_their_letters()
+        !! However they are typed: the title shows the symbols of the description.
+        type(scene_t) :: scene
+        type(word_t) :: words(3)
+
+        scene%title = "A top"
+        scene%output = "top"
+        allocate (scene%expectations(0))
+        words(1)%text = "top%i1=2"
+        words(2)%text = "TOP % B(2) = 3"
+        words(3)%text = "scene%DT=0.1"
+        call make_own_scene(scene, words, [character(8) :: "I1", "b"])
+        call assertEqual("A top (I1=2, b(2)=3, dt=0.1)", trim(scene%title))
+        call assertEqual("top_I1_2_b_2__3_dt_0.1", trim(scene%output))
+    end subroutine parameters_keep_their_letters
 
     subroutine the_same_motion_is_the_same_scene()
         !! Other columns, another name, fewer rows.
@@ -171,6 +192,7 @@ contains
         character(*), intent(in) :: path
         type(word_t), intent(in) :: overrides(:)
         class(system_t), allocatable :: system
+        type(description_t) :: d
         type(error_t), allocatable :: error
         type(run_plan_t) :: plan
         type(scene_t) :: scene
@@ -178,7 +200,8 @@ contains
 
         call read_scene(path, overrides, scene, system, error)
         if (.not. allocated(error)) then
-            call make_own_scene(scene, overrides)
+            call system%describe(d)
+            call make_own_scene(scene, overrides, d%parameters%name)
             call assertFalse(any(scene%expectations%judged), overrides(1)%text)
             call new_run_plan(plan, scene, system, error)
         end if

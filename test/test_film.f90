@@ -47,7 +47,7 @@ contains
             words(i)%text = trim(overrides(i))
         end do
         call read_scene("data/scenes/"//name//".nml", words, scene, system, error)
-        if (.not. allocated(error)) call make_own_scene(scene, words)
+        if (.not. allocated(error)) call make_own_scene(scene, words, [character(0) ::])
         if (.not. allocated(error)) call new_run_plan(plan, scene, system, error)
         call assertFalse(allocated(error), name)
     end subroutine plan_scene

@@ -247,21 +247,21 @@ contains
         reference%period = 2*exact
         reference%small_period = 1.5_dp*exact
         call set_up(outcome)
-        call take_measures(scene, record, period, reference, outcome)
+        call take_measures(scene, system, record, period, reference, outcome)
         ! Turning points of a quintic over 128 samples a period: (2 pi/128)^6/720 = 2e-11.
         call assertEqual(0.5_dp, outcome%others(1)%value, 1e-10_dp, "half of it")
         call assertEqual(1.0_dp/3.0_dp, outcome%others(2)%value, 1e-10_dp, "two thirds of it")
         reference%period = 2*exact/3
         reference%small_period = exact/2
         call set_up(outcome)
-        call take_measures(scene, record, period, reference, outcome)
+        call take_measures(scene, system, record, period, reference, outcome)
         call assertEqual(0.5_dp, outcome%others(1)%value, 1e-10_dp, "half as long again")
         call assertEqual(1.0_dp, outcome%others(2)%value, 1e-10_dp, "twice as long")
         call assertEqual(exact, outcome%period, 1e-10_dp*exact, "as measured")
         call assertEqual(2*exact/3, outcome%exact_period, 0.0_dp, "as it should be")
         call assertEqual(exact/2, outcome%small_period, 0.0_dp, "and of small swings")
         call set_up(outcome)
-        call take_measures(scene, record, period_t(), reference, outcome)
+        call take_measures(scene, system, record, period_t(), reference, outcome)
         call assertTrue(ieee_is_nan(outcome%others(1)%value), "none was measured")
         call assertTrue(ieee_is_nan(outcome%others(2)%value), "nor of small swings")
     end subroutine periods_differ_either_way

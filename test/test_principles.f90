@@ -419,5 +419,20 @@ contains
         call assertTrue(allocated(error), "an error: refuses unknown names")
         if (anyExceptions()) return
         call assertEqual("unknown principle 'acton'; did you mean 'action'?", error%message)
+        call principle_report("Hamilton", report, error)
+        call assertTrue(index(error%message, "did you mean 'action' (Hamilton: ") > 0, &
+                        error%message)
+        call points("fermat", "least-time")
+        call points("hero", "least-time")
+        call points("Gauss", "gauss-hertz")
+        call points("liouville", "phase-space")
+        call points("d'Alembert", "dalembert")
+    contains
+        subroutine points(name, page)
+            character(*), intent(in) :: name, page
+
+            call principle_report(name, report, error)
+            call assertTrue(index(error%message, "did you mean '"//page//"'") > 0, error%message)
+        end subroutine points
     end subroutine refuses_unknown_names
 end module test_principles

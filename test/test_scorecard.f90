@@ -30,6 +30,8 @@ contains
         call suite%addTest(TestMethod("lines_say_what_was_measured", lines_say_what_was_measured))
         call suite%addTest(TestMethod("what_is_not_there_is_not_said", &
                                       what_is_not_there_is_not_said))
+        call suite%addTest(TestMethod("a_swallowed_energy_is_explained", &
+                                      a_swallowed_energy_is_explained))
         call suite%addTest(TestMethod("not_is_explained", not_is_explained))
         call suite%addTest(TestMethod("the_legend_fits", the_legend_fits))
         call suite%addTest(TestMethod("words_are_wrapped", words_are_wrapped))
@@ -61,6 +63,30 @@ contains
         m%judged = present(most)
         if (present(most)) m%most = most
     end function measure
+
+    subroutine a_swallowed_energy_is_explained()
+        !! Where the rounding of its terms is the drift; not where the steps are too long.
+        type(outcome_t) :: outcome
+        type(word_t), allocatable :: lines(:)
+
+        call set_up(outcome)
+        outcome%drifts = [measure("p_x_drift", 3.0_dp), measure("energy_drift", 2e13_dp)]
+        outcome%energy_terms = 1e29_dp
+        call scorecard_lines(outcome, .true., lines)
+        call assertEqual("    the terms of the energy have grown to 1.0E+29 times what its "// &
+                         "drift is", lines(2)%text)
+        call assertEqual(4, size(lines), "of three lines")
+        outcome%energy_terms = 1e28_dp
+        call scorecard_lines(outcome, .true., lines)
+        call assertEqual(4, size(lines), "a hundredth of it: rounding adds up")
+        outcome%energy_terms = 1e26_dp
+        call scorecard_lines(outcome, .true., lines)
+        call assertEqual(1, size(lines), "the steps are to blame")
+        outcome%energy_terms = 1e29_dp
+        outcome%drifts(2)%value = 0.5_dp
+        call scorecard_lines(outcome, .true., lines)
+        call assertEqual(1, size(lines), "a small drift")
+    end subroutine a_swallowed_energy_is_explained
 
     subroutine rows_stand_under_their_titles()
         !! Words begin where their titles do.

@@ -6,7 +6,7 @@ module lagrangia_command_pages
 
     type :: page_t
         character(12) :: name = ""
-        character(400) :: purpose = ""       !! one paragraph
+        character(500) :: purpose = ""       !! one paragraph
         character(76) :: examples(4) = ""    !! as one types them
     end type page_t
 
@@ -14,7 +14,8 @@ module lagrangia_command_pages
         page_t("run", "Runs scenes: integrates the motion, writes a data file and a gnuplot "// &
                "script for each, and says how far energy, period and positions are from what "// &
                "is known exactly. A scene whose motion --set changes is not judged by what the "// &
-               "file expects, and its files have names of their own.", &
+               "file expects, and its files have names of their own; what leaves the motion as "// &
+               "it is (columns, plot, title, every) replaces the scene's own files.", &
                [character(76) :: "lagrangia run cart_pendulum --plot", &
                 "lagrangia run pendulum --set pendulum%l=2 --set scene%dt=1e-3", &
                 "lagrangia run mine.nml --format csv --output results", &

@@ -7,6 +7,7 @@ module lagrangia_compare
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: line_width, note, put_line
     use lagrangia_data_files, only: check_format, film_path, script_path
+    use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail, is_signal
     use lagrangia_gnuplot, only: panel_t, series_t
     use lagrangia_kinds, only: dp
@@ -155,6 +156,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
         type(word_t), allocatable :: overrides(:)
         class(system_t), allocatable :: system
+        type(description_t) :: d
         type(scene_t) :: scene
 
         call overrides_of(line, word, overrides)
@@ -163,7 +165,8 @@ contains
             if (line%has("starts")) call error%add_context("start "//quoted(word))
             return
         end if
-        call make_own_scene(scene, line%values_of("set"))
+        call system%describe(d)
+        call make_own_scene(scene, line%values_of("set"), d%parameters%name)
         if (line%has("methods")) then
             name = run_name(trim(scene%output), "methods")
             call compare_methods(scene, system, word, error)

@@ -5,6 +5,7 @@ module lagrangia_modes_command
     use lagrangia_console, only: note, put, put_line
     use lagrangia_damped_rates, only: damped_rates
     use lagrangia_data_files, only: data_path
+    use lagrangia_degrees, only: degrees_in
     use lagrangia_description, only: description_t, figure_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_interrupt, only: interrupt_status
@@ -46,7 +47,7 @@ contains
         type(modes_t) :: modes, others
         type(progress_t) :: progress
         real(dp), allocatable :: at(:)
-        character(:), allocatable :: folder, kind, page, warning
+        character(:), allocatable :: advice, folder, kind, page, warning
         character(figure_length), allocatable :: figure(:)
         logical :: elsewhere
         integer :: j
@@ -81,7 +82,15 @@ contains
             ": "//to_text(system%ndof)//" modes, some seconds")
         call find_modes(system, at, line%has("at"), modes, error)
         call progress%clear()
-        if (allocated(error)) return
+        if (allocated(error)) then
+            do j = 1, min(size(at), size(d%coordinates))
+                advice = degrees_in(at(j:j), trim(d%coordinates(j)%unit))
+                if (advice == "") cycle
+                error%message = error%message//advice
+                exit
+            end do
+            return
+        end if
         elsewhere = allocated(modes%analytic%elsewhere) .and. .not. line%has("at")
         if (elsewhere) call find_modes(system, modes%analytic%elsewhere, .true., others, error)
         if (allocated(error)) return

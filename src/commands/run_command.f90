@@ -8,6 +8,7 @@ module lagrangia_run_command
     use lagrangia_data_files, only: check_format, data_path, film_path, &
                                     picture_path, script_path
     use lagrangia_degrees, only: degrees_warning
+    use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail, is_signal, status_not_held
     use lagrangia_final_values, only: final_values_legend, final_values_line
     use lagrangia_gnuplot, only: panel_t, series_t
@@ -261,6 +262,7 @@ contains
         type(word_t), allocatable :: paths(:)
         type(scene_t) :: scene
         class(system_t), allocatable :: system
+        type(description_t) :: d
         integer :: i, turn
 
         if (line%command == "" .or. (present(page) .and. size(line%arguments) == 0)) then
@@ -285,7 +287,8 @@ contains
                     chosen(i)%path = paths(i)
                     call read_scene(paths(i)%text, line%values_of("set"), scene, system, error)
                     if (allocated(error)) return
-                    call make_own_scene(scene, line%values_of("set"))
+                    call system%describe(d)
+                    call make_own_scene(scene, line%values_of("set"), d%parameters%name)
                     scene%error_estimate = scene%error_estimate .or. line%has("error-estimate")
                     call new_run_plan(chosen(i)%plan, scene, system, error)
                     if (allocated(error)) return

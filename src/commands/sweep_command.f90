@@ -4,6 +4,7 @@ module lagrangia_sweep_command
     use lagrangia_console, only: note, put_line
     use lagrangia_counted, only: counted
     use lagrangia_data_files, only: check_format, data_path, path_beside, script_path
+    use lagrangia_degrees, only: degrees_in
     use lagrangia_disk_space, only: free_space, short, space_warning
     use lagrangia_errors, only: error_t, fail, status_library
     use lagrangia_files, only: facts_t, look_at
@@ -81,6 +82,7 @@ contains
 
         nullify (observer)
         if (image_number() == 1) observer => progress
+        if (image_number() == 1 .and. .not. quiet) call warn_of_degrees(sweep)
         call progress%restart(trim(scene%name), quiet, "trajectories")
         call compute_grid(sweep, threads, observer, result, error, path, &
                           all_lines(sweep_header(sweep, sweep_lines(scene))), line%has("resume"))
@@ -105,6 +107,20 @@ contains
         end if
         if (line%has("plot")) call show_picture(path, kind, line, error)
     end subroutine sweep_command
+
+    subroutine warn_of_degrees(sweep)
+        !! An axis of angles that are typed as degrees is computed as it is typed, and announced.
+        type(sweep_t), intent(in) :: sweep
+        character(:), allocatable :: advice
+        integer :: i
+
+        do i = 1, size(sweep%axes)
+            associate (axis => sweep%axes(i))
+                advice = degrees_in(axis%ends, trim(axis%unit))
+                if (advice /= "") call note("the axis "//trim(axis%name)//" is in rad"//advice)
+            end associate
+        end do
+    end subroutine warn_of_degrees
 
     subroutine leave(result, path, error)
         !! What is complete stays, if there is any; who interrupts a sweep is told, and whose memory

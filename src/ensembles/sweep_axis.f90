@@ -30,6 +30,7 @@ module lagrangia_sweep_axis
         character(16) :: unit = "1"
         logical :: logarithmic = .false.         !! spaced by equal factors
         logical :: random = .false.              !! drawn, so in no order
+        real(dp) :: ends(2) = 0.0_dp             !! as they were typed, in that unit
         real(dp), allocatable :: values(:)       !! in that unit
         integer, private :: kind = 0
         integer, private :: element = 0          !! of q, v, or the parameters
@@ -116,6 +117,7 @@ contains
             call fail(error, "the axis "//trim(axis%name)//" has one value but two ends")
         end if
         if (allocated(error)) return
+        axis%ends = ends
         allocate (axis%values(count))
         do i = 1, int(count)
             axis%values(i) = place(ends, real(i - 1, dp)/max(1_i8, count - 1), axis%logarithmic)

@@ -183,7 +183,9 @@ contains
         if (size(start) /= system%ndof) then
             call fail(error, "--at takes "//to_text(system%ndof)//" value"// &
                       trim(merge(" ", "s", system%ndof == 1))//" for "//trim(d%name)// &
-                      ", not "//to_text(size(start)))
+                      ", not "//to_text(size(start))//trim(merge( &
+                      "; a decimal point, no comma, is needed in a number", repeat(" ", 50), &
+                      size(start) == 2*system%ndof)))
         else if (system%constraints > 0) then
             call check_integrable(system, start, error)
             if (allocated(error)) call error%add_context(trim(d%name))

@@ -3,6 +3,7 @@ module lagrangia_measures
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t
     use lagrangia_frequency_formula, only: find_formula
+    use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: claim_t
     use lagrangia_outcome, only: outcome_t
@@ -18,9 +19,10 @@ module lagrangia_measures
 
 contains
 
-    pure subroutine take_measures(scene, record, period, reference, outcome)
+    subroutine take_measures(scene, system, record, period, reference, outcome)
         !! The worst of every drift and error, and the period beside what it should be.
         type(scene_t), intent(in) :: scene  !! says what is expected
+        class(system_t), intent(in) :: system  !! with the scene's parameters
         type(sample_record_t), intent(in) :: record  !! of the samples, when the run has ended
         type(period_t), intent(in) :: period  !! of the coordinate `period_of`
         class(reference_t), allocatable, intent(in) :: reference
@@ -35,6 +37,8 @@ contains
         if (record%rows > 0) then
             do i = 1, size(record%columns%items)
                 m = measure(record%columns%items(i)%name, record%worst(i))
+                if (m%name == "energy_drift") outcome%energy_terms = &
+                    energy_terms(system, outcome)/record%columns%items(i)%scale
                 if (record%columns%items(i)%drift) then
                     outcome%drifts = [outcome%drifts, m]
                 else if (m%name == "error" .or. m%judged) then
@@ -68,6 +72,23 @@ contains
             m%most = scene%expectations(k)%limit
         end function measure
     end subroutine take_measures
+
+    function energy_terms(system, outcome) result(bound)
+        !! \(\sum_j|p_j\dot q_j| + |L|\) at the end: the energy is a difference of such terms, and
+        !! below an epsilon of them it is rounding.
+        class(system_t), intent(in) :: system
+        type(outcome_t), intent(in) :: outcome
+        real(dp) :: bound
+        real(dp) :: p(system%ndof)
+        type(hyperdual_t) :: l, qq(system%ndof), tt, vv(system%ndof)
+
+        tt%re = outcome%t
+        qq%re = outcome%q
+        vv%re = outcome%v
+        l = system%lagrangian(tt, qq, vv)
+        call system%momenta(outcome%t, outcome%q, outcome%v, p)
+        bound = sum(abs(p*outcome%v)) + abs(l%re)
+    end function energy_terms
 
     subroutine take_modes(scene, system, outcome)
         !! The frequencies of the small oscillations, if the scene asks and there are any.

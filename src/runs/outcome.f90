@@ -25,6 +25,7 @@ module lagrangia_outcome
         integer(i8) :: rejected = 0                 !! steps that were tried and taken back
         type(claim_t), allocatable :: drifts(:)   !! of the invariants
         type(claim_t), allocatable :: others(:)   !! `error`, `period`, ...
+        real(dp) :: energy_terms = 0.0_dp           !! at the end, relative to the energy's drift
         type(final_value_t), allocatable :: state(:)     !! final, with errors, if that was asked
         integer :: error_from = 0                   !! 0: no error known
         real(dp) :: period = 0.0_dp                 !! measured, s; 0 if not

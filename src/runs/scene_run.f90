@@ -87,7 +87,8 @@ contains
                     return
                 end if
             end if
-            call take_measures(scene, plan%record, plan%period, plan%closed_form, outcome)
+            call take_measures(scene, system, plan%record, plan%period, plan%closed_form, &
+                               outcome)
             call take_modes(scene, system, outcome)
             if (.not. complete) then
                 call keep_parts(plan, outcome, error)

@@ -98,6 +98,7 @@ contains
         else if (.not. allocated(self%failure)) then
             call add("no steps: the motion by its closed form, "//fixed(self%seconds, 4)//" s")
         end if
+        call add_rounding()
         if (self%period > 0.0_dp) then
             call add_number("period", self%period, "s", "measured")
             if (self%exact_period > 0.0_dp) call add_number("", self%exact_period, "s", &
@@ -122,6 +123,19 @@ contains
                      two_digits(measure%value)//", expect_"//trim(measure%name)//" = "// &
                      to_text(measure%most))
         end subroutine judge
+
+        subroutine add_rounding()
+            ! An energy that changed by more than itself, where its terms have swallowed it.
+            integer :: k
+
+            k = findloc(self%drifts%name, "energy_drift", 1)
+            if (k == 0) return
+            if (self%drifts(k)%value < 1.0_dp .or. &
+                epsilon(1.0_dp)*self%energy_terms < 0.01_dp*self%drifts(k)%value) return
+            call add("the terms of the energy have grown to "//two_digits(self%energy_terms)// &
+                     " times what its drift is relative to, and a double keeps 16 digits of "// &
+                     "them: that drift is their rounding and says nothing about the motion")
+        end subroutine add_rounding
 
         subroutine add_number(name, value, unit, meaning)
             character(*), intent(in) :: name, unit, meaning

@@ -15,11 +15,12 @@ module lagrangia_changed_scene
 
 contains
 
-    pure subroutine make_own_scene(scene, overrides)
+    pure subroutine make_own_scene(scene, overrides, names)
         !! Give a scene that was read with these overrides a title and an output of its own; of its
         !! expectations only those that were set with them judge it. It says so in `changes`.
         type(scene_t), intent(inout) :: scene     !! as `read_scene` gives it
         type(word_t), intent(in) :: overrides(:)  !! `GROUP%KEY=VALUE`, as typed
+        character(*), intent(in) :: names(:)      !! of the system's parameters
         character(:), allocatable :: changes, group, key, value
         logical, allocatable :: kept(:)
         logical :: titled, placed
@@ -39,6 +40,7 @@ contains
                 if (any(same_motion == key) .or. index(key, "expect_") == 1) cycle
             end if
             if (changes /= "") changes = changes//", "
+            if (group /= "scene") key = as_described(key, names)
             changes = changes//key//"="//value
         end do
         if (changes == "") return
@@ -51,6 +53,22 @@ contains
         dot = ending_start(trim(scene%output))
         scene%output = scene%output(:dot - 1)//"_"//name_of(changes)//scene%output(dot:)
     end subroutine make_own_scene
+
+    pure function as_described(key, names) result(name)
+        !! A parameter's key in the letters of the description, `M(2)` for `m(2)`: case does not
+        !! matter where it is typed, but a title shows the symbol.
+        character(*), intent(in) :: key, names(:)
+        character(:), allocatable :: name
+        integer :: i, last
+
+        name = key
+        last = index(key//"(", "(") - 1
+        do i = 1, size(names)
+            if (lower(trim(names(i))) /= key(:last)) cycle
+            name = trim(names(i))//key(last + 1:)
+            return
+        end do
+    end function as_described
 
     pure function ending_start(name) result(dot)
         !! Where the ending of a file's name begins: a dot and a letter make one, `l_2.5` has none,

@@ -7,7 +7,7 @@ module lagrangia_degrees
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: degrees_advice, degrees_warning
+    public :: degrees_advice, degrees_in, degrees_warning
 
 contains
 
@@ -35,11 +35,22 @@ contains
         call system%describe(d)
         text = ""
         do i = 1, min(size(d%coordinates), size(scene%q))
-            if (abs(scene%q(i) - 5.0_dp*anint(scene%q(i)/5.0_dp)) > 0.0_dp) cycle
-            text = degrees_advice(scene%q(i), trim(d%coordinates(i)%unit))
+            text = degrees_in(scene%q(i:i), trim(d%coordinates(i)%unit))
             if (text == "") cycle
             text = trim(d%coordinates(i)%name)//" starts at "//to_text(scene%q(i))//" rad"//text
             return
         end do
     end function degrees_warning
+
+    pure function degrees_in(values, unit) result(text)
+        !! The advice about the largest of values that are all multiples of 5: a start, the ends of
+        !! an axis; else "".
+        real(dp), intent(in) :: values(:)  !! as they were typed
+        character(*), intent(in) :: unit   !! `rad`: they are angles
+        character(:), allocatable :: text
+
+        text = ""
+        if (any(abs(values - 5.0_dp*anint(values/5.0_dp)) > 0.0_dp)) return
+        text = degrees_advice(values(maxloc(abs(values), 1)), unit)
+    end function degrees_in
 end module lagrangia_degrees
