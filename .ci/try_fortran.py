@@ -52,6 +52,14 @@ BALL = """&scene system = 'ball_on_track' dt = 0.01 duration = 1.0 method = 'rk4
   positions = 'ball, values: lambda, rows', 'mark: drift, 0' /
 &ball_on_track values = 1.0 self = 0.2 g = 9.81 /
 """
+PIVOT = """&scene system = 'moving_pivot' dt = 0.01 duration = 1.0 method = 'rk4' every = 10
+  q = 0.0, -1.3 v = 0.6 columns = 't', 'x', 'y', 'lambda1', 'constraint1', 'energy' /
+&lagrangian coordinates = 'x', 'y' parameters = 'mass', 'length', 'amplitude', 'omega', 'g'
+  T = 'mass/2 (x_dot^2 + y_dot^2)', V = 'mass g y'
+  constraint = '(x - amplitude sin(omega t))^2 + (y - amplitude sin(omega t)^2)^2 = length^2'
+  domain = 'mass > 0', 'length > 0' /
+&moving_pivot mass = 0.8 length = 1.3 amplitude = 0.2 omega = 3.0 g = 9.81 /
+"""
 
 
 def check(claim, holds, why=""):
@@ -106,7 +114,7 @@ for path in glob.glob(f"{here}/data/scenes/*.nml"):
     text = open(path).read()
     if group_of(text, "lagrangian"):
         scenes[os.path.basename(path)[:-4]] = text
-for text in (CLASHES, CHAIN, PLAIN, BALL):
+for text in (CLASHES, CHAIN, PLAIN, BALL, PIVOT):
     scenes[re.search(r"system = '(\w+)'", text)[1]] = text
 names, kept = {}, {}
 for number, (scene, text) in enumerate(sorted(scenes.items())):

@@ -30,10 +30,11 @@ module lagrangia
     !!         end do
     !!     end program cart
     use lagrangia_catalogue, only: new_system, register_system, system_names
-    use lagrangia_description, only: between, conserved, coordinate, description_t, &
-                                     formula_length, frequency_t, letter_t, line_length, &
-                                     mass_point, nonnegative, parameter_t, point_t, positive, &
-                                     quantity, quantity_t, real_number, real_vector, whole_number
+    use lagrangia_description, only: between, conserved, constraint_length, coordinate, &
+                                     description_t, formula_length, frequency_t, letter_t, &
+                                     line_length, mass_point, nonnegative, parameter_t, &
+                                     point_t, positive, quantity, quantity_t, real_number, &
+                                     real_vector, whole_number
     use lagrangia_eigen, only: residual_ratio
     use lagrangia_errors, only: error_t, fail
     use lagrangia_generalised_forces, only: momentum_rates

@@ -47,6 +47,8 @@ contains
         call suite%addTest(TestMethod("t_of_the_points", t_of_the_points))
         call suite%addTest(TestMethod("a_wire_that_turns", a_wire_that_turns))
         call suite%addTest(TestMethod("long_runs_stay_on_them", long_runs_stay_on_them))
+        call suite%addTest(TestMethod("a_rod_without_mass", a_rod_without_mass))
+        call suite%addTest(TestMethod("small_velocities_are_kept", small_velocities_are_kept))
         call suite%addTest(TestMethod("refusals", refusals))
         call suite%addTest(TestMethod("nonsense_is_refused_in_one_line", &
                                       nonsense_is_refused_in_one_line))
@@ -120,6 +122,10 @@ contains
                      "(x - sin(3 t)/5)^2 + y^2 = l^2"//rod(at + 15:))
         call audited("system = 'rod', q = 0.0, -1.3, v = 0.6", rod(:at - 1)// &
                      "y_dot + t x_dot = x + t^2 l"//rod(at + 15:))
+        ! its rate takes more than a line of 120, its note too
+        call audited("system = 'rod', q = 0.0, -1.3, v = 1.9", rod(:at - 1)// &
+                     "(x - sin(3 t)/5 - m sin(l t)^2)^2 + (y + 2 m sin(l t)^2)^2 = l^2"// &
+                     rod(at + 15:))
     contains
         subroutine audited(keys, group)
             character(*), intent(in) :: keys, group
@@ -144,6 +150,40 @@ contains
             end do
         end subroutine audited
     end subroutine the_audit_passes
+
+    subroutine a_rod_without_mass()
+        !! Half of the draws put parameters on the edge of their domain, where nothing moves it.
+        class(system_t), allocatable :: system
+        type(scene_t) :: scene
+        type(error_t), allocatable :: error
+        type(ledger_t) :: audit
+
+        call read_system("system = 'rod', q = 0.0, -1.3, v = 1.0, 0.0", rod, system, scene, error)
+        call assertFalse(allocated(error), "read")
+        call audit_system(system, audit)
+        associate (row => audit%rows(size(audit%rows)))
+            call assertFalse(row%holds, "the domain allows m = 0")
+            call assertEqual("no place was found that keeps the constraints; with m = 0.0, l = ", &
+                             row%remark(:64))
+        end associate
+    end subroutine a_rod_without_mass
+
+    subroutine small_velocities_are_kept()
+        !! To their own rounding, not to that of the far larger ones across the rod that were given.
+        class(system_t), allocatable :: system
+        type(scene_t) :: scene
+        type(error_t), allocatable :: error
+        real(dp) :: q(2), v(2)
+
+        call read_system("system = 'rod', q = 0.0, -1.3, v = 1.0, 0.0", rod, system, scene, error)
+        call assertFalse(allocated(error), "read")
+        q = 1.3_dp*[0.6_dp, -0.8_dp]
+        v = [0.6_dp, -0.8_dp] + 1e-9_dp*[0.8_dp, 0.6_dp]
+        call system%keep_constraints(0.0_dp, q, v)
+        call assertEqual(1e-9_dp, norm2(v), 1e-15_dp, "what is along the motion stays")
+        call assertTrue(abs(dot_product(q, v)) <= 4*epsilon(1.0_dp)*dot_product(abs(q), abs(v)), &
+                        "and nothing across it")
+    end subroutine small_velocities_are_kept
 
     subroutine a_run_keeps_them()
         !! The rod for ten seconds, against the pendulum's closed form.

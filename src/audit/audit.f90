@@ -12,7 +12,7 @@ module lagrangia_audit
     use lagrangia_audit_formulas, only: audit_formulas
     use lagrangia_audit_newton, only: audit_gauss, audit_inertia, say_reactions
     use lagrangia_audit_structure, only: audit_cyclic, audit_flags, audit_mass, say_potential
-    use lagrangia_description, only: description_t
+    use lagrangia_description, only: description_t, name_length, value_names
     use lagrangia_diagnosis, only: diagnose
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
@@ -59,7 +59,8 @@ contains
             end if
             if (allocated(error)) then
                 call audit%try("parameters and states are taken", 1.0_dp, 0.0_dp, 1.0_dp)
-                call audit%say("parameters and states are taken", error%message)
+                call audit%say("parameters and states are taken", error%message// &
+                               stated_parameters(d, values))
                 return
             end if
             call audit_parameters(audit, system, values)
@@ -75,6 +76,23 @@ contains
         call show_reactions(system, values, d, audit, given)
         call say_potential(audit, system)
     end subroutine audit_system
+
+    pure function stated_parameters(d, values) result(text)
+        !! `; with l = 0.0, g = 9.81`: perhaps the domain should exclude them.
+        type(description_t), intent(in) :: d
+        real(dp), intent(in) :: values(:)  !! NaN: others determine it
+        character(:), allocatable :: text
+        character(name_length), allocatable :: names(:)
+        integer :: i
+
+        text = ""
+        names = value_names(d)
+        do i = 1, size(values)
+            if (ieee_is_nan(values(i))) cycle
+            text = text//", "//trim(names(i))//" = "//to_text(values(i))
+        end do
+        if (text /= "") text = "; with"//text(2:)
+    end function stated_parameters
 
     subroutine audit_parameters(audit, system, values)
         !! Each parameter goes where it belongs: the description reads them back.

@@ -320,6 +320,10 @@ contains
         type(polynomial_t) :: p, q
         integer :: i
 
+        if (system%constraints > 0 .and. .not. allocated(self%d%constraint_equations)) then
+            call fail(error, trim(self%d%name)//" has a constraint that is too long to be printed")
+            return
+        end if
         allocate (self%constrained(system%constraints))
         do i = 1, system%constraints
             call parse_equation(trim(self%d%constraint_equations(i)), self%symbols, left, right, &

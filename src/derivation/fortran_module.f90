@@ -74,12 +74,12 @@ contains
         call lines%add(4, "!!     call lagrangia_main(error)")
         call lines%add(4, "!!")
         call lines%add(4, "!! Its scenes say system = '"//name//"' and have no group &lagrangian.")
-        call lines%add(4, "use lagrangia, only: abs, assignment(=), atan, coordinate, cos, "// &
-                       "cosh, description_t, dp, exp, formula_length, hyperdual_t, "// &
-                       "lagrangian_system_t, lanes, letter_t, line_length, log, mass_point, "// &
-                       "nonnegative, operator(*), operator(**), operator(+), operator(-), "// &
-                       "operator(/), positive, quantity, real_number, sin, sine_cosine, sinh, "// &
-                       "sqrt, tan, tanh")
+        call lines%add(4, "use lagrangia, only: abs, assignment(=), atan, "// &
+                       "constraint_length, coordinate, cos, cosh, description_t, dp, exp, "// &
+                       "formula_length, hyperdual_t, lagrangian_system_t, lanes, letter_t, "// &
+                       "log, mass_point, nonnegative, operator(*), operator(**), operator(+), "// &
+                       "operator(-), operator(/), positive, quantity, real_number, sin, "// &
+                       "sine_cosine, sinh, sqrt, tan, tanh")
         call lines%add(4, "implicit none (type, external)")
         call lines%add(4, "private")
         call lines%add(4, "public :: "//name//"_t")

@@ -6,9 +6,9 @@ module lagrangia_fortran_names
     private
     public :: find_names
 
-    character(*), parameter :: always(*) = [character(11) :: "coordinate", "dp", "factor", &
-        "lanes", "letter_t", "line_length", "mass_point", "nonnegative", "positive", "q", &
-        "quantity", "real_number", "self", "sine_cosine", "v"]
+    character(*), parameter :: always(*) = [character(17) :: "constraint_length", &
+        "coordinate", "dp", "factor", "lanes", "letter_t", "mass_point", "nonnegative", &
+        "positive", "q", "quantity", "real_number", "self", "sine_cosine", "v"]
     character(*), parameter :: numbered(*) = [character(6) :: "a", "angle", "cosine", "force", &
                                               "mass", "sine"]
     !! of the statements for the accelerations, with numbers behind

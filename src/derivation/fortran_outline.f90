@@ -99,11 +99,11 @@ contains
         do k = 1, size(items)
             items(k)%text = literal(d%constraint_equations(k))
         end do
-        call add_list(8, "constraint_equations", "character(line_length) ::", items, lines)
+        call add_list(8, "constraint_equations", "character(constraint_length) ::", items, lines)
         do k = 1, size(items)
             items(k)%text = literal(d%notes(k))
         end do
-        call add_list(8, "notes", "character(line_length) ::", items, lines)
+        call add_list(8, "notes", "character(constraint_length) ::", items, lines)
     end subroutine add_constraint_texts
 
     subroutine add_conserved(system, d, lines)

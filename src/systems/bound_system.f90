@@ -191,7 +191,8 @@ contains
     end subroutine residuals
 
     pure subroutine keep_constraints(self, t, q, v)
-        !! Newton's method for the coordinates, then the velocities once: both are linear then.
+        !! Newton's method for the coordinates. Then the velocities, of which the constraints are
+        !! linear; twice, since rounding is that of the velocities before, which may be far larger.
         class(bound_system_t), intent(in) :: self
         real(dp), intent(in) :: t
         real(dp), intent(inout) :: q(self%ndof), v(self%ndof)
@@ -214,10 +215,13 @@ contains
         qq%re = q
         call self%constraint_rows(hyperdual_t(re=t), qq, rows, drift)
         a = rows%re
-        left = matmul(a, v) + drift%re
-        if (all(abs(left) <= rounding*(matmul(abs(a), abs(v)) + abs(drift%re)))) return
-        call find_change(self, t, q, v, left, change, found)
-        if (found) v = v + change
+        do i = 1, 2
+            left = matmul(a, v) + drift%re
+            if (all(abs(left) <= rounding*(matmul(abs(a), abs(v)) + abs(drift%re)))) return
+            call find_change(self, t, q, v, left, change, found)
+            if (.not. found) return
+            v = v + change
+        end do
     end subroutine keep_constraints
 
     pure subroutine find_change(self, t, q, v, left, change, found)

@@ -5,8 +5,8 @@ module lagrangia_constrained_system
     !! \(\frac{d}{dt}(A\,\dot q + b) = 0\) (index 1). What drifts from the constraint is a column.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_canonical_form, only: simplified
-    use lagrangia_description, only: conserved, description_t, formula_length, quantity, &
-                                     quantity_t
+    use lagrangia_description, only: conserved, constraint_length, description_t, &
+                                     formula_length, quantity, quantity_t
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, operator(*), operator(+), symbol
     use lagrangia_formula_program, only: formula_program_t, new_formula_program
@@ -92,11 +92,14 @@ contains
                 if (len(text) > formula_length) deallocate (d%equations)
                 if (allocated(d%equations)) d%equations(i) = text
             end do
-            d%notes(k) = "constraint "//to_text(k)//": "// &
-                         formula_text(e%constraints(k), e%symbols)//" = 0, multiplier lambda"// &
-                         to_text(k)
-            d%constraint_equations(k) = formula_text(simplified(along, e%symbols), e%symbols)// &
-                                        " = 0"
+            text = formula_text(e%constraints(k), e%symbols)//" = 0"
+            text = "constraint "//to_text(k)//": "//text//", multiplier lambda"//to_text(k)
+            if (len(text) > constraint_length) text = "constraint "//to_text(k)// &
+                " is too long to be printed, multiplier lambda"//to_text(k)
+            d%notes(k) = text
+            text = formula_text(simplified(along, e%symbols), e%symbols)//" = 0"
+            if (len(text) > constraint_length) deallocate (d%constraint_equations)
+            if (allocated(d%constraint_equations)) d%constraint_equations(k) = text
         end do
     end subroutine state_constraints
 

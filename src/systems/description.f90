@@ -11,11 +11,12 @@ module lagrangia_description
     public :: coordinate, conserved, quantity, positive, nonnegative, between, real_number, &
               whole_number, real_vector, mass_point
     public :: add_zeros, check_parameter, constraint_text, default_values, described_by, value_names
-    public :: figure_length, formula_length, line_length, name_length
+    public :: constraint_length, figure_length, formula_length, line_length, name_length
 
     integer, parameter :: line_length = 120     !! of a line of text
     integer, parameter :: formula_length = 200  !! of a formula
     integer, parameter :: figure_length = 300   !! of one part of a figure
+    integer, parameter :: constraint_length = 1000  !! of a constraint in rates, or of a note
 
     type :: quantity_t
         !! A coordinate, or a function of the state.
@@ -93,14 +94,14 @@ module lagrangia_description
         character(formula_length), allocatable :: equations(:)      !! of motion, `left = right`
         character(formula_length), allocatable :: accelerations(:)  !! solved: `x_ddot = ...`
         character(line_length) :: constraint = ""        !! class of its constraints, in words
-        character(line_length), allocatable :: constraint_equations(:)  !! with `=` or `>=`
+        character(constraint_length), allocatable :: constraint_equations(:)  !! with `=` or `>=`
         type(frequency_t), allocatable :: frequencies(:)
         character(formula_length), allocatable :: motion(:)  !! `x = x_0 + x_dot_0 t`, from t = 0
         real(dp), allocatable :: equilibrium(:)          !! at or near one; absent: try zero
         character(formula_length), allocatable :: equilibrium_formulas(:)  !! of each coordinate
         character(figure_length), allocatable :: figure(:)
         !! how it is drawn: `rod origin bob`; see `lagrangia_scene_figure`; absent: as its points
-        character(line_length), allocatable :: notes(:)  !! slips corrected, limits, remarks
+        character(constraint_length), allocatable :: notes(:)  !! slips corrected, limits, remarks
         character(line_length) :: source = ""            !! where in the lecture notes
     end type description_t
 

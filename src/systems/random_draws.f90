@@ -135,8 +135,12 @@ contains
             if (is_inside(system, t, q, v) .and. .not. allocated(outside)) return
             widest = 0.8_dp*widest
         end do
-        call fail(error, "L is no number at any state tried, such as t = "//to_text(t)//", q = "// &
-                  list_of(q)//", v = "//list_of(v))
+        if (allocated(outside)) then
+            call fail(error, "no place was found that keeps the constraints")
+        else
+            call fail(error, "L is no number at any state tried, such as t = "//to_text(t)// &
+                      ", q = "//list_of(q)//", v = "//list_of(v))
+        end if
     end subroutine state
 
     pure function is_inside(system, t, q, v) result(yes)
