@@ -189,6 +189,7 @@ module suites
     use test_time_grid, only: time_grid_suite
     use test_typed_homeworks, only: typed_homeworks_suite
     use test_unfinished, only: unfinished_suite
+    use test_usual_forms, only: usual_forms_suite
     use test_vakonomic, only: vakonomic_suite
     use test_value_range, only: value_range_suite
     use test_variational, only: variational_suite
@@ -401,6 +402,7 @@ contains
         call suite%addTest(text_suite())
         call suite%addTest(typed_homeworks_suite())
         call suite%addTest(unfinished_suite())
+        call suite%addTest(usual_forms_suite())
         call suite%addTest(value_range_suite())
         call suite%addTest(variational_suite())
         call suite%addTest(virtual_work_suite())

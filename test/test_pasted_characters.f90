@@ -201,7 +201,7 @@ contains
         call unreadable(utf8(952)//utf8(776)//" = -g/l sin theta", "column 15: 'sin' needs")
         call unreadable(utf8(952)//" =", "column 4: one side of '=' is empty")
         call unreadable(utf8(952)//utf8(776)//" + g/l sin("//utf8(952)//")", "column 16: no '='; ")
-        call unreadable("sin(theta) "//utf8(8776)//" theta", "column 12: U+2248 is no equality")
+        call unreadable("sin(theta) "//utf8(8800)//" theta", "column 12: U+2260 is no equality")
         call unreadable("l theta_ddot + g sin(theta) : 0 = 0", "column 29: ':' has no meaning")
         call unreadable(utf8(958)//" = q", "column 5: unknown name 'q'")
         call unreadable("ab = 1"//line_feed//"(a b) = 2", "column 2: unknown name 'a'")

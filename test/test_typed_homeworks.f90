@@ -31,7 +31,7 @@ contains
             "; tension1 = tension2; p_x = const", &
             remarks="9 'R' must have the exponent 2; 10 'I x_dot^2/R^2' must be counted 1/2"// &
             "; 11 on the left is missing; 12 on the left is missing -I/R^2 x_ddot"// &
-            "; 13 on the left is missing -(m1 - m2) g")
+            "; 13 its rate is (m1 - m2) g: dL/dx is not 0")
         call traced("rotating_hoop", "rrrrrwwww", "V = m g r (1 - cos(theta)); V = m g z_bead"// &
             "; r theta_ddot - r omega^2 sin(2 theta)/2 + g sin(theta) = 0"// &
             "; Omega = sqrt(omega^2 - g^2/(r^2 omega^2)); Omega = sqrt(g/r - omega^2)"// &
@@ -107,7 +107,8 @@ contains
         call traced("symmetric_top", "rrrww", "omega_3 = const; p_psi = I3 omega_3"// &
             "; phi_dot = (p_phi - p_psi cos(theta))/(I1 sin(theta)^2)"// &
             "; phi_dot = (p_phi + p_psi cos(theta))/(I1 sin(theta)^2); p_theta = const", &
-            remarks="4 the sign of 'p_psi cos(theta)'; 5 on the left is missing -I1 theta_ddot")
+            remarks="4 the sign of 'p_psi cos(theta)'"// &
+            "; 5 its rate is I1 theta_ddot: dL/dtheta is not 0")
         call traced("foucault", "rrww", "x_ddot - 2 W y_dot + g/l x = 0; p_x = m x_dot - m W y"// &
             "; x_ddot - W y_dot + g/l x = 0; x_ddot - 4 pi/day cos(latitude) y_dot + g/l x = 0", &
             remarks="3 'W y_dot' must be counted 2 times"// &

@@ -19,6 +19,7 @@ module lagrangia_grading
     use lagrangia_system, only: system_t
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: to_text
+    use lagrangia_usual_names, only: add_usual_names, mark_used
     implicit none (type, external)
     private
     public :: grade_t
@@ -47,6 +48,8 @@ contains
         type(samples_t) :: samples
         type(library_t), allocatable :: library(:)
         type(consequences_t) :: consequences
+        type(homework_t) :: sheet
+        type(description_t) :: d
         character(:), allocatable :: said
         integer :: i
 
@@ -57,16 +60,20 @@ contains
         call new_samples(system, said, homework%settings, samples, error)
         if (allocated(error)) return
         result%kept = samples%kept
+        call system%describe(d)
+        call add_usual_names(d, homework, samples)
+        sheet = homework
+        call mark_used(sheet, samples)
         call explain_rates(samples, said, result%meaning)
         call collect_terms(system, samples, library)
         allocate (result%of(size(homework%statements)))
         do i = 1, size(homework%statements)
-            call judge(homework%statements(i), samples, library, .true., result%of(i))
+            call judge(sheet%statements(i), samples, library, .true., result%of(i))
             associate (judgement => result%of(i))
                 call consequences%add_names(samples%symbols)
                 select case (judgement%verdict)
                 case (is_wrong)
-                    call consequences%find(homework%statements(i), judgement%residual, samples, &
+                    call consequences%find(sheet%statements(i), judgement%residual, samples, &
                                            judgement%because)
                     if (size(judgement%because) > 0) then
                         call put_consequence(homework, judgement)

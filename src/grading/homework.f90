@@ -32,6 +32,7 @@ module lagrangia_homework
         character(:), allocatable :: text  !! without comment, continued lines joined
         integer :: line = 0                !! number in the file, from 1
         logical :: small = .false.         !! to first order: behind `small:`
+        logical :: used = .false.          !! another one has the name that it defines
     end type statement_t
 
     type :: homework_t

@@ -2,28 +2,38 @@ module lagrangia_judgement
     !! Is this statement right? Both sides are evaluated on the motion, at states and with
     !! parameters at random: any equivalent form is right, whatever it was multiplied by or mixed
     !! with.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_characters, only: characters
+    use lagrangia_constancy, only: explain_change, read_constancy
+    use lagrangia_equality_signs, only: read_signs
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: apply, expression_t, f_sqrt, kind_function, kind_symbol, &
                                     operator(-), whole
     use lagrangia_formula_characters, only: plain_formula
     use lagrangia_formula_parser, only: parse_formula
-    use lagrangia_frequency_squares, only: square, with_squares
+    use lagrangia_frequency_squares, only: with_squares
+    use lagrangia_further_slips, only: explain_further
     use lagrangia_homework, only: statement_t
     use lagrangia_kinds, only: dp
+    use lagrangia_mode_choice, only: choose_modes
     use lagrangia_motion_samples, only: put_places
+    use lagrangia_rounded_numbers, only: holds_to_digits, true_number
     use lagrangia_same_motion, only: same_equations
     use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_slip_search, only: explain_slip, holds, is_trivial
     use lagrangia_small_energies, only: is_energy, put_same_constant
     use lagrangia_small_judgement, only: judge_small
+    use lagrangia_squared_statements, only: compare_squares, explain_squares
     use lagrangia_statement_forms, only: define_by_period, define_rates, drop_root_of_name, &
-                                         find_frequency, is_constancy, is_motion, is_slope, &
-                                         is_value, read_as_period, read_new_name, speaks_of_place
+                                         find_frequency, &
+                                         has_velocities, is_branch, is_motion, is_slope, &
+                                         is_value, means_frequency, read_as_period, &
+                                         read_as_tension, read_new_name, &
+                                         speaks_of_place, tensions
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: to_text
+    use lagrangia_usual_names, only: find_usual
     use lagrangia_verdict, only: is_consequence, is_definition, is_right, is_unreadable, is_wrong, &
                                  judgement_t, put_example
     implicit none (type, external)
@@ -43,16 +53,18 @@ contains
         type(judgement_t), intent(out) :: judgement     !! of it
         type(error_t), allocatable :: error
         type(expression_t) :: left, right
-        character(:), allocatable :: name, side, text
+        character(:), allocatable :: name, side, side_and, text
         integer, allocatable :: columns(:)
         integer :: begun, first, next, last
-        logical :: chained, squared
+        logical, allocatable :: nearly(:)
+        logical :: chained, constancy, small, squared
 
         chained = .false.
+        small = statement%small
         begun = 1
         judgement%remark = ""
         judgement%example = ""
-        text = statement%text
+        call read_signs(statement%text, text, nearly)
         if (statement%small) text(:index(text, ":")) = ""
         next = index(text, "=")
         call find_empty_side(text, judgement)
@@ -61,7 +73,7 @@ contains
         if (allocated(error)) side = text(:next - 1)
         call read_new_name(side, samples, name, squared)
         if (name /= "" .and. index(text(next + 1:), "=") == 0) then
-            call define(name, squared, text, next, samples, library, judgement)
+            call define(name, squared, text, next, statement%used, samples, library, judgement)
             return
         end if
         call parse_formula(text(:next - 1), samples%symbols, left, error)
@@ -72,15 +84,17 @@ contains
         chained = is_slope(side)
         do
             first = next + 1
+            small = small .or. nearly(next)
             last = index(text(first:), "=")
             next = merge(len(text) + 1, first + last - 1, last == 0)
             ! blanks in front keep the columns of what went before
             call parse_formula(repeat(" ", characters(text(:first - 1)))//text(first:next - 1), &
                                samples%symbols, right, error)
             if (.not. allocated(error)) call read_as_period(left, right, samples, chained)
-            if (is_constancy(text(first:next - 1), samples)) then
-                call parse_formula("d/dt("//text(begun:first - 2)//")", samples%symbols, left, &
-                                   error)
+            call read_constancy(text(first:next - 1), samples, side_and, constancy)
+            if (constancy) then
+                call parse_formula("d/dt("//text(begun:first - 2)//side_and//")", samples%symbols, &
+                                   left, error)
                 right = whole(0)
             end if
             if (allocated(error)) then
@@ -93,10 +107,10 @@ contains
             if (statement%small) then
                 call judge_small(left, right, chained, samples, library, explain, judgement)
             else
-                call judge_pair(left, right, chained, samples, library, explain, judgement)
-                if (judgement%verdict == is_wrong .and. explain) then
-                    call add_small(left, right, samples, judgement%remark)
-                end if
+                call judge_forms(left, right, text(begun:next - 1), chained, small, samples, &
+                                 library, explain, judgement)
+                if (constancy .and. judgement%verdict == is_wrong) call explain_change( &
+                    text(begun:first - 2), samples, judgement%remark)
             end if
             if (judgement%verdict /= is_right .or. next > len(text)) return
             ! of L, V and E = a = b each side may have a constant of its own
@@ -105,6 +119,57 @@ contains
             chained = .true.
         end do
     end subroutine judge
+
+    subroutine judge_forms(left, right, text, chained, small, samples, library, explain, judgement)
+        !! One equality; also with T for a string's tension, with rounded numbers, with one sign of
+        !! a root, or nearly.
+        type(expression_t), intent(in) :: left, right
+        character(*), intent(in) :: text    !! both sides, as typed
+        logical, intent(in) :: chained      !! the left side is known to be right
+        logical, intent(in) :: small        !! a sign says "nearly"
+        type(samples_t), intent(in) :: samples
+        type(library_t), intent(in) :: library(:)
+        logical, intent(in) :: explain
+        type(judgement_t), intent(inout) :: judgement
+        type(judgement_t) :: attempt
+        type(expression_t) :: one, other
+        integer :: i
+
+        attempt%remark = ""
+        attempt%example = ""
+        call judge_pair(left, right, chained, samples, library, explain .and. .not. small, &
+                        judgement)
+        if (judgement%verdict == is_right) return
+        do i = 1, tensions(samples)
+            call read_as_tension(left, right, samples, i, one, other)
+            if (one%count == 0) exit
+            attempt%verdict = is_right
+            call judge_pair(one, other, chained, samples, library, explain .and. i == 1, attempt)
+            if (attempt%verdict == is_right .or. (i == 1 .and. (judgement%verdict == &
+                is_unreadable .or. (.not. has_velocities(one - other, samples) .and. &
+                                    index(attempt%remark, "no single") /= 1)))) judgement = attempt
+            if (attempt%verdict == is_right) exit
+        end do
+        if (judgement%verdict /= is_wrong) return
+        if (holds_to_digits(left, right, text, samples)) then
+            judgement%remark = "to the digits given"
+        else if (is_branch(left, right, samples)) then
+            judgement%remark = "where the sign of the root is that of the other side"
+        else if (small) then
+            judgement%remark = ""
+            judgement%verdict = is_right
+            call judge_small(left, right, chained, samples, library, explain, judgement)
+            return
+        else
+            if (explain) then
+                call true_number(left, right, samples, judgement%remark)
+                call add_small(left, right, samples, judgement%remark)
+            end if
+            return
+        end if
+        judgement%verdict = is_right
+        judgement%example = ""
+    end subroutine judge_forms
 
     pure subroutine find_empty_side(text, judgement)
         !! `a =`, `= b`, `a == b`, and a line without `=`, perhaps with another sign in its place.
@@ -140,12 +205,13 @@ contains
             ": one side of '=' is empty; write 'left = right'"
     end subroutine find_empty_side
 
-    subroutine define(name, squared, text, equals, samples, library, judgement)
-        !! A name of the student's own, or the square of one; right if it is called like a frequency
-        !! or a period and is one.
+    subroutine define(name, squared, text, equals, used, samples, library, judgement)
+        !! A name of the student's own, or the square of one; right if it is what is mostly called
+        !! that. A name that must be a frequency, is none and abbreviates nothing is wrong.
         character(*), intent(in) :: name, text
         logical, intent(in) :: squared  !! `v^2 = ...`
         integer, intent(in) :: equals   !! place of '='
+        logical, intent(in) :: used     !! another statement has the name
         type(samples_t), intent(inout) :: samples
         type(library_t), intent(in) :: library(:)
         type(judgement_t), intent(inout) :: judgement
@@ -166,16 +232,39 @@ contains
             return
         end if
         call define_rates(name, meaning, samples)
+        call compare_usual(name, meaning, samples, judgement)
+        if (judgement%verdict == is_right) return
         call find_frequency(name, meaning, samples, truth)
         if (truth%count == 0) return
         attempt%remark = ""
         attempt%example = ""
-        call judge_pair(truth, meaning, .true., samples, library, .false., attempt)
+        call judge_pair(truth, meaning, .true., samples, library, .true., attempt)
         if (attempt%verdict == is_right) judgement = attempt
-        if (attempt%verdict /= is_wrong .or. samples%decay > 0 .or. index(name, "_0") > 0) return
-        judgement%remark = "taken for a new name: no small oscillation has this "// &
-            trim(merge("period   ", "frequency", name(1:1) == "T"))
+        if (attempt%verdict /= is_wrong .or. .not. means_frequency(name, samples)) return
+        if (.not. used) then
+            judgement = attempt
+            if (index(attempt%remark, "no single") == 1) judgement%remark = "no small "// &
+                "oscillation has this frequency; see 'lagrangia modes'"
+        else
+            judgement%remark = "taken for a new name: no small oscillation has this frequency"
+        end if
     end subroutine define
+
+    subroutine compare_usual(name, meaning, samples, judgement)
+        !! A definition of H, v or S is right if it is what is mostly called that.
+        character(*), intent(in) :: name
+        type(expression_t), intent(in) :: meaning
+        type(samples_t), intent(in) :: samples
+        type(judgement_t), intent(inout) :: judgement
+        character(:), allocatable :: label
+        logical :: agrees, known
+
+        call find_usual(name, meaning, samples, known, agrees, label)
+        if (.not. known) return
+        if (agrees) judgement%verdict = is_right
+        judgement%remark = trim(merge("as                          ", &
+                                      "taken for a new name: not   ", agrees))//" "//label
+    end subroutine compare_usual
 
     pure subroutine put_unreadable(error, judgement)
         !! What the reader says.
@@ -252,6 +341,9 @@ contains
                 call explain_slip(judgement%residual, merge(left%count + 1, 1, chained), samples, &
                                   values, library, judgement%remark)
             end if
+            if (index(judgement%remark, "no single") == 1 .or. &
+                index(judgement%remark, "a term with") == 1) call explain_further( &
+                left, right, samples, values, library, judgement%remark)
         end if
     end subroutine judge_pair
 
@@ -274,128 +366,6 @@ contains
         if (opposite%verdict == is_wrong) remark = remark// &
             "; true of small motions: write 'small:' in front"
     end subroutine add_small
-
-    subroutine compare_squares(left, right, samples, right_one, found)
-        !! Of `omega = sqrt(...)` or `T = 2 pi/sqrt(...)`, which has no number for those of the
-        !! parameters at which the equilibrium is unstable: \(\omega^2\) is negative there.
-        type(expression_t), intent(in) :: left, right
-        type(samples_t), intent(in) :: samples
-        logical, intent(inout) :: right_one, found  !! become true where the squares agree
-        type(expression_t) :: squares
-        real(dp), allocatable :: values(:, :)
-        logical :: known, yes
-        integer :: first
-
-        call subtract_squares(left, right, samples, squares, first)
-        if (first == 0) return
-        values = samples%values
-        call choose_modes(squares, samples, values, yes, known)
-        right_one = yes
-        found = found .or. yes
-    end subroutine compare_squares
-
-    subroutine explain_squares(left, right, samples, library, remark)
-        !! Of a wrong `omega = sqrt(...)`: which change makes its square right.
-        type(expression_t), intent(in) :: left, right
-        type(samples_t), intent(in) :: samples
-        type(library_t), intent(in) :: library(:)
-        character(:), allocatable, intent(inout) :: remark  !! changes if there is one
-        type(expression_t) :: squares
-        real(dp), allocatable :: values(:, :)
-        character(:), allocatable :: text
-        logical :: known, yes
-        integer :: first
-
-        if (right%nodes(right%count)%kind /= kind_function) return  ! no root
-        call subtract_squares(left, right, samples, squares, first)
-        if (first == 0) return
-        values = samples%values
-        call choose_modes(squares, samples, values, yes, known)
-        if (.not. known) return
-        call explain_slip(squares, first, samples, values, library, text)
-        if (index(text, "no single") /= 1) remark = "squared: "//text
-    end subroutine explain_squares
-
-    pure subroutine subtract_squares(left, right, samples, squares, first)
-        !! \(\text{left}^2 - \text{right}^2\), where the signs of both are known and it speaks of
-        !! \(\omega^2\).
-        type(expression_t), intent(in) :: left, right
-        type(samples_t), intent(in) :: samples
-        type(expression_t), intent(out) :: squares
-        integer, intent(out) :: first  !! node of the right square; 0: they are not known
-        type(expression_t) :: one, other
-
-        first = 0
-        one = square(left, samples%frequency)
-        other = square(right, samples%frequency)
-        if (one%count == 0 .or. other%count == 0) return
-        squares = one - other
-        if (squares%depends_on(samples%frequency + 1)) first = one%count + 1
-    end subroutine subtract_squares
-
-    subroutine choose_modes(residual, samples, values, right_one, found)
-        !! Give omega its values: of that equilibrium, and for each draw of parameters that mode,
-        !! for which the statement holds; the first ones where it holds for none.
-        type(expression_t), intent(in) :: residual
-        type(samples_t), intent(in) :: samples
-        real(dp), intent(inout) :: values(:, :)
-        logical, intent(out) :: right_one, found
-        real(dp), allocatable :: first_choice(:, :)
-        logical :: found_one
-        integer :: n
-
-        n = size(samples%omega2, 2)/2
-        call choose_about(samples%omega2(:, :n), residual, samples, values, right_one, found)
-        if (right_one) return
-        first_choice = values
-        call choose_about(samples%omega2(:, n + 1:), residual, samples, values, right_one, &
-                          found_one)
-        if (found .and. .not. right_one) values = first_choice
-        found = found .or. found_one
-    end subroutine choose_modes
-
-    subroutine choose_about(omega2, residual, samples, values, right_one, found)
-        !! About one equilibrium; no number for draws without an oscillation. Two draws must match.
-        real(dp), intent(in) :: omega2(:, :)  !! (draws, modes)
-        type(expression_t), intent(in) :: residual
-        type(samples_t), intent(in) :: samples
-        real(dp), intent(inout) :: values(:, :)
-        logical, intent(out) :: right_one, found
-        integer :: draw, first, k, matches
-        logical :: yes, judged, needs_root
-
-        needs_root = residual%depends_on(samples%frequency)
-        found = .false.
-        right_one = .true.
-        matches = 0
-        do draw = 1, draws
-            first = (draw - 1)*states
-            associate (rows => values(first + 1:first + states, :))
-                rows(:, samples%frequency:samples%frequency + 1) = ieee_value(1.0_dp, &
-                                                                              ieee_quiet_nan)
-                yes = .false.
-                do k = size(omega2, 2), 1, -1
-                    if (omega2(draw, k) <= 0.0_dp .and. needs_root) cycle
-                    if (abs(omega2(draw, k)) <= 0.0_dp) cycle
-                    found = .true.
-                    rows(:, samples%frequency) = sqrt(abs(omega2(draw, k)))
-                    rows(:, samples%frequency + 1) = omega2(draw, k)
-                    call holds(residual, rows, yes, judged)
-                    if (yes) exit
-                end do
-                if (yes) then
-                    matches = matches + 1
-                else if (needs_root .and. any(omega2(draw, :) < 0.0_dp)) then
-                    rows(:, samples%frequency) = ieee_value(1.0_dp, ieee_quiet_nan)
-                    ! that mode, perhaps
-                else
-                    right_one = right_one .and. all(abs(omega2(draw, :)) <= 0.0_dp)
-                end if
-            end associate
-        end do
-        right_one = right_one .and. matches >= 2
-        found = found .and. any(values(:, samples%frequency) > 0.0_dp)  ! no NaN everywhere
-    end subroutine choose_about
 
     function is_up_to_constant(left, residual, samples) result(yes)
         !! A potential or an energy alone on the left side, which differs by the same number at all

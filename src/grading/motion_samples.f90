@@ -112,6 +112,7 @@ contains
         if (allocated(now%lagrangian)) d%lagrangian = now%lagrangian
         if (allocated(now%kinetic_energy)) d%kinetic_energy = now%kinetic_energy
         if (allocated(now%potential_energy)) d%potential_energy = now%potential_energy
+        if (allocated(now%generalised_forces)) d%generalised_forces = now%generalised_forces
         d%quantities%formula = now%quantities%formula
     end subroutine take_energies
 

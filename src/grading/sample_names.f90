@@ -15,7 +15,7 @@ module lagrangia_sample_names
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: compiled_t, samples_t
+    public :: compiled_t, samples_t, usual_t
     public :: follow_elsewhere, follow_letters, name_symbols
     public :: axes, draws, states
     public :: role_time, role_coordinate, role_velocity, role_acceleration, role_parameter, &
@@ -39,6 +39,17 @@ module lagrangia_sample_names
         type(expression_t) :: rate          !! its derivative by the time
         type(formula_program_t) :: program  !! of the formula
     end type compiled_t
+
+    type :: usual_t
+        !! What a name mostly stands for, which a sheet may use in its own way.
+        character(name_length) :: name = ""
+        character(name_length) :: label = ""     !! what it is, in words
+        type(expression_t) :: meaning            !! over the symbols
+        logical :: always = .false.              !! nobody means anything else by it
+        logical :: either_sign = .false.         !! so may be its opposite
+        logical :: any_zero = .false.            !! a constant may be added
+        logical :: only_compared = .false.       !! unknown where the sheet does not define it
+    end type usual_t
 
     type :: samples_t
         !! Rows of `values` are states, those of the first parameters first.
@@ -73,6 +84,7 @@ module lagrangia_sample_names
         !! the same about another one that the page knows, or at zero; NaN: none
         real(dp), allocatable, dimension(:, :, :) :: other_stiffness, other_inertia, other_turning
         integer, allocatable :: place(:)                !! of `theta_eq`, where it is, (ndof)
+        type(usual_t), allocatable :: usual(:)          !! names beside `symbols`
         type(random_t) :: random
     end type samples_t
 

@@ -21,7 +21,7 @@ module lagrangia_slip_search
     use lagrangia_wide_changes, only: place_from, throughout, two_factors
     implicit none (type, external)
     private
-    public :: explain_slip
+    public :: context, explain_slip
     public :: holds, is_trivial
 
     real(dp), parameter :: zero = 1e-9_dp   !! of the sizes of what is added up
@@ -402,9 +402,9 @@ contains
 
     function context(expression, samples, i) result(text)
         !! ` in 'the summand'`, where node `i` is only a part of one.
-        type(expression_t), intent(in) :: expression
-        type(samples_t), intent(in) :: samples
-        integer, intent(in) :: i
+        type(expression_t), intent(in) :: expression  !! left side less right side
+        type(samples_t), intent(in) :: samples        !! know the names
+        integer, intent(in) :: i                      !! a node
         character(:), allocatable :: text
         integer, allocatable :: nodes(:)
         real(dp), allocatable :: signs(:)

@@ -8,14 +8,16 @@ module lagrangia_statement_forms
                                     operator(/), symbol, whole
     use lagrangia_kinds, only: dp
     use lagrangia_sample_names, only: role_coordinate, role_frequency, role_known, role_parameter, &
-                                      samples_t
+                                      role_velocity, samples_t
+    use lagrangia_slip_search, only: holds
     use lagrangia_substitution, only: substituted
     use lagrangia_symbols, only: check_name
     implicit none (type, external)
     private
     public :: define_by_period, define_rates, speaks_of_place
-    public :: drop_root_of_name, find_frequency, read_as_period, read_new_name
-    public :: is_constancy, is_motion, is_slope, is_value
+    public :: drop_root_of_name, find_frequency, read_as_period, read_as_tension, read_new_name, &
+              tensions
+    public :: has_velocities, is_branch, is_motion, is_slope, is_value, means_frequency
 
 contains
 
@@ -71,19 +73,41 @@ contains
             constants = .true.
         end do
         if (.not. constants) return
-        stem = name
-        k = index(name, "_", back=.true.)
-        if (k > 1) then
-            if (verify(name(k + 1:), "0123456789") == 0) stem = name(:k - 1)
-        end if
-        if (stem == trim(samples%symbols%names(samples%frequency))) then
+        stem = without_number(name)
+        if (stem == trim(samples%symbols%names(samples%frequency)) .or. stem == "w") then
             truth = symbol(samples%frequency)
-        else if (stem == "T") then
+        else if (stem == "T" .or. stem == "tau") then
             truth = period(samples)
         else if (stem == "f" .or. stem == "nu") then
             truth = whole(1)/period(samples)
         end if
     end subroutine find_frequency
+
+    pure function means_frequency(name, samples) result(yes)
+        !! `omega_1`: the frequency of a mode. `omega_0` may be one without a drive or the other
+        !! rod, but for one coordinate that nothing turns or brakes.
+        character(*), intent(in) :: name            !! of a definition
+        type(samples_t), intent(in) :: samples      !! know how omega is called
+        logical :: yes
+
+        yes = without_number(name) == trim(samples%symbols%names(samples%frequency)) .and. &
+              samples%decay == 0
+        if (yes .and. scan(name, "0") > 0) yes = samples%ndof == 1 .and. &
+            samples%symbols%names(samples%frequency) == "omega"
+    end function means_frequency
+
+    pure function without_number(name) result(stem)
+        !! `omega` of `omega_1` and `omega1`.
+        character(*), intent(in) :: name
+        character(:), allocatable :: stem
+        integer :: k
+
+        k = verify(name, "0123456789", back=.true.)
+        if (k > 1 .and. k < len(name)) then
+            if (name(k:k) == "_") k = k - 1
+        end if
+        stem = name(:k)
+    end function without_number
 
     pure function is_new_name(text, samples) result(yes)
         !! Is it a name alone, which nobody has given yet? What looks like a velocity or a momentum
@@ -114,20 +138,6 @@ contains
         yes = any(name(:min(4, len(name))) == ["dV/d", "dT/d"]) .and. &
               scan(trim(name), " +-*^()") == 0
     end function is_slope
-
-    pure function is_constancy(text, samples) result(yes)
-        !! `p_x = const`, unless somebody has that name.
-        character(*), intent(in) :: text            !! one side, as typed
-        type(samples_t), intent(in) :: samples      !! know the names
-        logical :: yes
-        character(len(text)) :: word
-
-        word = adjustl(text)
-        yes = any(word == ["const    ", "const.   ", "constant ", "konst    ", "konst.   ", &
-                           "konstant "])
-        if (yes) yes = samples%symbols%find_definition(trim(word)) == 0 .and. &
-                       samples%symbols%find(trim(word)) == 0
-    end function is_constancy
 
     pure subroutine read_as_period(left, right, samples, is_period)
         !! `T = 2 pi sqrt(l/g)`, `T^2 = 4 pi^2 l/g`, `omega = 2 pi/T`: a kinetic energy moves, and
@@ -173,6 +183,8 @@ contains
 
         letter = samples%symbols%find("T")
         if (letter == 0) return
+        if (tensions(samples) > 0 .and. .not. any(abs(samples%omega2) > 0.0_dp)) letter = 0
+        if (letter == 0) return  ! nothing oscillates
         if (samples%role(letter) /= role_known .or. .not. formula%depends_on(letter)) letter = 0
         do k = 1, size(samples%role)
             if (letter == 0) return
@@ -188,6 +200,73 @@ contains
 
         formula = constant(2.0_dp*acos(-1.0_dp))/symbol(samples%frequency)
     end function period
+
+    pure function tensions(samples) result(number)
+        !! How many quantities are forces of strings and rods.
+        type(samples_t), intent(in) :: samples  !! know the names
+        integer :: number
+
+        number = count(index(samples%symbols%names, "tension") == 1)
+    end function tensions
+
+    pure subroutine read_as_tension(left, right, samples, which, one, other)
+        !! `m1 g - T = m1 x_ddot`: where nothing has a velocity, T is no kinetic energy.
+        type(expression_t), intent(in) :: left, right    !! both sides
+        type(samples_t), intent(in) :: samples           !! know the names
+        integer, intent(in) :: which                     !! of `tensions`
+        type(expression_t), intent(out) :: one, other    !! with that force; empty: T is no force
+        type(expression_t) :: force(1)
+        integer :: k, letter, number
+
+        letter = samples%symbols%find("T")
+        if (letter == 0) return
+        if (samples%role(letter) /= role_known) return
+        if (.not. (left%depends_on(letter) .or. right%depends_on(letter))) return
+        number = 0
+        do k = 1, size(samples%role)
+            if (index(samples%symbols%names(k), "tension") == 1) number = number + 1
+            if (number == which .and. force(1)%count == 0) force(1) = symbol(k)
+            if (k == letter .or. .not. (left%depends_on(k) .or. right%depends_on(k))) cycle
+            if (any(samples%symbols%names(k) == ["L", "V", "E"])) return
+        end do
+        one = substituted(left, [letter], force)
+        other = substituted(right, [letter], force)
+    end subroutine read_as_tension
+
+    pure function has_velocities(expression, samples) result(yes)
+        !! Is there a velocity in it?
+        type(expression_t), intent(in) :: expression    !! of the samples' symbols
+        type(samples_t), intent(in) :: samples          !! know the names
+        logical :: yes
+        integer :: k
+
+        yes = any([(expression%depends_on(k) .and. samples%role(k) == role_velocity, &
+                    k=1, size(samples%role))])
+    end function has_velocities
+
+    function is_branch(left, right, samples) result(yes)
+        !! `theta_dot = sqrt(...)`: true of the squares, and of the sides where they have one sign.
+        type(expression_t), intent(in) :: left, right   !! both sides
+        type(samples_t), intent(in) :: samples          !! on the motion
+        logical :: yes, judged
+        type(expression_t) :: residual
+        integer :: i
+
+        yes = left%count == 1 .and. left%nodes(1)%kind == kind_symbol
+        if (yes) yes = any(samples%role(left%nodes(1)%which) == [role_coordinate, role_velocity])
+        if (yes) yes = any([(right%nodes(i)%kind == kind_function .and. &
+                             right%nodes(i)%which == f_sqrt, i=1, right%count)])
+        if (.not. yes) return
+        residual = left**2 - right**2
+        call holds(residual, samples%values, yes, judged)
+        if (.not. yes) return
+        residual = left - right
+        yes = .false.
+        do i = 1, size(samples%values, 1)
+            call holds(residual, samples%values(i:i, :), yes, judged)
+            if (yes) return
+        end do
+    end function is_branch
 
     pure function is_motion(left, right, samples) result(yes)
         !! A coordinate alone on the left, and on the right side a function of the time.

@@ -10,7 +10,7 @@ module lagrangia_verdict
     implicit none (type, external)
     private
     public :: judgement_t
-    public :: put_example
+    public :: brief, put_example
     public :: is_right, is_definition, is_wrong, is_unreadable, is_consequence
 
     integer, parameter :: is_right = 1, is_definition = 2, is_wrong = 3, is_unreadable = 4
@@ -60,7 +60,7 @@ contains
 
     pure function brief(value) result(text)
         !! Four significant digits.
-        real(dp), intent(in) :: value
+        real(dp), intent(in) :: value  !! finite
         character(:), allocatable :: text
         integer :: digits
 

@@ -1,0 +1,148 @@
+module lagrangia_rounded_numbers
+    !! Statements with numbers that somebody has rounded: `omega = 3.13` for 3.1321.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_expression, only: expression_t, kind_number, kind_symbol, operator(-)
+    use lagrangia_kinds, only: dp
+    use lagrangia_sample_names, only: draws, samples_t, states
+    use lagrangia_sampled_formula, only: change_factor, change_t, evaluate_nodes
+    use lagrangia_verdict, only: brief
+    implicit none (type, external)
+    private
+    public :: holds_to_digits, true_number
+
+    character(*), parameter :: digits = "0123456789"
+    integer, parameter :: enough = 4  !! samples at which all is finite
+
+contains
+
+    function holds_to_digits(left, right, text, samples) result(yes)
+        !! Do the sides differ by no more than the roundings of the numbers with at least three
+        !! digits, or of one that is alone on the right side and has two?
+        type(expression_t), intent(in) :: left, right   !! both sides
+        character(*), intent(in) :: text                !! both, as typed
+        type(samples_t), intent(in) :: samples          !! on the motion
+        logical :: yes
+        type(expression_t) :: residual
+        real(dp), allocatable :: values(:, :), before(:, :), after(:, :), allowed(:)
+        real(dp), allocatable :: half(:)
+        logical, allocatable :: judged(:)
+        integer :: i, mode
+
+        yes = .false.
+        residual = left - right
+        allocate (half(residual%count))
+        do i = 1, residual%count
+            half(i) = 0.0_dp
+            if (residual%nodes(i)%kind /= kind_number) cycle
+            half(i) = rounding(residual%nodes(i)%number%value, text, right%count == 1)
+        end do
+        if (.not. any(half > 0.0_dp)) return
+        allocate (before(size(samples%values, 1), residual%count))
+        allocate (after, mold=before)
+        do mode = 0, size(samples%omega2, 2)
+            call choose(residual, samples, mode, values)
+            if (.not. allocated(values)) cycle
+            call evaluate_nodes(residual, values, before)
+            if (.not. allocated(allowed)) allocate (allowed(size(values, 1)))
+            allowed = 0.0_dp
+            do i = 1, residual%count
+                if (.not. half(i) > 0.0_dp) cycle
+                call evaluate_nodes(residual, values, after, change_t(change_factor, i, 0, 1.0_dp &
+                                                       + half(i)/residual%nodes(i)%number%value))
+                allowed = allowed + abs(after(:, residual%count) - before(:, residual%count))
+            end do
+            judged = ieee_is_finite(before(:, residual%count)) .and. ieee_is_finite(allowed)
+            yes = count(judged) >= enough .and. &
+                all(abs(before(:, residual%count)) <= 1.000001_dp*allowed .or. .not. judged)
+            if (yes) return
+        end do
+    end function holds_to_digits
+
+    pure function rounding(value, text, alone) result(half)
+        !! Half a unit of the last digit of the number of this value in the text; 0: it is exact.
+        real(dp), intent(in) :: value
+        character(*), intent(in) :: text
+        logical, intent(in) :: alone
+        real(dp) :: half, number
+        integer :: first, i, last, point, significant, status
+
+        half = 0.0_dp
+        first = 1
+        do
+            last = scan(text(first:), digits//".")
+            if (last == 0) return
+            first = first + last - 1
+            last = first + verify(text(first:)//" ", digits//".") - 2
+            point = index(text(first:last), ".")
+            read (text(first:last), *, iostat=status) number
+            if (status == 0 .and. point > 0 .and. last > first) then
+                significant = 0
+                do i = first, last
+                    if (text(i:i) == "." .or. (text(i:i) == "0" .and. significant == 0)) cycle
+                    significant = significant + 1
+                end do
+                if (abs(number - value) <= 1e-12_dp*abs(number) .and. &
+                    significant >= merge(2, 3, alone)) then
+                    half = 0.5_dp*10.0_dp**(-(last - first + 1 - point))
+                    return
+                end if
+            end if
+            first = last + 1
+        end do
+    end function rounding
+
+    pure subroutine choose(residual, samples, mode, values)
+        !! The values, with omega of this mode; none where the mode does not matter, or is missing.
+        type(expression_t), intent(in) :: residual
+        type(samples_t), intent(in) :: samples
+        integer, intent(in) :: mode                          !! 0: no omega
+        real(dp), allocatable, intent(out) :: values(:, :)   !! (samples, symbols)
+        real(dp) :: omega2
+        logical :: oscillates
+        integer :: draw
+
+        oscillates = residual%depends_on(samples%frequency) .or. &
+                     residual%depends_on(samples%frequency + 1)
+        if (oscillates .neqv. mode > 0) return
+        values = samples%values
+        if (mode == 0) return
+        do draw = 1, draws
+            omega2 = samples%omega2(draw, mode)
+            associate (rows => values((draw - 1)*states + 1:draw*states, :))
+                rows(:, samples%frequency) = sqrt(abs(omega2))
+                rows(:, samples%frequency + 1) = omega2
+            end associate
+            if (.not. omega2 > 0.0_dp) then
+                deallocate (values)
+                return
+            end if
+        end do
+    end subroutine choose
+
+    subroutine true_number(left, right, samples, remark)
+        !! `the left side is 1.962`, where the right one is a number and the left one has always the
+        !! same value; or one for each mode.
+        type(expression_t), intent(in) :: left, right          !! both sides, which differ
+        type(samples_t), intent(in) :: samples                 !! on the motion
+        character(:), allocatable, intent(inout) :: remark     !! changes where it is so
+        real(dp), allocatable :: values(:, :), results(:, :)
+        character(:), allocatable :: text
+        integer :: mode
+
+        if (any(right%nodes(:right%count)%kind == kind_symbol)) return
+        text = ""
+        allocate (results(size(samples%values, 1), left%count))
+        do mode = 0, size(samples%omega2, 2)
+            call choose(left, samples, mode, values)
+            if (.not. allocated(values)) cycle
+            call evaluate_nodes(left, values, results)
+            associate (r => results(:, left%count))
+                if (.not. all(ieee_is_finite(r))) cycle
+                if (maxval(r) - minval(r) > 1e-9_dp*maxval(abs(r))) cycle
+                if (text /= "") text = text//" or "
+                text = text//brief(r(1))
+            end associate
+        end do
+        if (text /= "") remark = "the left side is "//text
+    end subroutine true_number
+end module lagrangia_rounded_numbers

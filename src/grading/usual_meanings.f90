@@ -1,0 +1,267 @@
+module lagrangia_usual_meanings
+    !! What H, U, p, v and the force S of a string mostly stand for.
+    use lagrangia_description, only: description_t, name_length
+    use lagrangia_errors, only: error_t
+    use lagrangia_expression, only: apply, expression_t, f_sqrt, operator(**), operator(*), &
+                                    operator(+), operator(-), operator(/), symbol, whole
+    use lagrangia_formula_parser, only: parse_formula
+    use lagrangia_sample_names, only: samples_t, usual_t
+    use lagrangia_substitution, only: substituted
+    use lagrangia_text, only: to_text
+    implicit none (type, external)
+    private
+    public :: collect_meanings
+
+    character(*), parameter :: digits = "0123456789"
+    integer, parameter :: most_names = 400, most_coordinates = 12
+
+contains
+
+    subroutine collect_meanings(d, samples, all)
+        !! Every name that may be said of this system.
+        type(description_t), intent(in) :: d                   !! of the system
+        type(samples_t), intent(in) :: samples                 !! know its symbols
+        type(usual_t), allocatable, intent(out) :: all(:)      !! the likelier meaning first
+        integer :: n
+
+        allocate (all(most_names))
+        n = 0
+        call collect_energies(samples, all, n)
+        if (samples%ndof <= most_coordinates) then
+            call collect_momenta(samples, all, n)
+            call collect_points(d, samples, all, n)
+        end if
+        call collect_forces(d, samples, all, n)
+        call collect_frequencies(samples, all, n)
+        all = all(:n)
+    end subroutine collect_meanings
+
+    pure subroutine collect_energies(samples, all, n)
+        !! H, U, and words for T and V; \(\partial H/\partial q\) and \(\partial H/\partial p\).
+        type(samples_t), intent(in) :: samples
+        type(usual_t), intent(inout) :: all(:)
+        integer, intent(inout) :: n
+        character(*), parameter :: of_t(*) = [character(5) :: "KE", "E_kin", "T_kin", "Ekin"]
+        character(*), parameter :: of_v(*) = [character(5) :: "U", "PE", "E_pot", "V_pot", "Epot"]
+        character(name_length) :: q
+        integer :: e, i, t, v
+
+        t = samples%symbols%find("T")
+        v = samples%symbols%find("V")
+        e = samples%symbols%find("E")
+        call put(all, n, samples, "H", "the energy E in q and p", symbol(e), always=.true.)
+        do i = 1, samples%ndof
+            q = samples%symbols%names(1 + i)
+            call put(all, n, samples, "dH_d"//q, "", -symbol(samples%symbols%find("dL_d"//q)), &
+                     always=.true.)
+            call put(all, n, samples, "dH_dp_"//q, "", symbol(1 + samples%ndof + i), always=.true.)
+            if (samples%ndof == 1) call put(all, n, samples, "dH_dp", "", symbol(3), always=.true.)
+        end do
+        if (t > 0) call put(all, n, samples, "K", "T", symbol(t))
+        do i = 1, size(of_t)
+            if (t > 0) call put(all, n, samples, of_t(i), "T", symbol(t), always=.true.)
+        end do
+        do i = 1, size(of_v)
+            if (v > 0) call put(all, n, samples, of_v(i), "V", symbol(v), always=.true.)
+        end do
+        do i = 1, samples%ndof
+            q = samples%symbols%names(1 + i)
+            v = samples%symbols%find_definition("dV_d"//q)
+            if (v > 0) call put(all, n, samples, "dU_d"//q, "", &
+                                samples%symbols%definitions(v)%meaning, always=.true.)
+        end do
+    end subroutine collect_energies
+
+    pure subroutine collect_momenta(samples, all, n)
+        !! p of one coordinate, `p1` of `theta1`; v of one coordinate, and a.
+        type(samples_t), intent(in) :: samples
+        type(usual_t), intent(inout) :: all(:)
+        integer, intent(inout) :: n
+        character(name_length) :: q
+        integer :: i, k
+
+        do i = 1, samples%ndof
+            q = samples%symbols%names(1 + i)
+            k = samples%symbols%find("p_"//q)
+            if (samples%ndof == 1) call put(all, n, samples, "p", "p_"//q, symbol(k))
+            call put(all, n, samples, "Q_"//q, "", whole(0))
+            call put(all, n, samples, trim(q)//"dot", "", symbol(1 + samples%ndof + i), &
+                     always=.true.)
+            call put(all, n, samples, trim(q)//"ddot", "", symbol(1 + 2*samples%ndof + i), &
+                     always=.true.)
+            call put(all, n, samples, trim(q)//"_dotdot", "", symbol(1 + 2*samples%ndof + i), &
+                     always=.true.)
+            if (number_of(q) == "") cycle
+            call put(all, n, samples, "p_"//number_of(q), "p_"//q, symbol(k), always=.true.)
+            call put(all, n, samples, "p"//number_of(q), "p_"//q, symbol(k))
+        end do
+        if (samples%ndof /= 1) return
+        if (all_letters(samples, ["x", "y", "z", "s", "r", "q"])) then
+            call put(all, n, samples, "a", trim(samples%symbols%names(2))//"_ddot", symbol(4))
+        end if
+    contains
+        pure logical function all_letters(of, lengths)
+            !! Is the one coordinate called like a length?
+            type(samples_t), intent(in) :: of
+            character, intent(in) :: lengths(:)
+
+            all_letters = any(of%symbols%names(2) == lengths)
+        end function all_letters
+    end subroutine collect_momenta
+
+    subroutine collect_points(d, samples, all, n)
+        !! `x1`, `y1`, `v1` and `T_1` of the first mass; without a number if there is only one.
+        type(description_t), intent(in) :: d
+        type(samples_t), intent(in) :: samples
+        type(usual_t), intent(inout) :: all(:)
+        integer, intent(inout) :: n
+        character(name_length) :: point
+        type(expression_t) :: mass, speed2
+        type(error_t), allocatable :: error
+        integer :: i
+
+        if (.not. allocated(d%points)) return
+        do i = 1, size(d%points)
+            point = d%points(i)%name
+            speed2 = rate("x")**2 + rate("y")**2 + rate("z")**2
+            call add_for(to_text(i))
+            if (number_of(point) /= "" .and. number_of(point) /= to_text(i)) then
+                call add_for(number_of(point))
+            end if
+            if (size(d%points) == 1) call add_for("")
+        end do
+    contains
+        function rate(axis) result(e)
+            character, intent(in) :: axis
+            type(expression_t) :: e
+
+            e = symbol(samples%symbols%find(axis//"_"//trim(point)//"_dot"))
+        end function rate
+
+        subroutine add_for(number)
+            character(*), intent(in) :: number
+
+            call add_place("x", number)
+            call add_place("y", number)
+            call add_place("z", number)
+            call put(all, n, samples, "v"//number, "the speed of "//point, apply(f_sqrt, speed2), &
+                     either_sign=.true.)
+            if (d%points(i)%mass_formula == "" .or. number == "") return
+            call parse_formula(trim(d%points(i)%mass_formula), samples%symbols, mass, error)
+            if (allocated(error)) return
+            call put(all, n, samples, "T"//number, "the kinetic energy of "//point, &
+                     mass/whole(2)*speed2, only_compared=.true.)
+        end subroutine add_for
+
+        subroutine add_place(axis, number)
+            character, intent(in) :: axis
+            character(*), intent(in) :: number
+            integer :: k
+
+            k = samples%symbols%find(axis//"_"//trim(point))
+            call put(all, n, samples, axis//number, samples%symbols%names(k), symbol(k), &
+                     either_sign=.true., any_zero=.true., only_compared=.true.)
+        end subroutine add_place
+    end subroutine collect_points
+
+    subroutine collect_forces(d, samples, all, n)
+        !! S, N, F, T_1, lambda: the quantities that are forces; V_eff where L has no other
+        !! velocity.
+        type(description_t), intent(in) :: d
+        type(samples_t), intent(in) :: samples
+        type(usual_t), intent(inout) :: all(:)
+        integer, intent(inout) :: n
+        character(*), parameter :: of_string(*) = [character(6) :: "S", "F_T", "F_S", "lambda", "F"]
+        character(*), parameter :: others(*) = [character(6) :: "N", "F_N", "lambda", "F"]
+        type(expression_t) :: still(1), effective
+        integer :: i
+
+        if (samples%ndof == 1 .and. samples%lagrangian%count > 0 .and. &
+            .not. samples%lagrangian%depends_on(1)) then
+            still(1) = whole(0)
+            effective = -substituted(samples%lagrangian, [3], still)
+            call put(all, n, samples, "V_eff", "- L at rest", effective, any_zero=.true.)
+            call put(all, n, samples, "U_eff", "- L at rest", effective, any_zero=.true.)
+        end if
+        do i = 1, size(d%quantities)
+            if (d%quantities(i)%unit /= "N") cycle
+            if (index(d%quantities(i)%name, "tension") == 1) then
+                call put_each(of_string)
+                if (number_of(d%quantities(i)%name) /= "") call put_force( &
+                    "T"//number_of(d%quantities(i)%name))
+            else
+                call put_each(others)
+            end if
+        end do
+    contains
+        subroutine put_each(called)
+            character(*), intent(in) :: called(:)
+            integer :: k
+
+            do k = 1, size(called)
+                call put_force(trim(called(k)))
+                if (number_of(d%quantities(i)%name) == "") cycle
+                call put_force(trim(called(k))//number_of(d%quantities(i)%name))
+            end do
+        end subroutine put_each
+
+        subroutine put_force(letter)
+            character(*), intent(in) :: letter
+
+            call put(all, n, samples, letter, d%quantities(i)%name, &
+                     symbol(samples%symbols%find(trim(d%quantities(i)%name))), either_sign=.true.)
+        end subroutine put_force
+    end subroutine collect_forces
+
+    pure subroutine collect_frequencies(samples, all, n)
+        !! `omega_0` of one coordinate, where omega is no parameter; beta of a decay.
+        type(samples_t), intent(in) :: samples
+        type(usual_t), intent(inout) :: all(:)
+        integer, intent(inout) :: n
+        character(*), parameter :: called(*) = [character(7) :: "omega_0", "w", "w_0", "Omega"]
+        integer :: i
+
+        if (samples%ndof /= 1 .or. samples%symbols%names(samples%frequency) /= "omega") return
+        do i = 1, size(called)
+            if (samples%decay > 0 .and. index(called(i), "_0") > 0) then
+                call put(all, n, samples, called(i), "omega_0", symbol(samples%decay + 1))
+            else
+                call put(all, n, samples, called(i), "omega", symbol(samples%frequency))
+            end if
+        end do
+        if (samples%decay == 0) return
+        call put(all, n, samples, "omega_d", "omega", symbol(samples%frequency))
+        call put(all, n, samples, "beta", "gamma", symbol(samples%decay))
+    end subroutine collect_frequencies
+
+    pure subroutine put(all, n, samples, name, label, meaning, always, either_sign, any_zero, &
+                        only_compared)
+        !! One more, if no name of the system is called that.
+        type(usual_t), intent(inout) :: all(:)
+        integer, intent(inout) :: n
+        type(samples_t), intent(in) :: samples
+        character(*), intent(in) :: name, label
+        type(expression_t), intent(in) :: meaning
+        logical, intent(in), optional :: always, either_sign, any_zero, only_compared
+
+        if (n == size(all)) return
+        if (samples%symbols%find(name) > 0 .or. samples%symbols%find_definition(name) > 0) return
+        n = n + 1
+        all(n)%name = name
+        all(n)%label = label
+        all(n)%meaning = meaning
+        if (present(always)) all(n)%always = always
+        if (present(either_sign)) all(n)%either_sign = either_sign
+        if (present(any_zero)) all(n)%any_zero = any_zero
+        if (present(only_compared)) all(n)%only_compared = only_compared
+    end subroutine put
+
+    pure function number_of(name) result(number)
+        !! The digits behind a name: `1` of `theta1`.
+        character(*), intent(in) :: name
+        character(:), allocatable :: number
+
+        number = name(verify(trim(name), digits, back=.true.) + 1:)
+        number = trim(number)
+    end function number_of
+end module lagrangia_usual_meanings

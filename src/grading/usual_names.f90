@@ -1,0 +1,240 @@
+module lagrangia_usual_names
+    !! Names that every course uses without saying so: H, U, p, v, the force S of a string. They
+    !! stand for what they mostly mean, if the sheet does not define them; if it does, the
+    !! definition is compared with that.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_description, only: description_t, name_length
+    use lagrangia_errors, only: error_t
+    use lagrangia_expression, only: expression_t, operator(**), operator(+), operator(-)
+    use lagrangia_formula_characters, only: plain_formula
+    use lagrangia_homework, only: homework_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_sample_names, only: draws, role_parameter, samples_t, states, usual_t
+    use lagrangia_sampled_formula, only: evaluate_nodes
+    use lagrangia_slip_search, only: holds
+    use lagrangia_statement_forms, only: define_rates, read_new_name
+    use lagrangia_usual_meanings, only: collect_meanings
+    implicit none (type, external)
+    private
+    public :: add_usual_names, find_usual, mark_used
+
+    character(*), parameter :: digits = "0123456789"
+    character(*), parameter :: letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+
+contains
+
+    subroutine add_usual_names(d, homework, samples)
+        !! Those that the sheet speaks of.
+        type(description_t), intent(in) :: d          !! of the system
+        type(homework_t), intent(in) :: homework      !! the sheet
+        type(samples_t), intent(inout) :: samples     !! get the names
+        type(usual_t), allocatable :: all(:)
+        character(name_length), allocatable :: said(:), given(:)
+        type(error_t), allocatable :: error
+        integer :: count, i
+
+        call collect_meanings(d, samples, all)
+        call collect_names(homework, samples, said, given)
+        count = 0
+        do i = 1, size(all)
+            if (.not. is_said(all(i), said)) cycle
+            count = count + 1
+            if (count < i) all(count) = all(i)
+        end do
+        allocate (samples%usual(count))
+        do i = 1, count
+            samples%usual(i) = all(i)
+            if (all(i)%only_compared) cycle
+            if (.not. all(i)%always .and. any(given == bare_name(all(i)%name))) cycle
+            call samples%symbols%define(trim(all(i)%name), all(i)%meaning, error)
+            if (allocated(error)) cycle
+            call define_rates(trim(all(i)%name), all(i)%meaning, samples)
+        end do
+    end subroutine add_usual_names
+
+    subroutine mark_used(homework, samples)
+        !! The statements that define a name which another one has.
+        type(homework_t), intent(inout) :: homework   !! the sheet
+        type(samples_t), intent(in) :: samples        !! know the names that are not new
+        type(homework_t) :: others
+        character(name_length), allocatable :: said(:), given(:)
+        character(:), allocatable :: name
+        logical :: squared
+        integer :: i
+
+        do i = 1, size(homework%statements)
+            associate (text => homework%statements(i)%text)
+                call read_new_name(plainly(text(:max(0, index(text, "=") - 1))), samples, name, &
+                                   squared)
+            end associate
+            if (name == "") cycle
+            others = homework
+            others%statements(i)%text = ""
+            call collect_names(others, samples, said, given)
+            homework%statements(i)%used = is_said(usual_t(name=name), said)
+        end do
+    end subroutine mark_used
+
+    pure function is_said(usual, said) result(yes)
+        !! Does the sheet have this name, or of `dH_dx` the H?
+        type(usual_t), intent(in) :: usual
+        character(name_length), intent(in) :: said(:)
+        logical :: yes
+        integer :: i
+
+        if (any(usual%name(:4) == ["dH_d", "dU_d"])) then
+            yes = any(said == usual%name(2:2))
+        else if (usual%always) then
+            yes = any(said == usual%name)
+        else
+            yes = any([(bare_name(said(i)) == bare_name(usual%name), i=1, size(said))])
+        end if
+    end function is_said
+
+    subroutine find_usual(name, meaning, samples, known, agrees, label)
+        !! Whether a definition is what its name mostly stands for.
+        character(*), intent(in) :: name                    !! that it defines
+        type(expression_t), intent(in) :: meaning           !! as the sheet has it
+        type(samples_t), intent(in) :: samples              !! with the usual names
+        logical, intent(out) :: known                       !! there is something to compare with
+        logical, intent(out) :: agrees                      !! it is that
+        character(:), allocatable, intent(out) :: label     !! what that is
+        integer :: i
+
+        known = .false.
+        agrees = .false.
+        label = ""
+        do i = 1, size(samples%usual)
+            associate (usual => samples%usual(i))
+                if (bare_name(usual%name) /= bare_name(name)) cycle
+                agrees = is_same(usual%meaning - meaning, usual%any_zero, samples)
+                if (usual%either_sign .and. .not. agrees) then
+                    if (usual%any_zero) then
+                        agrees = is_same(usual%meaning + meaning, .true., samples)
+                    else
+                        agrees = is_same(usual%meaning**2 - meaning**2, .false., samples)
+                    end if
+                end if
+                if (.not. agrees .and. &
+                    (moves(usual%meaning, samples) .neqv. moves(meaning, samples))) cycle
+                known = .true.
+                if (agrees .or. label == "") label = trim(usual%label)
+            end associate
+            if (agrees) return
+        end do
+    end subroutine find_usual
+
+    function is_same(residual, but_constant, samples) result(yes)
+        !! Is it zero on the motion, or a constant for each draw of parameters?
+        type(expression_t), intent(in) :: residual
+        logical, intent(in) :: but_constant
+        type(samples_t), intent(in) :: samples
+        logical :: yes, judged
+        real(dp), allocatable :: results(:, :)
+        integer :: draw, n
+
+        call holds(residual, samples%values, yes, judged)
+        if (yes .or. .not. but_constant) return
+        n = residual%count
+        allocate (results(size(samples%values, 1), n))
+        call evaluate_nodes(residual, samples%values, results)
+        yes = .true.
+        do draw = 1, draws
+            associate (r => results((draw - 1)*states + 1:draw*states, n))
+                yes = yes .and. all(ieee_is_finite(r))
+                if (yes) yes = maxval(r) - minval(r) <= 1e-8_dp*(1.0_dp + maxval(abs(r)))
+            end associate
+        end do
+    end function is_same
+
+    pure function moves(expression, samples) result(yes)
+        !! Is there more in it than parameters?
+        type(expression_t), intent(in) :: expression
+        type(samples_t), intent(in) :: samples
+        logical :: yes
+        integer :: k
+
+        yes = .false.
+        do k = 1, size(samples%role)
+            if (.not. expression%depends_on(k)) cycle
+            yes = yes .or. samples%role(k) /= role_parameter .or. samples%rate(k) > 0
+        end do
+    end function moves
+
+    subroutine collect_names(homework, samples, said, given)
+        !! All names of the sheet, also without `d` before and `_dot` behind them; and the bare ones
+        !! of those that it defines.
+        type(homework_t), intent(in) :: homework
+        type(samples_t), intent(in) :: samples
+        character(name_length), allocatable, intent(out) :: said(:), given(:)
+        character(:), allocatable :: name, plain
+        logical :: squared
+        integer :: first, i, last
+
+        allocate (said(0), given(0))
+        do i = 1, size(homework%statements)
+            associate (text => homework%statements(i)%text)
+                plain = plainly(text)
+                first = 1
+                do
+                    last = scan(plain(first:), letters)
+                    if (last == 0) exit
+                    first = first + last - 1
+                    last = first + verify(plain(first:)//" ", letters//digits//"_") - 2
+                    call add(plain(first:last))
+                    first = last + 1
+                end do
+                call read_new_name(plain(:max(0, index(plain, "=") - 1)), samples, name, squared)
+                if (name /= "") given = [character(name_length) :: given, &
+                                         bare_name(name)]
+            end associate
+        end do
+    contains
+        subroutine add(word)
+            character(*), intent(in) :: word
+            integer :: k
+
+            k = index(word, "_d", back=.true.)
+            if (k == 0) k = len(word) + 1
+            if (k <= len(word)) then
+                if (word(k:) /= "_dot" .and. word(k:) /= "_ddot") k = len(word) + 1
+            end if
+            call add_one(word)
+            call add_one(word(:k - 1))
+            if (word(1:1) == "d" .and. k > 2) call add_one(word(2:k - 1))
+        end subroutine add
+
+        subroutine add_one(word)
+            character(*), intent(in) :: word
+            character(name_length) :: one
+
+            one = word
+            if (len(word) > name_length .or. any(said == one)) return
+            said = [character(name_length) :: said, one]
+        end subroutine add_one
+    end subroutine collect_names
+
+    function plainly(text) result(plain)
+        !! In plain letters, if it can be: `theta` for the Greek one.
+        character(*), intent(in) :: text
+        character(:), allocatable :: plain
+        integer, allocatable :: columns(:)
+        type(error_t), allocatable :: error
+
+        call plain_formula(text, plain, columns, error)
+        if (allocated(error)) plain = text
+    end function plainly
+
+    pure function bare_name(name) result(bare)
+        !! Without the `_` before a number behind: `T1` of `T_1`.
+        character(*), intent(in) :: name
+        character(name_length) :: bare
+        integer :: k
+
+        bare = name
+        k = verify(trim(name), digits, back=.true.)
+        if (k < 2 .or. k == len_trim(name)) return
+        if (name(k:k) == "_") bare = name(:k - 1)//name(k + 1:)
+    end function bare_name
+
+end module lagrangia_usual_names

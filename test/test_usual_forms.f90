@@ -1,0 +1,169 @@
+module test_usual_forms
+    !! What students and answer keys write beside equations of motion: H and Hamilton's equations,
+    !! U, p, v, T for a tension, rounded numbers, `~`, constants of the motion.
+    use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
+    use lagrangia_judgement, only: is_definition, is_right, is_wrong
+    use tried_responses, only: graded
+    implicit none (type, external)
+    private
+    public :: usual_forms_suite
+
+    character, parameter :: line_feed = new_line("a")
+
+contains
+
+    function usual_forms_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("usual_forms")
+        call suite%addTest(TestMethod("hamilton", hamilton))
+        call suite%addTest(TestMethod("usual_names", usual_names))
+        call suite%addTest(TestMethod("string_tensions", string_tensions))
+        call suite%addTest(TestMethod("frequencies_by_name", frequencies_by_name))
+        call suite%addTest(TestMethod("nearly_equal", nearly_equal))
+        call suite%addTest(TestMethod("rounded_numbers", rounded_numbers))
+        call suite%addTest(TestMethod("constants_of_the_motion", constants_of_the_motion))
+        call suite%addTest(TestMethod("one_sign_of_a_root", one_sign_of_a_root))
+        call suite%addTest(TestMethod("further_slips", further_slips))
+    end function usual_forms_suite
+
+    subroutine hamilton()
+        call says("pendulum", "H = p_theta^2/(2 m l^2) - m g l cos(theta)", is_right, "")
+        call says("pendulum", "H = p_theta^2/(2 m l^2) + m g l (1 - cos(theta))", is_right, &
+                  "constant")
+        call says("pendulum", "H = p_theta^2/(2 m l) - m g l cos(theta)", is_wrong, "exponent 2")
+        call says("pendulum", "H = p_theta theta_dot - L", is_right, "")
+        call says("pendulum", "theta_dot = dH/dp_theta = p_theta/(m l^2)", is_right, "")
+        call says("pendulum", "p_dot = -dH/dtheta", is_right, "")
+        call says("pendulum", "p_dot = m g l sin(theta)", is_wrong, "the sign")
+        call says("pendulum", "dH/dtheta = -m g l sin(theta)", is_wrong, "the sign")
+        call says("double_pendulum", "H = (m2 l2^2 p_1^2 + (m1 + m2) l1^2 p_2^2 - 2 m2 l1 l2 "// &
+                  "p_1 p_2 cos(theta1 - theta2))/(2 m2 l1^2 l2^2 (m1 + m2 sin(theta1 - "// &
+                  "theta2)^2)) - (m1 + m2) g l1 cos(theta1) - m2 g l2 cos(theta2)", is_right, "")
+        call says("rotating_hoop", "H = T + V", is_wrong, "m r^2 omega^2 sin(theta)^2")
+        call says("cart_pendulum", "H = T + V", is_right, "")
+        call says("cart_pendulum", "H = const", is_right, "")
+    end subroutine hamilton
+
+    subroutine usual_names()
+        call says("pendulum", "U = -m g l cos(theta)", is_right, "")
+        call says("pendulum", "U = m g l cos(theta)", is_wrong, "the sign")
+        call says("pendulum", "L = E_kin - E_pot", is_right, "")
+        call says("pendulum", "p = m l^2 theta_dot", is_right, "as p_theta")
+        call says("pendulum", "p = m l theta_dot", is_definition, "not p_theta")
+        call says("pendulum", "T = 1/2 m v^2", is_right, "")
+        call says("pendulum", "thetaddot = -g/l sin(theta)", is_right, "")
+        call says("pendulum", "thetaddot = g/l sin(theta)", is_wrong, "the sign")
+        call says("pendulum", "Q_theta = -b theta_dot", is_right, "")
+        call says("pendulum", "Q_theta = b theta_dot", is_wrong, "the sign")
+        call says("double_pendulum", "x_2 = l1 sin(theta1) + l2 sin(theta2)", is_right, "x_bob2")
+        call says("double_pendulum", "y1 = l1 cos(theta1)", is_right, "y_bob1")
+        call says("double_pendulum", "v2^2 = l1^2 theta1_dot^2 + l2^2 theta2_dot^2 + "// &
+                  "2 l1 l2 theta1_dot theta2_dot cos(theta1 - theta2)", is_right, "speed")
+        call says("double_pendulum", "v2^2 = l1^2 theta1_dot^2 + l2^2 theta2_dot^2", &
+                  is_definition, "not the speed of bob2")
+        call says("double_pendulum", "T_1 = m1/2 l1^2 theta1_dot^2", is_right, "kinetic energy")
+        call says("rotating_hoop", "V_eff = -m g r cos(theta) - m/2 r^2 omega^2 sin(theta)^2", &
+                  is_right, "L at rest")
+        call says("oscillator", "m a = -k x", is_right, "")
+        call says("oscillator", "m a = k x", is_wrong, "the sign")
+        call says("oscillator", "a = k/m"//line_feed//"x_ddot = -a x", is_right, "")
+    end subroutine usual_names
+
+    subroutine string_tensions()
+        call says("atwood", "m1 g - T = m1 x_ddot", is_right, "")
+        call says("atwood", "m1 g + T = m1 x_ddot", is_wrong, "the sign of 'tension1'")
+        call says("atwood", "T = 2 m1 m2 g/(m1 + m2)", is_right, "")
+        call says("atwood", "T = m1 m2 g/(m1 + m2)", is_wrong, "2 times")
+        call says("atwood", "S = 2 m1 m2 g/(m1 + m2)", is_right, "tension1")
+        call says("pendulum", "T = m g cos(theta) + m l theta_dot^2", is_right, "")
+        call says("pendulum", "T = m g cos(theta) - m l theta_dot^2", is_wrong, "")
+        call says("wedge", "N (M + m sin(alpha)^2) = M m g cos(alpha)"//line_feed// &
+                  "N = M m g cos(alpha)/(M + m sin(alpha)^2)", is_right, "normal_force")
+    end subroutine string_tensions
+
+    subroutine frequencies_by_name()
+        !! A wrong omega_2 that abbreviates nothing is wrong.
+        call says("double_pendulum", "omega_2^2 = (m1 + m2) g/(m1 l1)", is_wrong, "modes")
+        call says("double_pendulum", "omega_2^2 = g/l2"//line_feed//"l2 theta2_ddot + "// &
+                  "l1 theta1_ddot cos(D) - l1 theta1_dot^2 sin(D) + l2 omega_2^2 sin(theta2) = 0", &
+                  is_right, "")
+        call says("pendulum", "omega0^2 = g/l", is_right, "")
+        call says("pendulum", "omega_0 = sqrt(l/g)", is_wrong, "exponent -1")
+        call says("rotating_hoop", "omega_0^2 = g/r", is_definition, "")
+        call says("pendulum", "theta_ddot = -omega_0^2 sin(theta)", is_right, "")
+    end subroutine frequencies_by_name
+
+    subroutine nearly_equal()
+        call says("pendulum", "sin(theta) ~ theta", is_right, "")
+        call says("pendulum", "sin(theta) ~ 2 theta", is_wrong, "")
+        call says("pendulum", "theta_ddot = -g/l sin(theta) ~ -g/l theta", is_right, "")
+        call says("pendulum", "V = -m g l cos(theta) ~= m g l theta^2/2 - m g l", is_right, "")
+        call says("pendulum", "V ~ m g l theta^2", is_wrong, "1/2 times")
+        call says("pendulum", "T ~ 2 pi sqrt(l/g)", is_right, "")
+    end subroutine nearly_equal
+
+    subroutine rounded_numbers()
+        character(*), parameter :: given = "set: g = 9.81"//line_feed//"set: l = 1"//line_feed
+
+        call says("pendulum", given//"omega = 3.13", is_right, "digits")
+        call says("pendulum", given//"omega = 3.14", is_wrong, "the left side is 3.132")
+        call says("pendulum", given//"T = 2.006", is_right, "digits")
+        call says("pendulum", given//"T = 2.0", is_right, "digits")
+        call says("pendulum", given//"T = 2.1", is_wrong, "2.006")
+        call says("pendulum", given//"omega = 3", is_wrong, "")
+        call says("pendulum", given//"theta_ddot = -9.810 sin(theta)", is_right, "")
+        call says("pendulum", given//"theta_ddot = -9.80 sin(theta)", is_wrong, "")
+        call says("pendulum", "T = 0.51 m l^2 theta_dot^2", is_wrong, "")
+    end subroutine rounded_numbers
+
+    subroutine constants_of_the_motion()
+        call says("pendulum", "theta_dot^2/2 - g/l cos(theta) = C", is_right, "")
+        call says("pendulum", "theta_dot^2/2 = g/l cos(theta) + const", is_right, "")
+        call says("pendulum", "theta_dot^2/2 = -g/l cos(theta) + const", is_wrong, "")
+        call says("pendulum", "Q_theta = -b theta_dot"//line_feed//"E = const", is_wrong, &
+                  "its rate is -b theta_dot^2: the force beside L, Q_theta, does work")
+        call says("driven_pendulum", "E = const", is_wrong, "L contains t")
+        call says("pendulum", "p_theta = const", is_wrong, "dL/dtheta is not 0")
+    end subroutine constants_of_the_motion
+
+    subroutine one_sign_of_a_root()
+        call says("pendulum", "theta_dot = sqrt(2/(m l^2) (E + m g l cos(theta)))", is_right, &
+                  "root")
+        call says("pendulum", "theta_dot = sqrt(2/(m l^2) (E - m g l cos(theta)))", is_wrong, "")
+    end subroutine one_sign_of_a_root
+
+    subroutine further_slips()
+        call says("double_pendulum", "V = -(m1 + m2) g l1 cos(theta1) - m2 g l2 cos(theta1 + "// &
+                  "theta2)", is_wrong, "'theta1 + theta2' must be 'theta2' in ")
+        call says("double_pendulum", "l2 theta2_ddot + l1 theta1_ddot cos(theta1 + theta2) - "// &
+                  "l1 theta1_dot^2 sin(theta1 + theta2) + g sin(theta2) = 0", is_wrong, &
+                  "'theta1 + theta2' must be 'theta1 - theta2' in all places")
+        call says("pendulum", "T = 2 pi l/g", is_wrong, "a square root is missing behind '2 pi'")
+        call says("rotating_hoop", "Omega = sqrt(g/r)", is_wrong, &
+                  "squared: on the left is missing omega^2")
+        call says("cart_pendulum", "T = m1/2 x_dot^2 + m2/2 l^2 theta_dot^2", is_wrong, &
+                  "on the right is missing m2/2 x_dot^2 + m2 l x_dot theta_dot cos(theta)")
+        call says("cart_pendulum", "T = 1", is_wrong, "no single change")
+        call says("rotating_wire", "E = m/2 (r_dot^2 - r^2)", is_wrong, &
+                  "'r^2' lacks the factor 'omega^2'")
+        call says("driven_pendulum", "E = m/2 (l^2 theta_dot^2 - y_p_dot^2) + (y_p - "// &
+                  "l cos(theta))", is_wrong, "'y_p - l cos(theta)' lacks the factor 'm g'")
+        call says("wedge", "T = M/2 q2_dot^2 + m/2 q1_dot^2", is_wrong, &
+                  "on the right is missing m q1_dot q2_dot cos(alpha) + m/2 q2_dot^2")
+    end subroutine further_slips
+
+    subroutine says(system, statement, verdict, remark)
+        !! Of the last line of several.
+        character(*), intent(in) :: system, statement
+        integer, intent(in) :: verdict
+        character(*), intent(in) :: remark  !! a part of it
+        character(:), allocatable :: said
+        integer :: given
+
+        call graded(system, statement, given, said)
+        call assertEqual(verdict, given, system//": "//statement//": "//said)
+        call assertTrue(index(said, remark) > 0, system//": "//statement//": "//said)
+    end subroutine says
+end module test_usual_forms
