@@ -86,7 +86,7 @@ contains
         integer :: i
 
         text = ""
-        names = value_names(d)
+        allocate (names, source=value_names(d))
         do i = 1, size(values)
             if (ieee_is_nan(values(i))) cycle
             text = text//", "//trim(names(i))//" = "//to_text(values(i))
