@@ -409,6 +409,10 @@ run sweep pendulum --over q=0.5:1:3 --keep period --threads 1000 --output "$work
 check "sweep: no more processes than trajectories" grep -q "^pendulum: 3 trajectories by rk4 in .* s by 3 processes$" "$work/out"
 OMP_NUM_THREADS=99999999999 run sweep pendulum --over q=0.5:1:3 --keep period --output "$work/sweep"
 check "sweep: no number of threads is too large" grep -q "^pendulum: 3 trajectories by rk4 in .* s by 3 processes$" "$work/out"
+run sweep pendulum --over l=1e-9:1:10:log --keep theta --set scene%method="'dop853'" --set sweep%most_steps=20000 --output "$work/sweep"
+check "sweep: steps are limited, and it says whose were" eval '[ $status -eq 0 ] && grep -q "^lagrangia: 6 of 10 trajectories failed and are NaN; the first: more than 20000 steps, at t = 0.0" "$work/err"'
+run sweep pendulum --over l=1e-9:1:10:log --keep theta --output "$work/sweep"
+check "sweep: a step that is too long at a corner" grep -q "^lagrangia: l = 1e-9: dt = 0.001 s exceeds the step limit 2.856e-5 s of rk4" "$work/err"
 run sweep hanging_chain --over n=2:5:4 --keep energy --output "$work/sweep"
 check "sweep: where all fail, it says so" eval '[ $status -eq 2 ] && grep -q "all 4 trajectories fail: q has 10 values" "$work/err"'
 mkdir -p "$work/folders/flip_map_sweep.dat"

@@ -52,6 +52,8 @@ contains
                          progress_line("basins", "trajectories", 10.0_dp, 5000_i8, 20000_i8))
         call assertEqual("basins: 99 %, 400 s, 2.50E+01 trajectories/s, 0 s left", &
                          progress_line("basins", "trajectories", 400.0_dp, 9999_i8, 10000_i8))
+        call assertEqual("basins: 25 %, 10 s, 5.00E-01 trajectories/s, 30 s left", &
+                         progress_line("basins", "trajectories", 10.0_dp, 5000_i8, 20000_i8, 1000))
         call assertEqual("p: 0 %, 3 s", progress_line("p", "x", 3.9_dp, 0_i8, 7_i8))
         call assertEqual("p: 100 %, 3 s", progress_line("p", "x", 3.0_dp, 7_i8, 7_i8))
         call assertEqual("p: 3 s", progress_line("p", "x", 3.0_dp, 7_i8, 0_i8))

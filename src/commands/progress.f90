@@ -21,6 +21,7 @@ module lagrangia_progress
         real(dp), private :: next = patience
         logical, private :: terminal = .false.  !! else there is one line at most
         character(:), allocatable, private :: counted  !! what is done, to be shown with its rate
+        integer, private :: parts = 1                  !! of what is counted, that are told
         logical :: shown = .false.
     contains
         procedure :: observe
@@ -32,17 +33,20 @@ module lagrangia_progress
 
 contains
 
-    subroutine restart(self, label, quiet, counted)
+    subroutine restart(self, label, quiet, counted, parts)
         !! A new run begins.
         class(progress_t), intent(inout) :: self
         character(*), intent(in) :: label       !! what runs, in one word
         logical, intent(in), optional :: quiet  !! say nothing, neither on a terminal nor off it
         character(*), intent(in), optional :: counted
         !! the plural of what is counted: its rate and the time that is left are shown too
+        integer, intent(in), optional :: parts  !! of each of these that `tick` is told; else 1
 
         self%label = label
         self%counted = ""
         if (present(counted)) self%counted = counted
+        self%parts = 1
+        if (present(parts)) self%parts = parts
         self%next = patience
         self%shown = .false.
         call system_clock(self%start, self%rate)
@@ -79,21 +83,23 @@ contains
         end if
         self%next = seconds + interval
         self%shown = .true.
-        call show_progress(progress_line(self%label, self%counted, seconds, done, steps))
+        call show_progress(progress_line(self%label, self%counted, seconds, done, steps, &
+                                         self%parts))
     end subroutine tick
 
-    pure function progress_line(label, counted, seconds, done, all) result(text)
+    pure function progress_line(label, counted, seconds, done, all, parts) result(text)
         !! `pendulum: 33 %, 4 s, 8 s left`; only how long it takes where `all` is not known.
         character(*), intent(in) :: label     !! what runs
         character(*), intent(in) :: counted   !! the plural of what is counted, or ""
         real(dp), intent(in) :: seconds       !! since the start, above 0
         integer(i8), intent(in) :: done, all  !! how many of how many; 0: of unknown
+        integer, intent(in), optional :: parts  !! of what is counted, that these are; else 1
         character(:), allocatable :: text
 
         text = label//": "
         if (all > 0) text = text//to_text(int(100.0_dp*min(real(done, dp)/real(all, dp), &
                                                            1.0_dp)))//" %, "
-        text = text//to_text(int(seconds))//" s"//pace(counted, seconds, done, all)
+        text = text//to_text(int(seconds))//" s"//pace(counted, seconds, done, all, parts)
     end function progress_line
 
     pure function stage(command, name, number, all) result(text)
@@ -106,16 +112,21 @@ contains
         if (all > 1) text = text//", "//to_text(number)//" of "//to_text(all)
     end function stage
 
-    pure function pace(counted, seconds, done, all) result(text)
+    pure function pace(counted, seconds, done, all, parts) result(text)
         !! `, 5.30E+03 trajectories/s, 12 s left`; without the first where nothing is counted.
         character(*), intent(in) :: counted        !! the plural of what is counted, or ""
         real(dp), intent(in) :: seconds            !! since the start, above 0
         integer(i8), intent(in) :: done, all       !! how many of how many
+        integer, intent(in), optional :: parts     !! of what is counted, that these are; else 1
         character(:), allocatable :: text
+        integer :: parts_of_one
 
+        parts_of_one = 1
+        if (present(parts)) parts_of_one = parts
         text = ""
         if (done < 1 .or. done >= all) return
-        if (counted /= "") text = ", "//scientific(done/seconds, 3)//" "//counted//"/s"
+        if (counted /= "") text = ", "//scientific(done/(parts_of_one*seconds), 3)//" "// &
+                                  counted//"/s"
         text = text//", "//about(seconds*(real(all - done, dp)/real(done, dp)))//" left"
     end function pace
 

@@ -6,7 +6,7 @@ module lagrangia_sweep_command
     use lagrangia_data_files, only: check_format, data_path, path_beside, script_path
     use lagrangia_degrees, only: degrees_in
     use lagrangia_disk_space, only: free_space, short, space_warning
-    use lagrangia_errors, only: error_t, fail, status_library
+    use lagrangia_errors, only: error_t, fail, status_file, status_library
     use lagrangia_files, only: facts_t, look_at
     use lagrangia_images, only: image_count, image_number
     use lagrangia_interrupt, only: interrupt_status
@@ -30,8 +30,9 @@ module lagrangia_sweep_command
     use lagrangia_sweep, only: new_sweep, sweep_t
     use lagrangia_sweep_files, only: sweep_header, write_sweep
     use lagrangia_sweep_grid, only: block_size, compute_grid, most_threads, &
-                                    sweep_result_t, thread_count
+                                    parts_a_trajectory, sweep_result_t, thread_count
     use lagrangia_sweep_store, only: part_name
+    use lagrangia_sweep_warning, only: corner_warning
     use lagrangia_system, only: system_t
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
@@ -51,7 +52,7 @@ contains
         type(sweep_result_t) :: result
         type(progress_t), target :: progress
         class(observer_t), pointer :: observer
-        character(:), allocatable :: folder, format, kind, path
+        character(:), allocatable :: folder, format, kind, path, warning
         integer :: threads
         logical :: quiet
 
@@ -83,7 +84,11 @@ contains
         nullify (observer)
         if (image_number() == 1) observer => progress
         if (image_number() == 1 .and. .not. quiet) call warn_of_degrees(sweep)
-        call progress%restart(trim(scene%name), quiet, "trajectories")
+        if (.not. quiet) then
+            warning = corner_warning(sweep)
+            if (warning /= "") call note(warning)
+        end if
+        call progress%restart(trim(scene%name), quiet, "trajectories", parts_a_trajectory)
         call compute_grid(sweep, threads, observer, result, error, path, &
                           all_lines(sweep_header(sweep, sweep_lines(scene))), line%has("resume"))
         call progress%clear()
@@ -132,7 +137,9 @@ contains
         call result%store%release()
         if (result%store%there == 0 .or. result%store%there == result%store%blocks) then
             call result%store%remove()
-        else if (any(error%status == [interrupt_status(), status_library])) then
+            if (error%status == interrupt_status() .and. result%store%there == 0) error%message = &
+                error%message//" before the first block of trajectories was complete: none is kept"
+        else if (any(error%status == [interrupt_status(), status_file, status_library])) then
             error%message = error%message//": "//to_text(result%store%trajectories_there())// &
                 " trajectories are kept in '"//part_name(path, image_number())// &
                 "', '--resume' goes on"
@@ -315,6 +322,8 @@ contains
         if (scene%sweep%strobe /= "" .or. scene%sweep%section /= "") lines = &
             [character(scene_line_length) :: lines, "  points = "//to_text(scene%sweep%points)]
         if (scene%sweep%energy_by /= "") call add_texts(lines, "energy_by", [scene%sweep%energy_by])
+        if (scene%sweep%most_steps < huge(1_i8)) lines = [character(scene_line_length) :: lines, &
+            "  most_steps = "//to_text(scene%sweep%most_steps)]
         lines = [character(scene_line_length) :: lines, "  seed = "//to_text(scene%sweep%seed), "/"]
     end function sweep_lines
 

@@ -10,7 +10,7 @@ module lagrangia_dop853_lanes
     use lagrangia_dop853_lane_stages, only: scaled_errors, slopes, stages
     use lagrangia_dop853_stages, only: extra_stages, inside_step, slope
     use lagrangia_errors, only: error_t
-    use lagrangia_kinds, only: dp, lanes
+    use lagrangia_kinds, only: dp, i8, lanes
     use lagrangia_lane_method, only: lane_method_t
     use lagrangia_roots, only: find_root, scalar_function_t
     use lagrangia_scene, only: scene_t
@@ -24,9 +24,11 @@ module lagrangia_dop853_lanes
 
     type, extends(lane_method_t) :: dop853_lanes_t
         private
+        integer(i8), public :: most_steps = huge(1_i8)  !! of a trajectory: after more it is stuck
         real(dp) :: tolerance = 1e-10_dp
         real(dp) :: t_end(lanes) = 0.0_dp            !! of each trajectory, s
         real(dp) :: h(lanes) = 0.0_dp                !! steps to try next, s
+        integer(i8) :: steps(lanes) = 0              !! of each trajectory
         real(dp) :: last_error(lanes) = least_error  !! of accepted steps, see `next_steps`
         logical, dimension(lanes) :: busy = .false., moved = .false., retry = .false.
         real(dp), allocatable :: trial(:, :)         !! states at the ends of the attempts
@@ -97,6 +99,7 @@ contains
         self%busy(lane) = .true.
         self%moved(lane) = .false.
         self%retry(lane) = .false.
+        self%steps(lane) = 0
         self%stuck(lane) = .false.
     end subroutine begin
 
@@ -123,6 +126,9 @@ contains
         call scaled_errors(n, h, self%tolerance, self%k, self%y, self%trial, scaled)
         call slopes(system, n, self%t + h, self%trial, self%k(:, :, 13))
         self%moved = self%busy .and. scaled <= 1.0_dp
+        self%steps = self%steps + merge(1, 0, self%moved)
+        self%stuck = self%stuck .or. (self%busy .and. self%steps > self%most_steps)
+        self%busy = self%busy .and. .not. self%stuck
         do i = 1, 2*n
             self%y_old(:, i) = merge(self%y(:, i), self%y_old(:, i), self%moved)
             self%y(:, i) = merge(self%trial(:, i), self%y(:, i), self%moved)

@@ -4,9 +4,12 @@ module lagrangia_lane_queue
     use lagrangia_kinds, only: dp, i8
     use lagrangia_sweep, only: sweep_t
     use lagrangia_sweep_trajectory, only: compute_one
+    use lagrangia_workers, only: report_part
     implicit none (type, external)
     private
-    public :: lane_queue_t
+    public :: lane_queue_t, seldom
+
+    integer, parameter :: seldom = 256  !! steps of the lanes, of which one is reported
 
     type :: lane_queue_t
         integer(i8) :: first = 1                    !! number of the first trajectory
@@ -18,6 +21,7 @@ module lagrangia_lane_queue
         procedure :: take
         procedure :: compute_alone
         procedure :: count_failure
+        procedure :: report
     end type lane_queue_t
 
 contains
@@ -55,4 +59,14 @@ contains
         self%failures = self%failures + 1
         self%first_failed = min(self%first_failed, index)
     end subroutine count_failure
+
+    subroutine report(self, parts)
+        !! How far the block is.
+        class(lane_queue_t), intent(in) :: self
+        real(dp), intent(in) :: parts(:)  !! of the trajectories that are in lanes: what is done
+        real(dp) :: done
+
+        done = real(self%next - self%first - size(parts), dp) + sum(parts)
+        call report_part(done/real(self%last - self%first + 1, dp))
+    end subroutine report
 end module lagrangia_lane_queue

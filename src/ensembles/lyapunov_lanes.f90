@@ -11,7 +11,7 @@ module lagrangia_lyapunov_lanes
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_kept, only: keeps_lyapunov, keeps_lyapunov_error
     use lagrangia_kinds, only: dp, i8, lanes
-    use lagrangia_lane_queue, only: lane_queue_t
+    use lagrangia_lane_queue, only: lane_queue_t, seldom
     use lagrangia_lyapunov, only: displace, displaced_t, longest, mean_rate, new_displaced, &
                                   shortest, windows
     use lagrangia_methods, only: new_adaptive
@@ -59,8 +59,7 @@ contains
         real(dp) :: due(lanes)  ! time at which the window ends, s; huge: the lane is empty
         real(dp) :: length(lanes)
         type(lane_queue_t) :: queue
-        integer :: i
-        logical :: due_now
+        integer :: i, rounds
 
         scene = sweep%scene
         start = sweep%scene
@@ -70,25 +69,29 @@ contains
         all_lanes%exact = sweep%variational
         all_lanes%parameters = spread(sweep%variational%parameters, 1, lanes)
         call method%prepare(all_lanes)
+        method%most_steps = sweep%most_steps
         call new_adaptive("dop853", adaptive)
         values = ieee_value(1.0_dp, ieee_quiet_nan)
         queue = lane_queue_t(first, first, last)
         do i = 1, lanes
             call load(i)
         end do
+        rounds = 0
         do while (any(due < huge(due)))
             if (interrupt_status() /= 0) exit
+            rounds = mod(rounds + 1, seldom)
+            if (rounds == 0) then
+                if (is_deserted()) exit
+                call queue%report(pack((method%t - scene%t0)/scene%duration, due < huge(due)))
+            end if
             call method%step(all_lanes)
             call find_lengths(method%y, length)
-            due_now = any(method%t >= due)
-            if (.not. (due_now .or. any(method%stuck) .or. &
+            if (.not. (any(method%t >= due) .or. any(method%stuck) .or. &
                        any(due < huge(due) .and. .not. &
                            (length > shortest .and. length < longest)))) cycle
             do i = 1, lanes
                 if (due(i) < huge(due)) call look_at_lane(i)
             end do
-            if (.not. due_now) cycle
-            if (is_deserted()) exit
         end do
         failures = queue%failures
         first_failed = queue%first_failed

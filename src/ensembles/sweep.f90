@@ -31,6 +31,7 @@ module lagrangia_sweep
         type(columns_t) :: columns               !! those that `kept` takes
         integer :: events = 0                    !! number of events that `kept` takes
         real(dp) :: after = 0.0_dp               !! samples before this time don't count, s
+        integer(i8) :: most_steps = huge(1_i8)   !! of a trajectory, where the method chooses them
         type(strobe_t) :: strobe                 !! samples are its points
         logical :: keeps_points = .false.        !! a row is a point, not a trajectory
         integer :: points = 1                    !! of a trajectory at most
@@ -104,6 +105,7 @@ contains
             return
         end if
         sweep%after = max(after, scene%t0)
+        sweep%most_steps = scene%sweep%most_steps
         if (after > scene%t0 + scene%duration) then
             call fail(error, "lies behind the end, t = "//to_text(scene%t0 + scene%duration)// &
                       " s", key="after")

@@ -13,6 +13,7 @@ module lagrangia_sweep_grid
     use lagrangia_observer, only: observer_t
     use lagrangia_sweep, only: fits_lanes, follows_displacements, sweep_t
     use lagrangia_sweep_lanes, only: compute_lanes
+    use lagrangia_sweep_remains, only: is_being_written, remove_if_empty
     use lagrangia_sweep_store, only: part_name, sweep_store_t
     use lagrangia_sweep_trajectory, only: compute_one
     use lagrangia_text, only: to_text
@@ -20,9 +21,11 @@ module lagrangia_sweep_grid
 !$  use omp_lib, only: omp_get_max_threads
     implicit none (type, external)
     private
-    public :: block_size, compute_grid, most_threads, sweep_result_t, thread_count
+    public :: block_size, compute_grid, most_threads, parts_a_trajectory, sweep_result_t, &
+              thread_count
 
     integer, parameter :: most_threads = 10000
+    integer, parameter :: parts_a_trajectory = 1000  !! as which an observer hears of it
 
     type :: sweep_result_t
         !! What a sweep gave. The numbers come block by block, each of them once and in order, by
@@ -49,10 +52,14 @@ module lagrangia_sweep_grid
         type(sweep_result_t), pointer :: result => null()
         class(observer_t), pointer :: progress => null()
         integer(i8) :: done = 0  !! trajectories so far; of many images about
+        integer(i8), allocatable :: begun(:)  !! blocks that are being computed, by what is heard
+        real(dp), allocatable :: parts(:)     !! of each of them that is done
     contains
         procedure :: next => next_block
         procedure :: compute => compute_block
         procedure :: take => take_block
+        procedure :: hear => hear_block
+        procedure, private :: tell
     end type blocks_t
 
 contains
@@ -71,16 +78,17 @@ contains
     function block_size(sweep) result(n)
         !! Trajectories that a process takes at a time, and that a killed program loses at most: the
         !! same for any number of processes; few where there are few, or each has many numbers; more
-        !! where there would be over a million blocks.
+        !! where there would be over a million blocks. Where trajectories in lanes end at different
+        !! times, as at a flip, a block of eight leaves lanes empty; so these blocks are larger.
         type(sweep_t), intent(in) :: sweep  !! as `new_sweep` made it
         integer(i8) :: n
         integer(i8), parameter :: usual = 64, most_blocks = 1000000, most_numbers = 2000000
-        integer(i8) :: least
+        integer(i8) :: wanted  ! blocks, at least
 
-        least = 1
-        if (fits_lanes(sweep)) least = usual
-        if (follows_displacements(sweep)) least = lanes
-        n = min(usual, max(least, sweep%trajectories()/usual))
+        wanted = 64
+        if (fits_lanes(sweep) .and. .not. follows_displacements(sweep)) wanted = 16
+        n = min(usual, max(1_i8, sweep%trajectories()/wanted))
+        if (fits_lanes(sweep)) n = lanes*((n + lanes - 1)/lanes)
         n = max(n, usual*(sweep%trajectories()/(usual*most_blocks)))
         n = min(n, max(1_i8, most_numbers/sweep%width()))
     end function block_size
@@ -124,6 +132,7 @@ contains
         blocks%sweep => sweep
         blocks%result => result
         blocks%progress => progress
+        allocate (blocks%begun(0), blocks%parts(0))
         call begin_dealing()
         call share_work(blocks, threads, error, result%processes)
         call agree(error)
@@ -156,8 +165,12 @@ contains
         integer :: image
 
         image = image_number()
+        if (.not. resume) call remove_if_empty(part_name(path, image))
         facts = look_at(part_name(path, image))
-        if (facts%found .and. .not. resume) then
+        if (is_being_written(part_name(path, image))) then
+            call fail(error, "another sweep is writing '"//part_name(path, image)// &
+                      "' at this moment", status_file)
+        else if (facts%found .and. .not. resume) then
             call fail(error, "'"//part_name(path, image)//"' is what an interrupted sweep has "// &
                       "computed: '--resume' goes on with it; remove it to begin anew", status_file)
         else if (resume .and. image == 1 .and. .not. facts%found) then
@@ -209,7 +222,8 @@ contains
             do i = first, last
                 if (interrupt_status() /= 0) exit
                 if (is_deserted()) exit
-                call compute_one(self%sweep, i, values(:, i - first + 1), failure)
+                call compute_one(self%sweep, i, values(:, i - first + 1), failure, &
+                                 real([i - first, i - first + 1], dp)/real(last - first + 1, dp))
                 if (.not. allocated(failure)) cycle
                 failures = failures + 1
                 first_failed = min(first_failed, i)
@@ -235,9 +249,33 @@ contains
         call self%result%store%put(number, reshape(answer(3:), [self%sweep%width(), int(n)]), &
                                    nint(answer(1), i8), first_failed, error)
         if (image_count() == 1) self%done = self%done + n
-        if (associated(self%progress)) call self%progress%tick( &
-            self%done, self%sweep%trajectories() - self%result%resumed)
+        self%parts = pack(self%parts, self%begun /= number)
+        self%begun = pack(self%begun, self%begun /= number)
+        call self%tell()
     end subroutine take_block
+
+    subroutine hear_block(self, number, part)
+        !! How far a block is.
+        class(blocks_t), intent(inout) :: self
+        integer(i8), intent(in) :: number  !! from 1
+        real(dp), intent(in) :: part       !! from 0 to 1
+
+        self%parts = [pack(self%parts, self%begun /= number), part]
+        self%begun = [pack(self%begun, self%begun /= number), number]
+        call self%tell()
+    end subroutine hear_block
+
+    subroutine tell(self)
+        !! How far it all is, in parts of a trajectory.
+        class(blocks_t), intent(inout) :: self
+        real(dp) :: all, done, finest
+
+        if (.not. associated(self%progress)) return
+        all = real(self%sweep%trajectories() - self%result%resumed, dp)
+        done = real(self%done, dp) + sum(self%parts)*self%result%store%last_of(1_i8)
+        finest = min(real(parts_a_trajectory, dp), 9e18_dp/all)
+        call self%progress%tick(int(finest*min(done, all), i8), int(finest*all, i8))
+    end subroutine tell
 
     subroutine explain(sweep, result, error)
         !! Why the first trajectory that failed did: it is computed again. Where all failed that is

@@ -14,7 +14,7 @@ module lagrangia_sweep_lanes
                               keeps_wrapped, wrapped
     use lagrangia_kinds, only: dp, i8, lanes
     use lagrangia_lane_method, only: lane_method_t
-    use lagrangia_lane_queue, only: lane_queue_t
+    use lagrangia_lane_queue, only: lane_queue_t, seldom
     use lagrangia_lane_systems, only: lane_systems_t, new_lane_systems
     use lagrangia_methods, only: new_adaptive
     use lagrangia_rk4_lanes, only: rk4_lanes_t
@@ -63,13 +63,16 @@ contains
         real(dp) :: due(lanes)  ! time at which something is to be done, s; huge: the lane is empty
         type(lane_queue_t) :: queue
         integer :: angles(count(sweep%kept%kind == keeps_flip))  ! coordinates whose flip is kept
-        integer :: i
+        integer :: i, rounds
         logical :: extremes, flips_only, own_systems, samples
 
         scene = sweep%scene
         if (scene%tolerance > 0.0_dp) then
             allocate (dop853_lanes_t :: method)
             call new_adaptive("dop853", adaptive)
+            select type (method)
+            class is (dop853_lanes_t); method%most_steps = sweep%most_steps
+            end select
         else
             allocate (rk4_lanes_t :: method)
         end if
@@ -90,8 +93,14 @@ contains
         do i = 1, lanes
             call load(i)
         end do
+        rounds = 0
         do while (any(due < huge(due)))
             if (interrupt_status() /= 0) exit
+            rounds = mod(rounds + 1, seldom)
+            if (rounds == 0) then
+                if (is_deserted()) exit
+                call report_lanes()
+            end if
             call method%step(all_systems)
             do i = 1, size(angles)
                 if (any(method%may_flip(angles(i)))) call see_flips(i)
@@ -100,11 +109,22 @@ contains
             do i = 1, lanes
                 call look_at_lane(i)
             end do
-            if (is_deserted()) exit
         end do
         failures = queue%failures
         first_failed = queue%first_failed
     contains
+        subroutine report_lanes()
+            !! How far they all are.
+            real(dp) :: parts(lanes)
+            integer :: i
+
+            do i = 1, lanes
+                if (due(i) < huge(due)) parts(i) = (method%t(i) - scene%t0)/ &
+                                                   (end_of(lane(i)%times) - scene%t0)
+            end do
+            call queue%report(pack(parts, due < huge(due)))
+        end subroutine report_lanes
+
         subroutine look_at_lane(i)
             !! Its samples, and its end.
             integer, intent(in) :: i

@@ -17,7 +17,7 @@ module lagrangia_sweep_store
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: sweep_store_t, part_name
+    public :: mark, part_name, sweep_store_t, would_block
 
     integer, parameter :: word = 8   !! bytes
     integer, parameter :: would_block = 11  !! EWOULDBLOCK of Linux
@@ -157,7 +157,6 @@ contains
         end do
         call add_part(self, image, merge("r+", "w+", facts%found), error)
         if (allocated(error)) return
-        self%own = image
         associate (part => self%parts(image))
             status = int(c_flock(c_fileno(part%stream), 6_c_int))
             if (status /= 0) status = last_error()
@@ -166,10 +165,12 @@ contains
                           status_file)
             else if (facts%found .and. part%length < 0) then
                 call fail(error, "'"//part%name//"' is there already", status_file)
-            else if (part%length <= 0) then
-                part%length = 0
-                call append(part, self%header, error)
             end if
+            if (allocated(error)) return
+            self%own = image  ! from now on it may be removed
+            if (part%length > 0) return
+            part%length = 0
+            call append(part, self%header, error)
         end associate
     end subroutine own_part
 
@@ -397,8 +398,7 @@ contains
         if (good) then
             part%length = part%length + len(bytes)
         else if (.not. allocated(error)) then
-            call fail(error, "cannot write '"//part%name//"': "//reason(last_error())// &
-                      "; '--resume' goes on with what is in it", status_file)
+            call fail(error, "cannot write '"//part%name//"': "//reason(last_error()), status_file)
         end if
     end subroutine append
 

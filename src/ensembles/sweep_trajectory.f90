@@ -12,6 +12,7 @@ module lagrangia_sweep_trajectory
     use lagrangia_lyapunov, only: lyapunov_exponent
     use lagrangia_methods, only: exact, new_adaptive, workhorse
     use lagrangia_observer, only: observer_box_t
+    use lagrangia_part_report, only: part_report_t
     use lagrangia_period, only: period_t
     use lagrangia_reference, only: reference_t
     use lagrangia_scene, only: scene_t
@@ -26,12 +27,15 @@ module lagrangia_sweep_trajectory
 
 contains
 
-    subroutine compute_one(sweep, index, values, error)
+    subroutine compute_one(sweep, index, values, error, share)
         !! What is kept of trajectory number `index`; NaN where it fails, with the reason.
         type(sweep_t), intent(in) :: sweep                !! as `new_sweep` made it
         integer(i8), intent(in) :: index                  !! from 1 to `trajectories`
         real(dp), intent(out) :: values(:)                !! `sweep%width()` of them
         type(error_t), allocatable, intent(out) :: error  !! of the start, or of the numbers
+        real(dp), intent(in), optional :: share(2)
+        !! of the block, where this trajectory begins and ends: it is told how far it is
+        type(part_report_t), target :: report
         class(system_t), allocatable :: system
         class(reference_t), allocatable :: closed_form
         type(scene_t) :: scene
@@ -62,45 +66,53 @@ contains
                                                         "this start", status_numbers)
             if (allocated(error)) return
         end if
-        call follow(sweep, scene, system, closed_form, after, values, error)
+        if (present(share)) report = part_report_t(from=share(1), to=share(2))
+        call follow(sweep, scene, system, closed_form, after, report, values, error)
     end subroutine compute_one
 
-    subroutine follow(sweep, scene, system, closed_form, after, values, error)
+    subroutine follow(sweep, scene, system, closed_form, after, report, values, error)
         !! One trajectory of a scene whose numbers are set; samples before `after` don't count.
         type(sweep_t), intent(in) :: sweep
         type(scene_t), intent(in) :: scene
         class(system_t), intent(in) :: system
         class(reference_t), allocatable, intent(in) :: closed_form
         real(dp), intent(in) :: after
+        type(part_report_t), intent(inout), target :: report
         real(dp), intent(inout) :: values(:)
         type(error_t), allocatable, intent(out) :: error
         type(trajectory_plan_t) :: plan
         type(keeper_t), target :: keeper
         type(period_t), allocatable, target :: periods(:)
-        type(observer_box_t) :: observers(1 + count(sweep%kept%kind == keeps_period))
+        type(observer_box_t) :: observers(2 + count(sweep%kept%kind == keeps_period))
         real(dp) :: t_end
         integer :: i, n
 
         if (any(is_lyapunov(sweep%kept%kind))) then
-            call keep_lyapunov(sweep, scene, system, values, error)
+            call keep_lyapunov(sweep, scene, system, report, values, error)
             if (allocated(error) .or. all(is_lyapunov(sweep%kept%kind))) return
         end if
         call plan_steps(scene, system, plan, error, closed_form)
         if (.not. allocated(error)) call plan_events(scene, system, plan%events, error)
         if (allocated(error)) return
+        if (scene%tolerance > 0.0_dp) then
+            select type (method => plan%integrator)
+            class is (dense_integrator_t); method%most_steps = sweep%most_steps
+            end select
+        end if
         call keeper%begin(sweep%columns, sweep%events, after)
         keeper%points_kept = sweep%keeps_points
         keeper%strobed = sweep%strobe%given
         keeper%looks_for_attractor = sweep%attractors
         if (sweep%keeps_points) call keeper%make_room(sweep%points)
         observers(1)%item => keeper
-        allocate (periods(size(observers) - 1))
+        observers(2)%item => report
+        allocate (periods(size(observers) - 2))
         n = 0
         do i = 1, size(sweep%kept)
             if (sweep%kept(i)%kind /= keeps_period) cycle
             n = n + 1
             periods(n)%coordinate = sweep%kept(i)%coordinate
-            observers(1 + n)%item => periods(n)
+            observers(2 + n)%item => periods(n)
         end do
         call drive(system, plan%integrator, plan%times, plan%events, observers, plan%q, plan%v, &
                    t_end, error)
@@ -153,12 +165,13 @@ contains
         end do
     end subroutine take_points
 
-    subroutine keep_lyapunov(sweep, scene, system, values, error)
+    subroutine keep_lyapunov(sweep, scene, system, report, values, error)
         !! The Lyapunov exponent and its error, by the scene's method and tolerance; where it takes
         !! steps of `dt`, by the workhorse and its own.
         type(sweep_t), intent(in) :: sweep
         type(scene_t), intent(in) :: scene
         class(system_t), intent(in) :: system
+        type(part_report_t), intent(inout) :: report
         real(dp), intent(inout) :: values(:)
         type(error_t), allocatable, intent(out) :: error
         class(dense_integrator_t), allocatable :: method
@@ -175,8 +188,10 @@ contains
         else
             call new_adaptive(workhorse, method)
         end if
+        method%most_steps = sweep%most_steps
         call lyapunov_exponent(system, method, scene%t0, sweep%after, scene%t0 + scene%duration, &
-                               scene%q, scene%v, exponent, uncertainty, error, sweep%variational)
+                               scene%q, scene%v, exponent, uncertainty, error, sweep%variational, &
+                               report)
         if (allocated(error)) return
         where (sweep%kept%kind == keeps_lyapunov) values = exponent
         where (sweep%kept%kind == keeps_lyapunov_error) values = uncertainty

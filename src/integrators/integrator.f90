@@ -51,6 +51,7 @@ module lagrangia_integrator
         real(dp) :: least_tolerance = 1e-15_dp  !! below, all is rounding
         real(dp) :: noise_margin = 16.0_dp  !! the least tolerance of use is rounding over this
         real(dp) :: longest = huge(1.0_dp)  !! no step is longer, but for 1 % at the end, s
+        integer(i8) :: most_steps = huge(1_i8)  !! after so many a run fails
         real(dp) :: t_old = 0.0_dp        !! s
         real(dp) :: t_new = 0.0_dp        !! s
         real(dp) :: t_end = 0.0_dp        !! no step goes beyond, s; set by `start`
@@ -61,6 +62,7 @@ module lagrangia_integrator
         integer(i8) :: rejected = 0
     contains
         procedure, non_overridable :: stand
+        procedure, non_overridable :: refuse_more
         procedure(step_i), deferred :: step
         procedure(state_at_i), deferred :: state_at
     end type dense_integrator_t
@@ -166,6 +168,17 @@ contains
         self%t_end = huge(t0)
         if (present(t_end)) self%t_end = t_end
     end subroutine stand
+
+    pure subroutine refuse_more(self, steps, error)
+        !! Fail (status 3) where there were more than `most_steps`.
+        class(dense_integrator_t), intent(in) :: self
+        integer(i8), intent(in) :: steps                     !! so far
+        type(error_t), allocatable, intent(inout) :: error   !! as it was, or status 3
+
+        if (steps <= self%most_steps .or. allocated(error)) return
+        call fail(error, "more than "//to_text(self%most_steps)//" steps, at t = "// &
+                  to_text(self%t_new)//" s", status_numbers)
+    end subroutine refuse_more
 
     subroutine no_compensated(self, variant)
         !! The same method with compensated sums; not allocated where there is none.

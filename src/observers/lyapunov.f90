@@ -11,7 +11,9 @@ module lagrangia_lyapunov
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_integrator, only: dense_integrator_t
-    use lagrangia_kinds, only: dp, lanes
+    use lagrangia_interrupt, only: interrupt_status
+    use lagrangia_kinds, only: dp, i8, lanes
+    use lagrangia_observer, only: observer_t
     use lagrangia_system, only: check_state, system_t
     use lagrangia_variational, only: new_variational, variational_t
     implicit none (type, external)
@@ -43,7 +45,7 @@ module lagrangia_lyapunov
 contains
 
     subroutine lyapunov_exponent(system, method, t0, after, t_end, q0, v0, exponent, uncertainty, &
-                                 error, variational)
+                                 error, variational, watcher)
         !! The exponent of the motion through a state, measured from `after` to `t_end`. Its
         !! uncertainty is the standard error of the mean over 16 windows: what the window would
         !! change, not what is left of a motion that has not settled.
@@ -56,9 +58,11 @@ contains
         !! the state has another size, the method refuses, or the motion diverges
         type(variational_t), intent(in), optional :: variational
         !! of a system like this one, perhaps with other parameters: it need not be derived again
+        class(observer_t), intent(inout), optional :: watcher  !! hears how far it is
         type(displaced_t) :: displaced
         real(dp) :: q(2*size(q0)), v(2*size(v0)), finish, growth, start
         real(dp) :: rates(0:windows)  ! of each window; number 0 is before `after`
+        integer(i8) :: steps
         integer :: i, k
         logical :: fits
 
@@ -75,6 +79,7 @@ contains
         call method%prepare(displaced, error)
         if (allocated(error)) return
         start = t0
+        steps = 0
         do k = 0, windows
             growth = 0.0_dp
             do i = 1, intervals
@@ -84,13 +89,47 @@ contains
                     finish = after + (t_end - after)*((k - 1)*intervals + i)/(windows*intervals)
                 end if
                 if (.not. finish > start) cycle
-                call go_on(displaced, method, start, finish, q, v, growth, error)
+                call go_on()
                 if (allocated(error)) return
                 start = finish
             end do
             rates(k) = growth*windows/(t_end - after)
         end do
         call mean_rate(rates(1:), exponent, uncertainty)
+    contains
+        subroutine go_on()
+            !! From `start` to `finish`, in steps of the method's own. The displacement has length 1
+            !! again at the end, and on the way wherever it is not between `shortest` and `longest`.
+            integer(i8), parameter :: fine = 1000000  ! parts of the time
+            real(dp) :: length
+            integer :: n
+
+            n = system%ndof
+            call method%start(displaced, start, q, v, finish)
+            do
+                call method%step(displaced, error)
+                if (allocated(error)) return
+                call method%state_at(method%t_new, q, v)
+                length = norm2([q(n + 1:), v(n + 1:)])
+                if (.not. (ieee_is_finite(length) .and. length > 0.0_dp)) then
+                    call fail(error, "the displacement is lost: the motion diverges", &
+                              status_numbers)
+                    return
+                end if
+                steps = steps + 1
+                call method%refuse_more(steps, error)
+                if (interrupt_status() /= 0) call fail(error, "interrupted", interrupt_status())
+                if (allocated(error)) return
+                if (present(watcher)) call watcher%tick( &
+                    int(fine*((method%t_new - t0)/(t_end - t0)), i8), fine)
+                if (method%t_new < finish .and. length > shortest .and. length < longest) cycle
+                growth = growth + log(length)
+                q(n + 1:) = q(n + 1:)/length
+                v(n + 1:) = v(n + 1:)/length
+                if (method%t_new >= finish) return
+                call method%start(displaced, method%t_new, q, v, finish)
+            end do
+        end subroutine go_on
     end subroutine lyapunov_exponent
 
     pure subroutine displace(q0, v0, settles, q, v)
@@ -120,38 +159,6 @@ contains
         exponent = sum(rates)/windows
         uncertainty = sqrt(sum((rates - exponent)**2)/(windows*(windows - 1.0_dp)))
     end subroutine mean_rate
-
-    subroutine go_on(displaced, method, t0, t_end, q, v, growth, error)
-        !! From `t0` to `t_end`, in steps of the method's own. The displacement has length 1 again
-        !! at the end, and on the way wherever it is not between `shortest` and `longest`.
-        type(displaced_t), intent(in) :: displaced
-        class(dense_integrator_t), intent(inout) :: method
-        real(dp), intent(in) :: t0, t_end
-        real(dp), intent(inout) :: q(:), v(:)
-        real(dp), intent(inout) :: growth                 !! logarithms of its lengths are added
-        type(error_t), allocatable, intent(out) :: error
-        real(dp) :: length
-        integer :: n
-
-        n = displaced%of%ndof
-        call method%start(displaced, t0, q, v, t_end)
-        do
-            call method%step(displaced, error)
-            if (allocated(error)) return
-            call method%state_at(method%t_new, q, v)
-            length = norm2([q(n + 1:), v(n + 1:)])
-            if (.not. (ieee_is_finite(length) .and. length > 0.0_dp)) then
-                call fail(error, "the displacement is lost: the motion diverges", status_numbers)
-                return
-            end if
-            if (method%t_new < t_end .and. length > shortest .and. length < longest) cycle
-            growth = growth + log(length)
-            q(n + 1:) = q(n + 1:)/length
-            v(n + 1:) = v(n + 1:)/length
-            if (method%t_new >= t_end) return
-            call method%start(displaced, method%t_new, q, v, t_end)
-        end do
-    end subroutine go_on
 
     subroutine new_displaced(self, system, q0)
         !! The motion of `system` and a displacement. How far is far is told by the coordinates of

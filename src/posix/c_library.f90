@@ -9,8 +9,8 @@ module lagrangia_c_library
               c_fclose, c_fdopen, c_fflush, c_fileno, c_flock, c_fopen, c_fork, c_fread, &
               c_fread_reals, c_free, c_fseek, c_fwrite, c_fwrite_reals, c_getpid, c_getppid, &
               c_getrlimit, c_isatty, c_kill, c_lstat, c_malloc, c_mkdir, c_pipe, c_poll, &
-              c_realpath, c_remove, c_rename, c_setenv, c_signal, c_stat, c_statvfs, c_strerror, &
-              c_strlen, c_terminal_columns, c_waitpid, c_write, poll_t
+              c_realpath, c_remove, c_rename, c_setenv, c_setvbuf, c_signal, c_stat, c_statvfs, &
+              c_strerror, c_strlen, c_terminal_columns, c_waitpid, c_write, poll_t
 
     type, bind(c) :: poll_t
         !! C's `struct pollfd`.
@@ -87,6 +87,15 @@ module lagrangia_c_library
             type(c_ptr), value :: stream
             integer(c_int) :: status
         end function c_fflush
+
+        function c_setvbuf(stream, buffer, mode, size) bind(c, name="setvbuf") result(status)
+            import :: c_int, c_ptr, c_size_t
+            implicit none (type, external)
+            type(c_ptr), value :: stream, buffer
+            integer(c_int), value :: mode
+            integer(c_size_t), value :: size
+            integer(c_int) :: status
+        end function c_setvbuf
 
         function c_fclose(stream) bind(c, name="fclose") result(status)
             import :: c_int, c_ptr

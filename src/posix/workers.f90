@@ -8,8 +8,8 @@ module lagrangia_workers
     use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_long, c_null_char, c_null_ptr, &
         c_ptr, c_short, c_size_t
     use lagrangia_c_library, only: c_close, c_exit, c_fclose, c_fdopen, c_fflush, c_fork, &
-        c_fread_reals, c_fwrite_reals, c_getpid, c_getppid, c_kill, c_pipe, c_poll, c_waitpid, &
-        poll_t
+        c_fread_reals, c_fwrite_reals, c_getpid, c_getppid, c_kill, c_pipe, c_poll, c_setvbuf, &
+        c_waitpid, poll_t
     use lagrangia_console, only: flush_console
     use lagrangia_errors, only: error_t, fail, status_library
     use lagrangia_interrupt, only: end_by_signals, interrupt_status
@@ -17,14 +17,20 @@ module lagrangia_workers
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: is_deserted, share_work, work_t
+    public :: is_deserted, report_part, share_work, work_t
 
     integer(c_int), parameter :: sigkill = 9
     integer(c_int), parameter :: first_descriptor = 3, last_descriptor = 1023
     integer(c_short), parameter :: readable = 1_c_short  !! C's POLLIN
     integer(c_int), parameter :: wait_forever = -1
 
+    integer(c_int), parameter :: unbuffered = 2  !! C's _IONBF
+    real(dp), parameter :: interval = 0.5_dp     !! between two reports, s
+    real(dp), parameter :: only_report = -1.0_dp !! in the place of an answer's length
+
     integer(c_int) :: parent = 0  !! of a worker: the process that it works for
+    type(c_ptr) :: told = c_null_ptr             !! of a worker: C's `FILE *` for its answers
+    integer(i8) :: last_report = 0               !! time on the system's clock
 
     type, abstract :: work_t
         !! Work in pieces with numbers.
@@ -32,7 +38,11 @@ module lagrangia_workers
         procedure(next_piece), deferred :: next
         procedure(compute_piece), deferred :: compute
         procedure(take_answer), deferred :: take
+        procedure :: hear
     end type work_t
+
+    class(work_t), pointer :: heard_by => null()  !! the work that this process does alone
+    integer(i8) :: alone_at = 0                   !! the piece that it computes
 
     abstract interface
         subroutine next_piece(self, number)
@@ -77,7 +87,7 @@ contains
     subroutine share_work(work, most, error, used)
         !! Compute all pieces, each as soon as a process is free. Where the system allows no other
         !! process, this one computes them.
-        class(work_t), intent(inout) :: work  !! hands out pieces and takes what they give
+        class(work_t), intent(inout), target :: work  !! hands out pieces, takes what they give
         integer, intent(in) :: most  !! processes that compute at a time, at least 1
         type(error_t), allocatable, intent(out) :: error
         !! interrupted; what `take` says; a process ended before its answer was whole
@@ -110,21 +120,48 @@ contains
 
     subroutine work_alone(work, first, error)
         !! In this process.
-        class(work_t), intent(inout) :: work
+        class(work_t), intent(inout), target :: work
         integer(i8), intent(in) :: first
         type(error_t), allocatable, intent(out) :: error
         real(dp), allocatable :: answer(:)
         integer(i8) :: number
 
         number = first
+        heard_by => work
         do while (number > 0 .and. .not. allocated(error))
+            alone_at = number
             call work%compute(number, answer)
             if (interrupt_status() /= 0) exit  ! the answer is not whole
             call work%take(number, answer, error)
             call work%next(number)
         end do
+        nullify (heard_by)
         if (interrupt_status() /= 0) call fail(error, "interrupted", interrupt_status())
     end subroutine work_alone
+
+    subroutine hear(self, number, part)
+        !! How far the work on a piece is; most don't care.
+        class(work_t), intent(inout) :: self
+        integer(i8), intent(in) :: number  !! of the piece
+        real(dp), intent(in) :: part       !! of it that is done, from 0 to 1
+    end subroutine hear
+
+    subroutine report_part(part)
+        !! From inside `compute`: `hear` is told, twice a second at most, how far it is. Elsewhere
+        !! nobody is.
+        real(dp), intent(in) :: part  !! of the piece that is done, from 0 to 1
+        integer(i8) :: now, rate
+
+        if (.not. (associated(heard_by) .or. c_associated(told))) return
+        call system_clock(now, rate)
+        if (real(now - last_report, dp) < interval*rate) return
+        last_report = now
+        if (c_associated(told)) then
+            if (.not. sent(told, [only_report, part])) return
+        else
+            call heard_by%hear(alone_at, part)
+        end if
+    end subroutine report_part
 
     subroutine take_answers(work, workers, next, error)
         !! Wait until a worker has an answer, take those that there are, and give new orders.
@@ -134,6 +171,7 @@ contains
         type(error_t), allocatable, intent(out) :: error
         type(poll_t) :: polled(size(workers))
         real(dp), allocatable :: answer(:)
+        real(dp) :: part
         integer(i8) :: number
         integer :: i
 
@@ -145,8 +183,12 @@ contains
         do i = 1, size(workers)
             if (polled(i)%happened == 0) cycle
             number = workers(i)%number
-            call read_answer(workers(i), answer, error)
+            call read_answer(workers(i), answer, part, error)
             if (allocated(error)) return
+            if (.not. allocated(answer)) then
+                call work%hear(number, part)
+                cycle
+            end if
             if (next > 0) call order(workers(i), next)
             call work%take(number, answer, error)
             if (allocated(error)) return
@@ -163,19 +205,22 @@ contains
         if (.not. sent(worker%orders, [real(number, dp)])) return
     end subroutine order
 
-    subroutine read_answer(worker, answer, error)
-        !! All of it.
+    subroutine read_answer(worker, answer, part, error)
+        !! All of it, or how far the worker is: then there is no answer yet.
         type(worker_t), intent(inout) :: worker
         real(dp), allocatable, intent(out) :: answer(:)
+        real(dp), intent(out) :: part  !! of the piece that is done
         type(error_t), allocatable, intent(out) :: error
-        real(dp) :: length(1)
+        real(dp) :: length(1), parts(1)
         logical :: whole
 
-        worker%number = 0
-        allocate (answer(0))
+        part = 0.0_dp
         whole = received(worker%answers, length)
-        if (whole) then
-            deallocate (answer)
+        if (whole .and. length(1) < 0.0_dp) then
+            whole = received(worker%answers, parts)
+            part = parts(1)
+        else if (whole) then
+            worker%number = 0
             allocate (answer(nint(length(1), i8)))
             whole = received(worker%answers, answer)
         end if
@@ -223,6 +268,9 @@ contains
             worker%orders = c_fdopen(orders(2), "w"//c_null_char)
             worker%answers = c_fdopen(answers(1), "r"//c_null_char)
             worker%descriptor = answers(1)
+            ! What came with a report must stay where `poll` sees it.
+            if (c_associated(worker%answers)) status = c_setvbuf(worker%answers, c_null_ptr, &
+                                                                 unbuffered, 0_c_size_t)
             if (worker%pid < 0) call release(worker)
         end associate
     end subroutine start
@@ -243,6 +291,8 @@ contains
         end do
         from = c_fdopen(orders, "r"//c_null_char)
         to = c_fdopen(answers, "w"//c_null_char)
+        told = to
+        call system_clock(last_report)
         do while (received(from, number))
             call work%compute(nint(number(1), i8), answer)
             if (is_deserted()) exit

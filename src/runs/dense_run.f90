@@ -18,6 +18,7 @@ module lagrangia_dense_run
     public :: drive, run_dense
 
     integer, parameter :: most_at_once = 100  !! impacts at one time
+    integer(i8), parameter :: fine = 1000000  !! parts of the time, as whose number it is told
 
 contains
 
@@ -62,7 +63,7 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! why the run ended early
         type(watch_t) :: watch
         real(dp) :: t_end, q_end(system%ndof), v_end(system%ndof)
-        integer(i8) :: shown, last
+        integer(i8) :: shown, last, steps
         integer :: i, impacts
         logical :: stopped, restarted
 
@@ -80,6 +81,7 @@ contains
         last = grid%last_sample()
         shown = 0
         impacts = 0
+        steps = 0
         stopped = .false.
         call method%prepare(system, error)
         if (allocated(error)) return
@@ -104,6 +106,8 @@ contains
                 call show_samples(method%t_new)
                 if (.not. allocated(error)) call follow(method%t_new)
             end if
+            steps = steps + 1
+            call method%refuse_more(steps, error)
             if (.not. allocated(error)) call look_around()
         end do
         if (allocated(error)) return
@@ -192,13 +196,15 @@ contains
         subroutine look_around()
             !! Signals, and whoever watches the run go on.
             integer :: i
+            integer(i8) :: done
 
             if (interrupt_status() /= 0) then
                 call fail(error, "interrupted", interrupt_status())
                 return
             end if
+            done = int(fine*min(1.0_dp, (method%t_new - grid%t0)/grid%duration), i8)
             do i = 1, size(observers)
-                call observers(i)%item%tick(shown, last)
+                call observers(i)%item%tick(done, fine)
             end do
         end subroutine look_around
     end subroutine run_dense

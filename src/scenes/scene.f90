@@ -31,6 +31,7 @@ module lagrangia_scene
         character(sweep_text_length) :: section = "" !! or an event: points are kept there
         integer :: points = 100                    !! of a trajectory at most
         character(sweep_text_length) :: energy_by = ""  !! velocity that keeps all at one energy
+        integer(i8) :: most_steps = huge(1_i8)     !! of a trajectory, where the method chooses them
         integer :: seed = 1                        !! of values drawn at random
         integer :: threads = 0                     !! processes; 0: as many as processors
     end type sweep_group_t

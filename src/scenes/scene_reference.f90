@@ -137,6 +137,8 @@ module lagrangia_scene_reference
                 "on", "points = 500"), &
         entry_t("sweep", "energy_by", "", absent, "a velocity, chosen so that every start has "// &
                 "the energy of the scene's own", "energy_by = 'theta1_dot'"), &
+        entry_t("sweep", "most_steps", "", absent, "steps of a trajectory at most, where the "// &
+                "method chooses them: after more it fails and is NaN", "most_steps = 1000000"), &
         entry_t("sweep", "seed", "", "1", "of values drawn at random", "seed = 7"), &
         entry_t("sweep", "threads", "", "one a processor", "processes that compute at a "// &
                 "time, a number up to 10000", "threads = 2")]

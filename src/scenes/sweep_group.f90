@@ -14,7 +14,8 @@ module lagrangia_sweep_group
 
     character(*), parameter :: group = "sweep"
     character(name_length), parameter :: keys(*) = [character(name_length) :: &
-        "over", "keep", "after", "strobe", "section", "points", "energy_by", "seed", "threads"]
+        "over", "keep", "after", "strobe", "section", "points", "energy_by", "most_steps", &
+        "seed", "threads"]
     integer, parameter :: most_kept = 20, most_points = 1000000
 
 contains
@@ -49,6 +50,13 @@ contains
             return
         end if
         sweep%points = int(points)
+        call get_integer(tree, group, "most_steps", sweep%most_steps, error)
+        if (allocated(error)) return
+        if (sweep%most_steps < 1) then
+            call refuse_value(tree, group, "most_steps", "a whole number from 1 on is needed", &
+                              error)
+            return
+        end if
         seed = sweep%seed
         call get_integer(tree, group, "seed", seed, error)
         if (allocated(error)) return
