@@ -36,6 +36,7 @@ contains
         call suite%addTest(TestMethod("two_rods_in_x_and_y", two_rods_in_x_and_y))
         call suite%addTest(TestMethod("drag_of_two_rods", drag_of_two_rods))
         call suite%addTest(TestMethod("found_from_near_by", found_from_near_by))
+        call suite%addTest(TestMethod("found_from_far", found_from_far))
         call suite%addTest(TestMethod("constraints_that_integrate", constraints_that_integrate))
         call suite%addTest(TestMethod("refusals", refusals))
     end function constrained_modes_suite
@@ -145,6 +146,28 @@ contains
         call find_modes(system, [0.54_dp, -0.72_dp, 0.54_dp, -2.12_dp], .true., modes, error)
         call assert_refused(error, "not an equilibrium of own: the force on x")
     end subroutine found_from_near_by
+
+    subroutine found_from_far()
+        !! Without constraints: with \(u = (x - a)/\ell\) Newton's method goes from u to \(-u^3\) for
+        !! \(V = k\sqrt{1 + u^2}\), away from the minimum, which is found by going down.
+        character(*), parameter :: body = "coordinates = 'x', parameters = 'm', 'k', 'l', 'a', "// &
+                                          "T = 'm/2 x_dot^2', "
+        class(system_t), allocatable :: system
+        type(modes_t) :: modes
+        type(error_t), allocatable :: error
+
+        call typed_modes(body//"V = 'k sqrt(1 + (x - a)^2/l^2)'", "m = 2.0, k = 3.0, l = 0.5, "// &
+                         "a = 3.0", [0.1_dp], .false., system, modes)
+        if (anyExceptions()) return
+        call assertEqual(3.0_dp, modes%at(1), 1e-14_dp)
+        call assertEqual(3.0_dp/(2.0_dp*0.5_dp**2), modes%omega2(1), 1e-13_dp)
+        ! down for ever
+        call read_typed(body//"V = 'k a atan(x/l)'", "m = 2.0, k = 3.0, l = 0.5, a = 3.0", "0.1", &
+                        system, error)
+        call assertFalse(allocated(error), "read")
+        call find_modes(system, [0.1_dp], .false., modes, error)
+        call assert_refused(error, "not an equilibrium of own: the force on x is -17.307")
+    end subroutine found_from_far
 
     subroutine constraints_that_integrate()
         !! A wheel that rolls along a line is holonomic though its constraint is in velocities, and

@@ -16,62 +16,38 @@ module lagrangia_equilibrium
 contains
 
     subroutine settle(system, wanted, q, error)
-        !! Newton's method from `q` to an equilibrium, \(|F_i| \le 8\epsilon(\sum_j|K_{ij}|
-        !! \max(1, |q_j|) + \sum_k|A_{ki}\lambda_k|)\); a `wanted` one must be there already, to a
-        !! relative 1e-12.
+        !! Newton's method from `q` to an equilibrium; where it leads to none, down to a minimum of
+        !! \(-L(q, 0)\). A `wanted` equilibrium must be there already, to a relative 1e-12.
         class(system_t), intent(in) :: system             !! configured
         logical, intent(in) :: wanted                     !! `q` must be one
         real(dp), intent(inout) :: q(:)                   !! (n), from where to where
         type(error_t), allocatable, intent(out) :: error  !! none is found; the nearest is another
-        type(error_t), allocatable :: singular
         type(tangent_t) :: tangent
         type(description_t) :: d
         character(:), allocatable :: near
-        real(dp), dimension(size(q), size(q)) :: m, k, g
-        real(dp), dimension(size(q)) :: f, start, step, onto, rounding
+        real(dp) :: k(size(q), size(q))
+        real(dp), dimension(size(q)) :: f, start, onto, rounding
         integer :: i, worst
+        logical :: found
 
         start = q
         f = force_at_rest(system, q)
         if (all(abs(f) <= 0.0_dp) .and. system%constraints == 0) return
-        onto = 0.0_dp
+        call approach(system, q, found)
+        if (.not. (found .or. system%nonconservative .or. system%constraints > 0)) then
+            q = start
+            call descend(system, q)
+            call approach(system, q, found)
+        end if
+        if (found .and. .not. wanted) return
         near = "none is near"
-        do i = 1, 50
-            call expand_at_rest(system, q, m, k, g)
-            call stiffness_beside(system, q, m)
-            k = k + m
-            f = force_at_rest(system, q)
-            rounding = matmul(abs(k), max(1.0_dp, abs(q)))
-            if (system%constraints > 0) then
-                call constrain(system, q, f, k, rounding, onto, tangent, singular)
-                if (allocated(singular)) exit
-            end if
-            if (all(abs(f) <= 8.0_dp*epsilon(f)*rounding) .and. &
-                all(abs(onto) <= 4.0_dp*epsilon(q)*max(1.0_dp, abs(q)))) then
-                near = ""
-                exit
-            end if
-            if (system%constraints > 0) then
-                call newton_step(within(tangent%basis, k), &
-                                 matmul(transpose(tangent%basis), f - matmul(k, onto)), &
-                                 step(:size(tangent%basis, 2)), singular)
-                step = onto + matmul(tangent%basis, step(:size(tangent%basis, 2)))
-            else
-                call newton_step(k, f, step, singular)
-            end if
-            if (allocated(singular)) exit
-            q = q + step
-            if (maxval(abs(step)) > 4.0_dp*epsilon(q)*max(1.0_dp, maxval(abs(q)))) cycle
-            near = ""
-            exit
-        end do
-        if (near == "" .and. .not. wanted) return
+        onto = 0.0_dp
         f = force_at_rest(system, start)
         if (system%constraints > 0) call constrain(system, start, f, k, rounding, onto, tangent, &
                                                    error)
         if (allocated(error)) return
         worst = maxloc(abs(f), 1)
-        if (near == "") then
+        if (found) then
             if (maxval(abs(q - start)) <= 1e-12_dp*max(1.0_dp, maxval(abs(q)))) then
                 q = start
                 return
@@ -91,6 +67,99 @@ contains
                   trim(d%coordinates(worst)%name)//" is "//to_text(f(worst))//" "// &
                   trim(merge("N m", "N  ", d%coordinates(worst)%unit == "rad"))//"; "//near)
     end subroutine settle
+
+    subroutine approach(system, q, found)
+        !! Newton's method, until \(|F_i| \le 8\epsilon(\sum_j|K_{ij}|\max(1, |q_j|)
+        !! + \sum_k|A_{ki}\lambda_k|)\) or the step is rounding.
+        class(system_t), intent(in) :: system
+        real(dp), intent(inout) :: q(:)
+        logical, intent(out) :: found  !! an equilibrium: `q`
+        type(error_t), allocatable :: singular
+        type(tangent_t) :: tangent
+        real(dp), dimension(size(q), size(q)) :: m, k, g
+        real(dp), dimension(size(q)) :: f, step, onto, rounding
+        integer :: i
+
+        onto = 0.0_dp
+        do i = 1, 50
+            call expand_at_rest(system, q, m, k, g)
+            call stiffness_beside(system, q, m)
+            k = k + m
+            f = force_at_rest(system, q)
+            rounding = matmul(abs(k), max(1.0_dp, abs(q)))
+            if (system%constraints > 0) then
+                call constrain(system, q, f, k, rounding, onto, tangent, singular)
+                if (allocated(singular)) exit
+            end if
+            found = all(abs(f) <= 8.0_dp*epsilon(f)*rounding) .and. &
+                    all(abs(onto) <= 4.0_dp*epsilon(q)*max(1.0_dp, abs(q)))
+            if (found) return
+            if (system%constraints > 0) then
+                call newton_step(within(tangent%basis, k), &
+                                 matmul(transpose(tangent%basis), f - matmul(k, onto)), &
+                                 step(:size(tangent%basis, 2)), singular)
+                step = onto + matmul(tangent%basis, step(:size(tangent%basis, 2)))
+            else
+                call newton_step(k, f, step, singular)
+            end if
+            if (allocated(singular)) exit
+            q = q + step
+            found = maxval(abs(step)) <= 4.0_dp*epsilon(q)*max(1.0_dp, maxval(abs(q)))
+            if (found) return
+        end do
+        found = .false.
+    end subroutine approach
+
+    pure subroutine descend(system, q)
+        !! Down \(-L(q, 0)\) by Newton's method with a damping \(\mu\), \((K + \mu)\delta = F\): a
+        !! step that leads down is taken, and \(\mu\) is divided by 4; one that doesn't, multiplies
+        !! it by 4.
+        !!
+        !! Source: K. Levenberg, Quart. Appl. Math. 2, 164 (1944).
+        class(system_t), intent(in) :: system
+        real(dp), intent(inout) :: q(:)
+        integer, parameter :: most = 300
+        type(error_t), allocatable :: singular
+        real(dp), dimension(size(q), size(q)) :: m, k, g
+        real(dp), dimension(size(q)) :: f, step
+        real(dp) :: mu
+        integer :: i, j
+
+        call expand_at_rest(system, q, m, k, g)
+        f = force_at_rest(system, q)
+        mu = 1e-3_dp*maxval(abs(k))
+        do i = 1, most
+            m = k
+            do j = 1, size(q)
+                m(j, j) = m(j, j) + mu
+            end do
+            call solve_linear(m, f, step, singular)
+            if (.not. allocated(singular)) then
+                if (dot_product(step, f) > 0.0_dp .and. &
+                    level(system, q + step) < level(system, q)) then
+                    q = q + step
+                    call expand_at_rest(system, q, m, k, g)
+                    f = force_at_rest(system, q)
+                    mu = mu/4.0_dp
+                    if (maxval(abs(step)) <= 1e-6_dp*max(1.0_dp, maxval(abs(q)))) return
+                    cycle
+                end if
+            end if
+            mu = max(4.0_dp*mu, epsilon(mu)*maxval(abs(k)))
+        end do
+    end subroutine descend
+
+    pure function level(system, q) result(value)
+        !! \(-L(q, 0)\), of which an equilibrium is stable where it is least.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: q(:)
+        real(dp) :: value                 !! J
+        type(hyperdual_t) :: l, tt, qq(size(q)), vv(size(q))
+
+        qq%re = q
+        l = system%lagrangian(tt, qq, vv)
+        value = -l%re
+    end function level
 
     pure subroutine newton_step(k, f, step, singular)
         !! \(K\delta = F\) by least squares with a damping of 1e-12 max|K^T K|: K may be singular (a
