@@ -90,9 +90,11 @@ contains
             end if
         else if (index(name, "p_") == 1) then
             q = name(3:)
+            i = samples%symbols%find("dL_d"//q)
+            if (i == 0) return  ! a quantity of this name
             k = samples%symbols%find_definition("Q_"//q)
             remark = rate//": dL/d"//q//" is not 0"
-            call holds(symbol(samples%symbols%find("dL_d"//q)), samples%values, yes, judged)
+            call holds(symbol(i), samples%values, yes, judged)
             if (yes .and. k > 0) remark = rate//": Q_"//q//" acts"
         end if
     end subroutine explain_change

@@ -240,13 +240,14 @@ contains
         attempt%example = ""
         call judge_pair(truth, meaning, .true., samples, library, .true., attempt)
         if (attempt%verdict == is_right) judgement = attempt
-        if (attempt%verdict /= is_wrong .or. .not. means_frequency(name, samples)) return
-        if (.not. used) then
+        if (attempt%verdict /= is_wrong) return
+        if (means_frequency(name, samples) .and. .not. used) then
             judgement = attempt
             if (index(attempt%remark, "no single") == 1) judgement%remark = "no small "// &
                 "oscillation has this frequency; see 'lagrangia modes'"
-        else
-            judgement%remark = "taken for a new name: no small oscillation has this frequency"
+        else if (samples%decay == 0 .and. scan(name, "0") == 0 .and. scan(name, "wt") /= 1) then
+            judgement%remark = "taken for a new name: no small oscillation has this "// &
+                trim(merge("period   ", "frequency", name(1:1) == "T"))
         end if
     end subroutine define
 
