@@ -413,6 +413,10 @@ run sweep pendulum --over l=1e-9:1:10:log --keep theta --set scene%method="'dop8
 check "sweep: steps are limited, and it says whose were" eval '[ $status -eq 0 ] && grep -q "^lagrangia: 6 of 10 trajectories failed and are NaN; the first: more than 20000 steps, at t = 0.0" "$work/err"'
 run sweep pendulum --over l=1e-9:1:10:log --keep theta --output "$work/sweep"
 check "sweep: a step that is too long at a corner" grep -q "^lagrangia: l = 1e-9: dt = 0.001 s exceeds the step limit 2.856e-5 s of rk4" "$work/err"
+mkfifo "$work/sweep/duffing_sweep.dat.part"
+run sweep duffing --over x=1:2:3 --keep x --output "$work/sweep"
+check "sweep: a pipe in the place of its file is not waited for" eval '[ $status -eq 5 ] && grep -q "is not a file that a sweep has written$" "$work/err"'
+rm "$work/sweep/duffing_sweep.dat.part"
 run sweep hanging_chain --over n=2:5:4 --keep energy --output "$work/sweep"
 check "sweep: where all fail, it says so" eval '[ $status -eq 2 ] && grep -q "all 4 trajectories fail: q has 10 values" "$work/err"'
 mkdir -p "$work/folders/flip_map_sweep.dat"

@@ -170,6 +170,9 @@ contains
         if (is_being_written(part_name(path, image))) then
             call fail(error, "another sweep is writing '"//part_name(path, image)// &
                       "' at this moment", status_file)
+        else if (facts%found .and. .not. facts%regular) then
+            call fail(error, "'"//part_name(path, image)//"' is not a file that a sweep has "// &
+                      "written", status_file)
         else if (facts%found .and. .not. resume) then
             call fail(error, "'"//part_name(path, image)//"' is what an interrupted sweep has "// &
                       "computed: '--resume' goes on with it; remove it to begin anew", status_file)

@@ -40,10 +40,13 @@ contains
         !! Another sweep has it open. Where the file system has no locks nobody knows.
         character(*), intent(in) :: path  !! of the file
         logical :: yes
+        type(facts_t) :: facts
         type(c_ptr) :: stream
         integer :: status
 
         yes = .false.
+        facts = look_at(path)
+        if (.not. (facts%found .and. facts%regular)) return
         stream = c_fopen(path//c_null_char, "r"//c_null_char)
         if (.not. c_associated(stream)) return
         yes = c_flock(c_fileno(stream), 6_c_int) /= 0
