@@ -36,6 +36,7 @@ contains
         call suite%addTest(TestMethod("exponents_that_are_known", exponents_that_are_known))
         call suite%addTest(TestMethod("those_of_one_at_a_time", those_of_one_at_a_time))
         call suite%addTest(TestMethod("ueda", ueda))
+        call suite%addTest(TestMethod("chaos_by_two_methods", chaos_by_two_methods))
         call suite%addTest(TestMethod("neighbours_change_no_byte", neighbours_change_no_byte))
         call suite%addTest(TestMethod("processes_change_no_byte", processes_change_no_byte))
         call suite%addTest(TestMethod("who_blows_up_is_alone", who_blows_up_is_alone))
@@ -142,6 +143,30 @@ contains
         call assertEqual(0.1034_dp, sum(values(1, :))/16, 4*error, "their mean")
         call assertTrue(error < 0.003_dp, "of some size")
     end subroutine ueda
+
+    subroutine chaos_by_two_methods()
+        !! Ueda's oscillator from the same starts, until a difference of 1e-8 has grown to 1e-6: by
+        !! `gauss16` alone, which begins anew where a displacement is scaled, and by `dop853` with a
+        !! finer tolerance. A mean over long motions could not tell them apart that well.
+        character(*), parameter :: text = "duration=40, q=2.5 / &lagrangian coordinates='x', "// &
+            "parameters='b', L='x_dot^2/2 - x^4/4 + 7.5 x cos(t)', Q_x='-b x_dot' / "// &
+            "&ueda b=0.05 /"
+        type(sweep_t) :: alone, in_lanes
+        type(sweep_numbers_t) :: numbers
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: values(:, :)
+
+        call make("&scene system='ueda', samples=1, method='dop853', tolerance=1e-12, "//text, &
+                  ["x=-2:2:16"], both, in_lanes)
+        call compute(in_lanes, values, 0)
+        call make("&scene system='ueda', samples=1, method='gauss16', tolerance=1e-9, "//text, &
+                  ["x=-2:2:16"], both, alone)
+        call assertFalse(fits_lanes(alone), "alone")
+        call compute_numbers(alone, 1, numbers, error)
+        call assertFalse(allocated(error), "by gauss16")
+        call assertEqual(values, numbers%values, 1e-6_dp, "exponents and their errors")
+        call assertTrue(maxval(values(1, :)) - minval(values(1, :)) > 0.1_dp, "of many motions")
+    end subroutine chaos_by_two_methods
 
     subroutine neighbours_change_no_byte()
         !! Each alone in a block of its own, and all together.
