@@ -804,6 +804,18 @@ run sweep pendulum --over theta=0:3:3 --keep "max theta" --output "$work/sweep"
 check "an axis to 3 rad is not" eval '[ $status -eq 0 ] && [ ! -s "$work/err" ]'
 refuses 2 "; angles are in radians: 180.0 degrees are 3.141592653589793" modes pendulum --at 180
 refuses 2 "--at takes 1 value for pendulum, not 2; a decimal point, no comma, is needed in a number" modes pendulum --at 3,14
+refuses 2 "the axis theta: '180deg': angles are in radians; write 3.141592653589793" sweep pendulum --over theta=0:180deg:5 --keep period
+refuses 2 "a sweep cannot change 'length'; did you mean 'l'?" sweep pendulum --over length=0.5:2:5 --keep period
+refuses 2 "not 'Period'; did you mean 'period'?" sweep pendulum --over theta=0.1:3:5 --keep Period
+refuses 2 "not 'T'; did you mean 'period'?" sweep pendulum --over theta=0.1:3:5 --keep T
+refuses 2 "expected GROUP%KEY=VALUE, as in scene%dt=1e-3; write pendulum%l=2" run pendulum --set l=2
+refuses 2 "; write pendulum%l=2" run pendulum --set pendulum.l=2
+refuses 2 "; the groups are scene, pendulum" run pendulum --set b=0.1
+refuses 2 "it is a key of the scene: --set scene%dt=..." run pendulum --dt 0.01
+refuses 2 "period_of = θ: a coordinate is needed: theta" run pendulum --set scene%period_of=θ
+refuses 2 "'0;0': a number is needed; several have commas between them" modes double_pendulum --at '0;0'
+run compare pendulum --starts "45 90" --output "$work/o"
+check "starts of 45 and 90 rad may be meant as degrees" eval '[ $status -eq 0 ] && one_line && grep -qF "theta starts at 45.0 rad; angles are in radians: 45.0 degrees are 0.7853981633974483" "$work/err"'
 run run rotating_wire --set rotating_wire%omega=100 --output "$work/o"
 check "an energy that rounding has swallowed is said to be that" eval '[ $status -eq 0 ] && tr -s " \n" " " <"$work/out" | grep -q "the terms of the energy have grown to [0-9.]*E+259 times .* that drift is their rounding"'
 run run symmetric_top --set symmetric_top%i1=1.5 --output "$work/o"

@@ -247,12 +247,12 @@ contains
                      "number is needed")
         call refused("--tolerances=1-3", "--tolerances '1-3': '1-3': lacks the letter of its "// &
                      "exponent (1.5e-3, not 1.5-3); sums are not computed")
-        call refused("--tolerances=1e-3e", "--tolerances '1e-3e': '1e-3e': is not a number; "// &
-                     "write it like 0.01, -2 or 1e-3, without a unit (a text needs quotes)")
+        call refused("--tolerances=1e-3e", "--tolerances '1e-3e': '1e-3e': a number is "// &
+                     "needed; several have commas between them, as in 0.1,-2e-3")
         call refused("--tolerances=10^-3", "--tolerances '10^-3': '10^-3': a number is needed, "// &
                      "nothing is computed; write 0.001")
-        call refused("--tolerances=", "--tolerances '': '': is not a number; write it like "// &
-                     "0.01, -2 or 1e-3, without a unit (a text needs quotes)")
+        call refused("--tolerances=", "--tolerances '': '': a number is needed; several have "// &
+                     "commas between them, as in 0.1,-2e-3")
         call refused("steps"//repeat(" ", 28)//"x", "unknown part 'steps"//repeat(" ", 28)// &
                      "x'; did you mean 'steps'?")
         call refused("--tolerances=1e-9,1e-6", "tolerances must fall from each to the next: "// &

@@ -125,9 +125,13 @@ contains
         call check_refused("run|--plo=svg", "unknown option '--plo'; did you mean '--plot'?")
         call check_refused("modes|--methods=x", "option '--methods' does not go with "// &
                            "'lagrangia modes'; it takes --set GROUP%KEY=VALUE, --at Q1,Q2,..., ")
-        call check_refused("run|--method", "unknown option '--method'; it takes --set ")
+        call check_refused("run|--method", "unknown option '--method'; it is a key of the "// &
+                           "scene: --set scene%method=...")
+        call check_refused("report|--theta", "unknown option '--theta'; it takes --set ")
         call check_refused("bench|--method", "unknown option '--method'; did you mean '--methods'?")
-        call check_refused("run|--dt|1e-3", "unknown option '--dt'; it takes --set GROUP%KEY=VALUE")
+        call check_refused("run|--dt|1e-3", "unknown option '--dt'; it is a key of the scene: "// &
+                           "--set scene%dt=...")
+        call check_refused("list|--dt|1e-3", "unknown option '--dt'; it takes none but --help")
         call check_refused("--ouput|x|run", "unknown option '--ouput'; did you mean '--output'?")
         call check_refused("list|-x", "unknown option '-x'; it takes none but --help")
         call check_refused("run|---", "unknown option '---'; it takes --set ")

@@ -41,6 +41,10 @@ contains
         call check_absence("boris", .true., "compensated", "boris has no compensated sums; "// &
                            "these have: rk4, verlet, velocity_verlet, ")
         call check_absence("rk5", .false., "method", "unknown method 'rk5'; did you mean 'rk4'?")
+        call check_absence("Runge-Kutta", .false., "method", "unknown method 'Runge-Kutta'; "// &
+                           "did you mean 'rk4' (classical Runge-Kutta, any system (Kutta 1901))?")
+        call check_absence("leapfrog", .false., "method", "unknown method 'leapfrog'; did you "// &
+                           "mean 'velocity_verlet' (kick, drift, kick: leapfrog (Verlet 1967))?")
     end subroutine refusals_name_what_works
 
     subroutine check_refusal(name, of, message)

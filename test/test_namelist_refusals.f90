@@ -176,7 +176,7 @@ contains
         call refused("&a s='a"//achar(9)//"' /", "1:8: &a: s: control character \x09"//plain)
         call refused("&a "//achar(27)//"x=1 /", "1:4: &a: control character \x1B"//plain)
         call refused("&a s="//char(226)//char(128)//char(152)//"x' /", &
-                     "1:6: &a: s: U+2018 is no plain '''")
+                     "1:6: &a: s: U+2018 is no plain quote; write ' or """)
         call refused("&a"//char(226)//char(128)//char(139)//"x=1 /", &
                      "1:3: U+200B does not show; delete it")
         call refused("&a x="//char(206)//char(184)//" /", "1:6: &a: x: U+03B8"//not_ascii)
@@ -246,7 +246,13 @@ contains
 
         call override("scene%dt", "&scene: dt: expected '=' after the key")
         call override("scene%dt=", "&scene: dt: "//no_value)
-        call override("dt=1", pattern)
+        call override("dt=1", pattern//"; write scene%dt=1")
+        call override(" q = 1", pattern//"; the groups are scene")
+        call override("scene.dt=2", pattern//"; write scene%dt=2")
+        call override("scene:dt=2", pattern//"; write scene%dt=2")
+        call override("sene.dt=2", pattern)
+        call override("scene%"//char(206)//char(184)//"=1", "U+03B8 is not ASCII; the name of "// &
+                      "a key has plain letters, a to z")
         call override("scene", pattern)
         call override("%dt=1", pattern)
         call override(" %dt=1", pattern)

@@ -60,14 +60,21 @@ contains
     end subroutine join_trims_and_separates
 
     subroutine shown_text_is_plain_and_bounded()
-        !! Control and non-ASCII bytes in hexadecimal, length bounded.
+        !! Control characters and bytes that are no UTF-8 in hexadecimal, length bounded, no
+        !! character split.
+        character(*), parameter :: theta = char(206)//char(184)
+
         call assertEqual("a\x00\x1B[31m\x7F\xC3b", &
                          escaped("a"//achar(0)//achar(27)//"[31m"//achar(127)//char(195)//"b"))
         call assertEqual("'abc'", quoted("abc"))
         call assertEqual("'"//repeat("x", 40)//"'", quoted(repeat("x", 40)))
         call assertEqual("'"//repeat("x", 40)//"...'", quoted(repeat("x", 41)))
         call assertEqual("abc...", escaped("abcd", 3))
-        call assertEqual("ab\...", escaped("ab"//achar(1), 3))
+        call assertEqual("ab...", escaped("ab"//achar(1), 3))
+        call assertEqual("'"//theta//" = 1'", quoted(theta//" = 1"), "Greek")
+        call assertEqual("a"//theta//"...", escaped("a"//theta//theta, 4))
+        call assertEqual("\xCE", escaped(theta(:1)))
+        call assertEqual("\xC2\x9B", escaped(char(194)//char(155)), "C1")
         call assertEqual("''", quoted(""))
     end subroutine shown_text_is_plain_and_bounded
 

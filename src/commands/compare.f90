@@ -7,6 +7,7 @@ module lagrangia_compare
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: line_width, note, put_line
     use lagrangia_data_files, only: check_format, film_path, script_path
+    use lagrangia_degrees, only: degrees_warning
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail, is_signal
     use lagrangia_gnuplot, only: panel_t, series_t
@@ -76,6 +77,7 @@ contains
         call plan_runs(line, folder, format, runs, name, error)
         if (allocated(error)) return
         allocate (outcomes(size(runs)), series(size(runs)))
+        if (line%has("starts") .and. .not. line%has("quiet")) call warn_of_degrees(runs)
         call run_all(line, folder, format, runs, outcomes, error)
         if (allocated(error)) return
         do i = 1, size(runs)
@@ -105,6 +107,20 @@ contains
         if (allocated(error) .or. .not. is_told(line)) return
         call put_line("film: "//film_path(overlay_path(folder, name)))
     end subroutine compare_command
+
+    subroutine warn_of_degrees(runs)
+        !! The first start that may be meant as degrees is answered with its radians.
+        type(compared_t), intent(in) :: runs(:)
+        character(:), allocatable :: warning
+        integer :: i
+
+        do i = 1, size(runs)
+            warning = degrees_warning(runs(i)%plan%scene, runs(i)%plan%system)
+            if (warning == "") cycle
+            call note(warning)
+            return
+        end do
+    end subroutine warn_of_degrees
 
     subroutine plan_runs(line, folder, format, runs, name, error)
         !! Every run and every file; nothing is run if one is wrong or a file would be lost.

@@ -30,6 +30,8 @@ contains
             if (problem == "") then
                 call read_number(word, value, problem)
                 phrase = word
+                if (index(problem, "is not a number") == 1) problem = &
+                    "a number is needed; several have commas between them, as in 0.1,-2e-3"
             end if
             if (problem /= "") then
                 call fail(error, option//" "//quoted(text)//": "//quoted(phrase)//": "//problem)

@@ -5,6 +5,7 @@ module lagrangia_registry
                                       without_hyphens
     use lagrangia_errors, only: error_t, fail
     use lagrangia_names, only: nearest_name
+    use lagrangia_scene_keys, only: keys
     use lagrangia_text, only: join, quoted
     implicit none (type, external)
     private
@@ -193,6 +194,8 @@ contains
         near = nearest_name(without_hyphens(name), pack(options%name, fits))
         if (near /= "") then
             near = "did you mean '--"//near//"'?"
+        else if (accepts(command, "set") .and. any(keys == without_hyphens(name))) then
+            near = "it is a key of the scene: --set scene%"//without_hyphens(name)//"=..."
         else
             near = taken(command)
         end if

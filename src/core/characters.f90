@@ -98,6 +98,10 @@ contains
             problem = described(text, i - length)
             if (lookalikes(k)%length == 0) then
                 problem = problem//" does not show; delete it"
+            else if (lookalikes(k)%plain == "'" .or. lookalikes(k)%plain == """") then
+                problem = problem//" is no plain quote; write ' or """
+            else if (lookalikes(k)%plain == " ") then
+                problem = problem//" is no plain blank"
             else
                 problem = problem//" is no plain '"//lookalikes(k)%plain(:lookalikes(k)%length)//"'"
             end if

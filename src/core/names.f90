@@ -127,13 +127,58 @@ contains
         distance = d(len(a), len(b))
     end function edits
 
-    pure subroutine refuse_name(kind, name, names, error)
-        !! There is no such name: say which one is near, or which ones there are.
+    pure subroutine refuse_name(kind, name, names, error, meanings)
+        !! There is no such name: say which one is near, whose meaning has that word, or which ones
+        !! there are.
         character(*), intent(in) :: kind                  !! what is named: `system`, `method`
         character(*), intent(in) :: name                  !! what was typed
         character(*), intent(in) :: names(:)              !! those that there are
         type(error_t), allocatable, intent(out) :: error  !! allocated, with advice
+        character(*), intent(in), optional :: meanings(:) !! of each of them
+        integer :: i
 
-        call fail(error, "unknown "//kind//" "//quoted(name)//"; "//advice(name, names))
+        i = 0
+        if (present(meanings)) i = meant(name, names, meanings)
+        if (i > 0) then
+            call fail(error, "unknown "//kind//" "//quoted(name)//"; did you mean '"// &
+                      trim(names(i))//"' ("//trim(meanings(i))//")?")
+        else
+            call fail(error, "unknown "//kind//" "//quoted(name)//"; "//advice(name, names))
+        end if
     end subroutine refuse_name
+
+    pure function meant(name, names, meanings) result(which)
+        !! The first of the names whose meaning has `name` as a word, in letters alone: `action` for
+        !! `hamilton`, `rk4` for `runge-kutta`; 0 where none has, or a name has these letters.
+        character(*), intent(in) :: name, names(:), meanings(:)
+        integer :: which
+        integer, parameter :: shortest = 4
+        character(:), allocatable :: word
+        integer :: i
+
+        which = 0
+        word = letters(name, "")
+        if (len(word) < shortest) return
+        do i = 1, size(names)
+            if (letters(names(i), "") == word) return
+        end do
+        do which = 1, size(names)
+            if (index(" "//letters(meanings(which), " ")//" ", " "//word//" ") > 0) return
+        end do
+        which = 0
+    end function meant
+
+    pure function letters(text, others) result(only)
+        !! Those of a text alone, small, and what is in `others`: `dalembert` of `d'Alembert`.
+        character(*), intent(in) :: text, others
+        character(:), allocatable :: only
+        integer :: i
+
+        only = ""
+        do i = 1, len_trim(text)
+            if (index("abcdefghijklmnopqrstuvwxyz"//others, lower(text(i:i))) > 0) then
+                only = only//lower(text(i:i))
+            end if
+        end do
+    end function letters
 end module lagrangia_names

@@ -1,6 +1,7 @@
 module lagrangia_text
     !! Small helpers for text: what messages, headers and scene files need.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
+    use lagrangia_characters, only: decode, printable
     use lagrangia_kinds, only: dp, i8
     implicit none (type, external)
     private
@@ -56,36 +57,31 @@ contains
     end function join
 
     pure function escaped(text, limit) result(shown)
-        !! `text` fit for a message: control and non-ASCII bytes as `\xNN`, and cut to `limit`
-        !! characters (40 unless given) with `...` behind.
+        !! `text` fit for a message: control characters and bytes that are no UTF-8 as `\xNN`, and
+        !! cut to `limit` bytes (40 unless given) with `...` behind; no character is split.
         character(*), intent(in) :: text        !! any bytes
-        integer, intent(in), optional :: limit  !! in characters, 40 unless given
+        integer, intent(in), optional :: limit  !! in bytes, 40 unless given
         character(:), allocatable :: shown
-        character(16), parameter :: hex = "0123456789ABCDEF"
-        character(:), allocatable :: buffer
-        integer :: byte, i, length, most
+        character(:), allocatable :: buffer, one
+        integer :: code, i, length, most, width
 
         most = 40
         if (present(limit)) most = limit
-        allocate (character(most + 7) :: buffer)
+        allocate (character(most + 16) :: buffer)
         length = 0
-        do i = 1, len(text)
-            byte = ichar(text(i:i))
-            if (byte >= 32 .and. byte < 127) then
-                buffer(length + 1:length + 1) = text(i:i)
-                length = length + 1
-            else
-                buffer(length + 1:length + 4) = "\x"//hex(byte/16 + 1:byte/16 + 1)// &
-                                                hex(mod(byte, 16) + 1:mod(byte, 16) + 1)
-                length = length + 4
+        i = 1
+        do while (i <= len(text))
+            call decode(text, i, code, width)
+            one = printable(text(i:i + width - 1))
+            if (length + len(one) > most) then
+                shown = buffer(:length)//"..."
+                return
             end if
-            if (length > most) exit
+            buffer(length + 1:length + len(one)) = one
+            length = length + len(one)
+            i = i + width
         end do
-        if (length > most) then
-            shown = buffer(:most)//"..."
-        else
-            shown = buffer(:length)
-        end if
+        shown = buffer(:length)
     end function escaped
 
     pure function quoted(text, limit) result(shown)

@@ -17,11 +17,11 @@ module lagrangia_kept
     !! What does not happen, or is not known, is NaN.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
     use lagrangia_attractor, only: strobed_t
-    use lagrangia_columns, only: columns_t, new_columns, refuse_work
+    use lagrangia_columns, only: column_names, columns_t, new_columns, refuse_work
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
-    use lagrangia_names, only: advice
+    use lagrangia_names, only: advice, nearest_name
     use lagrangia_observer, only: observer_t
     use lagrangia_scene, only: sweep_text_length
     use lagrangia_system, only: system_t
@@ -88,12 +88,13 @@ contains
         type(columns_t), intent(out) :: columns            !! of the system
         character(sweep_text_length), allocatable, intent(out) :: events(:)  !! in a scene's words
         type(error_t), allocatable, intent(out) :: error   !! status 2: what cannot be read
-        character(name_length), allocatable :: coordinates(:), names(:)
+        character(name_length), allocatable :: all_columns(:), coordinates(:), names(:)
         type(description_t) :: d
         integer :: i
 
         call system%describe(d)
         coordinates = d%coordinates%name
+        allocate (all_columns, source=column_names(system, .false.))
         allocate (kept(size(texts)), names(0), events(0))
         do i = 1, size(texts)
             call read_one(trim(adjustl(texts(i))), kept(i))
@@ -167,8 +168,23 @@ contains
             else
                 this%kind = keeps_end
                 call take_column(text, this%column)
+                if (all(all_columns /= text)) call refuse_word(text)
             end if
         end subroutine read_one
+
+        subroutine refuse_word(text)
+            !! A word that is no column, but nearly one of those above, or a period's letter.
+            character(*), intent(in) :: text
+            character(:), allocatable :: near
+
+            near = nearest_name(text, [character(12) :: "period", "exact period", "lyapunov", &
+                                       "attractor"])
+            if (text == "T") near = "period"
+            if (near /= "" .and. nearest_name(text, all_columns) == "" .or. text == "T") then
+                call fail(error, "what is kept is a column, or one of a few words, not "// &
+                          quoted(text)//"; did you mean '"//near//"'?")
+            end if
+        end subroutine refuse_word
 
         subroutine take_column(name, which)
             !! Its place among the columns; `new_columns` says where there is none.

@@ -11,8 +11,8 @@ module lagrangia_sweep_axis
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_formula_program, only: formula_program_t, new_formula_program
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_names, only: advice
-    use lagrangia_number_reader, only: to_integer
+    use lagrangia_names, only: abbreviation, advice, nearest_name
+    use lagrangia_number_reader, only: misread, to_integer
     use lagrangia_random_draws, only: random_t
     use lagrangia_symbols, only: symbols_t
     use lagrangia_system, only: system_t
@@ -167,6 +167,7 @@ contains
         character(*), intent(in) :: text
         real(dp), intent(out) :: value
         type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: phrase, problem
         type(symbols_t) :: none
         type(expression_t) :: formula
         type(formula_program_t) :: program
@@ -175,6 +176,11 @@ contains
         value = 0.0_dp
         if (text == "") then
             call fail(error, "an end is missing; write "//example)
+            return
+        end if
+        call misread(trim(adjustl(text)), phrase, problem)
+        if (index(problem, "angles are in radians") == 1) then
+            call fail(error, quoted(phrase)//": "//problem)
             return
         end if
         allocate (none%names(0))
@@ -215,6 +221,7 @@ contains
         type(description_t) :: d
         type(target_t), allocatable :: targets(:)
         character(name_length), allocatable :: names(:)
+        character(:), allocatable :: short
         integer :: i
 
         call all_targets(system, targets)
@@ -222,6 +229,12 @@ contains
         i = findloc(names == name, .true., 1)
         if (i == 0) then
             call system%describe(d)
+            short = abbreviation(name, [character(name_length) :: d%parameters%name])
+            if (nearest_name(name, names) == "" .and. short /= "") then
+                call fail(error, "a sweep cannot change "//quoted(name)//"; did you mean '"// &
+                          short//"'?")
+                return
+            end if
             call fail(error, "a sweep cannot change "//quoted(name)//"; "// &
                       advice(name(index(name, "%") + 1:), &
                              pack(names, index(names, "q(") /= 1 .and. index(names, "v(") /= 1), &

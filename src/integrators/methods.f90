@@ -4,7 +4,7 @@ module lagrangia_methods
     use lagrangia_boris, only: boris_t, new_boris
     use lagrangia_canonical, only: midpoint_t, new_midpoint, new_stormer_verlet, stormer_verlet_t
     use lagrangia_composition, only: nth_composition
-    use lagrangia_description, only: name_length
+    use lagrangia_description, only: line_length, name_length
     use lagrangia_dop853, only: dop853_t, new_dop853
     use lagrangia_errors, only: error_t, fail
     use lagrangia_gauss, only: gauss_t, new_gauss16
@@ -17,7 +17,7 @@ module lagrangia_methods
     implicit none (type, external)
     private
     public :: new_integrator, nth_integrator, method_names, prepare_integrator
-    public :: new_adaptive, nth_adaptive, adaptive_names
+    public :: new_adaptive, nth_adaptive, adaptive_names, method_titles
     public :: auto, exact, workhorse
 
     character(*), parameter :: auto = "auto", exact = "exact"
@@ -97,7 +97,7 @@ contains
             if (integrator%name == name) exit
         end do
         if (.not. allocated(integrator)) then
-            call refuse_name("method", name, method_names(), error)
+            call refuse_name("method", name, method_names(), error, method_titles(method_names()))
             error%key = "method"
             return
         end if
@@ -164,6 +164,28 @@ contains
             names = [character(name_length) :: names, integrator%name]
         end do
     end function method_names
+
+    function method_titles(names) result(titles)
+        !! What each of these methods is, in a few words; empty where it is none.
+        character(*), intent(in) :: names(:)  !! of methods, fixed or adaptive
+        character(line_length) :: titles(size(names))
+        class(dense_integrator_t), allocatable :: adaptive
+        class(integrator_t), allocatable :: integrator
+        integer :: i, k
+
+        titles = ""
+        do i = 1, size(names)
+            call new_adaptive(trim(names(i)), adaptive)
+            if (allocated(adaptive)) titles(i) = adaptive%title
+            k = 0
+            do
+                k = k + 1
+                call nth_integrator(k, integrator)
+                if (.not. allocated(integrator)) exit
+                if (integrator%name == names(i)) titles(i) = integrator%title
+            end do
+        end do
+    end function method_titles
 
     function adaptive_names() result(names)
         !! The names of the methods that choose their steps by a tolerance.

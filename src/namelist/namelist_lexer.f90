@@ -124,7 +124,10 @@ contains
 
         name = ""
         last = name_end(tree)
-        if (last < tree%at) then
+        if (last < tree%at .and. iachar(next_byte(tree)) > 126) then
+            call refuse(tree, tree%at, described(tree%text, tree%at)//" is not ASCII; the name "// &
+                        "of a "//what//" has plain letters, a to z", error)
+        else if (last < tree%at) then
             call refuse(tree, tree%at, "expected the name of a "//what// &
                         ", which begins with a letter", error)
         else if (last - tree%at + 1 > name_length) then

@@ -5,8 +5,8 @@ module lagrangia_namelist_parser
                                         read_value, refuse, refuse_byte, separators, skip_space, &
                                         small_number, stray, token_end, truth_of
     use lagrangia_namelist_tree, only: add_entry, add_group, add_value, entry_t, fail_at, &
-                                       find_group, in_override, kind_number, label, line_of, &
-                                       max_values, name_length, namelist_t, new_namelist, &
+                                       find_entry, find_group, in_override, kind_number, label, &
+                                       line_of, max_values, name_length, namelist_t, new_namelist, &
                                        settle_twins, value_t
     use lagrangia_number_reader, only: after, character_at, digits, letters, starts_number
     use lagrangia_text, only: escaped, lower, quoted, to_text
@@ -78,7 +78,8 @@ contains
         end if
         if (allocated(error)) return
         if (next_byte(tree) /= "%" .or. name == "") then
-            call fail_at(tree, first, "expected GROUP%KEY=VALUE, as in scene%dt=1e-3", error)
+            call fail_at(tree, first, "expected GROUP%KEY=VALUE, as in scene%dt=1e-3"// &
+                         with_group(tree, text, name), error)
             return
         end if
         tree%at = tree%at + 1
@@ -90,6 +91,36 @@ contains
         if (.not. allocated(error)) call skip_space(tree, error)
         if (.not. allocated(error)) call read_entry(tree, group, error)
     end subroutine apply_override
+
+    pure function with_group(tree, text, name) result(remedy)
+        !! How the setting would be written: `pendulum.l=2` with `%`, `dt=0.1` in a group of the
+        !! file, that which has the key or each of them; empty where `text` is something else.
+        type(namelist_t), intent(in) :: tree
+        character(*), intent(in) :: text, name  !! what was typed, and the name that it begins with
+        character(:), allocatable :: remedy
+        integer :: behind, i
+
+        remedy = ""
+        behind = verify(text, " "//char(9)) + len_trim(name)
+        if (name == "" .or. behind > len(text) .or. len(text) > 40) return
+        if (scan(text(behind:behind), ".:") == 1) then
+            if (find_group(tree, name) > 0 .and. index(text, "=") > behind) remedy = &
+                "; write "//trim(name)//"%"//escaped(trim(text(behind + 1:)), 40)
+            return
+        end if
+        if (index(adjustl(text(behind:)), "=") /= 1) return
+        do i = 1, tree%group_count
+            if (find_entry(tree, trim(tree%groups(i)%name), trim(name)) > 0) exit
+        end do
+        if (i <= tree%group_count) then
+            remedy = "; write "//trim(tree%groups(i)%name)//"%"//escaped(trim(adjustl(text)), 40)
+            return
+        end if
+        remedy = "; the groups are"
+        do i = 1, min(3, tree%group_count)
+            remedy = remedy//trim(merge(",", " ", i > 1))//" "//trim(tree%groups(i)%name)
+        end do
+    end function with_group
 
     pure subroutine refuse_outside(tree, behind, error)
         !! Refuse text between groups, of which the last ended before the byte `behind`.

@@ -6,7 +6,7 @@ module lagrangia_principles
     use lagrangia_constraints, only: constraints_principle
     use lagrangia_course_table, only: course_of_the_notes, statement_t
     use lagrangia_dalembert, only: dalembert_principle
-    use lagrangia_errors, only: error_t, fail
+    use lagrangia_errors, only: error_t
     use lagrangia_gauge, only: gauge_principle
     use lagrangia_gauss_hertz, only: gauss_hertz_principle
     use lagrangia_geometric_phase, only: geometric_phase_principle
@@ -21,7 +21,6 @@ module lagrangia_principles
     use lagrangia_same_motion_page, only: same_motion_principle
     use lagrangia_small_angle, only: small_angle_principle
     use lagrangia_system, only: system_box_t
-    use lagrangia_text, only: lower, quoted
     use lagrangia_vakonomic, only: vakonomic_principle
     use lagrangia_virtual_work, only: virtual_work_principle
     use lagrangia_which_forces, only: which_forces_principle
@@ -106,42 +105,9 @@ contains
         case ("measure-g")
             call measure_g_principle(report, error)
         case default
-            call refuse_principle(name, error)
+            call refuse_name("principle", name, principle_names(), error, principles%meaning)
         end select
     end subroutine principle_report
-
-    pure subroutine refuse_principle(name, error)
-        !! Point from whose principle it is, `hamilton`, to the page whose meaning has that word.
-        character(*), intent(in) :: name
-        type(error_t), allocatable, intent(out) :: error
-        character(:), allocatable :: meaning
-        integer :: i
-
-        do i = 1, size(principles)
-            if (any(principles%name == letters(name)) .or. len(letters(name)) < 4) exit
-            meaning = " "//letters(principles(i)%meaning, " ")//" "
-            if (index(meaning, " "//letters(name)//" ") == 0) cycle
-            call fail(error, "unknown principle "//quoted(name)//"; did you mean '"// &
-                      trim(principles(i)%name)//"' ("//trim(principles(i)%meaning)//")?")
-            return
-        end do
-        call refuse_name("principle", name, principle_names(), error)
-    end subroutine refuse_principle
-
-    pure function letters(text, others) result(only)
-        !! Those of a text alone, and what is in `others`: `dalembert` of `d'Alembert`.
-        character(*), intent(in) :: text
-        character(*), intent(in), optional :: others
-        character(:), allocatable :: only, wanted
-        integer :: i
-
-        wanted = "abcdefghijklmnopqrstuvwxyz"
-        if (present(others)) wanted = wanted//others
-        only = ""
-        do i = 1, len(text)
-            if (index(wanted, lower(text(i:i))) > 0) only = only//lower(text(i:i))
-        end do
-    end function letters
 
     subroutine every_system(systems)
         !! Those of the lectures, with default parameters.

@@ -8,7 +8,7 @@ module lagrangia_overlay
     use lagrangia_errors, only: error_t, fail
     use lagrangia_gnuplot, only: gnuplot_script, new_panels, new_series, panel_t, series_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_methods, only: adaptive_names, method_names
+    use lagrangia_methods, only: adaptive_names, method_names, method_titles
     use lagrangia_names, only: refuse_name
     use lagrangia_output_file, only: output_file_t
     use lagrangia_plot_label, only: is_small
@@ -70,7 +70,7 @@ contains
                 if (.not. any(names == adaptive(i))) names = [character(name_length) :: names, &
                                                               adaptive(i)]
             end do
-            call refuse_name("method", method, names, error)
+            call refuse_name("method", method, names, error, method_titles(names))
             return
         end if
         scene%method = method

@@ -128,8 +128,10 @@ contains
             ! An energy that changed by more than itself, where its terms have swallowed it.
             integer :: k
 
-            k = findloc(self%drifts%name, "energy_drift", 1)
-            if (k == 0) return
+            do k = 1, size(self%drifts)
+                if (self%drifts(k)%name == "energy_drift") exit
+            end do
+            if (k > size(self%drifts)) return
             if (self%drifts(k)%value < 1.0_dp .or. &
                 epsilon(1.0_dp)*self%energy_terms < 0.01_dp*self%drifts(k)%value) return
             call add("the terms of the energy have grown to "//two_digits(self%energy_terms)// &

@@ -4,8 +4,8 @@ module lagrangia_scene_tolerance
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_methods, only: adaptive_names, auto, exact, method_names, new_adaptive, &
-                                 workhorse
+    use lagrangia_methods, only: adaptive_names, auto, exact, method_names, method_titles, &
+                                 new_adaptive, workhorse
     use lagrangia_namelist, only: get_integer, get_real, has_key, is_overridden, namelist_t, &
                                   refuse_value
     use lagrangia_names, only: refuse_name
@@ -105,8 +105,9 @@ contains
             call refuse_value(tree, "scene", "method", "is what '"//auto//"' takes where there "// &
                               "is a closed form; write '"//auto//"'", error)
         else if (.not. any(fixed == name)) then
-            call refuse_name("method", name, [character(name_length) :: fixed, &
-                                              pack(adaptive, .not. listed(adaptive, fixed))], found)
+            adaptive = [character(name_length) :: fixed, &
+                        pack(adaptive, .not. listed(adaptive, fixed))]
+            call refuse_name("method", name, adaptive, found, method_titles(adaptive))
             call refuse_value(tree, "scene", "method", found%message, error)
         else if (has_key(tree, "scene", "tolerance")) then
             remedy = ""
