@@ -203,6 +203,7 @@ module suites
     use test_written_mass, only: written_mass_suite
     use test_written_quantities, only: written_quantities_suite
     use test_written_refusals, only: written_refusals_suite
+    use test_written_rotors, only: written_rotors_suite
     use test_written_system, only: written_system_suite
     implicit none (type, external)
     private
@@ -415,6 +416,7 @@ contains
         call suite%addTest(written_mass_suite())
         call suite%addTest(written_quantities_suite())
         call suite%addTest(written_refusals_suite())
+        call suite%addTest(written_rotors_suite())
         call suite%addTest(written_system_suite())
         call suite%addTest(own_closed_form_suite())  ! the last two: their systems stay in the
         call suite%addTest(register_suite())         ! catalogue

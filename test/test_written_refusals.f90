@@ -100,7 +100,7 @@ contains
                     "2: unknown name 'b'"//there)
         call blamed(names//energies//"Q_phi = '1'", "Q_phi", "unknown key 'q_phi'; allowed: "// &
                     "l, definitions, positions, equilibrium, constraint, quantities, domain, "// &
-                    "q_r, q_theta")
+                    "rotors, q_r, q_theta")
     end subroutine formulas_that_cannot_be_read
 
     subroutine names_that_cannot_be()

@@ -371,8 +371,10 @@ contains
             call audit%say(trim(entry%claim), trim(entry%text)//": "//to_text(left)// &
                            " on the left, "//to_text(right)//" on the right")
         else
-            call audit%say(trim(entry%claim), trim(entry%text)//" is "//to_text(left)// &
-                           ", the code has "//to_text(right))
+            call audit%say(trim(entry%claim), trim(entry%text)//" is "//to_text(left)//", the "// &
+                           trim(merge("masses and what turns (rotors) have", &
+                                      "code has                           ", &
+                                      entry%kind == is_kinetic))//" "//to_text(right))
         end if
     end subroutine judge
 

@@ -50,6 +50,7 @@ contains
         call add_momenta(system, d, lines)
         call add_quantities(system, d, lines)
         if (size(d%points) > 0) call add_positions(system, d, lines)
+        if (size(d%rotors) > 0) call add_angles(system, d, lines)
         call lines%add(0, "end module "//trim(d%name))
         if (lines%longest > most_lines) call fail(error, trim(d%name)//": a formula takes more "// &
             "than "//to_text(most_lines)//" lines, which Fortran does not allow")
@@ -100,6 +101,7 @@ contains
         call lines%add(8, "procedure :: momenta")
         call lines%add(8, "procedure :: quantity => momentum_or_own")
         if (size(d%points) > 0) call lines%add(8, "procedure :: positions")
+        if (size(d%rotors) > 0) call lines%add(8, "procedure :: angles")
         call lines%add(4, "end type "//name//"_t")
         call lines%add(0, "")
         call lines%add(0, "contains")
@@ -338,4 +340,28 @@ contains
         call lines%add(8, "end associate")
         call lines%add(4, "end subroutine positions")
     end subroutine add_positions
+
+    subroutine add_angles(system, d, lines)
+        !! How each rotor is turned.
+        class(written_system_t), intent(in) :: system
+        type(description_t), intent(in) :: d
+        type(fortran_lines_t), intent(inout) :: lines
+        type(word_t), allocatable :: names(:)
+        character(:), allocatable :: text
+        integer :: i
+
+        call find_names(system%expressions%symbols%names, &
+                        [character(name_length) :: d%name, "phi"], names)
+        call open_procedure(d, "pure subroutine angles(self, t, q, phi)", &
+                            "The angle of each rotor, rad.", [character(70) :: &
+                             "type(hyperdual_t), intent(in) :: t, q(:)", &
+                             "type(hyperdual_t), intent(out) :: phi(:)"], lines)
+        call open_names(d, names, .false., .false., lines)
+        do i = 1, size(d%rotors)
+            call fortran_text(system%expressions%angles(i), names, text)
+            call lines%assign(12, "phi("//to_text(i)//")", text)
+        end do
+        call lines%add(8, "end associate")
+        call lines%add(4, "end subroutine angles")
+    end subroutine add_angles
 end module lagrangia_fortran_module

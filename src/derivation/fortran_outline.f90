@@ -52,7 +52,7 @@ contains
         call add_conserved(system, d, lines)
         if (system%constraints > 0) call add_constraint_texts(system, d, lines)
         call add_formulas(d, lines)
-        if (size(d%points) + size(system%expressions%equilibrium) > 0) then
+        if (size(d%points) + size(d%rotors) + size(system%expressions%equilibrium) > 0) then
             call add_places(system, d, lines)
         end if
         call lines%add(4, "end subroutine outline")
@@ -255,12 +255,13 @@ contains
     end subroutine add_formulas
 
     subroutine add_places(system, d, lines)
-        !! The points with their masses, and the equilibrium.
+        !! The points with their masses, the rotors, and the equilibrium.
         class(written_system_t), intent(in) :: system
         type(description_t), intent(in) :: d
         type(fortran_lines_t), intent(inout) :: lines
         type(word_t), allocatable :: names(:)
         type(word_t) :: items(size(d%points)), places(size(system%expressions%equilibrium))
+        type(word_t) :: turning(size(d%rotors))
         character(:), allocatable :: text
         integer :: first, i, k
 
@@ -286,7 +287,17 @@ contains
                 items(i)%text = items(i)%text//")"
             end associate
         end do
+        do i = 1, size(d%rotors)
+            associate (p => d%rotors(i))
+                call fortran_text(system%expressions%inertias(i), names, text)
+                turning(i)%text = "mass_point("//literal(p%name)//", "//text
+                if (p%mass_formula /= "") turning(i)%text = turning(i)%text//", "// &
+                    literal(p%mass_formula)//", "//literal(p%position(1))
+                turning(i)%text = turning(i)%text//")"
+            end associate
+        end do
         if (size(items) > 0) call add_list(12, "points", "", items, lines)
+        if (size(turning) > 0) call add_list(12, "rotors", "", turning, lines)
         do i = 1, size(places)
             call fortran_text(system%expressions%equilibrium(i), names, places(i)%text)
         end do

@@ -21,7 +21,7 @@ module lagrangia_lagrangian_group
     integer, parameter :: piece = 80, longest_piece = 500  !! characters of an echo's line; at most
     character(name_length), parameter :: keys(*) = [character(name_length) :: &
         "coordinates", "parameters", "t", "v", "l", "definitions", "positions", "equilibrium", &
-        "constraint", "quantities", "domain"]
+        "constraint", "quantities", "domain", "rotors"]
     character(*), parameter :: syntax = "a name, its unit and a few words are written "// &
                                         "'r [m] length of the spring'"
 
@@ -62,12 +62,10 @@ contains
             families = [character(len(keys)) :: families, own_key(family)]
         end do
         call read_chain("definitions", formulas%definitions)
-        if (allocated(error)) return
-        call read_chain("positions", formulas%positions)
-        if (allocated(error)) return
-        call read_chain("equilibrium", formulas%equilibrium)
-        if (allocated(error)) return
-        call read_chain("constraint", formulas%constraints)
+        if (.not. allocated(error)) call read_chain("positions", formulas%positions)
+        if (.not. allocated(error)) call read_chain("rotors", formulas%rotors)
+        if (.not. allocated(error)) call read_chain("equilibrium", formulas%equilibrium)
+        if (.not. allocated(error)) call read_chain("constraint", formulas%constraints)
         if (allocated(error)) return
         call read_quantities(formulas%quantities, formulas%quantity_formulas)
         if (allocated(error)) return
@@ -423,6 +421,7 @@ contains
             call add_formula("Q_"//trim(formulas%coordinates(i)%name), trim(formulas%forces(i)))
         end do
         call add_list("positions")
+        call add_list("rotors")
         call add_list("equilibrium")
         call add_list("constraint")
         call add_list("quantities")

@@ -103,6 +103,9 @@ module lagrangia_scene_reference
         entry_t("lagrangian", "positions", "", absent, "places of points: name, mass: x, y and "// &
                 "perhaps z; they become columns x_bob, y_bob", &
                 "positions = 'bob, m: r sin(theta), -r cos(theta)'"), &
+        entry_t("lagrangian", "rotors", "", absent, "bodies that turn: name, moment of "// &
+                "inertia: angle; with the masses they are T, as check and derive have it", &
+                "rotors = 'wheel, m l0^2: r/l0'"), &
         entry_t("lagrangian", "equilibrium", "", "near zeros", "where small oscillations are "// &
                 "looked at, for each coordinate a formula, or its cosine: 'cos(theta) = g/l0'", &
                 "equilibrium = 'l0 + m g/k', '0'"), &

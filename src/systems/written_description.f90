@@ -8,7 +8,7 @@ module lagrangia_written_description
     use lagrangia_written_formulas, only: written_formulas_t
     implicit none (type, external)
     private
-    public :: momentum_unit, state_formulas, state_places
+    public :: collect_constants, momentum_unit, state_formulas, state_places
 
 contains
 
@@ -16,7 +16,7 @@ contains
         !! The equilibrium, masses and places of the points, and forces, as far as there is room for
         !! the formulas. Points whose T is not that of the system have no masses to derive it from.
         type(written_expressions_t), intent(in) :: e     !! what the formulas mean
-        type(description_t), intent(inout) :: d          !! has the names of the points
+        type(description_t), intent(inout) :: d          !! gets the points and rotors
         character(:), allocatable :: text
         integer :: i, k, longest
 
@@ -32,6 +32,10 @@ contains
             end do
         end if
         longest = 0
+        d%dimensions = e%dimensions
+        allocate (d%points(size(e%points)), d%rotors(size(e%rotors)))
+        d%points%name = e%points
+        d%rotors%name = e%rotors
         do i = 1, size(d%points)
             text = formula_text(e%masses(i), e%symbols)
             longest = max(longest, len(text))
@@ -42,7 +46,16 @@ contains
                 if (text /= "0") d%points(i)%position(k) = text
             end do
         end do
-        if (longest > formula_length .or. .not. e%of_points) d%points%mass_formula = ""
+        do i = 1, size(d%rotors)
+            d%rotors(i)%mass_formula = formula_text(e%inertias(i), e%symbols)
+            d%rotors(i)%position(1) = formula_text(e%angles(i), e%symbols)
+            text = formula_text(e%angles(i), e%symbols)
+            longest = max(longest, len(text), len_trim(d%rotors(i)%mass_formula))
+        end do
+        if (longest > formula_length .or. .not. e%of_points) then
+            d%points%mass_formula = ""
+            d%rotors%mass_formula = ""
+        end if
         longest = 0
         do i = 1, size(e%forces)
             text = formula_text(e%forces(i), e%symbols)
@@ -101,6 +114,25 @@ contains
             end if
         end function stated
     end subroutine state_formulas
+
+    subroutine collect_constants(e, constants)
+        !! What depends on the parameters alone: masses, moments of inertia, the equilibrium.
+        type(written_expressions_t), intent(in) :: e                    !! what the formulas mean
+        type(expression_t), allocatable, intent(out) :: constants(:)    !! in this order
+        integer :: i, n
+
+        n = size(e%masses) + size(e%inertias)
+        allocate (constants(n + size(e%equilibrium)))
+        do i = 1, size(e%masses)
+            constants(i) = e%masses(i)
+        end do
+        do i = 1, size(e%inertias)
+            constants(size(e%masses) + i) = e%inertias(i)
+        end do
+        do i = 1, size(e%equilibrium)
+            constants(n + i) = e%equilibrium(i)
+        end do
+    end subroutine collect_constants
 
     pure function momentum_unit(unit) result(text)
         !! Of the momentum that belongs to a coordinate in this unit: J s over it.

@@ -13,6 +13,7 @@ module lagrangia_written_expressions
     use lagrangia_written_constraints, only: is_zero, read_constraints
     use lagrangia_written_equilibrium, only: read_equilibrium
     use lagrangia_written_formulas, only: written_formulas_t
+    use lagrangia_written_points, only: read_points, read_rotors
     use lagrangia_written_quantities, only: read_quantities
     implicit none (type, external)
     private
@@ -27,7 +28,10 @@ module lagrangia_written_expressions
         type(expression_t), allocatable :: forces(:)        !! Q of each coordinate
         type(expression_t), allocatable :: places(:)        !! x, y, z of each point, m
         type(expression_t), allocatable :: masses(:)        !! of the points, kg
-        logical :: of_points = .false.                      !! T is that of the points
+        type(expression_t), allocatable :: angles(:)        !! of each rotor, rad
+        type(expression_t), allocatable :: inertias(:)      !! of the rotors, kg m^2
+        character(name_length), allocatable :: rotors(:)    !! their names
+        logical :: of_points = .false.                      !! T is that of points and rotors
         type(expression_t), allocatable :: equilibrium(:)   !! of each coordinate; or none
         integer, allocatable :: resting(:)                  !! 0, or the function that is given
         type(expression_t), allocatable :: rests(:)         !! what was given
@@ -50,7 +54,12 @@ contains
         allocate (expressions%kinetic, expressions%potential, expressions%lagrangian)
         call add_symbols(formulas, expressions%symbols, error)
         if (.not. allocated(error)) call add_definitions(formulas, expressions%symbols, error)
-        if (.not. allocated(error)) call read_points(formulas, expressions, error)
+        associate (e => expressions, n => size(formulas%coordinates))
+            if (.not. allocated(error)) call read_points( &
+                formulas%positions, n, e%symbols, e%points, e%masses, e%places, e%dimensions, error)
+            if (.not. allocated(error)) call read_rotors( &
+                formulas%rotors, n, e%symbols, e%rotors, e%inertias, e%angles, error)
+        end associate
         if (.not. allocated(error)) call read_lagrangian(formulas, expressions, error)
         if (.not. allocated(error)) call read_forces(formulas, expressions, error)
         if (.not. allocated(error)) call read_equilibrium( &
@@ -78,6 +87,8 @@ contains
             if (any_depends_on(expressions%forces, first + i)) cycle
             if (any_depends_on(expressions%places, first + i)) cycle
             if (any_depends_on(expressions%masses, first + i)) cycle
+            if (any_depends_on(expressions%angles, first + i)) cycle
+            if (any_depends_on(expressions%inertias, first + i)) cycle
             if (any_depends_on(expressions%equilibrium, first + i)) cycle
             if (any_depends_on(expressions%constraints, first + i)) cycle
             if (any_depends_on(expressions%quantities, first + i)) cycle
@@ -195,7 +206,8 @@ contains
         associate (t => formulas%kinetic, v => formulas%potential, l => formulas%lagrangian)
             if (l /= "" .and. t//v /= "") then
                 call fail(error, "give either L, or T and V: L is T - V", key="l")
-            else if (l == "" .and. t == "" .and. .not. any_mass(expressions%masses)) then
+            else if (l == "" .and. t == "" .and. .not. (any_mass(expressions%masses) .or. &
+                                                        any_mass(expressions%inertias))) then
                 call fail(error, "is missing; write T = 'm/2 x_dot^2', or L, which is T - V, "// &
                           "or positions with their masses", key="t")
             end if
@@ -248,7 +260,8 @@ contains
     end function any_mass
 
     function kinetic_of_points(n, expressions) result(kinetic)
-        !! \(T = \sum\frac m2(\dot x^2 + \dot y^2 + \dot z^2)\) of all points.
+        !! \(T = \sum\frac m2(\dot x^2 + \dot y^2 + \dot z^2) + \sum\frac I2\dot\varphi^2\) of all
+        !! points and rotors.
         integer, intent(in) :: n  !! coordinates
         type(written_expressions_t), intent(in) :: expressions
         type(expression_t) :: kinetic
@@ -265,6 +278,10 @@ contains
                 square = square + time_derivative(expressions%places(k), rates, 1)**2
             end do
             kinetic = kinetic + expressions%masses(i)/whole(2)*square
+        end do
+        do i = 1, size(expressions%inertias)
+            square = time_derivative(expressions%angles(i), rates, 1)**2
+            kinetic = kinetic + expressions%inertias(i)/whole(2)*square
         end do
         kinetic = simplified(kinetic, expressions%symbols)
     end function kinetic_of_points
@@ -287,117 +304,4 @@ contains
             return
         end do
     end subroutine read_forces
-
-    subroutine read_points(formulas, expressions, error)
-        !! `bob, m: x, y` each.
-        type(written_formulas_t), intent(in) :: formulas
-        type(written_expressions_t), intent(inout) :: expressions
-        type(error_t), allocatable, intent(out) :: error
-        integer :: i, n
-
-        n = size(formulas%positions)
-        allocate (expressions%places(3*n), expressions%masses(n), expressions%points(n))
-        do i = 1, n
-            call read_point(trim(formulas%positions(i)), i, size(formulas%coordinates), &
-                            expressions, error)
-            if (.not. allocated(error)) cycle
-            error%key = "positions"
-            error%element = i
-            return
-        end do
-    end subroutine read_points
-
-    subroutine read_point(text, i, n, expressions, error)
-        !! `bob, m: x, y` or `bob, m: x, y, z`; without a mass it is a place only.
-        character(*), intent(in) :: text
-        integer, intent(in) :: i  !! which of the points
-        integer, intent(in) :: n  !! coordinates
-        type(written_expressions_t), intent(inout) :: expressions
-        type(error_t), allocatable, intent(out) :: error
-        character(*), parameter :: syntax = "a place is written 'bob: x, y' or 'bob: x, y, z', "// &
-                                            "with its mass 'bob, m: x, y'"
-        integer :: colon, comma, first, k, last
-
-        colon = index(text, ":")
-        comma = index(text(:max(colon, 1)), ",")
-        last = colon
-        if (comma > 0) last = comma
-        call read_name(text(:max(last, 1) - 1), expressions%points(i), error)
-        if (allocated(error) .or. colon == 0 .or. text(len(text):) == ",") call fail(error, syntax)
-        if (allocated(error)) return
-        expressions%masses(i) = whole(0)
-        if (comma > 0) call parse_without(repeat(" ", comma)//text(comma + 1:colon - 1), 1 + 2*n, &
-                                          "the mass depends on", expressions%symbols, &
-                                          expressions%masses(i), error)
-        first = colon + 1
-        do k = 1, 3
-            if (allocated(error)) return
-            last = first + outer_comma(text(first:)//",") - 2
-            call parse_without(repeat(" ", first - 1)//text(first:last), -n, &
-                               "a place depends on", expressions%symbols, &
-                               expressions%places(3*i - 3 + k), error)
-            first = last + 2
-            if (first > len(text)) exit
-        end do
-        if (allocated(error)) return
-        if (first <= len(text) .or. k == 1) then
-            call fail(error, syntax)
-            return
-        end if
-        expressions%dimensions = max(expressions%dimensions, k)
-        if (k == 2) expressions%places(3*i) = whole(0)
-    end subroutine read_point
-
-    pure function outer_comma(text) result(at)
-        !! The first comma that is in no bracket; the last character where there is none.
-        character(*), intent(in) :: text
-        integer :: at
-        integer :: depth
-
-        depth = 0
-        do at = 1, len(text) - 1
-            if (text(at:at) == "(") depth = depth + 1
-            if (text(at:at) == ")") depth = depth - 1
-            if (text(at:at) == "," .and. depth <= 0) return
-        end do
-        at = len(text)
-    end function outer_comma
-
-    pure subroutine read_name(text, name, error)
-        !! The name of a point: one that columns can have.
-        character(*), intent(in) :: text
-        character(name_length), intent(out) :: name
-        type(error_t), allocatable, intent(out) :: error
-
-        name = ""
-        if (len_trim(adjustl(text)) > name_length - len("x_")) then
-            call fail(error, "too long")
-        else
-            name = adjustl(text)
-            call check_name("x_"//trim(name), error)
-            if (name == "") call fail(error, "there is none")
-        end if
-    end subroutine read_name
-
-    subroutine parse_without(text, n, problem, symbols, expression, error)
-        !! A formula that contains none of the first `n` symbols; with `-n` coordinates, none of
-        !! their velocities.
-        character(*), intent(in) :: text
-        integer, intent(in) :: n
-        character(*), intent(in) :: problem  !! said before the symbol
-        type(symbols_t), intent(in) :: symbols
-        type(expression_t), intent(inout) :: expression
-        type(error_t), allocatable, intent(out) :: error
-        integer :: i
-
-        call parse_formula(text, symbols, expression, error)
-        if (allocated(error)) return
-        do i = merge(1, 2 - n, n > 0), merge(n, 1 - 2*n, n > 0)
-            if (.not. expression%depends_on(i)) cycle
-            call fail(error, problem//" "//trim(symbols%names(i))//", which is not allowed: "// &
-                      trim(merge("parameters and numbers only         ", &
-                                 "the time, coordinates and parameters", n > 0)))
-            return
-        end do
-    end subroutine parse_without
 end module lagrangia_written_expressions

@@ -20,6 +20,7 @@ module lagrangia_written_formulas
         character(longest_formula), allocatable :: forces(:)  !! Q of each coordinate
         character(longest_formula), allocatable :: definitions(:)  !! `D = theta1 - theta2`
         character(longest_formula), allocatable :: positions(:)    !! `bob, m: x, y` or with z
+        character(longest_formula), allocatable :: rotors(:)       !! `pulley, I: x/R`
         character(longest_formula), allocatable :: equilibrium(:)  !! one of each coordinate
         character(longest_formula), allocatable :: constraints(:)  !! `x^2 + y^2 = l^2`
         type(quantity_t), allocatable :: quantities(:)             !! names, units, meanings, and

@@ -13,7 +13,8 @@ module lagrangia_written_system
     use lagrangia_kinds, only: dp, lanes
     use lagrangia_lagrangian_system, only: find_structure, lagrangian_system_t
     use lagrangia_magnitude, only: magnitude
-    use lagrangia_written_description, only: momentum_unit, state_formulas, state_places
+    use lagrangia_written_description, only: collect_constants, momentum_unit, state_formulas, &
+                                             state_places
     use lagrangia_written_equations, only: write_equations
     use lagrangia_written_expressions, only: written_expressions_t
     use lagrangia_written_formulas, only: written_formulas_t
@@ -34,9 +35,10 @@ module lagrangia_written_system
     integer, parameter :: of_energy = 6    !! v p - L
     integer, parameter :: of_force = 7     !! Q of each coordinate
     integer, parameter :: of_place = 8     !! x, y, z of each point, m
-    integer, parameter :: of_constant = 9  !! masses of the points, then the equilibrium
+    integer, parameter :: of_constant = 9  !! masses of points and rotors, then the equilibrium
     integer, parameter :: of_quantity = 10   !! the scene's own quantities
     integer, parameter :: of_magnitude = 11  !! of the energy, momenta, own quantities
+    integer, parameter :: of_angle = 12      !! of each rotor, rad
 
     type, extends(lagrangian_system_t) :: written_system_t
         !! Made by `new_written_system`, with the parameters of the formulas.
@@ -63,6 +65,7 @@ module lagrangia_written_system
         procedure :: quantity => momentum_or_own
         procedure :: natural_size
         procedure :: positions
+        procedure :: angles
     end type written_system_t
 
 contains
@@ -77,25 +80,16 @@ contains
         integer :: i
 
         system%expressions = expressions
-        allocate (system%programs(of_magnitude))
+        allocate (system%programs(of_angle))
         associate (e => system%expressions, d => system%stated)
             d%name = formulas%name
             d%named_in_scene = .true.
             d%title = formulas%title
             d%coordinates = formulas%coordinates
             d%parameters = formulas%parameters
-            d%dimensions = e%dimensions
-            allocate (d%points(size(e%points)))
-            d%points%name = e%points
             call state_places(e, d)
             call state_formulas(formulas, e, d)
-            allocate (constants(size(e%masses) + size(e%equilibrium)))
-            do i = 1, size(e%masses)
-                constants(i) = e%masses(i)
-            end do
-            do i = 1, size(e%equilibrium)
-                constants(size(e%masses) + i) = e%equilibrium(i)
-            end do
+            call collect_constants(e, constants)
             call new_formula_program(system%programs(of_constant), constants, size(e%symbols%names))
             call leave_out_what_cancels(e%lagrangian, 1 + 2*size(d%coordinates), e%symbols)
             call derive_motion(e%lagrangian, e%forces, e%symbols, system%motion)
@@ -113,7 +107,7 @@ contains
         class(written_system_t), intent(in) :: self
         type(description_t), intent(out) :: d
         real(dp) :: values(size(self%expressions%symbols%names))
-        real(dp) :: constants(size(self%expressions%masses) + size(self%expressions%equilibrium))
+        real(dp) :: constants(self%programs(of_constant)%outputs)
         type(quantity_t) :: items(size(self%stated%coordinates) + size(self%stated%quantities))
         integer :: i, k, n
 
@@ -140,6 +134,8 @@ contains
         call self%programs(of_constant)%evaluate(values, constants)
         k = size(d%points)
         d%points%mass = constants(:k)
+        d%rotors%mass = constants(k + 1:k + size(d%rotors))
+        k = k + size(d%rotors)
         if (size(constants) > k) d%equilibrium = constants(k + 1:)
     end subroutine outline
 
@@ -164,12 +160,12 @@ contains
             one(1) = motion%energy
             call new_formula_program(self%programs(of_energy), one, k, fixed, values)
             call new_formula_program(self%programs(of_motion), self%solved, k, fixed, values)
-            if (self%is_quadratic) call new_formula_program(self%programs(of_inverse), &
-                self%inverse, k, &
-                                                            fixed, values)
+            if (self%is_quadratic) call new_formula_program( &
+                self%programs(of_inverse), self%inverse, k, fixed, values)
             call new_formula_program(self%programs(of_slope), motion%slopes, k, fixed, values)
             call new_formula_program(self%programs(of_force), e%forces, k, fixed, values)
             call new_formula_program(self%programs(of_place), e%places, k, fixed, values)
+            call new_formula_program(self%programs(of_angle), e%angles, k, fixed, values)
             do j = 1, n
                 all(j) = motion%momenta(j)
                 do i = 1, n
@@ -436,4 +432,13 @@ contains
         call self%programs(of_place)%evaluate(values, results)
         r = reshape(results, [3, size(r, 2)])
     end subroutine positions
+
+    pure subroutine angles(self, t, q, phi)
+        !! See `system_t`.
+        class(written_system_t), intent(in) :: self
+        type(hyperdual_t), intent(in) :: t, q(:)
+        type(hyperdual_t), intent(out) :: phi(:)
+
+        call self%programs(of_angle)%evaluate([t, q, spread(hyperdual_t(), 1, size(q))], phi)
+    end subroutine angles
 end module lagrangia_written_system
