@@ -517,6 +517,10 @@ printf 'system: kepler\nset: h = 0.1\nset: m = 0\nset: k = 2\nL_z = const\n' > "
 refuses 2 "sheet:3: set: m=0: &kepler: m = 0: greater than 0.0 is needed" grade "$work/sheet"
 printf 'system: charged_particle\ndT/dt = 0\nset: electric = 0 0 0\nset: m = 1 000\n' > "$work/sheet"
 refuses 2 "sheet:4: set: m=1 000: &charged_particle: m has 2 values; one is needed" grade "$work/sheet"
+printf '%s\n' "&scene system = 'string' duration = 1.0 dt = 0.01 q = 0.1 /" "&lagrangian coordinates = 'x' parameters = 'm', 'L'" \
+    "  T = 'm/2 x_dot^2' V = 'm L x^2/2' /" "&string m = 1.0 L = 2.0 /" >"$work/string.nml"
+printf '%s\n' "system: $work/string.nml" "m x_ddot + m L x = 0" >"$work/sheet"
+refuses 2 "string uses the letter L, which in an answer is the Lagrangian; give it another name, such as L0" grade "$work/sheet"
 refuses 2 "grade what?" grade
 sed "s/figure = /figure = 'let a b = l1', /" data/scenes/double_pendulum_formulas.nml >"$work/figure.nml"
 refuses 2 "figure = 'let a b = l1': 'a b' is no name for a formula" run "$work/figure.nml"

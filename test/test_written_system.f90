@@ -55,6 +55,7 @@ contains
         call suite%addTest(TestMethod("any_degree_in_velocities", any_degree_in_velocities))
         call suite%addTest(TestMethod("what_cancels_is_not_there", what_cancels_is_not_there))
         call suite%addTest(TestMethod("equations_are_written", equations_are_written))
+        call suite%addTest(TestMethod("letters_of_energies", letters_of_energies))
         call suite%addTest(TestMethod("overrides_reach_formulas", overrides_reach_formulas))
     end function written_system_suite
 
@@ -308,6 +309,21 @@ contains
         call assertTrue(size(ledger%rows) > 8, "claims")
         call assertEqual(0, ledger%broken())
     end subroutine audits_hold
+
+    subroutine letters_of_energies()
+        !! Parameters that are called T and V: L is printed without them.
+        class(system_t), allocatable :: system
+        type(ledger_t) :: ledger
+        real(dp), parameter :: values(2) = [1.5_dp, 0.7_dp]
+        integer :: i
+
+        call read_typed("own", "coordinates = 'x' parameters = 'T', 'V' "// &
+                        "T = 'T/2 x_dot^2' V = 'V x^2/2'", 1, values, system)
+        if (anyExceptions()) return
+        call audit_system(system, ledger, [(.true., i=1, 2)], values)
+        call assertTrue(ledger%row_of("L as printed") > 0, "L is compared")
+        call assertEqual(0, ledger%broken())
+    end subroutine letters_of_energies
 
     subroutine some_masses()
         !! Where some points have no mass, T is at least that of the others; with a mass too large

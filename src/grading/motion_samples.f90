@@ -27,6 +27,28 @@ module lagrangia_motion_samples
 
 contains
 
+    pure subroutine refuse_letters(d, error)
+        !! A system whose own names are those of L, T, V or the energy: nobody could say which of
+        !! both an answer means.
+        type(description_t), intent(in) :: d              !! of the system
+        type(error_t), allocatable, intent(out) :: error  !! one of its names is
+        character, parameter :: letters(4) = ["L", "T", "V", "E"]
+        character(20), parameter :: meanings(4) = [character(20) :: "the Lagrangian", &
+                                                   "the kinetic energy", &
+                                                   "the potential energy", "the energy"]
+        integer :: i
+
+        do i = 1, size(letters)
+            if (.not. (any(d%coordinates%name == letters(i)) &
+                       .or. any(d%quantities%name == letters(i)) &
+                       .or. any(value_names(d) == letters(i)))) cycle
+            call fail(error, trim(d%name)//" uses the letter "//letters(i)//", which in "// &
+                      "an answer is "//trim(meanings(i))//"; give it another name, such as "// &
+                      letters(i)//"0")
+            return
+        end do
+    end subroutine refuse_letters
+
     subroutine new_samples(system, said, settings, samples, error)
         !! Of `system`, about which `said` speaks: a parameter that it does not name and whose
         !! default is zero or a formula keeps that.
@@ -44,6 +66,8 @@ contains
         integer :: draw, k
 
         call system%describe(d)
+        call refuse_letters(d, error)
+        if (allocated(error)) return
         call keep(d, said, settings, fixed, given, samples%kept)
         call take_energies(system, fixed, given, d)
         damped = is_damped(system, d, fixed, given)

@@ -71,12 +71,13 @@ contains
 
     subroutine state_formulas(formulas, expressions, d)
         !! T, V, L, quantities and the definitions as they were typed; definitions that are too long
-        !! for a letter are written out.
+        !! for a letter are written out, and so is L where T or V is something else.
         type(written_formulas_t), intent(in) :: formulas        !! texts
         type(written_expressions_t), intent(in) :: expressions  !! what they mean
         type(description_t), intent(inout) :: d                 !! gets these texts
         character(:), allocatable :: text
-        logical :: as_typed
+        character, parameter :: energies(2) = ["T", "V"]
+        logical :: as_typed, taken
         integer :: equals, i
 
         as_typed = all(len_trim(formulas%definitions) <= formula_length)
@@ -88,7 +89,9 @@ contains
                 d%letters(i)%formula = trim(adjustl(formulas%definitions(i)(equals + 1:)))
             end do
         end if
-        if (formulas%lagrangian /= "") then
+        taken = any([(any(expressions%symbols%names == energies(i)), i=1, size(energies))])
+        if (allocated(formulas%quantities)) taken = taken .or. any(formulas%quantities%name == "V")
+        if (formulas%lagrangian /= "" .or. taken) then
             d%lagrangian = stated(formulas%lagrangian, expressions%lagrangian)
         else
             d%lagrangian = "T - V"
