@@ -148,7 +148,7 @@ contains
     end subroutine found_from_near_by
 
     subroutine found_from_far()
-        !! Without constraints: with \(u = (x - a)/\ell\) and \(V = k\sqrt{1 + u^2}\) Newton's method
+        !! Without constraints: for \(V = k\sqrt{1 + u^2}\), \(u = (x - a)/\ell\), Newton's method
         !! goes from u to \(-u^3\), away from the minimum, which is found by going down.
         character(*), parameter :: body = "coordinates = 'x', parameters = 'm', 'k', 'l', 'a', "// &
                                           "T = 'm/2 x_dot^2', "

@@ -6,7 +6,7 @@ module test_text
     use lagrangia_kinds, only: dp, i8
     use lagrangia_names, only: abbreviation, advice, nearest_name
     use lagrangia_text, only: escaped, in_words, join, listed, lower, quoted, replaced, &
-                              shortened, to_text
+                              short_source, shortened, to_text
     use random_states, only: restart_random, uniform
     implicit none (type, external)
     private
@@ -28,6 +28,7 @@ contains
         call suite%addTest(TestMethod("long_words_lose_their_middle", long_words_lose_their_middle))
         call suite%addTest(TestMethod("nearest_name_mends_slips", nearest_name_mends_slips))
         call suite%addTest(TestMethod("nearest_name_gives_up", nearest_name_gives_up))
+        call suite%addTest(TestMethod("long_names_of_files", long_names_of_files))
         call suite%addTest(TestMethod("reals_look_short", reals_look_short))
         call suite%addTest(TestMethod("reals_read_back", reals_read_back, setUp=restart_random))
         call suite%addTest(TestMethod("integers_in_decimal", integers_in_decimal))
@@ -144,6 +145,16 @@ contains
         call assertEqual("acde", nearest_name("abce", ["acde"]), &
                          message="two slips in four letters")
     end subroutine nearest_name_gives_up
+
+    subroutine long_names_of_files()
+        !! The end is kept, of characters of two bytes only whole ones.
+        character(2), parameter :: theta = char(206)//char(184)
+
+        call assertEqual("..."//repeat(theta, 46)//".nml", trim(short_source(repeat(theta, 80)// &
+                                                                             ".nml")))
+        call assertEqual("..."//repeat(theta, 46)//"a.nml", trim(short_source(repeat(theta, 80)// &
+                                                                              "a.nml")))
+    end subroutine long_names_of_files
 
     subroutine reals_look_short()
         !! What a person would have typed.

@@ -99,13 +99,19 @@ contains
         character(*), intent(in) :: source        !! a file's name, with any bytes
         character(source_length) :: shown
         character(:), allocatable :: full
-        integer :: length
+        integer :: first, length
 
         full = escaped(source, 4*len(source))
         if (len_trim(full) < len(full)) full = full(:len(full) - 1)//"\x20"
         if (index(full, " ") == 1) full = "\x20"//full(2:)
         length = len(full)
-        if (length > source_length) full = "..."//full(length - source_length + 4:)
+        if (length > source_length) then
+            first = length - source_length + 4
+            do while (continues(full(first:first)))
+                first = first + 1
+            end do
+            full = "..."//full(first:)
+        end if
         shown = full
     end function short_source
 

@@ -3,6 +3,7 @@ module fuzzing
     !! whole and come back from its own echo; what is refused must be refused in one short line.
     use lagrangia_blas_threads, only: use_one_blas_thread
     use lagrangia_catalogue, only: new_system
+    use lagrangia_characters, only: printable
     use lagrangia_command_line, only: command_line_t, parse_words, word_t
     use lagrangia_data_files, only: check_format
     use lagrangia_description, only: description_t
@@ -231,15 +232,12 @@ contains
         !! One line of printable characters, 300 at most with the program's name.
         type(error_t), intent(in) :: error
         character(*), intent(in) :: text
-        integer :: k
 
         if (len(error%message) == 0) call give_up("refused without a word", text)
         if (len("lagrangia: "//error%message) > 300) call give_up("a long message: "// &
                                                                   error%message, text)
-        do k = 1, len(error%message)
-            if (iachar(error%message(k:k)) >= 32 .and. iachar(error%message(k:k)) <= 126) cycle
-            call give_up("an unprintable message: "//error%message, text)
-        end do
+        if (printable(error%message) /= error%message) call give_up( &
+            "an unprintable message: "//error%message, text)
     end subroutine check_message
 
     subroutine give_up(what, text)
