@@ -22,6 +22,8 @@ contains
                                       momenta_and_letters_that_move))
         call suite%addTest(TestMethod("energies_with_another_constant", &
                                       energies_with_another_constant))
+        call suite%addTest(TestMethod("orders_that_are_written", orders_that_are_written))
+        call suite%addTest(TestMethod("negligible_terms", negligible_terms))
     end function small_energies_suite
 
     subroutine of_a_pendulum()
@@ -181,4 +183,26 @@ contains
             "; E = T + V = m/2 l^2 theta_dot^2 + m g l (1 - cos(theta))", &
             remarks="1 the sign of '-m g l (1 - cos(theta))'; 2 'm g (1 - cos(theta))' lacks")
     end subroutine energies_with_another_constant
+
+    subroutine orders_that_are_written()
+        !! An approximation holds to the order that it writes.
+        call traced("pendulum", "rwrrwrfrrw", "cos(theta) ~ 1 - theta^2/2;"// &
+                    "cos(theta) ~ 1 - theta^2; cos(theta) ~ 1; sin(theta) ~ theta - theta^3/6;"// &
+                    "sin(theta) ~ theta - theta^3/3; small: 1 - cos(theta) = theta^2/2;"// &
+                    "small: 1 - cos(theta) = theta^2;"// &
+                    "sqrt(1 + theta) ~ 1 + theta/2 - theta^2/8;"// &
+                    "-g/l sin(theta) ~ -g/l (theta - theta^3/6); tan(theta) ~ theta + theta^2", &
+                    "2 terms of order 2 are written; 5 terms of order 3 are written")
+        call traced("double_pendulum", "rwr", &
+                    "cos(theta1 - theta2) ~ 1 - (theta1 - theta2)^2/2;"// &
+                    "cos(theta1 - theta2) ~ 1 - (theta1 - theta2)^2; cos(theta1 - theta2) ~ 1")
+    end subroutine orders_that_are_written
+
+    subroutine negligible_terms()
+        !! A single product of higher than first order is; a sum of them need not be zero.
+        call traced("double_pendulum", "rrwrwww", "sin(theta1 - theta2) theta2_dot^2 ~ 0;"// &
+                    "small: m2 l2 theta1 theta1_ddot = 0; small: sin(theta1 - theta2) = 0;"// &
+                    "small: 0 = theta1 theta2; small: theta1_dot^2 = 3; small: theta1_dot = 0;"// &
+                    "small: theta1_dot^2 - g/l1 theta1^2 = 0")
+    end subroutine negligible_terms
 end module test_small_energies

@@ -3,12 +3,14 @@ module lagrangia_small_judgement
     !! energies to second.
     use lagrangia_expression, only: expression_t, operator(-)
     use lagrangia_kinds, only: dp
+    use lagrangia_order_of_approximation, only: is_negligible, order_that_fails
     use lagrangia_sample_names, only: samples_t, states
     use lagrangia_slip_search, only: explain_slip, holds
     use lagrangia_small_energies, only: agreement_t, compare_energies, is_energy, put_same_constant
     use lagrangia_small_motion, only: linear_states, small_motion
     use lagrangia_statement_forms, only: speaks_of_place
     use lagrangia_term_search, only: library_t
+    use lagrangia_text, only: to_text
     use lagrangia_verdict, only: is_unreadable, is_wrong, judgement_t, put_example
     use lagrangia_written_out, only: energy_places, written_out
     implicit none (type, external)
@@ -18,7 +20,7 @@ module lagrangia_small_judgement
 contains
 
     subroutine judge_small(as_typed, other_side, chained, samples, library, explain, judgement)
-        !! One equality, to first order.
+        !! One equality, to first order; of an approximation to the order that it writes.
         type(expression_t), intent(in) :: as_typed, other_side  !! both sides
         logical, intent(in) :: chained                   !! the left side is known to be right
         type(samples_t), intent(in) :: samples           !! with the linearised motion
@@ -43,7 +45,19 @@ contains
         call compare(.true., .false.)
         about_other = judged .and. speaks_of_place(judgement%residual, samples)
         if (.not. right_one) call compare(.false., .false.)
-        if (right_one) return
+        if (right_one) then
+            k = order_that_fails(left, right, samples, shown)
+            if (k == 0) return
+            judgement%verdict = is_wrong
+            if (.not. explain) return
+            judgement%remark = "terms of order "//to_text(k)//" are written, to which it does "// &
+                               "not hold; it does to first order"
+            call put_example(left, right, samples, shown, judgement%example)
+            return
+        end if
+        if (judged) then
+            if (is_negligible(judgement%residual, samples, shown)) return
+        end if
         call compare(.true., .true.)
         if (.not. right_one) call compare(.false., .true.)
         if (right_one) then

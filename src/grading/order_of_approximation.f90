@@ -1,0 +1,142 @@
+module lagrangia_order_of_approximation
+    !! Approximations near an equilibrium at zero: \(\cos\theta \approx 1 - \theta^2/2\) holds to
+    !! the order that is written, \(\cos\theta \approx 1 - \theta^2\) to the first only.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_expression, only: expression_t, kind_difference, kind_negation, kind_number, &
+                                    kind_power, kind_product, kind_quotient, kind_sum, &
+                                    kind_symbol, operator(-)
+    use lagrangia_kinds, only: dp
+    use lagrangia_sample_names, only: role_acceleration, role_coordinate, role_parameter, &
+                                      role_time, samples_t
+    use lagrangia_sampled_formula, only: evaluate_nodes, summands
+    implicit none (type, external)
+    private
+    public :: is_negligible, order_that_fails
+
+    integer, parameter :: no_polynomial = -1
+
+contains
+
+    function order_that_fails(left, right, samples, shown) result(order)
+        !! Of a polynomial in the coordinates on one side, its degree, if what the other side leaves
+        !! of it is of this order or of a lower one; else 0. Where the statement is no such
+        !! approximation, or the equilibrium is elsewhere, 0 too.
+        type(expression_t), intent(in) :: left, right  !! both sides, written out
+        type(samples_t), intent(in) :: samples         !! roles of the symbols
+        real(dp), intent(in) :: shown(:, :)            !! values of all symbols, of any amplitude
+        integer :: order
+        type(expression_t) :: residual
+        integer :: k
+
+        order = 0
+        residual = left - right
+        do k = 1, size(samples%role)
+            if (residual%depends_on(k) .and. all(samples%role(k) /= &
+                                                 [role_coordinate, role_parameter])) return
+        end do
+        if (any(abs(shown(:, samples%place)) > 0.0_dp)) return
+        k = max(degree(left, samples), degree(right, samples))
+        if (k <= 1 .or. min(degree(left, samples), degree(right, samples)) /= no_polynomial) return
+        if (leading_order(residual, samples, shown) < k + 0.5_dp) order = k
+    end function order_that_fails
+
+    function is_negligible(residual, samples, shown) result(yes)
+        !! A single product of higher than first order near an equilibrium at zero.
+        type(expression_t), intent(in) :: residual     !! left less right side
+        type(samples_t), intent(in) :: samples         !! roles of the symbols
+        real(dp), intent(in) :: shown(:, :)            !! values of all symbols, of any amplitude
+        logical :: yes
+        integer, allocatable :: nodes(:)
+        real(dp), allocatable :: signs(:)
+
+        yes = .false.
+        if (any(abs(shown(:, samples%place)) > 0.0_dp)) return
+        call summands(residual, nodes, signs)
+        if (count(residual%nodes(nodes)%kind /= kind_number) /= 1) return
+        yes = leading_order(residual, samples, shown) > 1.5_dp
+    end function is_negligible
+
+    function leading_order(residual, samples, shown) result(order)
+        !! \(n\) where `residual` becomes \(\propto s^n\) as all that moves becomes \(\propto s\);
+        !! infinite where it vanishes to rounding.
+        type(expression_t), intent(in) :: residual
+        type(samples_t), intent(in) :: samples
+        real(dp), intent(in) :: shown(:, :)
+        real(dp) :: order
+        real(dp), parameter :: amplitude = 0.02_dp, rounding = 1e3_dp*epsilon(1.0_dp)
+        real(dp), allocatable :: values(:, :), results(:, :), sizes(:, :)
+        real(dp), dimension(size(shown, 1)) :: far, near
+        logical :: sound(size(shown, 1))
+
+        order = huge(order)
+        allocate (values, source=shown)
+        allocate (results(size(shown, 1), residual%count), sizes(size(shown, 1), residual%count))
+        call scale(amplitude)
+        call evaluate_nodes(residual, values, results, sizes=sizes)
+        far = abs(results(:, residual%count))
+        call scale(0.5_dp)
+        call evaluate_nodes(residual, values, results, sizes=sizes)
+        near = abs(results(:, residual%count))
+        sound = ieee_is_finite(far) .and. ieee_is_finite(near)
+        if (.not. any(sound .and. near > rounding*sizes(:, residual%count))) return
+        order = log(sum(far, mask=sound)/sum(near, mask=sound))/log(2.0_dp)
+    contains
+        subroutine scale(factor)
+            real(dp), intent(in) :: factor
+            integer :: j
+
+            do j = 1, size(samples%role)
+                if (samples%role(j) <= role_time .or. samples%role(j) > role_acceleration) cycle
+                values(:, j) = factor*values(:, j)
+            end do
+        end subroutine scale
+    end function leading_order
+
+    pure function degree(expression, samples) result(highest)
+        !! In all coordinates, before anything cancels.
+        type(expression_t), intent(in) :: expression
+        type(samples_t), intent(in) :: samples
+        integer :: highest
+        integer :: of(expression%count)
+        integer :: i
+
+        do i = 1, expression%count
+            associate (node => expression%nodes(i))
+                select case (node%kind)
+                case (kind_number)
+                    of(i) = 0
+                case (kind_symbol)
+                    of(i) = merge(1, 0, samples%role(node%which) == role_coordinate)
+                case (kind_sum, kind_difference)
+                    of(i) = max(of(node%left), of(node%right))
+                    if (min(of(node%left), of(node%right)) < 0) of(i) = no_polynomial
+                case (kind_product)
+                    of(i) = of(node%left) + of(node%right)
+                    if (min(of(node%left), of(node%right)) < 0) of(i) = no_polynomial
+                case (kind_quotient)
+                    of(i) = merge(of(node%left), no_polynomial, of(node%right) == 0)
+                case (kind_power)
+                    of(i) = of_power(node%left, node%right)
+                case (kind_negation)
+                    of(i) = of(node%left)
+                case default  ! a function
+                    of(i) = merge(0, no_polynomial, of(node%left) == 0)
+                end select
+            end associate
+        end do
+        highest = of(expression%count)
+    contains
+        pure function of_power(base, exponent) result(product_of)
+            !! A whole exponent multiplies the degree.
+            integer, intent(in) :: base, exponent  !! nodes
+            integer :: product_of
+            real(dp) :: times
+
+            product_of = merge(0, no_polynomial, of(base) == 0 .and. of(exponent) == 0)
+            if (of(base) <= 0 .or. expression%nodes(exponent)%kind /= kind_number) return
+            times = expression%nodes(exponent)%number%value
+            if (times < 0.0_dp .or. times > 100.0_dp) return
+            if (abs(times - anint(times)) <= 0.0_dp) product_of = of(base)*nint(times)
+        end function of_power
+    end function degree
+end module lagrangia_order_of_approximation
