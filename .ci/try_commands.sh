@@ -751,6 +751,10 @@ check "a picture of events says what vanishes" grep -q "where strobe = 0; strobe
 run sweep basins --over theta=-3:3:5 --over theta_dot=-4:4:5 --output "$work/whole"
 check "attractors are counted" grep -qE "^  attractor  [01] to [12]$" "$work/out"
 check "a sweep says its time in plain digits" grep -qE "^basins: 25 trajectories by rk4 in [0-9.]+(e-[45])? s by" "$work/out"
+run sweep pendulum --over theta=0.5:2:3 --keep lyapunov --set scene%duration=5 --set scene%method=rk4 --output "$work/whole"
+check "a sweep names the method of its exponents" grep -q "^pendulum: 3 trajectories by gauss16 in " "$work/out"
+run sweep pendulum --over theta=0.5:2:3 --keep lyapunov,theta --set scene%duration=5 --set scene%method=rk4 --output "$work/whole"
+check "and beside it the one of the motion" grep -q "^pendulum: 3 trajectories by rk4, exponents by gauss16 in " "$work/out"
 printf '%s\n' "&scene system = 'own', dt = 0.1, duration = 1, q = 20*0 /" "&lagrangian coordinates = 'x_1 .. x_20', parameters = 'k_1 .. k_40'," \
     "  T = 'sum(i, 1, 20, x_i_dot^2)', V = 'sum(i, 1, 40, k_i x_1^2)' /" "&own $(printf 'k_%s = 1, ' $(seq 40)) /" >"$work/own.nml"
 refuses 2 "...; 'lagrangia describe SCENE' has all; parameters are named in &lagrangian: parameters" run "$work/own.nml" --set own%foo=1

@@ -61,7 +61,7 @@ contains
         call assertFalse(allocated(error), settings)
         if (allocated(error)) return
         call system%describe(d)
-        call make_own_scene(scene, overrides, d%parameters%name)
+        call make_own_scene(scene, overrides, (d%parameters%name))
     end subroutine change
 
     subroutine another_motion_is_another_scene()
@@ -120,12 +120,16 @@ contains
 
     subroutine names_are_those_of_files()
         !! Letters that `output` takes, and not too many.
-        type(scene_t) :: scene
+        type(scene_t) :: scene, other
 
         call change("scene%dt=1.5E+1;scene%duration=30", scene)
         call assertEqual("pendulum_dt_1.5E1_duration_30", trim(scene%output))
         call change("scene%dt="//repeat("0", 120)//"1", scene)
-        call assertEqual("pendulum_changed", trim(scene%output))
+        call assertEqual("pendulum_changed_", scene%output(:17))
+        call assertEqual(0, verify(scene%output(18:25), "0123456789ABCDEF"))
+        call assertEqual("", scene%output(26:))
+        call change("scene%dt="//repeat("0", 120)//"2", other)
+        call assertTrue(other%output /= scene%output, "other changes, another file")
         call assertEqual(10, ending_start("a.b/c_2.5"), message="a number is no ending")
         call assertEqual(6, ending_start("a.b/c.dat"), message="an ending")
         call assertEqual(4, ending_start("c_2"), message="none")
@@ -201,7 +205,7 @@ contains
         call read_scene(path, overrides, scene, system, error)
         if (.not. allocated(error)) then
             call system%describe(d)
-            call make_own_scene(scene, overrides, d%parameters%name)
+            call make_own_scene(scene, overrides, (d%parameters%name))
             call assertFalse(any(scene%expectations%judged), overrides(1)%text)
             call new_run_plan(plan, scene, system, error)
         end if

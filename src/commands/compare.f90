@@ -182,7 +182,7 @@ contains
             return
         end if
         call system%describe(d)
-        call make_own_scene(scene, line%values_of("set"), d%parameters%name)
+        call make_own_scene(scene, line%values_of("set"), (d%parameters%name))
         if (line%has("methods")) then
             name = run_name(trim(scene%output), "methods")
             call compare_methods(scene, system, word, error)

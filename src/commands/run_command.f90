@@ -288,7 +288,7 @@ contains
                     call read_scene(paths(i)%text, line%values_of("set"), scene, system, error)
                     if (allocated(error)) return
                     call system%describe(d)
-                    call make_own_scene(scene, line%values_of("set"), d%parameters%name)
+                    call make_own_scene(scene, line%values_of("set"), (d%parameters%name))
                     scene%error_estimate = scene%error_estimate .or. line%has("error-estimate")
                     call new_run_plan(chosen(i)%plan, scene, system, error)
                     if (allocated(error)) return

@@ -80,7 +80,7 @@ contains
             associate (name => line%arguments(i)%text)
                 where (rows%name == name) chosen = .true.
                 if (any(rows%name == name)) cycle
-                call refuse_name("row", name, rows%name, error)
+                call refuse_name("row", name, (rows%name), error)
                 return
             end associate
         end do

@@ -11,6 +11,7 @@ module lagrangia_sweep_command
     use lagrangia_images, only: image_count, image_number
     use lagrangia_interrupt, only: interrupt_status
     use lagrangia_json, only: json_item, json_object, json_pair
+    use lagrangia_kept, only: is_lyapunov
     use lagrangia_kinds, only: dp, i8
     use lagrangia_namelist, only: has_key, refuse_value
     use lagrangia_number_reader, only: to_integer
@@ -27,7 +28,7 @@ module lagrangia_sweep_command
     use lagrangia_scene_claims, only: claim_scene, claim_table
     use lagrangia_scene_reader, only: read_scene
     use lagrangia_shipped, only: find_sweep
-    use lagrangia_sweep, only: new_sweep, sweep_t
+    use lagrangia_sweep, only: exponent_method, new_sweep, sweep_t
     use lagrangia_sweep_files, only: sweep_header, write_sweep
     use lagrangia_sweep_grid, only: block_size, compute_grid, most_threads, &
                                     parts_a_trajectory, sweep_result_t, thread_count
@@ -332,7 +333,7 @@ contains
         type(sweep_t), intent(in) :: sweep
         type(sweep_result_t), intent(in) :: result
         character(*), intent(in) :: path
-        character(:), allocatable :: how
+        character(:), allocatable :: how, method
         real(dp) :: largest, least
         integer(i8) :: found
         integer :: i, width
@@ -342,10 +343,16 @@ contains
         if (image_count() > 1) how = how//" on each of "//to_text(image_count())//" images"
         if (result%in_lanes) how = how//", in lanes"
         if (result%resumed > 0) how = how//"; "//to_text(result%resumed)//" were there already"
+        method = trim(sweep%scene%method)
+        if (all(is_lyapunov(sweep%kept%kind))) then
+            method = exponent_method(sweep%scene)
+        else if (any(is_lyapunov(sweep%kept%kind)) .and. &
+                 method /= exponent_method(sweep%scene)) then
+            method = method//", exponents by "//exponent_method(sweep%scene)
+        end if
         call put_line(trim(sweep%scene%name)//": "//to_text(sweep%trajectories())// &
                       trim(merge(" trajectory  ", " trajectories", &
-                                 sweep%trajectories() == 1))//" by "// &
-                      trim(sweep%scene%method)//" in "// &
+                                 sweep%trajectories() == 1))//" by "//method//" in "// &
                       in_digits(result%seconds, 3)//" s"//how)
         width = maxval(len_trim(sweep%kept%text)) + 2
         do i = 1, size(sweep%kept)

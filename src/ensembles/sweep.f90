@@ -8,7 +8,7 @@ module lagrangia_sweep
     use lagrangia_kept, only: is_lyapunov, keeps_attractor, keeps_end, keeps_event, keeps_flip, &
                               keeps_largest, keeps_smallest, keeps_wrapped, kept_t, read_kept
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_methods, only: auto, workhorse
+    use lagrangia_methods, only: auto, exact, workhorse
     use lagrangia_names, only: advice
     use lagrangia_random_draws, only: random_t
     use lagrangia_scene, only: most_axes, scene_t, sweep_text_length
@@ -20,7 +20,7 @@ module lagrangia_sweep
     implicit none (type, external)
     private
     public :: sweep_t, sweep_box_t
-    public :: fits_lanes, follows_displacements, new_sweep
+    public :: exponent_method, fits_lanes, follows_displacements, new_sweep
 
     type :: sweep_t
         !! A grid of trajectories. The first axis is the one that varies slowest.
@@ -318,6 +318,16 @@ contains
             yes = .not. allocated(reduced)
         end associate
     end function fits_lanes
+
+    pure function exponent_method(scene) result(name)
+        !! By which Lyapunov exponents are computed: the scene's method where it keeps a tolerance,
+        !! else the workhorse, with a tolerance of its own.
+        type(scene_t), intent(in) :: scene  !! of a sweep
+        character(:), allocatable :: name
+
+        name = workhorse
+        if (scene%tolerance > 0.0_dp .and. scene%method /= exact) name = trim(scene%method)
+    end function exponent_method
 
     pure function follows_displacements(sweep) result(yes)
         !! Are Lyapunov exponents all that is kept, and can they be computed in lanes: by `dop853`

@@ -10,13 +10,13 @@ module lagrangia_sweep_trajectory
                               wrapped
     use lagrangia_kinds, only: dp, i8
     use lagrangia_lyapunov, only: lyapunov_exponent
-    use lagrangia_methods, only: exact, new_adaptive, workhorse
+    use lagrangia_methods, only: exact, new_adaptive
     use lagrangia_observer, only: observer_box_t
     use lagrangia_part_report, only: part_report_t
     use lagrangia_period, only: period_t
     use lagrangia_reference, only: reference_t
     use lagrangia_scene, only: scene_t
-    use lagrangia_sweep, only: sweep_t
+    use lagrangia_sweep, only: exponent_method, sweep_t
     use lagrangia_system, only: check_state, system_t
     use lagrangia_text, only: to_text
     use lagrangia_tolerance_floor, only: sensible_tolerance
@@ -177,16 +177,14 @@ contains
         class(dense_integrator_t), allocatable :: method
         real(dp) :: exponent, least, uncertainty
 
+        call new_adaptive(exponent_method(scene), method)
         if (scene%tolerance > 0.0_dp .and. scene%method /= exact) then
-            call new_adaptive(trim(scene%method), method)
             method%tolerance = scene%tolerance
             least = sensible_tolerance(method, system, scene%t0, scene%duration, scene%q, scene%v)
             if (scene%tolerance < least) call fail(error, to_text(scene%tolerance)//" is less "// &
                 "than rounding of so large coordinates or times leaves: the smallest sensible "// &
                 "tolerance is "//to_text(least), key="tolerance")
             if (allocated(error)) return
-        else
-            call new_adaptive(workhorse, method)
         end if
         method%most_steps = sweep%most_steps
         call lyapunov_exponent(system, method, scene%t0, sweep%after, scene%t0 + scene%duration, &

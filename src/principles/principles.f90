@@ -105,7 +105,7 @@ contains
         case ("measure-g")
             call measure_g_principle(report, error)
         case default
-            call refuse_name("principle", name, principle_names(), error, principles%meaning)
+            call refuse_name("principle", name, principle_names(), error, (principles%meaning))
         end select
     end subroutine principle_report
 

@@ -1,6 +1,7 @@
 module lagrangia_changed_scene
     !! A scene that the command line changes is another one: it has a title and files of its own,
     !! and what the file expects of the unchanged motion does not judge it.
+    use lagrangia_kinds, only: i8
     use lagrangia_scene, only: scene_t
     use lagrangia_text, only: lower, word_t
     implicit none (type, external)
@@ -131,6 +132,22 @@ contains
                 name = name//"_"
             end if
         end do
-        if (len(name) > longest) name = "changed"
+        if (len(name) > longest) name = "changed_"//checksum(name)
     end function name_of
+
+    pure function checksum(text) result(digits)
+        !! The remainder of the bytes as digits of a number to the base 256, divided by the prime
+        !! 2^31 - 1, in hexadecimal digits: other changes go to other files.
+        character(*), intent(in) :: text
+        character(8) :: digits
+        integer(i8), parameter :: prime = 2147483647_i8
+        integer(i8) :: left
+        integer :: i
+
+        left = 0
+        do i = 1, len(text)
+            left = mod(256*left + ichar(text(i:i)), prime)
+        end do
+        write (digits, "(ss, z8.8)") left
+    end function checksum
 end module lagrangia_changed_scene
