@@ -166,7 +166,8 @@ contains
         call assertTrue(remove_file(folder//"/s.dat"), "removed: "//folder//"/s.dat")
         call assertTrue(remove_file(folder//"/s.gp"), "removed: "//folder//"/s.gp")
         call assertTrue(remove_file(folder//"/s_events.dat"), "removed: "//folder//"/s_events.dat")
-        if (outcome%events /= "") call assertTrue(remove_file(folder//"/s_events.gp"), &
+        call assertEqual(folder//"/s_events.dat", outcome%events, "where the impacts are")
+        if (outcome%draws_events) call assertTrue(remove_file(folder//"/s_events.gp"), &
                         "removed: "//folder//"/s_events.gp")
         call assertTrue(remove_file(folder), "something was left")
     end subroutine a_good_run_removes_what_is_stale
@@ -204,7 +205,8 @@ contains
         call assertEqual("old", contents(folder//"/s_events.dat"))
         text = contents(folder//"/s_events.dat.partial")
         call assertTrue(index(text, newline//"# PARTIAL, rows: ") > 0, text(:min(len(text), 2000)))
-        call assertEqual("", outcome%events, "there is nothing to draw")
+        call assertEqual("", outcome%events, "no file of them is whole")
+        call assertFalse(outcome%draws_events, "there is nothing to draw")
         call assertTrue(remove_file(folder//"/s_events.dat"), "removed: "//folder//"/s_events.dat")
         call assertTrue(remove_file(folder//"/s_events.dat.partial"), &
                         "removed: "//folder//"/s_events.dat.partial")

@@ -174,7 +174,7 @@ contains
 
     subroutine bad_sweeps_are_refused()
         !! What is kept, too, with the key to blame.
-        character(*), parameter :: bad(3, 10) = reshape([character(40) :: &
+        character(*), parameter :: bad(3, 12) = reshape([character(40) :: &
             "q=0:1:3", "thta", "did you mean 'theta'?", &
             "q=0:1:3", "max thta", "did you mean 'theta'?", &
             "q=0:1:3", "period thta", "a coordinate is needed", &
@@ -183,8 +183,10 @@ contains
             "q=0:1:3", "", "what is to be kept?", &
             "q=0:1:3", "max", "of what", &
             "q=0:1:3", "first", "of what", &
+            "q=0:1:3", "first theta = theta", "a number is needed", &
+            "q=0:1:3", "first theta = 1 up", "none of rising", &
             "q=0:1:", "theta", "a whole number of values", &
-            "q=-inf:1:3", "theta", "inf"], [3, 10])
+            "q=-inf:1:3", "theta", "inf"], [3, 12])
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
         integer :: i
@@ -204,7 +206,20 @@ contains
         call assertTrue(allocated(error), "no axis")
         call make(pendulum, ["q=0:1:3"], ["theta", "theta"], sweep, error)
         call assertTrue(allocated(error), "kept twice")
-        if (allocated(error)) call assertEqual("keep", error%key, "the key to blame")
+        if (allocated(error)) then
+            call assertEqual("keep", error%key, "the key to blame")
+            call assertEqual(2, error%element, "which of its texts")
+            call assertEqual("'theta' is kept already", error%message, "says what")
+        end if
+        call make("&scene system='damped' dt=0.1 duration=1 q=1 / &lagrangian coordinates='x' "// &
+                  "parameters='b' L='x_dot^2/2' Q_x='-b x_dot' / &damped b=1 /", ["b=1:2:3"], &
+                  ["x   ", "work"], sweep, error)
+        call assertTrue(allocated(error), "the work is no function of one state")
+        if (allocated(error)) call assertEqual(2, error%element, "the one that it is")
+        call make(pendulum//" &sweep section = 'theta = theta' /", ["q=0:1:3"], ["theta"], sweep, &
+                  error)
+        call assertTrue(allocated(error), "a section is an event")
+        if (allocated(error)) call assertEqual("section", error%key, "the key to blame")
         call make(pendulum//" &sweep after = 31 /", ["q=0:1:3"], ["max theta"], sweep, error)
         call assertTrue(allocated(error), "nothing after the end")
         if (allocated(error)) call assertEqual("after", error%key, "the key to blame")

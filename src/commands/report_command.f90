@@ -99,7 +99,7 @@ contains
             if (is_signal(error)) return
         end if
         call add_picture(outcome%file)
-        if (outcome%events /= "") call add_picture(outcome%events)
+        if (outcome%draws_events) call add_picture(outcome%events)
         call page%add_lecture(plan)
     contains
         subroutine add_picture(path)

@@ -155,7 +155,7 @@ contains
                 outcome%file, error)
             if (allocated(error) .or. .not. line%has("plot")) return
             call draw_picture(outcome%file, kind, line%has("quiet"), error)
-            if (allocated(error) .or. outcome%events == "") return
+            if (allocated(error) .or. .not. outcome%draws_events) return
             call draw_picture(outcome%events, kind, line%has("quiet"), error)
         end subroutine run_one
     end subroutine run_command

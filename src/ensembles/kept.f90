@@ -20,6 +20,7 @@ module lagrangia_kept
     use lagrangia_columns, only: column_names, columns_t, new_columns, refuse_work
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_events, only: column_event_t, new_column_event
     use lagrangia_kinds, only: dp
     use lagrangia_names, only: advice, nearest_name
     use lagrangia_observer, only: observer_t
@@ -98,15 +99,15 @@ contains
         allocate (kept(size(texts)), names(0), events(0))
         do i = 1, size(texts)
             call read_one(trim(adjustl(texts(i))), kept(i))
-            if (allocated(error)) return
             kept(i)%label = one_word(kept(i)%text)
-            if (any(kept(:i - 1)%label == kept(i)%label)) then
-                call fail(error, "is kept already: "//quoted(trim(kept(i)%text)))
-                return
+            if (.not. allocated(error) .and. any(kept(:i - 1)%label == kept(i)%label)) then
+                call fail(error, quoted(trim(kept(i)%text))//" is kept already")
             end if
+            if (.not. allocated(error)) cycle
+            error%element = i
+            return
         end do
         call new_columns(columns, names, system, .false., error)
-        call refuse_work(columns, error)
         if (allocated(error)) return
         do i = 1, size(kept)
             if (kept(i)%column > 0) kept(i)%unit = columns%items(kept(i)%column)%unit
@@ -187,10 +188,16 @@ contains
         end subroutine refuse_word
 
         subroutine take_column(name, which)
-            !! Its place among the columns; `new_columns` says where there is none.
+            !! Its place among the columns. What is none is refused, and the work, which needs more
+            !! than one state.
             character(*), intent(in) :: name
             integer, intent(out) :: which
+            type(columns_t) :: one
+            character(name_length) :: only(1)
 
+            only = name
+            call new_columns(one, only, system, .false., error)
+            call refuse_work(one, error)
             if (all(names /= name)) names = [character(name_length) :: names, name]
             which = findloc(names == name, .true., 1)
         end subroutine take_column
@@ -218,8 +225,11 @@ contains
         end subroutine take_angle
 
         subroutine add_event(text)
+            !! An event as a scene has it; what cannot be one is refused.
             character(*), intent(in) :: text
+            type(column_event_t) :: event
 
+            call new_column_event(event, text, system, error)
             events = [character(sweep_text_length) :: events, text]
         end subroutine add_event
     end subroutine read_kept

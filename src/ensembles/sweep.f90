@@ -5,6 +5,7 @@ module lagrangia_sweep
     use lagrangia_columns, only: columns_t
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t, fail, status_numbers
+    use lagrangia_events, only: column_event_t, new_column_event
     use lagrangia_kept, only: is_lyapunov, keeps_attractor, keeps_end, keeps_event, keeps_flip, &
                               keeps_largest, keeps_smallest, keeps_wrapped, kept_t, read_kept
     use lagrangia_kinds, only: dp, i8
@@ -127,6 +128,7 @@ contains
         type(sweep_t), intent(inout) :: sweep
         character(sweep_text_length), allocatable, intent(inout) :: events(:)
         type(error_t), allocatable, intent(out) :: error
+        type(column_event_t) :: event
         logical :: only_columns
 
         associate (group => sweep%scene%sweep, kept => sweep%kept)
@@ -151,7 +153,10 @@ contains
             end if
             if (allocated(error) .or. .not. sweep%keeps_points) return
             sweep%points = group%points
-            if (group%section /= "") events = [group%section]
+            if (group%section == "") return
+            call new_column_event(event, trim(group%section), sweep%system, error)
+            if (allocated(error)) error%key = "section"
+            events = [group%section]
         end associate
     end subroutine plan_points
 

@@ -18,7 +18,8 @@ module lagrangia_outcome
 
     type :: outcome_t
         character(:), allocatable :: scene, system, method, file
-        character(:), allocatable :: events         !! their data file, if there is one to draw
+        character(:), allocatable :: events         !! their data file; "" where none is looked for
+        logical :: draws_events = .false.           !! there is a script beside that
         real(dp) :: t = 0.0_dp
         real(dp), allocatable :: q(:), v(:)
         integer(i8) :: steps = 0, evaluations = 0, energy_evaluations = 0, rows = 0

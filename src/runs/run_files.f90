@@ -93,6 +93,7 @@ contains
         if (.not. allocated(error)) return
         outcome%file = ""
         outcome%events = ""
+        outcome%draws_events = .false.
         call abandon_files(plan)
         call scripts(1)%abandon()
         call scripts(2)%abandon()
@@ -150,12 +151,13 @@ contains
             if (allocated(events%table)) then
                 call events%table%finish("events: "//to_text(events%rows), error)
                 if (allocated(error)) return
+                outcome%events = events%table%file%name()
                 n = size(events%columns%items)
-                if (events%rows > 1 .and. size(plan%event_panels) > 0) then
+                outcome%draws_events = events%rows > 1 .and. size(plan%event_panels) > 0
+                if (outcome%draws_events) then
                     call write_script(events, n, trim(title), event_remark(plan), &
                                       plan%event_panels, scripts(1), error, dots)
                     if (allocated(error)) return
-                    outcome%events = events%table%file%name()
                 end if
             end if
             if (.not. allocated(record%table)) return
