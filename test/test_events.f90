@@ -29,6 +29,7 @@ contains
         call suite%addTest(TestMethod("turning points give the period", turning_points))
         call suite%addTest(TestMethod("a direction is kept to", directions))
         call suite%addTest(TestMethod("several events in a step come in order", several))
+        call suite%addTest(TestMethod("a level that is passed for a moment is two events", grazes))
         call suite%addTest(TestMethod("a zero at the start is no event", zero_at_start))
         call suite%addTest(TestMethod("a zero just where signs are looked at counts once", &
                                       zero_at_place))
@@ -126,6 +127,40 @@ contains
             sorted(3:4) = [minval(which(3:4)), maxval(which(3:4))]
         end function reorder
     end subroutine several
+
+    subroutine grazes()
+        !! x = sin(t) is above a level a little less than 1 for a small part of a step; at 1 it
+        !! only touches.
+        type(recorder_t) :: record
+        real(dp), parameter :: depths(3) = [1e-3_dp, 1e-5_dp, 1e-7_dp]
+        real(dp) :: ended, top
+        character(24) :: level
+        integer :: i, k
+
+        do k = 1, size(depths)
+            write (level, "(ss, a, f12.10)") "x = ", 1.0_dp - depths(k)
+            top = acos(1.0_dp - depths(k))
+            record%events = 0
+            call oscillate([level], 0.0_dp, 1.0_dp, 20.0_dp, 1e-13_dp, record, ended)
+            call assertEqual(6, record%events, message="both ways: "//level)
+            if (anyExceptions()) return
+            call assertEqual([(0.5_dp*pi + 2*pi*i - top, 0.5_dp*pi + 2*pi*i + top, &
+                               i=0, 2)], record%event_t(:6), 1e-11_dp/top, "times")
+            record%events = 0
+            call oscillate([trim(level)//" rising"], 0.0_dp, 1.0_dp, 20.0_dp, 1e-13_dp, record, &
+                           ended)
+            call assertEqual(3, record%events, message="rising")
+            call assertEqual(0.5_dp*pi - top, record%event_t(1), 1e-11_dp/top, "the first")
+            record%events = 0
+            call oscillate([trim(level)//" falling stop"], 0.0_dp, 1.0_dp, 20.0_dp, 1e-13_dp, &
+                           record, ended)
+            call assertEqual(1, record%events, message="falling, which ends it")
+            call assertEqual(0.5_dp*pi + top, ended, 1e-11_dp/top, "the end")
+        end do
+        record%events = 0
+        call oscillate(["x = 1"], 0.0_dp, 1.0_dp, 20.0_dp, 1e-13_dp, record, ended)
+        call assertEqual(0, record%events, message="it touches")
+    end subroutine grazes
 
     subroutine zero_at_start()
         type(recorder_t) :: record

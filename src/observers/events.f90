@@ -1,9 +1,11 @@
 module lagrangia_events
     !! An event is where a function of \((t, q, v)\) goes through zero; and what follows.
     !!
-    !! An event is seen as a change of sign between two of eight places in a step and located on
-    !! the dense output to round-off. So a function that touches zero without crossing is no event,
-    !! nor are two crossings within an eighth of a step (a graze); no change of sign is no error.
+    !! An event is seen as a change of sign between two of eight places in a step, or as a dip
+    !! beyond zero between two of them (a graze), and located on the dense output to round-off.
+    !! A function that touches zero without crossing is no event, nor are two crossings between
+    !! which it goes beyond zero by less than 1e-8 of its largest value, which may be the error of
+    !! the motion.
     !! A zero at the very start counts by how the function leaves it: not, for where it came from
     !! is not known. Only a gap that closes at once is an impact at once.
     use lagrangia_columns, only: columns_t, new_columns, refuse_work
