@@ -524,7 +524,15 @@ refuses 2 "string uses the letter L, which in an answer is the Lagrangian; give 
 refuses 2 "grade what?" grade
 sed "s/figure = /figure = 'let a b = l1', /" data/scenes/double_pendulum_formulas.nml >"$work/figure.nml"
 refuses 2 "figure = 'let a b = l1': 'a b' is no name for a formula" run "$work/figure.nml"
-refuses 5 "no such file" grade "$work/none.txt"
+refuses 5 "no such file; a sheet is a text with a line 'system: NAME' and statements, one a line" grade "$work/none.txt"
+refuses 5 "atwood.txt: no such file; did you mean the sheet 'atwood'?" grade atwood.txt
+refuses 2 "a name has no blank in it; did you mean 'virtual-work'?" principle virtual work
+refuses 2 "a decimal has a point, as in 0.001" bench --tolerances 0,001
+refuses 2 "without the option there is a process for each processor" sweep ueda --threads all
+refuses 2 "as in --seed 4" sweep ueda --seed 1,5
+refuses 2 "duration = s: units are not written" run pendulum --set "scene%duration=5 s"
+refuses 2 "nothing between thousands: 1000" run pendulum --set "scene%duration=1 000"
+refuses 2 "a percentage is written as a fraction" run pendulum --set "scene%duration=10%"
 
 # Derivations: every line holds, or the command says so by its status
 for system in $systems spring_pendulum double_pendulum_formulas atwood_lift; do

@@ -205,6 +205,7 @@ module suites
     use test_written_refusals, only: written_refusals_suite
     use test_written_rotors, only: written_rotors_suite
     use test_written_system, only: written_system_suite
+    use test_wrong_words, only: wrong_words_suite
     implicit none (type, external)
     private
     public :: load_tests
@@ -413,6 +414,7 @@ contains
         call suite%addTest(whole_file_suite())
         call suite%addTest(work_suite())
         call suite%addTest(workers_suite())
+        call suite%addTest(wrong_words_suite())
         call suite%addTest(written_mass_suite())
         call suite%addTest(written_quantities_suite())
         call suite%addTest(written_refusals_suite())

@@ -1,7 +1,7 @@
 module test_changed_scene
     !! What `--set` makes of a scene.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
-    use lagrangia_changed_scene, only: ending_start, make_own_scene
+    use lagrangia_changed_scene, only: ending_start, make_own_scene, retitle_sweep
     use lagrangia_description, only: check_parameter, description_t, parameter_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
@@ -37,6 +37,8 @@ contains
         call suite%addTest(TestMethod("steps_and_tolerances_change_places", &
                                       steps_and_tolerances_change_places))
         call suite%addTest(TestMethod("slips_are_still_refused", slips_are_still_refused))
+        call suite%addTest(TestMethod("a_changed_sweep_has_its_own_title", &
+                                      a_changed_sweep_has_its_own_title))
     end function changed_scene_suite
 
     subroutine change(settings, scene)
@@ -353,4 +355,47 @@ contains
         call assertTrue(allocated(error), text)
         if (allocated(error)) call assertTrue(index(error%message, reason) > 0, error%message)
     end subroutine refused
+
+    subroutine a_changed_sweep_has_its_own_title()
+        !! Of other axes, of other values, of both; one that is given stays.
+        character(*), parameter :: own = "When does the lower bob of a double pendulum first "// &
+            "go over the top?"
+        character(32), parameter :: keys(3) = [character(32) :: "double_pendulum%m1=5", &
+            "scene%samples=8", "scene%title=Mine"]
+
+        call assertEqual(own, title_of(keys(:0), "theta1 = -pi:pi:400"))
+        call assertEqual(own, title_of(keys(:0), " theta1=0:1:3"), "another part of the axis")
+        call assertEqual(own, title_of(keys(2:2), "theta1 = -pi:pi:400"), "the same motion")
+        call assertEqual(own//" (m1=5)", title_of(keys(:2), "theta1 = -pi:pi:400"))
+        call assertEqual("flip_map: flip theta2 over l1 and theta2", title_of(keys(:0), "l1=1:2:3"))
+        call assertEqual("flip_map: flip theta2 over l1 and theta2 (m1=5)", &
+                         title_of(keys(:1), "l1=1:2:3"))
+        call assertEqual("Mine", title_of(keys, "l1=1:2:3"))
+    end subroutine a_changed_sweep_has_its_own_title
+
+    function title_of(settings, axis) result(title)
+        !! Of the shipped sweep with these settings and this first axis.
+        character(*), intent(in) :: settings(:), axis
+        character(:), allocatable :: title
+        type(scene_t) :: before, scene
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(description_t) :: d
+        type(word_t) :: overrides(size(settings))
+        integer :: i
+
+        do i = 1, size(settings)
+            overrides(i)%text = trim(settings(i))
+        end do
+        title = ""
+        call read_scene("data/sweeps/flip_map.nml", overrides, scene, system, error)
+        call assertFalse(allocated(error), "a good scene")
+        if (allocated(error)) title = error%message
+        if (allocated(error)) return
+        call system%describe(d)
+        before = scene
+        scene%sweep%over(1) = axis
+        call retitle_sweep(scene, before, overrides, (d%parameters%name))
+        title = trim(scene%title)
+    end function title_of
 end module test_changed_scene

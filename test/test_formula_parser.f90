@@ -350,7 +350,8 @@ contains
 
     subroutine wrong_numbers_are_named()
         !! By the grammar of numbers.
-        call is_refused("x + 1.2.3", "column 5: '1.2.3' is not a number; write it like 0.01")
+        call is_refused("x + 1.2.3", "column 5: '1.2.3' has two points; write one, and "// &
+                        "nothing between thousands")
         call is_refused("1e999", "column 1: '1e999' is too large for a double (at most "// &
                         "1.79769e308)")
         call is_refused("2 x/1e-999", "column 5: '1e-999' is too small for a double (at least "// &

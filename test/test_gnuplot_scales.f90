@@ -4,6 +4,8 @@ module test_gnuplot_scales
     use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
     use lagrangia_errors, only: error_t
     use lagrangia_gnuplot, only: gnuplot_script, new_panels, new_series, panel_t, series_t
+    use lagrangia_gnuplot_axes, only: add_spread, add_ticks
+    use lagrangia_gnuplot_script, only: lines_t
     use lagrangia_kinds, only: dp
     use lagrangia_plot_panel, only: aspect
     use lagrangia_value_range, only: range_of
@@ -33,6 +35,9 @@ contains
         call suite%addTest(TestMethod("dense_paths_are_thin", dense_paths_are_thin))
         call suite%addTest(TestMethod("low_panels_have_few_ticks", low_panels_have_few_ticks))
         call suite%addTest(TestMethod("pictures_have_a_size", pictures_have_a_size))
+        call suite%addTest(TestMethod("numbers_beside_an_axis_differ", &
+                                      numbers_beside_an_axis_differ))
+        call suite%addTest(TestMethod("rounding_is_no_range", rounding_is_no_range))
     end function gnuplot_scales_suite
 
     function path_in_plane(width, height) result(text)
@@ -359,4 +364,61 @@ contains
         read (text(first:first + index(text(first:), " ") - 2), *) size
         sides = sides*[size(1), size(1), size(2), size(2)]
     end subroutine read_margins
+
+    subroutine numbers_beside_an_axis_differ()
+        !! They have six digits, or as many as a step between them needs; few of those are drawn
+        !! that take much room.
+        character(*), parameter :: usual = "set format x '%.6g'; set xtics autofreq"
+
+        call axis_has(0.0_dp, 3.0_dp, usual, .false.)
+        call axis_has(1.0e6_dp, 1.0e9_dp, usual//"|set xtics 200000000.0", .true.)
+        call axis_has(1.0e-9_dp, 2.0e-9_dp, usual//"|set xtics 2e-10", .true.)
+        call axis_has(1.0_dp, 1.001_dp, usual, .false.)
+        call axis_has(1.0_dp, 1.00004_dp, "set format x '%.7g'; set xtics autofreq|"// &
+                      "set xtics 1e-5", .true.)
+        call axis_has(123456789.0_dp, 123456799.0_dp, "set format x '%.10g'; set xtics "// &
+                      "autofreq|set xtics 5.0", .true.)
+        call axis_has(0.0_dp, 0.0_dp, usual, .false.)
+        call axis_has(huge(1.0_dp), -huge(1.0_dp), usual, .false.)
+    end subroutine numbers_beside_an_axis_differ
+
+    subroutine axis_has(low, high, expected, much_room)
+        !! Assert what an axis from `low` to `high` gets, `|` between two lines.
+        real(dp), intent(in) :: low, high
+        character(*), intent(in) :: expected
+        logical, intent(in) :: much_room
+        type(lines_t) :: lines
+        logical :: long
+        integer :: i
+
+        lines%text = ""
+        call add_ticks(lines, "x", low, high, long)
+        do i = 1, len(lines%text)
+            if (lines%text(i:i) == new_line("a")) lines%text(i:i) = "|"
+        end do
+        call assertEqual(expected//"|", lines%text)
+        call assertTrue(long .eqv. much_room, expected)
+    end subroutine axis_has
+
+    subroutine rounding_is_no_range()
+        !! What is constant but for rounding gets a tenth to either side; nothing, and all else,
+        !! what gnuplot finds.
+        call range_begins(1.0_dp, 2.0_dp, "set yrange [*:*]")
+        call range_begins(huge(1.0_dp), -huge(1.0_dp), "set yrange [*:*]")
+        call range_begins(10.0_dp, 10.0_dp*(1.0_dp + 2e-11_dp), "set yrange [*:*]")
+        call range_begins(10.0_dp, 10.0_dp, "set yrange [9.0:11.0]; set format y '%g'; set ytics")
+        call range_begins(0.0_dp, 0.0_dp, "set yrange [-1.0:1.0]; set format y '%g'; set ytics")
+        call range_begins(-4.0_dp, -4.0_dp + 1e-15_dp, "set yrange [-4.4:-3.")
+    end subroutine rounding_is_no_range
+
+    subroutine range_begins(low, high, expected)
+        !! Assert how the range from `low` to `high` begins.
+        real(dp), intent(in) :: low, high
+        character(*), intent(in) :: expected
+        type(lines_t) :: lines
+
+        lines%text = ""
+        call add_spread(lines, "y", low, high)
+        call assertEqual(1, index(lines%text, expected), lines%text)
+    end subroutine range_begins
 end module test_gnuplot_scales

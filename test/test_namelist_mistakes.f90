@@ -151,6 +151,18 @@ contains
         call failed(error, "a.nml:1:49: &a: y has 2 values; one is needed")
         call assertEqual(point//"9.81", point_advice(tree, "a", "g", 1))
         call assertEqual("", point_advice(tree, "a", "h", 1), "no advice on a hole")
+        call parse_namelist("&a b = 1.000,5 c = 1 000 d = -12 345 678,5 e = 1 00 f = 1 000,2 "// &
+                            "k = 1.50,5 l = 0 500 /", "a.nml", tree, error)
+        call assertEqual("; a decimal point, no comma, nothing between thousands: 1000.5", &
+                         point_advice(tree, "a", "b", 1))
+        call assertEqual("; nothing between thousands: 1000", point_advice(tree, "a", "c", 1))
+        call assertEqual("; a decimal point, no comma, nothing between thousands: -12345678.5", &
+                         point_advice(tree, "a", "d", 1))
+        call assertEqual("", point_advice(tree, "a", "e", 1), "two digits are no group")
+        call assertEqual("; a decimal point, no comma, nothing between thousands: 1000.2", &
+                         point_advice(tree, "a", "f", 1))
+        call assertEqual("", point_advice(tree, "a", "k", 1), "no group before the comma")
+        call assertEqual("", point_advice(tree, "a", "l", 1), "0 500 is no number")
         call assertEqual("", point_advice(tree, "a", "absent", 1), "no advice on nothing")
     end subroutine decimal_commas
 
@@ -161,10 +173,15 @@ contains
 
         call refused("&a dt = 10 ms /", "1:12: &a: dt: unexpected 'ms' behind a number; units "// &
                      "are not written: all are SI, angles in radians")
-        call refused("&a x = 1"//lf//"dt 2 /", "2:1: &a: x: unexpected 'dt'"//stray)
+        call refused("&a x = 1"//lf//"dt 2 /", "2:1: &a: unexpected 'dt'"//stray)
+        call refused("&a x = 1"//lf//"every: 5 /", "2:1: &a: '=' stands behind a key, not ':'; "// &
+                     "write every = ...")
+        call refused("&a x = 1, every : 5 /", "1:11: &a: '=' stands behind a key, not ':'; "// &
+                     "write every = ...")
         call refused("&a x = 1 # one"//lf//"/", "1:10: &a: x: unexpected '#'"//stray)
         call refused("&a s = 'b' modes /", "1:12: &a: s: unexpected 'modes'"//stray)
-        call refused("&a s = 'b'"//lf//"dt := 1 /", "2:1: &a: s: unexpected 'dt'"//stray)
+        call refused("&a s = 'b'"//lf//"dt := 1 /", "2:1: &a: '=' stands behind a key, "// &
+                     "not ':'; write dt = ...")
         call refused("&a x = 1, &"//lf//" 2 /", "1:11: &a: a lone '&'; a list goes on in the "// &
                      "next line without it, and '/' ends a group")
         call refused("&a dt => 1 /", "1:8: &a: dt = >: "//stray(3:), "dt")

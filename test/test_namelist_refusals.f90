@@ -228,7 +228,8 @@ contains
                      "1:6: &a: x: '1e' has an exponent without digits; write it like 1e-3")
         call refused("&a x=1e+ /", &
                      "1:6: &a: x: '1e+' has an exponent without digits; write it like 1e-3")
-        call refused("&a x=1.2.3 /", "1:6: &a: x: '1.2.3' "//no_number)
+        call refused("&a x=1.2.3 /", "1:6: &a: x: '1.2.3' has two points; write one, and "// &
+                     "nothing between thousands")
         call refused("&a x=1e5.3 /", "1:6: &a: x: '1e5.3' "//no_number)
         call refused("&a x=5kg /", "1:6: &a: x: '5kg' "//no_number)
         call refused(char(239)//char(187)//char(191)//"&a x=-/", "1:6: &a: x: '-' "//no_number)

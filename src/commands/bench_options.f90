@@ -118,7 +118,7 @@ contains
         do i = 1, size(tolerances)
             if (tolerances(i) >= least_tolerance .and. tolerances(i) < 1.0_dp) cycle
             call fail(error, "tolerance "//to_text(tolerances(i))//" is not allowed: a "// &
-                      "number from 1e-16 to below 1 is needed")
+                      "number from 1e-16 to below 1 is needed"//decimal_comma())
             return
         end do
         do i = 2, size(tolerances)
@@ -126,6 +126,15 @@ contains
             call fail(error, "tolerances must fall from each to the next: 1e-3,1e-6,1e-9")
             return
         end do
+    contains
+        pure function decimal_comma() result(remedy)
+            !! `0,001` is two numbers, of which the first is 0.
+            character(:), allocatable :: remedy
+
+            remedy = ""
+            if (index(","//text, ",0,") > 0) remedy = "; a decimal has a point, as in 0.001, "// &
+                "and a comma stands between two tolerances"
+        end function decimal_comma
     end subroutine read_tolerances
 
     pure function split(line, option) result(words)

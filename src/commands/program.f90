@@ -34,6 +34,7 @@ module lagrangia_program
     use lagrangia_sweep_command, only: sweep_command
     use lagrangia_unfinished, only: is_creating, remove_unfinished
     use lagrangia_version, only: build_text, version
+    use lagrangia_wrong_words, only: check_arguments
     implicit none (type, external)
     private
     public :: lagrangia_main
@@ -93,6 +94,9 @@ contains
         call parse_words(words, options, line, error)
         if (allocated(error)) return
         call check_line(line, which, error)
+        if (allocated(error)) return
+        if (.not. (line%has("help") .or. line%has("version"))) call check_arguments( &
+            commands(which), line%arguments, error)
         if (allocated(error)) return
         call catch_interrupts(c_funloc(give_up))
         if (.not. (line%has("json") .or. line%has("latex"))) call fold_lines()

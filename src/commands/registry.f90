@@ -6,7 +6,7 @@ module lagrangia_registry
     use lagrangia_errors, only: error_t, fail
     use lagrangia_names, only: nearest_name
     use lagrangia_scene_keys, only: keys
-    use lagrangia_text, only: join, quoted
+    use lagrangia_text, only: join, lower, quoted
     implicit none (type, external)
     private
     public :: command_t, commands, options
@@ -106,7 +106,7 @@ module lagrangia_registry
 contains
 
     pure subroutine check_line(line, which, error)
-        !! Find the command; fails where it, an option or a number of arguments does not fit.
+        !! Find the command; fails where it, an option or a blank around an argument does not fit.
         type(command_line_t), intent(in) :: line  !! what was typed
         integer, intent(out) :: which  !! of `commands`
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
@@ -142,11 +142,6 @@ contains
                 return
             end if
         end do
-        if (command%most >= 0 .and. size(line%arguments) > command%most) then
-            call fail(error, "'"//trim("lagrangia "//command%name)//"' does not take "// &
-                      quoted(line%arguments(command%most + 1)%text))
-            return
-        end if
         do i = 1, size(line%arguments)
             associate (word => line%arguments(i)%text)
                 if (.not. has_outer_blanks(word) .or. command%name == "run") cycle  ! a file's name
@@ -179,7 +174,7 @@ contains
         character(*), intent(in) :: name
         integer, intent(in) :: which  !! beyond the end: no command either
         type(error_t), allocatable, intent(out) :: error
-        character(:), allocatable :: near
+        character(:), allocatable :: initial, near
         type(command_t) :: command
         logical :: fits(size(options))
         integer :: i
@@ -192,8 +187,18 @@ contains
                    options%name == "help" .or. options%name == "version"
         end if
         near = nearest_name(without_hyphens(name), pack(options%name, fits))
+        initial = ""
+        do i = 1, size(options)
+            if (len(name) /= 2 .or. .not. fits(i)) cycle
+            if (index(options(i)%name, lower(name(2:))) == 1) initial = initial//", --"// &
+                trim(options(i)%name)
+        end do
         if (near /= "") then
             near = "did you mean '--"//near//"'?"
+        else if (initial /= "") then
+            near = "an option is a whole word behind two hyphens: "//initial(3:)
+        else if (any(commands(2:)%name == without_hyphens(name))) then
+            near = "a command has no hyphens: 'lagrangia "//without_hyphens(name)//"'"
         else if (accepts(command, "set") .and. any(keys == without_hyphens(name))) then
             near = "it is a key of the scene: --set scene%"//without_hyphens(name)//"=..."
         else

@@ -1,10 +1,12 @@
 module lagrangia_sweep_command
     !! `lagrangia sweep SCENE`: many trajectories of a scene, and a number or more of each.
+    use lagrangia_changed_scene, only: retitle_sweep
     use lagrangia_command_line, only: command_line_t, word_t
     use lagrangia_console, only: note, put_line
     use lagrangia_counted, only: counted
     use lagrangia_data_files, only: check_format, data_path, path_beside, script_path
     use lagrangia_degrees, only: degrees_in
+    use lagrangia_description, only: description_t
     use lagrangia_disk_space, only: free_space, short, space_warning
     use lagrangia_errors, only: error_t, fail, status_file, status_library
     use lagrangia_files, only: facts_t, look_at
@@ -47,8 +49,9 @@ contains
         !! write, and say what came out.
         type(command_line_t), intent(in) :: line          !! what was typed
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
-        type(scene_t) :: scene
+        type(scene_t) :: before, scene
         class(system_t), allocatable :: system
+        type(description_t) :: d
         type(sweep_t) :: sweep
         type(sweep_result_t) :: result
         type(progress_t), target :: progress
@@ -73,7 +76,12 @@ contains
         call find_sweep(line%arguments(1)%text, path, error)
         if (.not. allocated(error)) call read_scene(path, line%values_of("set"), scene, system, &
                                                     error)
+        before = scene
         if (.not. allocated(error)) call take_options(line, scene, error)
+        if (.not. allocated(error)) then
+            call system%describe(d)
+            call retitle_sweep(scene, before, line%values_of("set"), (d%parameters%name))
+        end if
         if (.not. allocated(error)) call plan(line, scene, system, sweep, error)
         if (.not. allocated(error)) call claim(scene, folder, format, path, error)
         if (allocated(error) .and. image_number() > 1) error%message = ""  ! image 1 has said it
@@ -253,8 +261,13 @@ contains
                 number = int(given)
                 return
             end if
-            if (problem == "") problem = "a number from "//to_text(least)//" to "// &
-                                         to_text(most)//" is needed"
+            if (problem == "") then
+                problem = "a number from "//to_text(least)//" to "//to_text(most)//" is needed"
+            else
+                problem = "a whole number is needed, as in --"//name//" 4"
+            end if
+            if (name == "threads") problem = problem//"; without the option there is a process "// &
+                "for each processor"
             call fail(error, "option '--"//name//"' "//quoted(line%value_of(name, ""))//": "// &
                       problem)
         end subroutine take_number

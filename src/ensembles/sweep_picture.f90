@@ -1,6 +1,7 @@
 module lagrangia_sweep_picture
     !! The gnuplot script of a sweep: curves over one axis, a map over two, points of a stroboscope
     !! or a section as a diagram.
+    use lagrangia_gnuplot_axes, only: add_spread, add_ticks
     use lagrangia_gnuplot_script, only: begin_script, gnuplot_string, lines_t
     use lagrangia_kept, only: keeps_attractor, keeps_wrapped, kept_t
     use lagrangia_kinds, only: dp, i8
@@ -31,6 +32,7 @@ contains
         character(:), allocatable :: text
         type(lines_t) :: script
         integer :: groups(size(sweep%kept)), i, k, n
+        logical :: long
 
         groups = panels(sweep)
         n = maxval(groups)
@@ -46,12 +48,16 @@ contains
                         text_label(trim(sweep%scene%title)))
         call script%add("set tics out nomirror; unset key")
         do i = 1, n
+            call add_ticks(script, "x", minval(sweep%axes(1)%values), &
+                           maxval(sweep%axes(1)%values), long)
+            call script%add("set rmargin "//trim(merge("8 ", "-1", long)))
             if (sweep%keeps_points) then
                 call add_points(sweep, reading, script)
             else if (size(sweep%axes) == 2) then
                 call add_map(sweep, found, i, reading, script)
             else
-                call add_curves(sweep, pack([(k, k=1, size(groups))], groups == i), reading, script)
+                call add_curves(sweep, found, pack([(k, k=1, size(groups))], groups == i), &
+                                reading, script)
             end if
         end do
         call script%add("unset multiplot")
@@ -131,14 +137,18 @@ contains
                to_text(largest + 0.5_dp)//"]; set cbtics 1"
     end function attractor_colours
 
-    subroutine add_curves(sweep, which, reading, script)
+    subroutine add_curves(sweep, found, which, reading, script)
         !! Numbers of one unit over the only axis.
         type(sweep_t), intent(in) :: sweep
+        type(sweep_result_t), intent(in) :: found
         integer, intent(in) :: which(:)
         character(*), intent(in) :: reading
         type(lines_t), intent(inout) :: script
         character(:), allocatable :: line, style
+        real(dp) :: high, largest, least, low
+        integer(i8) :: n
         integer :: i
+        logical :: long
 
         associate (axis => sweep%axes(1))
             style = "lines lw 2"
@@ -154,6 +164,15 @@ contains
                 call script%add("set key top left reverse Left; set ylabel "// &
                                 plain_label("("//trim(sweep%kept(which(1))%unit)//")"))
             end if
+            call found%range_of(which(1), n, low, high)
+            do i = 2, size(which)
+                call found%range_of(which(i), n, least, largest)
+                low = min(low, least)
+                high = max(high, largest)
+            end do
+            call add_ticks(script, "y", low, high, long)
+            call add_spread(script, "x", minval(axis%values), maxval(axis%values))
+            call add_spread(script, "y", low, high)
             line = "plot"
             do i = 1, size(which)
                 if (i > 1) style = "lines dt 2 lw 2"
@@ -177,6 +196,7 @@ contains
         real(dp) :: largest, least
         integer(i8) :: n
         integer :: i
+        logical :: long
 
         call found%range_of(which, n, least, largest)
         associate (x => sweep%axes(1), y => sweep%axes(2), kept => sweep%kept(which))
@@ -184,8 +204,12 @@ contains
                 largest < size(distinct) + 0.5_dp) then
                 call script%add(attractor_colours(nint(least), nint(largest)))
             else
-                call script%add("set cbrange [*:*]; "//colours)
+                call script%add(colours)
+                call add_ticks(script, "cb", least, largest, long)
+                call add_spread(script, "cb", least, largest)
+                if (long) call script%add("set rmargin at screen 0.77")
             end if
+            call add_ticks(script, "y", minval(y%values), maxval(y%values), long)
             call script%add("set object 1 rectangle from graph 0,0 to graph 1,1 behind "// &
                             "fc rgb '#c8c8c8' fs solid noborder")
             range = ""
@@ -205,7 +229,12 @@ contains
             call script%add("set xlabel "//label(x%name, x%unit))
             call script%add("set ylabel "//label(y%name, y%unit))
             call script%add("set cblabel "//label(kept%text, kept%unit))
-            if (x%random .or. y%random) then
+            call add_spread(script, "x", minval(x%values), maxval(x%values))
+            call add_spread(script, "y", minval(y%values), maxval(y%values))
+            if (size(x%values) == 1 .or. size(y%values) == 1) then
+                call script%add("plot"//range//" data "//reading//"using 1:2:"// &
+                                to_text(which + 2)//" with points pt 5 ps 2 palette")
+            else if (x%random .or. y%random) then
                 call script%add("plot"//range//" data "//reading//"using 1:2:"// &
                                 to_text(which + 2)//" with points pt 7 ps 0.5 palette")
             else if (x%logarithmic .or. y%logarithmic) then

@@ -63,7 +63,7 @@ contains
 
     subroutine find_sheet(name, path, error)
         !! The path of the sheet that the program carries by this name, where no file has it; else
-        !! the name itself. Fails where a word without `/` and `.` is neither.
+        !! the name itself. Fails where there is neither.
         character(*), intent(in) :: name
         character(:), allocatable, intent(out) :: path
         type(error_t), allocatable, intent(out) :: error
@@ -72,23 +72,27 @@ contains
         character(:), allocatable :: near
         type(word_t), allocatable :: paths(:)
         type(facts_t) :: facts
-        integer :: i
+        integer :: i, last
 
         path = name
         facts = look_at(name)
-        if (facts%found .or. scan(name, "/.") > 0 .or. name == "") return
+        if (facts%found .or. name == "") return
         call shipped_files(folder, paths)
         allocate (names(size(paths)))
         do i = 1, size(paths)
             names(i) = paths(i)%text(len(folder) + 1:len(paths(i)%text) - len(ending))
+            if (name == paths(i)%text) return
         end do
         path = folder//name//ending
         if (any(names == name)) return
-        near = nearest_name(name, names)
+        last = index(name, ".", back=.true.)
+        if (last <= index(name, "/", back=.true.)) last = len(name) + 1
+        near = nearest_name(name(index(name, "/", back=.true.) + 1:last - 1), names)
         if (near /= "") then
             near = "did you mean the sheet '"//near//"'?"
         else
-            near = "'lagrangia show' lists the sheets that come with the program"
+            near = "a sheet is a text with a line 'system: NAME' and statements, one a line; "// &
+                   "'lagrangia show' lists those that come with the program"
         end if
         call fail(error, trim(short_source(name))//": no such file; "//near, status_file)
     end subroutine find_sheet

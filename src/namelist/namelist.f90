@@ -17,6 +17,7 @@ module lagrangia_namelist
                                        refuse_unknown_keys, spelling, text_of, value_t
     use lagrangia_number_reader, only: misread, read_number, to_integer
     use lagrangia_text, only: escaped, lower, quoted, to_text
+    use lagrangia_torn_numbers, only: mended
     implicit none (type, external)
     private
     public :: apply_override, drop_key, get_integer, get_logical, get_real, get_reals, &
@@ -260,9 +261,15 @@ contains
         if (i > 0 .or. (length >= low .and. length <= high)) return
         do i = 1, length
             associate (value => tree%values(picked(i)))
-                if (value%kind /= kind_word .or. in_override(tree, value%first)) cycle
-                if (truth_of(raw_text(tree, value)) >= 0) cycle
-                call refuse_picked(tree, picked(i), stray, error)
+                if (value%kind /= kind_word) cycle
+                if (in_override(tree, value%first)) then
+                    if (.not. is_unit(tree, picked, i)) cycle
+                    call refuse_picked(tree, picked(i), "units are not written: all are SI, "// &
+                                       "angles in radians", error)
+                else
+                    if (truth_of(raw_text(tree, value)) >= 0) cycle
+                    call refuse_picked(tree, picked(i), stray, error)
+                end if
                 return
             end associate
         end do
@@ -272,51 +279,23 @@ contains
         call fail_at(tree, position, name//" has "//to_text(length)//" value"// &
                      trim(merge("s", " ", length /= 1))//"; "//allowed// &
                      trim(merge(" is ", " are", high == 1))//" needed"// &
-                     decimal_points(tree, picked, low, high)// &
+                     mended(tree, picked, low, high)// &
                      trim(merge("; 3*x means x, x, x", "                   ", &
                                 any(tree%values(picked)%repeats > 1))), error)
     end subroutine check_elements
 
-    pure function decimal_points(tree, picked, low, high) result(remedy)
-        !! What to write if the values at the positions `picked` came apart at decimal commas, and
-        !! together would be from `low` to `high`; otherwise nothing.
+    pure function is_unit(tree, picked, i) result(yes)
+        !! Is value `i` of those at `picked` a word behind a number and a blank, as in `5 s`?
         type(namelist_t), intent(in) :: tree
-        integer, intent(in) :: picked(:), low, high
-        character(:), allocatable :: remedy
-        character(:), allocatable :: behind, number
-        integer :: i, n
+        integer, intent(in) :: picked(:), i
+        logical :: yes
 
-        remedy = ""
-        behind = ""
-        if (any(picked == 0)) return
-        if (any(tree%values(picked)%kind /= kind_number)) return
-        n = 0
-        i = 1
-        do while (i <= size(picked))
-            number = raw_text(tree, tree%values(picked(i)))
-            i = i + 1
-            if (i <= size(picked)) then
-                associate (left => tree%values(picked(i - 1)), right => tree%values(picked(i)))
-                    behind = tree%text(left%last + 1:right%first - 1)
-                    if (behind//"|" == ",|" .and. verify(number, "+-0123456789") == 0) then
-                        behind = raw_text(tree, right)
-                        if (verify(behind, "0123456789") == 0 .and. len(behind) == 3 .and. &
-                            scan(number, "123456789") > 0) behind = behind//" (or "// &
-                            number//behind//")"
-                        number = number//"."//behind
-                        i = i + 1
-                    end if
-                end associate
-            end if
-            n = n + 1
-            remedy = remedy//", "//number
-        end do
-        if (n == size(picked) .or. n < low .or. n > high) then
-            remedy = ""
-        else
-            remedy = "; a decimal point, no comma: "//escaped(remedy(3:))
-        end if
-    end function decimal_points
+        yes = i > 1
+        if (.not. yes) return
+        associate (left => tree%values(picked(i - 1)), right => tree%values(picked(i)))
+            yes = left%kind == kind_number .and. index(tree%text(left%last:right%first), ",") == 0
+        end associate
+    end function is_unit
 
     pure function point_advice(tree, group, key, count) result(remedy)
         !! What a caller who needs `count` values of `key`, and got another number of them, may add
@@ -326,7 +305,7 @@ contains
         integer, intent(in) :: count            !! values that are needed
         character(:), allocatable :: remedy
 
-        remedy = decimal_points(tree, elements(tree, group, key), count, count)
+        remedy = mended(tree, elements(tree, group, key), count, count)
     end function point_advice
 
     pure subroutine convert_real(tree, position, number, error)

@@ -51,6 +51,8 @@ contains
             problem = problem//"values stand in a row, as in q = 0.1, 0.2, and nothing is computed"
         case ("=")
             problem = problem//"a key is a plain name before one '='"
+        case ("%")
+            problem = problem//"a percentage is written as a fraction, 0.1 for ten percent"
         case (";")
             problem = problem//"values and keys are separated by ',' or blanks"
         case ("'", """")

@@ -331,7 +331,8 @@ contains
                 call look_for_key(tree, key_follows)
                 if (key_follows) exit
             end if
-            if (.not. after_comma) call refuse_stray(tree, error)
+            if (tree%entries(tree%entry_count)%count > 0) call refuse_colon(tree, error)
+            if (.not. (after_comma .or. allocated(error))) call refuse_stray(tree, error)
             if (.not. allocated(error)) call read_value(tree, value, error)
             if (.not. allocated(error)) call add_value(tree, value, error)
             if (.not. allocated(error)) call check_separation(tree, value%kind, error)
@@ -346,9 +347,32 @@ contains
         end if
     end subroutine read_values
 
+    pure subroutine refuse_colon(tree, error)
+        !! Refuse a key with a colon behind it, `every: 5`, as it stands behind the values of
+        !! another key, which has nothing to do with it.
+        type(namelist_t), intent(in) :: tree
+        type(error_t), allocatable, intent(out) :: error
+        integer :: colon
+
+        if (in_override(tree, tree%at) .or. scan(next_byte(tree), letters) == 0) return
+        colon = after(tree%text, tree%at, letters//digits//"_")
+        if (character_at(tree%text, after(tree%text, colon, " ")) /= ":") return
+        call fail_at(tree, tree%at, group_name(tree)//"'=' stands behind a key, not ':'; write "// &
+                     escaped(tree%text(tree%at:colon - 1), 30)//" = ...", error)
+    end subroutine refuse_colon
+
+    pure function group_name(tree) result(name)
+        !! Of the group that is being read, as a message begins: `&scene: `.
+        type(namelist_t), intent(in) :: tree
+        character(:), allocatable :: name
+
+        name = "&"//escaped(trim(tree%groups(tree%group_count)%name), 30)//": "
+    end function group_name
+
     pure subroutine refuse_stray(tree, error)
         !! Refuse a word that follows a value without a comma, unless it is `true` or the like: a
-        !! unit, a key without `=`, a comment without `!`. Numbers and quoted texts may follow.
+        !! unit, a key without `=`, a comment without `!`. Numbers and quoted texts may follow. On
+        !! a line of its own it is not what the key before it says.
         type(namelist_t), intent(in) :: tree
         type(error_t), allocatable, intent(out) :: error
         character(:), allocatable :: word
@@ -357,8 +381,10 @@ contains
         word = tree%text(tree%at:token_end(tree%text, tree%at))
         if (word == "" .or. truth_of(word) >= 0) return
         associate (value => tree%values(tree%value_count))
-            if (value%kind == kind_number .and. scan(word(1:1), "#%:<>*\") == 0 .and. &
-                index(tree%text(value%last:tree%at), achar(10)) == 0) then
+            if (index(tree%text(value%last:tree%at), achar(10)) > 0) then
+                call fail_at(tree, tree%at, group_name(tree)//"unexpected "//quoted(word)//"; "// &
+                             stray, error)
+            else if (value%kind == kind_number .and. scan(word(1:1), "#%:<>*\") == 0) then
                 call refuse(tree, tree%at, "unexpected "//quoted(word)//" behind a number; "// &
                             "units are not written: all are SI, angles in radians", error)
             else

@@ -133,6 +133,8 @@ contains
             end if
         case ("+", "-")
             problem = "lacks the letter of its exponent (1.5e-3, not 1.5-3); sums are not computed"
+        case (".")
+            problem = "has two points; write one, and nothing between thousands"
         case ("_")
             problem = "has a kind suffix; write the number alone"
             if (verify(token(at + 1:), digits) == 0) problem = "holds '_'; write the digits alone"

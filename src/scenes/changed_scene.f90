@@ -3,10 +3,10 @@ module lagrangia_changed_scene
     !! and what the file expects of the unchanged motion does not judge it.
     use lagrangia_kinds, only: i8
     use lagrangia_scene, only: scene_t
-    use lagrangia_text, only: lower, word_t
+    use lagrangia_text, only: join, lower, word_t
     implicit none (type, external)
     private
-    public :: ending_start, make_own_scene
+    public :: ending_start, make_own_scene, retitle_sweep
 
     character(*), parameter :: same_motion(*) = [character(14) :: "title", "output", "columns", &
         "plot", "event_columns", "event_plot", "error_estimate", "modes", "every", "samples", &
@@ -54,6 +54,49 @@ contains
         dot = ending_start(trim(scene%output))
         scene%output = scene%output(:dot - 1)//"_"//name_of(changes)//scene%output(dot:)
     end subroutine make_own_scene
+
+    pure subroutine retitle_sweep(scene, before, overrides, names)
+        !! Give a sweep that the command line changes a title that is true of it: other axes or
+        !! numbers than those of the file are named, other values are added. A title that is given
+        !! stays.
+        type(scene_t), intent(inout) :: scene     !! with the axes and what is kept
+        type(scene_t), intent(in) :: before       !! as `read_scene` gave it
+        type(word_t), intent(in) :: overrides(:)  !! `GROUP%KEY=VALUE`, as typed
+        character(*), intent(in) :: names(:)      !! of the system's parameters
+        character(:), allocatable :: changes, group, key, value
+        integer :: i
+
+        changes = ""
+        do i = 1, size(overrides)
+            call split(overrides(i)%text, group, key, value)
+            if (group == "sweep") cycle
+            if (group == "scene" .and. key == "title") return
+            if (group == "scene" .and. (any(same_motion == key) .or. &
+                                        index(key, "expect_") == 1)) cycle
+            if (group /= "scene") key = as_described(key, names)
+            changes = changes//", "//key//"="//value
+        end do
+        if (numbers_over_axes(scene) /= numbers_over_axes(before)) then
+            scene%title = trim(scene%name)//": "//numbers_over_axes(scene)
+        end if
+        if (changes /= "") scene%title = trim(scene%title)//" ("//changes(3:)//")"
+    end subroutine retitle_sweep
+
+    pure function numbers_over_axes(scene) result(text)
+        !! What a sweep keeps over which axes: `period over theta and l`.
+        type(scene_t), intent(in) :: scene
+        character(:), allocatable :: text
+        character(:), allocatable :: axis
+        integer :: i
+
+        text = join(scene%sweep%keep, ", ")
+        do i = 1, size(scene%sweep%over)
+            axis = trim(adjustl(scene%sweep%over(i)))
+            axis = trim(axis(:index(axis//"=", "=") - 1))
+            if (i == 1) text = text//" over "//axis
+            if (i > 1) text = text//" and "//axis
+        end do
+    end function numbers_over_axes
 
     pure function as_described(key, names) result(name)
         !! A parameter's key in the letters of the description, `M(2)` for `m(2)`: case does not

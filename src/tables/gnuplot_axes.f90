@@ -10,12 +10,15 @@ module lagrangia_gnuplot_axes
     implicit none (type, external)
     private
     public :: frame_t
-    public :: add_decades, add_equal_scale, add_labels, add_margins, add_range
+    public :: add_decades, add_equal_scale, add_labels, add_margins, add_range, &
+              add_spread, add_ticks
 
     integer, parameter :: lowest = -18       !! decade; nothing below it is told from zero
     character(3), parameter :: nearly = char(226)//char(137)//char(136)  !! "almost equal to"
     integer, parameter :: most_decades = 6   !! with a tick each
     real(dp), parameter :: margin = 0.06_dp  !! around what is drawn to scale
+    integer, parameter :: usual = 6          !! digits of a number beside an axis
+    integer, parameter :: most_digits = 15   !! that a double has
     real(dp), parameter :: roomy = 240.0_dp  !! pixels that ten numbers above each other need
 
     type :: frame_t
@@ -120,6 +123,50 @@ contains
         if (max(abs(low), abs(high)) <= 0.0_dp) width = 1.0_dp
         call script%add("set yrange ["//to_text(low - width)//":"//to_text(high + width)//"]")
     end subroutine add_range
+
+    pure subroutine add_ticks(script, axis, low, high, long)
+        !! The numbers beside an axis, with as many digits as tell them apart; few, if each takes
+        !! much room.
+        type(lines_t), intent(inout) :: script  !! gets the lines
+        character(*), intent(in) :: axis        !! `x`, `y` or `cb`
+        real(dp), intent(in) :: low, high       !! what is drawn; none if high < low
+        logical, intent(out) :: long            !! do they take much room?
+        real(dp) :: largest, step
+        integer :: figures
+
+        figures = usual
+        largest = max(abs(low), abs(high))
+        if (high > low) figures = min(most_digits, 2 + ceiling(log10(largest) - log10(high - low)))
+        figures = max(figures, usual)
+        long = high > low .and. (figures > usual .or. largest >= 1e5_dp .or. largest < 1e-3_dp)
+        call script%add("set format "//axis//" '%."//to_text(figures)//"g'; set "//axis// &
+                        "tics autofreq")
+        if (.not. long) return
+        step = tick_step(high - low)
+        if (figures > usual + 2) step = tick_step(2.0_dp*(high - low))
+        call script%add("set "//axis//"tics "//to_text(step))
+    end subroutine add_ticks
+
+    pure subroutine add_spread(script, axis, low, high)
+        !! A range for what is constant but for rounding, of which gnuplot finds none, or ticks that
+        !! no digit of a double tells apart; for anything else that which gnuplot finds.
+        type(lines_t), intent(inout) :: script  !! gets the lines
+        character(*), intent(in) :: axis        !! `x`, `y` or `cb`
+        real(dp), intent(in) :: low, high       !! what is drawn; none if high < low
+        real(dp), parameter :: rounding = 1e-11_dp
+        real(dp) :: largest, width
+
+        largest = max(abs(low), abs(high))
+        if (high < low .or. high - low > rounding*largest) then
+            call script%add("set "//axis//"range [*:*]")
+            return
+        end if
+        width = max(0.1_dp*largest, tiny(width))
+        if (largest <= 0.0_dp) width = 1.0_dp
+        call script%add("set "//axis//"range ["//to_text(low - width)//":"// &
+                        to_text(high + width)//"]; set format "//axis//" '%g'; set "//axis// &
+                        "tics autofreq")
+    end subroutine add_spread
 
     pure subroutine add_labels(script, series, panel, frame, logarithmic)
         !! Of both axes.
