@@ -144,6 +144,7 @@ contains
         call taken("run ./all")
         call taken("grade data")
         call taken("help pendulum")
+        call taken("show pendulum atwood.nml")
         call taken("errata "//to_text(7))
     end subroutine good_words_pass
 end module test_wrong_words

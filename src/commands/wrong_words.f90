@@ -172,7 +172,7 @@ contains
             end if
             return
         end do
-        if (command%name /= "help") call explain_name(command, word, error)
+        if (all(command%name /= ["help", "show"])) call explain_name(command, word, error)
     end subroutine explain
 
     pure function all_of_them(command) result(text)

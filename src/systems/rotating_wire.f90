@@ -86,7 +86,7 @@ contains
         d%notes = [character(len(d%title)) :: &
             "The notes only define the concept: a constraint containing the time is rheonomic.", &
             "L has no t: h = r_dot dL/dr_dot - L is conserved. T is not: the wire does work.", &
-            "At rest only on the axis; everywhere else it is thrown out.", &
+            "While it turns: at rest only on the axis; released elsewhere it is thrown out.", &
             "Turning is horizontal: gravity does not enter."]
         d%figure = [character(figure_length) :: "trail bead", &
                     "line origin (cos(omega t), sin(omega t))", "pivot origin", "ball bead"]
