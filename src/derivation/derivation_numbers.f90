@@ -9,7 +9,7 @@ module lagrangia_derivation_numbers
                                     line_rest_mass, line_right_side, line_rotor, line_rotor_rate, &
                                     line_stated, line_t, line_velocity, line_words
     use lagrangia_derivation_rest, only: compare_modes, comparison_t
-    use lagrangia_description, only: default_values
+    use lagrangia_description, only: default_values, description_t
     use lagrangia_errors, only: error_t
     use lagrangia_formula_size, only: evaluate
     use lagrangia_generalised_forces, only: add_generalised_forces
@@ -101,6 +101,7 @@ contains
         class(random_t), intent(inout) :: random
         type(motion_t), intent(out) :: anywhere, moving
         type(error_t), allocatable, intent(out) :: error
+        type(description_t) :: d
         integer :: i, n
 
         n = system%ndof
@@ -118,6 +119,13 @@ contains
             call random%uniform(-3.0_dp, 3.0_dp, anywhere%lambda(i))
         end do
         if (derivation%constraints > 0) call find_multipliers(system, moving)
+        call system%describe(d)
+        if (.not. allocated(d%typical_places)) return
+        anywhere%a = d%typical_places/d%typical_time**2*anywhere%a
+        if (derivation%constraints > 0) then
+            anywhere%v = d%typical_places/d%typical_time*anywhere%v
+            anywhere%lambda = maxval(abs(moving%lambda))*anywhere%lambda
+        end if
     end subroutine draw
 
     subroutine find_multipliers(system, s)

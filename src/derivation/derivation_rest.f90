@@ -5,6 +5,7 @@ module lagrangia_derivation_rest
     use lagrangia_derivation, only: derivation_t, line_damped_omega2, line_decay, &
                                     line_equilibrium, line_gyroscopic, line_linear, line_omega2, &
                                     line_rates, line_rest_mass, line_stiffness, line_t
+    use lagrangia_description, only: description_t, sizes_of_places
     use lagrangia_equilibrium, only: stiffness_beside
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, function_value, kind_negation, kind_power, &
@@ -47,9 +48,10 @@ contains
         !! values of the names there; of a linearised equation those of any displacement
         type(line_t), intent(in) :: line                 !! `line_rest_mass` to `line_linear`
         type(comparison_t), intent(out) :: c             !! both numbers
+        type(description_t) :: d
         real(dp), dimension(size(modes%at), size(modes%at)) :: beside
         real(dp), allocatable :: values(:)
-        real(dp) :: noise, value, gamma, omega2
+        real(dp) :: usual(size(modes%at)), noise, value, gamma, omega2
         integer :: k
 
         allocate (values, source=at_rest)
@@ -65,9 +67,15 @@ contains
             call damping_matrix(system, modes%at, beside)
             c%program = modes%gyroscopic(line%i, line%k) + beside(line%i, line%k)
         case (line_equilibrium)
+            call system%describe(d)
+            usual = sizes_of_places(d)
+            noise = max(usual(line%i), abs(modes%at(line%i)))
             c%program = modes%at(line%i)
-            if (line%k > 0) c%program = function_value(line%k, c%program)
-            c%noise = c%noise + 256.0_dp*epsilon(1.0_dp)*max(1.0_dp, abs(c%program))
+            if (line%k > 0) then
+                c%program = function_value(line%k, c%program)
+                noise = max(1.0_dp, abs(c%program))
+            end if
+            c%noise = c%noise + 256.0_dp*epsilon(1.0_dp)*noise
         case (line_decay, line_damped_omega2)
             call one_rate(system, modes, gamma, omega2, c%known)
             if (.not. c%known) return

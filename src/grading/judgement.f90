@@ -374,19 +374,20 @@ contains
         type(expression_t), intent(in) :: left, residual
         type(samples_t), intent(in) :: samples
         logical :: yes
-        real(dp), allocatable :: results(:, :)
+        real(dp), allocatable :: results(:, :), sizes(:, :)
         integer :: draw, first, n
 
         yes = .false.
         n = residual%count
         if (.not. is_energy(left, samples)) return
-        allocate (results(size(samples%values, 1), n))
-        call evaluate_nodes(residual, samples%values, results)
+        allocate (results(size(samples%values, 1), n), sizes(size(samples%values, 1), n))
+        call evaluate_nodes(residual, samples%values, results, sizes=sizes)
         do draw = 1, draws
             first = (draw - 1)*states
             associate (r => results(first + 1:first + states, n))
                 if (.not. all(ieee_is_finite(r))) return
-                if (maxval(r) - minval(r) > 1e-8_dp*(1.0_dp + maxval(abs(r)))) return
+                if (maxval(r) - minval(r) > 1e-8_dp*maxval(abs(r)) + &
+                    1e-12_dp*maxval(sizes(first + 1:first + states, n))) return
             end associate
         end do
         yes = .true.

@@ -425,15 +425,17 @@ contains
         !! Other accelerations and other known values than those of the motion.
         type(samples_t), intent(inout) :: samples
         integer, intent(in) :: k
-        real(dp) :: shift
+        real(dp) :: shift, usual
         integer :: i
 
         if (samples%role(k) /= role_acceleration .and. samples%role(k) /= role_known .and. &
             samples%role(k) /= role_frequency) return
+        usual = maxval(abs(samples%values(:, k)))
+        if (usual > 1e-3_dp .and. usual < 1e3_dp .or. usual <= 0.0_dp) usual = 1.0_dp
         do i = 1, size(samples%elsewhere, 1)
             call samples%random%uniform(0.5_dp, 1.5_dp, shift)
             samples%elsewhere(i, k) = samples%elsewhere(i, k) + &
-                                      shift*(1.0_dp + abs(samples%elsewhere(i, k)))
+                                      shift*(usual + abs(samples%elsewhere(i, k)))
         end do
     end subroutine move_away
 end module lagrangia_motion_samples

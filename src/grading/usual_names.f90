@@ -130,19 +130,22 @@ contains
         logical, intent(in) :: but_constant
         type(samples_t), intent(in) :: samples
         logical :: yes, judged
-        real(dp), allocatable :: results(:, :)
-        integer :: draw, n
+        real(dp), allocatable :: results(:, :), sizes(:, :)
+        integer :: draw, first, n
 
         call holds(residual, samples%values, yes, judged)
         if (yes .or. .not. but_constant) return
         n = residual%count
-        allocate (results(size(samples%values, 1), n))
-        call evaluate_nodes(residual, samples%values, results)
+        allocate (results(size(samples%values, 1), n), sizes(size(samples%values, 1), n))
+        call evaluate_nodes(residual, samples%values, results, sizes=sizes)
         yes = .true.
         do draw = 1, draws
-            associate (r => results((draw - 1)*states + 1:draw*states, n))
+            first = (draw - 1)*states
+            associate (r => results(first + 1:first + states, n), &
+                       terms => sizes(first + 1:first + states, n))
                 yes = yes .and. all(ieee_is_finite(r))
-                if (yes) yes = maxval(r) - minval(r) <= 1e-8_dp*(1.0_dp + maxval(abs(r)))
+                if (yes) yes = maxval(r) - minval(r) <= 1e-8_dp*maxval(abs(r)) + &
+                               1e-12_dp*maxval(terms)
             end associate
         end do
     end function is_same

@@ -1,6 +1,6 @@
 module lagrangia_equilibrium
     !! Places where a system can rest, and L to second order about them.
-    use lagrangia_description, only: description_t
+    use lagrangia_description, only: description_t, sizes_of_places
     use lagrangia_errors, only: error_t, fail
     use lagrangia_generalised_forces, only: add_generalised_forces
     use lagrangia_hyperdual, only: hyperdual_t
@@ -17,7 +17,8 @@ contains
 
     subroutine settle(system, wanted, q, error)
         !! Newton's method from `q` to an equilibrium; where it leads to none, down to a minimum of
-        !! \(-L(q, 0)\). A `wanted` equilibrium must be there already, to a relative 1e-12.
+        !! \(-L(q, 0)\). A `wanted` equilibrium must be there already, to 1e-12 of \(\max(s_i, |q_i|)\)
+        !! with the typical sizes \(s_i\) of the system.
         class(system_t), intent(in) :: system             !! configured
         logical, intent(in) :: wanted                     !! `q` must be one
         real(dp), intent(inout) :: q(:)                   !! (n), from where to where
@@ -26,18 +27,20 @@ contains
         type(description_t) :: d
         character(:), allocatable :: near
         real(dp) :: k(size(q), size(q))
-        real(dp), dimension(size(q)) :: f, start, onto, rounding
+        real(dp), dimension(size(q)) :: f, start, onto, rounding, usual
         integer :: i, worst
         logical :: found
 
+        call system%describe(d)
+        usual = sizes_of_places(d)
         start = q
         f = force_at_rest(system, q)
         if (all(abs(f) <= 0.0_dp) .and. system%constraints == 0) return
-        call approach(system, q, found)
+        call approach(system, usual, q, found)
         if (.not. (found .or. system%nonconservative .or. system%constraints > 0)) then
             q = start
-            call descend(system, q)
-            call approach(system, q, found)
+            call descend(system, usual, q)
+            call approach(system, usual, q, found)
         end if
         if (found .and. .not. wanted) return
         near = "none is near"
@@ -48,18 +51,17 @@ contains
         if (allocated(error)) return
         worst = maxloc(abs(f), 1)
         if (found) then
-            if (maxval(abs(q - start)) <= 1e-12_dp*max(1.0_dp, maxval(abs(q)))) then
+            if (maxval(abs(q - start)/usual) <= 1e-12_dp*max(1.0_dp, maxval(abs(q)/usual))) then
                 q = start
                 return
             end if
-            where (abs(q) <= 4.0_dp*epsilon(q)) q = 0.0_dp
+            where (abs(q) <= 4.0_dp*epsilon(q)*usual) q = 0.0_dp
             near = "the nearest is --at "//to_text(q(1))
             do i = 2, min(size(q), 6)
                 near = near//","//to_text(q(i))
             end do
         end if
-        call system%describe(d)
-        if (any(abs(onto) > 1e-12_dp*max(1.0_dp, abs(start)))) then
+        if (any(abs(onto) > 1e-12_dp*max(usual, abs(start)))) then
             call fail(error, "not a place that the constraints of "//trim(d%name)//" allow; "//near)
             return
         end if
@@ -68,10 +70,11 @@ contains
                   trim(merge("N m", "N  ", d%coordinates(worst)%unit == "rad"))//"; "//near)
     end subroutine settle
 
-    subroutine approach(system, q, found)
-        !! Newton's method, until \(|F_i| \le 8\epsilon(\sum_j|K_{ij}|\max(1, |q_j|)
+    subroutine approach(system, usual, q, found)
+        !! Newton's method, until \(|F_i| \le 8\epsilon(\sum_j|K_{ij}|\max(s_j, |q_j|)
         !! + \sum_k|A_{ki}\lambda_k|)\) or the step is rounding.
         class(system_t), intent(in) :: system
+        real(dp), intent(in) :: usual(:)  !! \(s_i\), typical sizes
         real(dp), intent(inout) :: q(:)
         logical, intent(out) :: found  !! an equilibrium: `q`
         type(error_t), allocatable :: singular
@@ -86,13 +89,13 @@ contains
             call stiffness_beside(system, q, m)
             k = k + m
             f = force_at_rest(system, q)
-            rounding = matmul(abs(k), max(1.0_dp, abs(q)))
+            rounding = matmul(abs(k), max(usual, abs(q)))
             if (system%constraints > 0) then
                 call constrain(system, q, f, k, rounding, onto, tangent, singular)
                 if (allocated(singular)) exit
             end if
             found = all(abs(f) <= 8.0_dp*epsilon(f)*rounding) .and. &
-                    all(abs(onto) <= 4.0_dp*epsilon(q)*max(1.0_dp, abs(q)))
+                    all(abs(onto) <= 4.0_dp*epsilon(q)*max(usual, abs(q)))
             if (found) return
             if (system%constraints > 0) then
                 call newton_step(within(tangent%basis, k), &
@@ -100,23 +103,25 @@ contains
                                  step(:size(tangent%basis, 2)), singular)
                 step = onto + matmul(tangent%basis, step(:size(tangent%basis, 2)))
             else
-                call newton_step(k, f, step, singular)
+                call newton_step(scaled(k, usual), usual*f, step, singular)
+                step = usual*step
             end if
             if (allocated(singular)) exit
             q = q + step
-            found = maxval(abs(step)) <= 4.0_dp*epsilon(q)*max(1.0_dp, maxval(abs(q)))
+            found = maxval(abs(step)/usual) <= 4.0_dp*epsilon(q)*max(1.0_dp, maxval(abs(q)/usual))
             if (found) return
         end do
         found = .false.
     end subroutine approach
 
-    pure subroutine descend(system, q)
-        !! Down \(-L(q, 0)\) by Newton's method with a damping \(\mu\), \((K + \mu)\delta = F\): a
-        !! step that leads down is taken, and \(\mu\) is divided by 4; one that doesn't, multiplies
-        !! it by 4.
+    pure subroutine descend(system, usual, q)
+        !! Down \(-L(q, 0)\) by Newton's method with a damping \(\mu\), \((K + \mu)\delta = F\), in
+        !! typical sizes: a step that leads down is taken, and \(\mu\) is divided by 4; one that
+        !! doesn't, multiplies it by 4.
         !!
         !! Source: K. Levenberg, Quart. Appl. Math. 2, 164 (1944).
         class(system_t), intent(in) :: system
+        real(dp), intent(in) :: usual(:)
         real(dp), intent(inout) :: q(:)
         integer, parameter :: most = 300
         type(error_t), allocatable :: singular
@@ -126,7 +131,8 @@ contains
         integer :: i, j
 
         call expand_at_rest(system, q, m, k, g)
-        f = force_at_rest(system, q)
+        k = scaled(k, usual)
+        f = usual*force_at_rest(system, q)
         mu = 1e-3_dp*maxval(abs(k))
         do i = 1, most
             m = k
@@ -136,18 +142,30 @@ contains
             call solve_linear(m, f, step, singular)
             if (.not. allocated(singular)) then
                 if (dot_product(step, f) > 0.0_dp .and. &
-                    level(system, q + step) < level(system, q)) then
-                    q = q + step
+                    level(system, q + usual*step) < level(system, q)) then
+                    q = q + usual*step
                     call expand_at_rest(system, q, m, k, g)
-                    f = force_at_rest(system, q)
+                    k = scaled(k, usual)
+                    f = usual*force_at_rest(system, q)
                     mu = mu/4.0_dp
-                    if (maxval(abs(step)) <= 1e-6_dp*max(1.0_dp, maxval(abs(q)))) return
+                    if (maxval(abs(step)) <= 1e-6_dp*max(1.0_dp, maxval(abs(q)/usual))) return
                     cycle
                 end if
             end if
             mu = max(4.0_dp*mu, epsilon(mu)*maxval(abs(k)))
         end do
     end subroutine descend
+
+    pure function scaled(k, usual) result(product)
+        !! \(s_i K_{ij} s_j\), all in J.
+        real(dp), intent(in) :: k(:, :), usual(:)
+        real(dp) :: product(size(usual), size(usual))
+        integer :: i
+
+        do i = 1, size(usual)
+            product(:, i) = usual*k(:, i)*usual(i)
+        end do
+    end function scaled
 
     pure function level(system, q) result(value)
         !! \(-L(q, 0)\), of which an equilibrium is stable where it is least.

@@ -11,6 +11,7 @@ module lagrangia_tangent_space
     !!
     !! Source: H. Goldstein, *Classical Mechanics*, 2nd ed. (1980), sec. 2-4 and 6-2; Frobenius'
     !! theorem: V. I. Arnold, *Mathematical Methods of Classical Mechanics*, app. 4.
+    use lagrangia_description, only: description_t, sizes_of_places
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
@@ -86,6 +87,7 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! also those of `find_tangent` at `q`
         integer, parameter :: places = 4
         real(dp), parameter :: bound = 1e-9_dp
+        type(description_t) :: d
         type(error_t), allocatable :: elsewhere
         type(random_t) :: random
         type(tangent_t) :: tangent
@@ -94,6 +96,7 @@ contains
 
         call find_tangent(system, q, tangent, error)
         if (allocated(error)) return
+        call system%describe(d)
         at = q
         call random%start(1)
         do i = 0, places
@@ -101,7 +104,7 @@ contains
                 do k = 1, size(q)
                     call random%uniform(-0.5_dp, 0.5_dp, at(k))
                 end do
-                at = q + at*max(1.0_dp, abs(q))
+                at = q + at*max(sizes_of_places(d), abs(q))
                 call find_tangent(system, at, tangent, elsewhere)
                 if (allocated(elsewhere)) cycle
             end if

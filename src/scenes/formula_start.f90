@@ -14,6 +14,7 @@ module lagrangia_formula_start
     use lagrangia_scene, only: scene_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
+    use lagrangia_typical_sizes, only: find_typical_sizes
     use lagrangia_written_system, only: written_system_t
     implicit none (type, external)
     private
@@ -23,14 +24,16 @@ contains
 
     subroutine check_formulas_at_start(tree, system, scene, error)
         !! Fails where T, V, L or a derivative is no finite number at the start, or the mass matrix
-        !! is singular there.
+        !! is singular there. Else the system learns the typical sizes of its motion.
         type(namelist_t), intent(inout) :: tree            !! says where the formulas are
-        class(system_t), intent(in) :: system              !! of any kind, with its parameters
+        class(system_t), intent(inout) :: system           !! of any kind, with its parameters
         type(scene_t), intent(in) :: scene                 !! has its start
         type(error_t), allocatable, intent(out) :: error   !! status 2, at the formula or at q
         type(euler_lagrange_t) :: terms
         type(error_t), allocatable :: cause
         character(:), allocatable :: state
+        real(dp), allocatable :: places(:)
+        real(dp) :: time
 
         select type (system)
         class is (written_system_t)
@@ -40,7 +43,12 @@ contains
             if (allocated(error)) return
             call expand_lagrangian(system, scene%t0, scene%q, scene%v, terms)
             call check_mass_matrix(terms%mass, cause)
-            if (.not. allocated(cause)) return
+            if (.not. allocated(cause)) then
+                call find_typical_sizes(system, scene%t0, scene%q, scene%v, places, time)
+                system%stated%typical_time = time
+                call move_alloc(places, system%stated%typical_places)
+                return
+            end if
             if (is_singular_everywhere(system)) then
                 call refuse_value(tree, group, key_of("t", "l"), cause%message//", "//state// &
                                   " and elsewhere: a combination of velocities has no "// &

@@ -10,7 +10,8 @@ module lagrangia_description
     public :: description_t, quantity_t, parameter_t, point_t, letter_t, frequency_t
     public :: coordinate, conserved, quantity, positive, nonnegative, between, real_number, &
               whole_number, real_vector, mass_point
-    public :: add_zeros, check_parameter, constraint_text, default_values, described_by, value_names
+    public :: add_zeros, check_parameter, constraint_text, default_values, described_by, &
+              sizes_of_places, value_names
     public :: constraint_length, figure_length, formula_length, line_length, name_length
 
     integer, parameter :: line_length = 120     !! of a line of text
@@ -99,6 +100,8 @@ module lagrangia_description
         character(formula_length), allocatable :: motion(:)  !! `x = x_0 + x_dot_0 t`, from t = 0
         real(dp), allocatable :: equilibrium(:)          !! at or near one; absent: try zero
         character(formula_length), allocatable :: equilibrium_formulas(:)  !! of each coordinate
+        real(dp), allocatable :: typical_places(:)       !! sizes of the coordinates; absent: 1
+        real(dp) :: typical_time = 1.0_dp                !! of a motion, s
         character(figure_length), allocatable :: figure(:)
         !! how it is drawn: `rod origin bob`; see `lagrangia_scene_figure`; absent: as its points
         character(constraint_length), allocatable :: notes(:)  !! slips corrected, limits, remarks
@@ -106,6 +109,15 @@ module lagrangia_description
     end type description_t
 
 contains
+
+    pure function sizes_of_places(d) result(sizes)
+        !! How large coordinates typically are: 1 where the description does not say.
+        type(description_t), intent(in) :: d          !! of a system
+        real(dp) :: sizes(size(d%coordinates))        !! in their units
+
+        sizes = 1.0_dp
+        if (allocated(d%typical_places)) sizes = d%typical_places
+    end function sizes_of_places
 
     pure function coordinate(name, unit, meaning) result(item)
         !! A generalised coordinate.

@@ -105,31 +105,41 @@ contains
     end subroutine parameters
 
     subroutine state(self, system, t, q, v, error)
-        !! A time, coordinates and velocities that the constraints beside L allow. Where L is not
-        !! finite at \(q\) and at \(1.2q\), other coordinates are drawn, from a range 0.8 times as
-        !! wide.
+        !! A time, coordinates and velocities that the constraints beside L allow, in the typical
+        !! sizes of the system. Where L is not finite at \(q\) and at \(1.2q\), other coordinates
+        !! are drawn, from a range 0.8 times as wide.
         class(random_t), intent(inout) :: self
         class(system_t), intent(in) :: system             !! configured
-        real(dp), intent(out) :: t                        !! -2 to 3 s
+        real(dp), intent(out) :: t                        !! -2 to 3 typical times, s
         real(dp), allocatable, intent(out) :: q(:), v(:)  !! (ndof)
         type(error_t), allocatable, intent(out) :: error  !! there are none
         integer, parameter :: tries = 100
+        type(description_t) :: d
         type(error_t), allocatable :: outside
         real(dp) :: given(system%ndof - system%constraints), widest
         integer :: i, k
 
         allocate (q(system%ndof), v(system%ndof))
+        call system%describe(d)
         call self%uniform(-2.0_dp, 3.0_dp, t)
+        t = d%typical_time*t
         widest = 3.0_dp
         do k = 1, tries
             do i = 1, system%ndof
                 call self%uniform(-widest, widest, q(i))
             end do
+            if (allocated(d%typical_places)) q = d%typical_places*q
             do i = 1, size(given)
                 call self%uniform(-3.0_dp, 3.0_dp, given(i))
             end do
             call system%complete_velocities(t, q, given, v, error)
             if (allocated(error)) return
+            if (allocated(d%typical_places)) then
+                do i = 1, system%ndof
+                    call self%uniform(-3.0_dp, 3.0_dp, v(i))
+                end do
+                v = d%typical_places/d%typical_time*v
+            end if
             call system%keep_constraints(t, q, v)
             call system%check_places(t, q, outside)
             if (is_inside(system, t, q, v) .and. .not. allocated(outside)) return

@@ -23,8 +23,7 @@ module lagrangia_written_system
     use lagrangia_written_quantities, only: find_conserved
     implicit none (type, external)
     private
-    public :: is_positive, new_written_system, written_system_t
-    public :: of_momentum
+    public :: is_positive, new_written_system, of_momentum, written_system_t
 
     ! programs of a system
     integer, parameter :: of_l = 1         !! L
@@ -137,6 +136,13 @@ contains
         d%rotors%mass = constants(k + 1:k + size(d%rotors))
         k = k + size(d%rotors)
         if (size(constants) > k) d%equilibrium = constants(k + 1:)
+        if (.not. (allocated(d%typical_places) .and. allocated(self%p))) return
+        values(:size(self%p)) = [(d%parameters(i)%value(1), i=1, size(self%p))]
+        associate (p => abs(self%p), stated => abs(values(:size(self%p))))
+            if (all(p <= 4.0_dp*stated .and. stated <= 4.0_dp*p)) return
+        end associate
+        deallocate (d%typical_places)  ! those of other parameters
+        d%typical_time = 1.0_dp
     end subroutine outline
 
     pure subroutine prepare(self)
