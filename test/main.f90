@@ -46,6 +46,7 @@ module suites
     use test_derivation_algebra, only: derivation_algebra_suite
     use test_derivation_rest, only: derivation_rest_suite
     use test_derivative, only: derivative_suite
+    use test_differentials, only: differentials_suite
     use test_docs_formulae, only: docs_formulae_suite
     use test_dop853, only: dop853_suite
     use test_dop853_coefficients, only: dop853_coefficients_suite
@@ -111,6 +112,7 @@ module suites
     use test_mirror, only: mirror_suite
     use test_mode_picture, only: mode_picture_suite
     use test_modes_files, only: modes_files_suite
+    use test_motion_statements, only: motion_statements_suite
     use test_namelist, only: namelist_suite
     use test_namelist_limits, only: namelist_limits_suite
     use test_namelist_mistakes, only: namelist_mistakes_suite
@@ -134,6 +136,7 @@ module suites
     use test_parameter_domains, only: parameter_domains_suite
     use test_partial_files, only: partial_files_suite
     use test_pasted_characters, only: pasted_characters_suite
+    use test_pasted_latex, only: pasted_latex_suite
     use test_pendulum, only: pendulum_suite
     use test_period, only: period_suite
     use test_phase_space, only: phase_space_suite
@@ -350,6 +353,9 @@ contains
         call suite%addTest(parameter_domains_suite())
         call suite%addTest(partial_files_suite())
         call suite%addTest(pasted_characters_suite())
+        call suite%addTest(pasted_latex_suite())
+        call suite%addTest(differentials_suite())
+        call suite%addTest(motion_statements_suite())
         call suite%addTest(pendulum_suite())
         call suite%addTest(period_suite())
         call suite%addTest(places_suite())

@@ -327,7 +327,8 @@ contains
         !! Each with its column, counted in characters.
         call is_refused("x, m", "column 2: ',' has no meaning here; decimals have a point: 0.5")
         call is_refused("m [x]", "column 3: '[' is no bracket of a formula; write ( and )")
-        call is_refused("\theta", "column 1: LaTeX is not read; write theta")
+        call is_refused("\vec{x}", "column 1: '\vec' is a vector; write its components, "// &
+                        "x_dot and y_dot")
         call is_refused("x % m", "column 3: '%' has no meaning in a formula; write 0.05 for "// &
                         "five percent")
         call is_refused("_x", "column 1: a name begins with a letter; write it before the '_'")

@@ -3,6 +3,7 @@ module lagrangia_formula_characters
     !! pages and equation editors make of signs, blanks, indices, squares and fractions.
     use lagrangia_characters, only: decode, described, is_control
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_latex_source, only: plain_latex
     use lagrangia_letter_shapes, only: dot, is_letter_shape, letter_shape, two_dots
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -72,6 +73,7 @@ contains
             columns = [columns, column]
         end if
         if (scan(plain, dot//two_dots) > 0) call place_dots(plain, columns)
+        call plain_latex(plain, columns, error)
     contains
         pure function follows(letters) result(yes)
             character(*), intent(in) :: letters

@@ -1,6 +1,6 @@
 submodule (lagrangia_formula_parser) lagrangia_formula_operators
-    !! What a formula does with what is in brackets: functions, sums over an index, derivatives.
-    use lagrangia_derivative, only: time_derivative
+    !! What a formula does with what is in brackets: functions, sums over an index.
+    use lagrangia_expression, only: f_exp
     use lagrangia_formula_reader, only: largest
     use lagrangia_indexed_names, only: open_sum, skip_body
     implicit none (type, external)
@@ -92,90 +92,23 @@ contains
         reader%indices = reader%indices - 1
     end subroutine read_indexed_sum
 
-    pure recursive module subroutine read_rate(reader, symbols, node, error)
-        !! `d/dt (m r^2 theta_dot)`, `dE/dt`, `d^2 x/dt^2`, `dL/dx_dot`; no node where none of
-        !! these stands here.
+    pure recursive module subroutine read_exponential(reader, symbols, node, error)
+        !! `e^(-gamma t)`, `e^-2`.
         type(reader_t), intent(inout) :: reader
         type(symbols_t), intent(in) :: symbols
         integer, intent(out) :: node
         type(error_t), allocatable, intent(out) :: error
-        character(:), allocatable :: name, below
-        integer :: first
+        integer :: argument, exponent
+        logical :: negative
 
         node = 0
-        if (.not. allocated(symbols%rates)) return
-        name = reader%tokens%word(reader%at)
-        first = reader%at
-        below = ""
-        if (words(first + 1, 1) == "/") below = words(first + 2, 1)
-        if (symbols%find(name) > 0 .or. symbols%find_definition(name) > 0) then
-            if (name /= "d" .or. below /= "dt" .or. symbols%find("dt") > 0) return
-        end if
-        if (name == "d" .and. below == "dt") then
-            reader%at = first + 3
-            call read_factor(reader, symbols, node, error)
-            if (allocated(error)) return
-            if (begins_factor(reader) .or. next_is(reader, "*") .or. next_is(reader, "/") .or. &
-                next_is(reader, "^")) then
-                reader%at = first
-                call refuse(reader, "of what is it the derivative? Write d/dt(m x_dot)", error)
-            end if
-        else if (name == "d" .and. words(first + 1, 1) == "(") then
-            reader%at = first + 1
-            call read_bracket(reader, symbols, node, error)
-            if (allocated(error)) return
-            if (words(reader%at, 2) /= "/dt") call refuse(reader, "behind d(...) stands '/dt'", &
-                                                          error)
-            reader%at = reader%at + 2
-        else if (name == "d" .and. words(first + 1, 2) == "^2" .and. &
-                 words(first + 4, 4) == "/dt^2") then
-            call add_named(reader, symbols, words(first + 3, 1), first + 8, node)
-            if (node > 0) call differentiate(reader, symbols, first, node, error)
-        else if (name(1:1) == "d" .and. len(name) > 1 .and. below == "dt") then
-            call add_named(reader, symbols, name(2:), first + 3, node)
-        else if (name(1:1) == "d" .and. scan(below, "d") == 1) then
-            call add_named(reader, symbols, name//"_"//below, first + 3, node)
-            return
-        end if
-        if (allocated(error) .or. node == 0) return
-        call differentiate(reader, symbols, first, node, error)
-    contains
-        pure function words(from, number) result(text)
-            !! Some tokens without blanks.
-            integer, intent(in) :: from, number
-            character(:), allocatable :: text
-            integer :: i
-
-            text = ""
-            do i = from, min(from + number, size(reader%tokens%token)) - 1
-                text = text//reader%tokens%word(i)
-            end do
-        end function words
-    end subroutine read_rate
-
-    pure subroutine differentiate(reader, symbols, first, node, error)
-        !! By the time, what was read from token `first` on.
-        type(reader_t), intent(inout) :: reader
-        type(symbols_t), intent(in) :: symbols
-        integer, intent(in) :: first
-        integer, intent(inout) :: node
-        type(error_t), allocatable, intent(out) :: error
-        type(expression_t) :: operand, rate
-        integer :: i
-
-        operand = reader%expression%pruned(node)
-        do i = 1, size(symbols%rates)
-            if (symbols%rates(i) >= 0 .or. .not. operand%depends_on(i)) cycle
-            reader%at = first
-            call refuse(reader, "d/dt of '"//trim(symbols%names(i))//"' is not known here; "// &
-                        "write the formula for it", error)
-            return
-        end do
-        rate = time_derivative(operand, symbols%rates, 1)
-        call reader%expression%append(rate, node)
-        if (reader%expression%count <= largest) return
-        reader%at = first
-        call refuse(reader, "the derivative has more than "//to_text(nint(largest))// &
-                    " parts; shorten it", error)
-    end subroutine differentiate
+        reader%at = reader%at + 2
+        negative = next_is(reader, "-")
+        if (negative) reader%at = reader%at + 1
+        call read_factor(reader, symbols, exponent, error)
+        if (allocated(error)) return
+        argument = exponent
+        if (negative) call reader%expression%add_operation(kind_negation, exponent, 0, argument)
+        call reader%expression%add_operation(kind_function, argument, 0, node, f_exp)
+    end subroutine read_exponential
 end submodule lagrangia_formula_operators

@@ -10,10 +10,9 @@ module lagrangia_formula_parser
     use lagrangia_expression, only: expression_t, f_abs, function_names, kind_difference, &
                                     kind_function, kind_negation, kind_power, kind_product, &
                                     kind_quotient, kind_sum
-    use lagrangia_formula_reader, only: begins_factor, check_size, go_deeper, &
-                                        is_time_in_brackets, next_is, reader_t, refuse, &
-                                        refuse_missing, refuse_unknown, skip_sign, start, &
-                                        typed_number
+    use lagrangia_formula_reader, only: begins_factor, check_size, go_deeper, next_is, reader_t, &
+                                        refuse, refuse_missing, refuse_unexpected, &
+                                        refuse_unknown, skip_sign, start, typed_number
     use lagrangia_formula_tokens, only: is_end, is_name, is_number, is_sign, token_t
     use lagrangia_indexed_names, only: begins_sum, is_of_chain, put_indices, refuse_index
     use lagrangia_kinds, only: dp, i8
@@ -48,14 +47,33 @@ module lagrangia_formula_parser
         end subroutine read_function
 
         pure recursive module subroutine read_rate(reader, symbols, node, error)
-            !! `d/dt (m r^2 theta_dot)`, `dE/dt`, `d^2 x/dt^2`, `dL/dx_dot`; no node where none of
-            !! these stands here.
+            !! `d/dt (m r^2 theta_dot)`, `dE/dt`, `d^2 x/dt^2`, `dL/dx_dot`, `d/dtheta V`; no node
+            !! where none of these stands here.
             implicit none (type, external)
             type(reader_t), intent(inout) :: reader
             type(symbols_t), intent(in) :: symbols
             integer, intent(out) :: node
             type(error_t), allocatable, intent(out) :: error
         end subroutine read_rate
+
+        pure recursive module subroutine read_behind(reader, symbols, name, node, error)
+            !! Primes behind a name, or on what it depends: `theta''`, `V'(theta)`, `L(x, x_dot)`.
+            implicit none (type, external)
+            type(reader_t), intent(inout) :: reader
+            type(symbols_t), intent(in) :: symbols
+            character(*), intent(in) :: name
+            integer, intent(inout) :: node
+            type(error_t), allocatable, intent(out) :: error
+        end subroutine read_behind
+
+        pure recursive module subroutine read_exponential(reader, symbols, node, error)
+            !! `e^(-gamma t)`, `e^-2`.
+            implicit none (type, external)
+            type(reader_t), intent(inout) :: reader
+            type(symbols_t), intent(in) :: symbols
+            integer, intent(out) :: node
+            type(error_t), allocatable, intent(out) :: error
+        end subroutine read_exponential
     end interface
 
 contains
@@ -125,7 +143,7 @@ contains
         if (next_is(reader, ")")) then
             call refuse(reader, "')' closes no bracket; delete it or open one before", error)
         else
-            call refuse(reader, quoted(reader%tokens%word(reader%at))//" is not expected", error)
+            call refuse_unexpected(reader, error)
         end if
     end subroutine read_side
 
@@ -296,8 +314,7 @@ contains
                 call refuse(reader, "the bracket of column "//to_text(column)// &
                             " is not closed; write ')'", error)
             else
-                call refuse(reader, quoted(reader%tokens%word(reader%at))//" is not expected", &
-                            error)
+                call refuse_unexpected(reader, error)
             end if
             return
         end if
@@ -338,6 +355,7 @@ contains
         if (allocated(error) .or. node > 0) return
         if (symbols%spelling(name) /= name) then
             call add_named(reader, symbols, name, reader%at + 1, node)
+            call read_behind(reader, symbols, symbols%spelling(name), node, error)
             return
         end if
         call put_indices(reader, name, indexed, error)
@@ -357,6 +375,10 @@ contains
             node = reader%root_of(which)
         else if (name == "pi") then
             call reader%expression%add_number(number_of(pi), node)
+        else if (name == "e" .and. reader%tokens%word(min(reader%at + 1, &
+                                                          size(reader%tokens%token))) == "^") then
+            call read_exponential(reader, symbols, node, error)
+            return
         else if (is_of_chain(symbols, name)) then
             call refuse_index(reader, symbols, name, name, error)
             return
@@ -369,10 +391,7 @@ contains
             return
         end if
         reader%at = reader%at + 1
-        if (is_time_in_brackets(reader)) then
-            call refuse(reader, quoted(name//"(t)")//" would be a product; write "// &
-                        quoted(name)//", or "//quoted(name//" t")//" if one is meant", error)
-        end if
+        call read_behind(reader, symbols, name, node, error)
     end subroutine read_name
 
     pure subroutine add_indexed(reader, symbols, name, indexed, node, error)

@@ -3,7 +3,8 @@ module lagrangia_formula_reader
     use lagrangia_errors, only: error_t, fail
     use lagrangia_exact_number, only: number_of, number_t, ratio
     use lagrangia_expression, only: expression_t, function_names
-    use lagrangia_formula_tokens, only: cut, is_end, is_name, is_number, is_sign, tokens_t
+    use lagrangia_formula_tokens, only: comma_advice, cut, is_end, is_name, is_number, is_sign, &
+                                        prime_advice, tokens_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_names, only: name_length, nearest_name
     use lagrangia_symbols, only: symbols_t
@@ -13,7 +14,7 @@ module lagrangia_formula_reader
     public :: reader_t
     public :: largest, most_indices
     public :: begins_factor, check_size, go_deeper, is_time_in_brackets, next_is, refuse, &
-              refuse_missing, refuse_unknown, skip_sign, start, typed_number
+              refuse_missing, refuse_unexpected, refuse_unknown, skip_sign, start, typed_number
 
     integer, parameter :: deepest = 200          !! brackets within brackets
     real(dp), parameter :: largest = 100000.0_dp !! parts, with definitions written out
@@ -174,6 +175,21 @@ contains
         call fail(error, "column "//to_text(reader%tokens%token(reader%at)%column)//": "//problem)
     end subroutine refuse
 
+    pure subroutine refuse_unexpected(reader, error)
+        !! A token that cannot stand where it does.
+        type(reader_t), intent(in) :: reader              !! at it
+        type(error_t), allocatable, intent(out) :: error  !! always
+
+        if (next_is(reader, ",")) then
+            call refuse(reader, comma_advice, error)
+        else if (next_is(reader, "'")) then
+            call refuse(reader, prime_advice(reader%tokens%text, &
+                                             reader%tokens%token(reader%at)%first), error)
+        else
+            call refuse(reader, quoted(reader%tokens%word(reader%at))//" is not expected", error)
+        end if
+    end subroutine refuse_unexpected
+
     pure subroutine refuse_missing(reader, error)
         !! There is no factor where one must be.
         type(reader_t), intent(in) :: reader              !! where it must be
@@ -183,7 +199,9 @@ contains
         word = reader%tokens%word(reader%at)
         before = ""
         if (reader%at > 1) before = reader%tokens%word(reader%at - 1)
-        if (before == "" .and. word == "") then
+        if (word == "," .or. word == "'") then
+            call refuse_unexpected(reader, error)
+        else if (before == "" .and. word == "") then
             call refuse(reader, "the formula is empty; write one like m g l cos(theta)", error)
         else if (before == "=" .or. (before == "" .and. word == "=")) then
             call refuse(reader, "a side of the equation is empty; write 0 if it is zero", error)
@@ -235,9 +253,6 @@ contains
         else if (follows_number(reader) .and. any(units == name)) then
             call refuse(reader, quoted(name)//" is a unit, and numbers have none here; write "// &
                         "the formula in letters", error)
-        else if (name == "d" .and. allocated(symbols%rates)) then
-            call refuse(reader, "a derivative is written d/dt(m x_dot), d^2 x/dt^2 or x_ddot", &
-                        error)
         else if (name == "sum") then
             call refuse(reader, "a sum is written sum(i, 1, 4, m/2 x_i_dot^2)", error)
         else if (size(names) == 1) then

@@ -8,12 +8,15 @@ module lagrangia_formula_tokens
     implicit none (type, external)
     private
     public :: cut, token_t, tokens_t
+    public :: comma_advice, prime_advice
     public :: is_end, is_name, is_number, is_sign
 
     integer, parameter :: is_end = 0, is_number = 1, is_name = 2, is_sign = 3
     character(*), parameter :: digits = "0123456789"
     character(*), parameter :: letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
     character(*), parameter :: inside = letters//"_"//digits
+    character(*), parameter :: comma_advice = &
+        "',' has no meaning here; decimals have a point: 0.5"
     integer, parameter :: longest = 10000
 
     type :: token_t
@@ -102,8 +105,7 @@ contains
                  scan(text(token%first:)//" ", ".") == 1 .and. &
                  scan(text(token%first:)//" ", digits) == 2) then
             call take_number(text, token, error)
-        else if (scan(letter, "+-*/^()|=") == 1 .or. &
-                 (letter == "," .and. index(text(:token%first), "sum") > 0)) then
+        else if (scan(letter, "+-*/^()|=,'") == 1) then
             token%kind = is_sign
             token%last = token%first
             if (index(text(token%first:), "**") == 1) token%last = token%first + 1
@@ -141,7 +143,8 @@ contains
         end if
         token%kind = is_number
         token%last = at - 1
-        if (scan(text(at:)//" ", letters//"_") == 1) then
+        if (scan(text(at:)//" ", letters//"_") == 1 .and. &
+            .not. is_order(text(:token%first - 1))) then
             behind = at + verify(text(at:)//" ", inside) - 2
             call fail(error, "column "//to_text(token%column)//": a blank is missing in "// &
                       quoted(text(token%first:behind))//"; write "// &
@@ -155,6 +158,22 @@ contains
                   quoted(text(token%first:token%last))//" "//problem)
     end subroutine take_number
 
+    pure function is_order(before) result(yes)
+        !! Is the number behind it that of `d^2theta/dt^2`?
+        character(*), intent(in) :: before
+        logical :: yes
+        character(:), allocatable :: word
+        integer :: last
+
+        yes = .false.
+        last = len_trim(before)
+        if (last < 2) return
+        if (before(last:last) /= "^") return
+        last = len_trim(before(:last - 1))
+        word = before(verify(before(:last), inside, back=.true.) + 1:last)
+        yes = word == "d" .or. word == "partial"
+    end function is_order
+
     pure function advice(before, at) result(text)
         !! What to write in the place of a sign that has no meaning.
         character(*), intent(in) :: before  !! the formula
@@ -162,17 +181,8 @@ contains
         character(:), allocatable :: text
 
         select case (before(at:at))
-        case (",")
-            text = "',' has no meaning here; decimals have a point: 0.5"
         case ("[", "]", "{", "}")
             text = quoted(before(at:at))//" is no bracket of a formula; write ( and )"
-        case ("\")
-            text = "LaTeX is not read; write "//instead_of_latex(before(at + 1:))
-            if (scan(before(max(1, at - 1):max(1, at - 1)), inside) == 1 .or. &
-                scan(before(at + 1:)//" ", letters) /= 1) text = "'\' has no meaning in a "// &
-                                                                 "formula; delete it"
-        case ("'")
-            text = "a prime is no derivative; write "//dotted(before, at)
         case ("_")
             text = "a name begins with a letter; write it before the '_'"
         case (".")
@@ -187,6 +197,21 @@ contains
             text = quoted(before(at:at))//" has no meaning in a formula; delete it"
         end select
     end function advice
+
+    pure function prime_advice(text, at) result(advice)
+        !! What to write in the place of a prime that is not read.
+        character(*), intent(in) :: text  !! the plain formula
+        integer, intent(in) :: at         !! of the first prime
+        character(:), allocatable :: advice
+
+        advice = "a prime is no derivative; write "//dotted(text, at)
+        if (at < 2) return
+        if (scan(text(at - 1:at - 1), "LTVU") == 0) return
+        if (at > 2) then
+            if (scan(text(at - 2:at - 2), inside) == 1) return
+        end if
+        advice = "a prime does not say by what; write d"//text(at - 1:at - 1)//"/dx"
+    end function prime_advice
 
     pure function dotted(text, at) result(name)
         !! `theta_ddot` for `theta''`.
@@ -208,33 +233,4 @@ contains
             name = name//trim(merge("_dot ", "_ddot", primes == 1))
         end if
     end function dotted
-
-    pure function instead_of_latex(command) result(text)
-        !! What a command stands for: `theta_dot` for `dot{\theta}`.
-        character(*), intent(in) :: command  !! without its backslash
-        character(:), allocatable :: text
-        character(:), allocatable :: operand
-        integer :: first, last
-
-        last = verify(command//" ", letters) - 1
-        first = last + verify(command(last + 1:)//"x", " {\")
-        operand = command(first:first + verify(command(first:)//" ", inside) - 2)
-        select case (command(:last))
-        case ("dot")
-            text = operand//"_dot"
-        case ("ddot")
-            text = operand//"_ddot"
-        case ("frac", "dfrac", "tfrac")
-            text = "(a)/(b)"
-        case ("sqrt", "sin", "cos", "tan", "exp")
-            text = command(:last)//"("//operand//")"
-        case ("cdot", "times")
-            text = "*"
-        case ("left", "right")
-            text = "( and ) alone"
-        case default
-            text = command(:last)
-            if (last == 0) text = "a blank"
-        end select
-    end function instead_of_latex
 end module lagrangia_formula_tokens

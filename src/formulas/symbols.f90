@@ -28,6 +28,7 @@ module lagrangia_symbols
         integer, allocatable :: rates(:)
         !! place of each symbol's time derivative, 0: it is constant, or the time; -1: not known.
         !! Without these a formula has no d/dt
+        logical :: primes = .false.  !! `x'` is `x_dot` where these have rates
     contains
         procedure :: add
         procedure :: define

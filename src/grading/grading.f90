@@ -7,6 +7,7 @@ module lagrangia_grading
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, kind_number
+    use lagrangia_formula_characters, only: plain_formula
     use lagrangia_formula_parser, only: parse_equation, parse_formula
     use lagrangia_homework, only: homework_t
     use lagrangia_judgement, only: is_consequence, is_right, is_wrong, judge, &
@@ -50,12 +51,15 @@ contains
         type(consequences_t) :: consequences
         type(homework_t) :: sheet
         type(description_t) :: d
-        character(:), allocatable :: said
+        character(:), allocatable :: plain, said
+        integer, allocatable :: columns(:)
         integer :: i
 
         said = ""
         do i = 1, size(homework%statements)
-            said = said//" "//homework%statements(i)%text
+            call plain_formula(homework%statements(i)%text, plain, columns, error)
+            if (allocated(error)) plain = homework%statements(i)%text
+            said = said//" "//plain
         end do
         call new_samples(system, said, homework%settings, samples, error)
         if (allocated(error)) return
@@ -64,6 +68,7 @@ contains
         call add_usual_names(d, homework, samples)
         sheet = homework
         call mark_used(sheet, samples)
+        samples%symbols%primes = writes_primes(homework)
         call explain_rates(samples, said, result%meaning)
         call collect_terms(system, samples, library)
         allocate (result%of(size(homework%statements)))
@@ -73,6 +78,8 @@ contains
                 call consequences%add_names(samples%symbols)
                 select case (judgement%verdict)
                 case (is_wrong)
+                    allocate (judgement%because(0))
+                    if (judgement%residual%count == 0) cycle  ! a motion
                     call consequences%find(sheet%statements(i), judgement%residual, samples, &
                                            judgement%because)
                     if (size(judgement%because) > 0) then
@@ -89,6 +96,24 @@ contains
         end do
         call find_determined(samples, result)
     end subroutine grade
+
+    pure function writes_primes(homework) result(yes)
+        !! `theta''`, so that `theta'` is the velocity, and no coordinate of another frame?
+        type(homework_t), intent(in) :: homework
+        logical :: yes
+        character(:), allocatable :: plain
+        integer, allocatable :: columns(:)
+        type(error_t), allocatable :: error
+        integer :: at, i
+
+        yes = .false.
+        do i = 1, size(homework%statements)
+            call plain_formula(homework%statements(i)%text, plain, columns, error)
+            if (allocated(error)) cycle
+            at = index(plain, "''")
+            if (at > 1) yes = yes .or. scan(plain(at - 1:at - 1), "LTVU)") == 0
+        end do
+    end function writes_primes
 
     pure subroutine explain_rates(samples, said, meaning)
         !! What omega and gamma are, if there is drag and the sheet speaks of them.

@@ -119,6 +119,10 @@ contains
             call next_line(text, first, line)
             if (line == "" .and. whole == "") cycle
             if (whole == "") begun = number
+            if (is_frame_of_latex(line)) cycle
+            if (len(line) > 1) then
+                if (line(len(line) - 1:) == "\\") line = trim(line(:len(line) - 2))
+            end if
             if (len(line) > 0) then
                 if (line(len(line):) == "\") then
                     whole = whole//line(:len(line) - 1)//" "
@@ -142,6 +146,18 @@ contains
         end if
     end subroutine parse_homework
 
+    pure function is_frame_of_latex(line) result(yes)
+        !! `\begin{align}`, `\[`, `$$`: a line without a formula.
+        character(*), intent(in) :: line
+        logical :: yes
+        character(:), allocatable :: begun
+
+        begun = adjustl(line)
+        yes = index(begun, "\begin{") == 1 .or. index(begun, "\end{") == 1
+        if (yes) yes = index(begun, "=") == 0
+        yes = yes .or. any(begun == [character(2) :: "\[", "\]", "$$"])
+    end function is_frame_of_latex
+
     pure subroutine next_line(text, first, line)
         !! The line that begins at `first`, without its comment and outer blanks; `first` moves on.
         character(*), intent(in) :: text
@@ -160,7 +176,24 @@ contains
             if (line(i:i) == char(9)) line(i:i) = " "
         end do
         line = trim(with_plain_equals(line))
+        call put_sign(line, "\approx", "~")
+        call put_sign(line, "\simeq", "~")
+        call put_sign(line, "\equiv", "=")
     end subroutine next_line
+
+    pure subroutine put_sign(line, command, sign)
+        !! A sign of as many characters for a command of LaTeX.
+        character(:), allocatable, intent(inout) :: line
+        character(*), intent(in) :: command
+        character, intent(in) :: sign
+        integer :: at
+
+        do
+            at = index(line, command)
+            if (at == 0) return
+            line(at:at + len(command) - 1) = sign
+        end do
+    end subroutine put_sign
 
     pure function with_plain_equals(line) result(plain)
         !! `=` for signs that mean it, `:` for the wide one.

@@ -17,6 +17,7 @@ module lagrangia_judgement
     use lagrangia_kinds, only: dp
     use lagrangia_mode_choice, only: choose_modes
     use lagrangia_motion_samples, only: put_places
+    use lagrangia_motion_statements, only: judge_motion
     use lagrangia_rounded_numbers, only: holds_to_digits, true_number
     use lagrangia_same_motion, only: same_equations
     use lagrangia_sample_names, only: draws, samples_t, states
@@ -57,7 +58,7 @@ contains
         integer, allocatable :: columns(:)
         integer :: begun, first, next, last
         logical, allocatable :: nearly(:)
-        logical :: chained, constancy, small, squared
+        logical :: chained, constancy, is_one, small, squared
 
         chained = .false.
         small = statement%small
@@ -66,17 +67,23 @@ contains
         judgement%example = ""
         call read_signs(statement%text, text, nearly)
         if (statement%small) text(:index(text, ":")) = ""
+        text = without_full_stop(text)
         next = index(text, "=")
         call find_empty_side(text, judgement)
         if (judgement%verdict == is_unreadable) return
-        call plain_formula(text(:next - 1), side, columns, error)
+        call plain_formula(as_in(text, 1, next - 1), side, columns, error)
         if (allocated(error)) side = text(:next - 1)
         call read_new_name(side, samples, name, squared)
         if (name /= "" .and. index(text(next + 1:), "=") == 0) then
             call define(name, squared, text, next, statement%used, samples, library, judgement)
             return
         end if
-        call parse_formula(text(:next - 1), samples%symbols, left, error)
+        if (index(text(next + 1:), "=") == 0) then
+            call judge_motion(side, repeat(" ", characters(text(:next)))// &
+                              as_in(text, next + 1, len(text)), samples, is_one, judgement)
+            if (is_one) return
+        end if
+        call parse_formula(as_in(text, 1, next - 1), samples%symbols, left, error)
         if (allocated(error)) then
             call put_unreadable(error, judgement)
             return
@@ -88,13 +95,13 @@ contains
             last = index(text(first:), "=")
             next = merge(len(text) + 1, first + last - 1, last == 0)
             ! blanks in front keep the columns of what went before
-            call parse_formula(repeat(" ", characters(text(:first - 1)))//text(first:next - 1), &
-                               samples%symbols, right, error)
+            call parse_formula(repeat(" ", characters(text(:first - 1)))// &
+                               as_in(text, first, next - 1), samples%symbols, right, error)
             if (.not. allocated(error)) call read_as_period(left, right, samples, chained)
-            call read_constancy(text(first:next - 1), samples, side_and, constancy)
+            call read_constancy(plainly(as_in(text, first, next - 1)), samples, side_and, constancy)
             if (constancy) then
-                call parse_formula("d/dt("//text(begun:first - 2)//side_and//")", samples%symbols, &
-                                   left, error)
+                call parse_formula("d/dt("//as_in(text, begun, first - 2)//side_and//")", &
+                                   samples%symbols, left, error)
                 right = whole(0)
             end if
             if (allocated(error)) then
@@ -119,6 +126,39 @@ contains
             chained = .true.
         end do
     end subroutine judge
+
+    pure function as_in(text, first, last) result(side)
+        !! One side of a statement; in LaTeX, `mgl` is a product on both of them.
+        character(*), intent(in) :: text
+        integer, intent(in) :: first, last
+        character(:), allocatable :: side
+
+        side = text(first:last)
+        if (index(text, "\") > 0 .and. index(side, "\") == 0) side = side//"\ "
+    end function as_in
+
+    pure function plainly(text) result(plain)
+        !! In plain letters, if it can be.
+        character(*), intent(in) :: text
+        character(:), allocatable :: plain
+        integer, allocatable :: columns(:)
+        type(error_t), allocatable :: error
+
+        call plain_formula(text, plain, columns, error)
+        if (allocated(error)) plain = text
+    end function plainly
+
+    pure function without_full_stop(text) result(formula)
+        !! What ends a sentence is no part of its formula.
+        character(*), intent(in) :: text
+        character(:), allocatable :: formula
+        integer :: last
+
+        formula = text
+        last = len_trim(text)
+        if (last < 2) return
+        if (scan(text(last:last), ",;.") == 1) formula(last:last) = " "
+    end function without_full_stop
 
     subroutine judge_forms(left, right, text, chained, small, samples, library, explain, judgement)
         !! One equality; also with T for a string's tension, with rounded numbers, with one sign of
@@ -220,8 +260,8 @@ contains
         type(error_t), allocatable :: error
 
         judgement%verdict = is_definition
-        call parse_formula(repeat(" ", characters(text(:equals)))//text(equals + 1:), &
-                           samples%symbols, meaning, error)
+        call parse_formula(repeat(" ", characters(text(:equals)))// &
+                           as_in(text, equals + 1, len(text)), samples%symbols, meaning, error)
         if (.not. allocated(error)) then
             call define_by_period(meaning, samples)
             if (squared) meaning = apply(f_sqrt, meaning)
@@ -238,10 +278,10 @@ contains
         if (truth%count == 0) return
         attempt%remark = ""
         attempt%example = ""
-        call judge_pair(truth, meaning, .true., samples, library, .true., attempt)
+        call judge_forms(truth, meaning, text, .true., .false., samples, library, .true., attempt)
         if (attempt%verdict == is_right) judgement = attempt
         if (attempt%verdict /= is_wrong) return
-        if (means_frequency(name, samples) .and. .not. used) then
+        if (means_frequency(name, samples) .and. (.not. used .or. meaning%count == 1)) then
             judgement = attempt
             if (index(attempt%remark, "no single") == 1) judgement%remark = "no small "// &
                 "oscillation has this frequency; see 'lagrangia modes'"

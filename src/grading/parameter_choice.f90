@@ -35,6 +35,12 @@ contains
         allocate (given, source=default_values(d))
         allocate (fixed(size(given)), source=.false.)
         first = 0
+        if (occurs(whole, "gamma") .or. occurs(whole, "beta")) then
+            ! where they have no meaning of their own, the sheet speaks of drag
+            if (.not. any([(any(["gamma", "beta "] == d%parameters(i)%name), &
+                            i=1, size(d%parameters))]) .and. index(whole, "gamma =") == 0 .and. &
+                index(whole, "beta =") == 0) whole = whole//" b"
+        end if
         do i = 1, size(d%parameters)
             associate (p => d%parameters(i))
                 named = is_named(p%name)

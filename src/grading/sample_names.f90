@@ -1,10 +1,10 @@
 module lagrangia_sample_names
     !! What a statement about a system may name: coordinates, velocities, accelerations, parameters,
     !! letters, L, energies, momenta, derivatives of L, quantities, places of the masses, omega.
-    use lagrangia_derivative, only: derivative, time_derivative
+    use lagrangia_derivative, only: time_derivative
     use lagrangia_description, only: description_t, name_length, quantity_t, value_names
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: expression_t, symbol
+    use lagrangia_expression, only: expression_t
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_formula_program, only: formula_program_t, new_formula_program
     use lagrangia_hyperdual, only: hyperdual_t
@@ -85,8 +85,21 @@ module lagrangia_sample_names
         real(dp), allocatable, dimension(:, :, :) :: other_stiffness, other_inertia, other_turning
         integer, allocatable :: place(:)                !! of `theta_eq`, where it is, (ndof)
         type(usual_t), allocatable :: usual(:)          !! names beside `symbols`
+        character(name_length), allocatable :: constants(:)
+        !! of motions that are written out, `A` of A cos(omega t): symbols behind all others
+        type(expression_t), allocatable :: motion(:)
+        !! of each coordinate, as a line has it; empty: none
         type(random_t) :: random
     end type samples_t
+
+    interface
+        module subroutine define_derivatives(d, samples)
+            !! `p_x_dot`, the forces beside L, and `dV_dx`, `dT_dx_dot`.
+            implicit none (type, external)
+            type(description_t), intent(in) :: d
+            type(samples_t), intent(inout) :: samples
+        end subroutine define_derivatives
+    end interface
 
 contains
 
@@ -146,6 +159,7 @@ contains
             samples%decay = size(samples%role)
             call add(trim(samples%symbols%names(samples%frequency))//"_0", role_known)
         end if
+        allocate (samples%constants(0), samples%motion(samples%ndof))
         allocate (samples%place(samples%ndof))
         do i = 1, samples%ndof
             call add(trim(samples%symbols%names(1 + i))//"_eq", role_known)
@@ -226,15 +240,18 @@ contains
             type(quantity_t), intent(in) :: quantity
             logical :: yes
             type(expression_t) :: formula
+            type(symbols_t) :: symbols
             type(error_t), allocatable :: error
             integer :: j
 
             yes = .false.
             if (quantity%formula == "") return
+            symbols = samples%symbols  ! and momenta, which get their names later
             do j = 1, size(d%coordinates)  ! whose rate is that of dL/dx_dot
                 if (quantity%name == "p_"//trim(d%coordinates(j)%name)) return
+                call symbols%add("p_"//trim(d%coordinates(j)%name))
             end do
-            call parse_formula(trim(quantity%formula), samples%symbols, formula, error)
+            call parse_formula(trim(quantity%formula), symbols, formula, error)
             if (allocated(error)) return
             yes = .not. any([(formula%depends_on(j), j=1, size(samples%role))] .and. &
                             (samples%role == role_acceleration .or. samples%role == role_known))
@@ -281,55 +298,6 @@ contains
                 index(name, "_ddot") > 0) samples%symbols%rates(i) = -1
         end do
     end subroutine name_rates
-
-    subroutine define_derivatives(d, samples)
-        !! `p_x_dot`, and `dV_dx`, `dT_dx_dot` where no letter hides a coordinate.
-        type(description_t), intent(in) :: d
-        type(samples_t), intent(inout) :: samples
-        type(error_t), allocatable :: error
-        integer :: i
-
-        do i = 1, size(d%coordinates)
-            associate (name => d%coordinates(i)%name)
-                call samples%symbols%define("p_"//trim(name)//"_dot", symbol( &
-                    samples%symbols%find("d_dt_dL_d"//trim(name)//"_dot")), error)
-            end associate
-        end do
-        if (allocated(d%generalised_forces)) then
-            do i = 1, size(d%generalised_forces)
-                associate (text => d%generalised_forces(i))
-                    call define_force(text(:index(text, "=") - 1), text(index(text, "=") + 1:))
-                end associate
-            end do
-        end if
-        if (allocated(d%kinetic_energy)) call define_of("T", d%kinetic_energy)
-        if (allocated(d%potential_energy)) call define_of("V", d%potential_energy)
-    contains
-        subroutine define_force(name, formula)
-            character(*), intent(in) :: name, formula
-            type(expression_t) :: force
-
-            call parse_formula(trim(formula), samples%symbols, force, error)
-            if (.not. allocated(error)) call samples%symbols%define(trim(name), force, error)
-        end subroutine define_force
-
-        subroutine define_of(energy, formula)
-            character(*), intent(in) :: energy, formula
-            type(expression_t) :: expression
-            integer :: k
-
-            call parse_formula(formula, samples%symbols, expression, error)
-            if (allocated(error)) return
-            do k = 1, size(samples%role)
-                if (samples%role(k) == role_parameter .and. samples%rate(k) > 0 .and. &
-                    expression%depends_on(k)) return
-            end do
-            do k = 2, 1 + 2*samples%ndof
-                call samples%symbols%define("d"//energy//"_d"//trim(samples%symbols%names(k)), &
-                                            derivative(expression, k), error)
-            end do
-        end subroutine define_of
-    end subroutine define_derivatives
 
     subroutine compile_letters(d, samples)
         !! The definitions, the quantities that have rates, T and V, in this order.

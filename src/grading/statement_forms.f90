@@ -14,7 +14,7 @@ module lagrangia_statement_forms
     use lagrangia_symbols, only: check_name
     implicit none (type, external)
     private
-    public :: define_by_period, define_rates, speaks_of_place
+    public :: define_by_period, define_rates, period, speaks_of_place, without_number
     public :: drop_root_of_name, find_frequency, read_as_period, read_as_tension, read_new_name, &
               tensions
     public :: has_velocities, is_branch, is_motion, is_slope, is_value, means_frequency
@@ -34,8 +34,30 @@ contains
         squared = power > 1
         if (squared) squared = adjustl(name(power + 1:)) == "2"
         if (squared) name = trim(name(:power - 1))
+        call drop_arguments(name, samples)
         if (.not. is_new_name(name, samples)) name = ""
     end subroutine read_new_name
+
+    pure subroutine drop_arguments(name, samples)
+        !! `W` of `W(theta, theta_dot)`.
+        character(:), allocatable, intent(inout) :: name
+        type(samples_t), intent(in) :: samples
+        integer :: first, last, opened, place
+
+        opened = index(name, "(")
+        if (opened < 2) return
+        if (name(len(name):) /= ")" .or. name(:opened - 1) == "d") return
+        first = opened + 1
+        do while (first <= len(name))
+            last = first + scan(name(first:), ",)") - 1
+            if (last < first) return
+            place = samples%symbols%find(samples%symbols%spelling(trim(adjustl( &
+                                                                  name(first:last - 1)))))
+            if (place == 0 .or. place > 1 + 3*samples%ndof) return
+            first = last + 1
+        end do
+        name = name(:opened - 1)
+    end subroutine drop_arguments
 
     pure subroutine drop_root_of_name(side, left, right, samples)
         !! After `v^2 = l^2 theta_dot^2` says `v = l theta_dot` no more than the square of it.
@@ -72,7 +94,7 @@ contains
             if (.not. is_fixed(samples, k)) return
             constants = .true.
         end do
-        if (.not. constants) return
+        if (.not. constants .and. .not. is_fixed_frequency(samples)) return
         stem = without_number(name)
         if (stem == trim(samples%symbols%names(samples%frequency)) .or. stem == "w") then
             truth = symbol(samples%frequency)
@@ -82,6 +104,15 @@ contains
             truth = whole(1)/period(samples)
         end if
     end subroutine find_frequency
+
+    pure function is_fixed_frequency(samples) result(yes)
+        !! Do lines `set:` fix all on which the modes depend?
+        type(samples_t), intent(in) :: samples
+        logical :: yes
+
+        yes = any(abs(samples%omega2) > 0.0_dp) .and. all(maxval(samples%omega2, 1) - &
+            minval(samples%omega2, 1) <= 1e-12_dp*maxval(abs(samples%omega2)))
+    end function is_fixed_frequency
 
     pure function means_frequency(name, samples) result(yes)
         !! `omega_1`: the frequency of a mode. `omega_0` may be one without a drive or the other
@@ -98,7 +129,7 @@ contains
 
     pure function without_number(name) result(stem)
         !! `omega` of `omega_1` and `omega1`.
-        character(*), intent(in) :: name
+        character(*), intent(in) :: name  !! of anything
         character(:), allocatable :: stem
         integer :: k
 
@@ -195,7 +226,7 @@ contains
 
     pure function period(samples) result(formula)
         !! \(2\pi/\omega\).
-        type(samples_t), intent(in) :: samples
+        type(samples_t), intent(in) :: samples  !! know where omega stands
         type(expression_t) :: formula
 
         formula = constant(2.0_dp*acos(-1.0_dp))/symbol(samples%frequency)

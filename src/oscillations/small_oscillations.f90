@@ -8,7 +8,7 @@ module lagrangia_small_oscillations
     use lagrangia_description, only: description_t, name_length
     use lagrangia_eigen, only: modes_from_factors, residual_ratio
     use lagrangia_equilibrium, only: expand_at_rest, force_at_rest, settle
-    use lagrangia_errors, only: error_t, fail, status_library
+    use lagrangia_errors, only: error_t, fail
     use lagrangia_gyroscopic, only: gyroscopic_modes, gyroscopic_ratio, is_steady
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_jacobi, only: zero_modes
@@ -57,7 +57,7 @@ contains
         integer :: n
 
         n = system%ndof
-        call check_system(system, start, error)
+        call check_system(system, start, wanted, error)
         if (.not. allocated(error)) call check_memory(8.0_dp*matrices*n**2, "the eigenproblem "// &
             "of "//to_text(n)//" coordinates", error)
         if (allocated(error)) return
@@ -166,11 +166,12 @@ contains
         if (size(d%equilibrium) == system%ndof) q = d%equilibrium
     end function likely_equilibrium
 
-    subroutine check_system(system, start, error)
+    subroutine check_system(system, start, wanted, error)
         !! Refuse a system without a constant \(M\), \(G\) and \(K\): not configured, with
         !! nonholonomic constraints, or with the time in L.
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: start(:)
+        logical, intent(in) :: wanted   !! somebody has given it
         type(error_t), allocatable, intent(out) :: error
         type(description_t) :: d
         type(hyperdual_t) :: qq(size(start)), vv(size(start)), l
@@ -209,9 +210,43 @@ contains
         qq%re = start
         l = system%lagrangian(hyperdual_t(), qq, vv)
         if (ieee_is_finite(l%re)) return
-        call fail(error, "the Lagrangian of this "//trim(d%name)//" is not a finite number at "// &
-                  "q = "//list_of(start)//", v = 0", status_library)
+        call refuse_start(system, d, start, wanted, error)
     end subroutine check_system
+
+    subroutine refuse_start(system, d, start, wanted, error)
+        !! L is no number there: say whether there is an equilibrium elsewhere.
+        class(system_t), intent(in) :: system
+        type(description_t), intent(in) :: d
+        real(dp), intent(in) :: start(:)
+        logical, intent(in) :: wanted
+        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable :: none
+        real(dp) :: q(size(start)), f(size(start))
+        character(:), allocatable :: names
+        integer :: i, worst
+
+        names = trim(d%coordinates(1)%name)
+        do i = 2, size(d%coordinates)
+            names = names//","//trim(d%coordinates(i)%name)
+        end do
+        q = 1.0_dp
+        f = force_at_rest(system, q)
+        worst = maxloc(abs(f), 1)
+        call settle(system, .false., q, none)
+        if (.not. allocated(none)) then
+            call fail(error, "L of "//trim(d%name)//" is no finite number at "//names//" = "// &
+                      list_of(start)//"; there is an equilibrium at --at "//list_of(q))
+        else if (wanted) then
+            call fail(error, "L of "//trim(d%name)//" is no finite number at "//names//" = "// &
+                      list_of(start)//"; give --at "//names//" with other values")
+        else
+            call fail(error, trim(d%name)//" has no equilibrium that is found: at "// &
+                      names//" = "//list_of(start)//" L is no finite number, and at rest "// &
+                      "elsewhere a force on "//trim(d%coordinates(worst)%name)// &
+                      " remains; if you know one, "// &
+                      "give it: --at "//names)
+        end if
+    end subroutine refuse_start
 
     pure subroutine compare(modes)
         !! The derivation by hand against the Lagrangian.

@@ -1,0 +1,363 @@
+module lagrangia_motion_statements
+    !! A motion that is written out, `theta = A cos(omega t + phi)`: right if it solves the equation
+    !! of motion, or the linearised one. Names that nobody knows are its constants.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_derivative, only: derivative, time_derivative
+    use lagrangia_errors, only: error_t
+    use lagrangia_expression, only: expression_t, function_names, operator(-)
+    use lagrangia_formula_parser, only: parse_formula
+    use lagrangia_formula_tokens, only: cut, is_name, tokens_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_motion_samples, only: put_places
+    use lagrangia_motion_values, only: draw_values, put_frequencies, rate_of, unknown_rate, &
+                                       values_of
+    use lagrangia_sample_names, only: draws, role_frequency, role_parameter, samples_t, states
+    use lagrangia_slip_search, only: holds
+    use lagrangia_statement_forms, only: period
+    use lagrangia_substitution, only: substituted
+    use lagrangia_symbols, only: symbols_t
+    use lagrangia_verdict, only: is_right, is_unreadable, is_wrong, judgement_t
+    implicit none (type, external)
+    private
+    public :: judge_motion
+
+    integer, parameter :: most_coordinates = 3  !! of which all modes are tried
+    integer, parameter :: enough = 4            !! states at which all is finite
+    real(dp), parameter :: tolerance = 1e-8_dp  !! of terms that cancel
+
+contains
+
+    subroutine judge_motion(side, text, samples, is_one, judgement)
+        !! A coordinate alone on the left side, or its rate, and a function of the time on the right
+        !! one; else `is_one` is false.
+        character(*), intent(in) :: side                !! the left one, in plain letters
+        character(*), intent(in) :: text                !! the right one, behind blanks
+        type(samples_t), intent(inout) :: samples       !! remember the motion
+        logical, intent(out) :: is_one                  !! all is said
+        type(judgement_t), intent(inout) :: judgement   !! of it
+        type(expression_t) :: f, at_period(1)
+        type(symbols_t) :: symbols
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: values(:, :)
+        character(:), allocatable :: unknown
+        integer :: coordinate, letter, order, which
+        logical :: judged, known, solved
+
+        call find_side(side, samples, coordinate, order)
+        is_one = .false.
+        if (coordinate == 0) return
+        symbols = samples%symbols
+        call add_constants(text, symbols, samples, error)
+        if (allocated(error)) return
+        call parse_formula(text, symbols, f, error)
+        if (allocated(error)) return
+        at_period(1) = period(samples)
+        letter = samples%symbols%find("T")
+        if (letter > 0) then
+            if (f%depends_on(letter)) f = substituted(f, [letter], at_period)
+        end if
+        if (.not. is_of_time(f, samples)) return
+        call draw_values(samples, size(symbols%names), values)
+        is_one = .true.
+        if (samples%motion(coordinate)%count > 0) then
+            call compare_rate(coordinate, order, f, samples, values, judgement)
+            return
+        end if
+        call compare_exact(coordinate, order, f, samples, values, known, judgement)
+        solved = known .and. judgement%verdict == is_right
+        do which = 1, merge(2, 1, samples%ndof == 1)
+            if (solved) exit
+            call compare_linear(coordinate, order, f, samples, which == 2, values, judged, &
+                                judgement)
+            known = known .or. judged
+            solved = judged .and. judgement%verdict == is_right
+        end do
+        if (solved .and. order == 0) samples%motion(coordinate) = f
+        if (solved) judgement%example = ""
+        unknown = ""
+        if (.not. solved) unknown = unknown_rate(f, samples)
+        if (known .and. unknown == "") return
+        judgement%verdict = is_unreadable
+        if (unknown /= "") then
+            judgement%remark = "what is '"//unknown//"'? Write a line before, "//unknown// &
+                " = ..., or omega and gamma for what the program knows"
+            return
+        else if (samples%ndof == 1) then
+            judgement%remark = "no number at the times that were tried; fix "// &
+                "parameters at which it oscillates by lines like 'set: g = 9.81'"
+            return
+        end if
+        judgement%remark = "a motion of coupled coordinates is not graded, only what holds at "// &
+            "all times; write its equation, or its frequency"
+    end subroutine judge_motion
+
+    subroutine find_side(side, samples, coordinate, order)
+        !! Which coordinate, and how often it is differentiated; 0: it is none.
+        character(*), intent(in) :: side
+        type(samples_t), intent(in) :: samples
+        integer, intent(out) :: coordinate, order
+        type(expression_t) :: left
+        type(error_t), allocatable :: error
+
+        coordinate = 0
+        order = 0
+        call parse_formula(side, samples%symbols, left, error)
+        if (allocated(error)) return
+        if (left%count /= 1) return
+        associate (place => left%nodes(1)%which)
+            if (place < 2 .or. place > 1 + 3*samples%ndof) return
+            coordinate = 1 + mod(place - 2, samples%ndof)
+            order = (place - 2)/samples%ndof
+        end associate
+    end subroutine find_side
+
+    subroutine add_constants(text, symbols, samples, error)
+        !! Names behind all others, the same ones for each line.
+        character(*), intent(in) :: text
+        type(symbols_t), intent(inout) :: symbols
+        type(samples_t), intent(inout) :: samples
+        type(error_t), allocatable, intent(out) :: error  !! the text cannot be read
+        character(:), allocatable :: word
+        type(tokens_t) :: tokens
+        integer :: i
+
+        call cut(text, tokens, error)
+        if (allocated(error)) return
+        do i = 1, size(tokens%token)
+            if (tokens%token(i)%kind /= is_name) cycle
+            word = symbols%spelling(tokens%word(i))
+            if (symbols%find(word) > 0 .or. symbols%find_definition(word) > 0) cycle
+            if (any(function_names == word) .or. word == "pi" .or. word == "e") cycle
+            if (any(samples%constants == word)) cycle
+            if (index(word//" ", "_dot ") + index(word//" ", "_ddot ") > 0 .or. &
+                index(word, "p_") == 1) cycle
+            if (tokens%word(min(i + 1, size(tokens%token))) == "(" .and. len(word) > 1) cycle
+            samples%constants = [character(len(samples%constants)) :: samples%constants, word]
+        end do
+        do i = 1, size(samples%constants)
+            ! a definition of this name came between two lines
+            if (symbols%find_definition(trim(samples%constants(i))) > 0) then
+                call symbols%add("_"//trim(samples%constants(i)))
+            else
+                call symbols%add(trim(samples%constants(i)))
+            end if
+            symbols%rates = [symbols%rates, 0]
+        end do
+    end subroutine add_constants
+
+    pure function is_of_time(f, samples) result(yes)
+        !! With t in it, and beside it constants only.
+        type(expression_t), intent(in) :: f
+        type(samples_t), intent(in) :: samples
+        logical :: yes
+        integer :: k
+
+        yes = f%depends_on(1)
+        do k = 2, size(samples%role)
+            if (.not. yes) return
+            if (.not. f%depends_on(k)) cycle
+            yes = samples%role(k) == role_frequency .or. any(samples%place == k) .or. &
+                  (samples%role(k) == role_parameter .and. samples%rate(k) == 0)
+            if (samples%decay > 0) yes = yes .or. k == samples%decay .or. k == samples%decay + 1
+        end do
+    end function is_of_time
+
+    subroutine compare_rate(coordinate, order, f, samples, values, judgement)
+        !! A second line about the same coordinate.
+        integer, intent(in) :: coordinate, order
+        type(expression_t), intent(in) :: f
+        type(samples_t), intent(in) :: samples
+        real(dp), intent(in) :: values(:, :)
+        type(judgement_t), intent(inout) :: judgement
+        logical :: judged, yes
+
+        call holds(rate_of(samples%motion(coordinate), order) - f, values, yes, judged)
+        judgement%verdict = is_right
+        if (.not. judged) then
+            judgement%verdict = is_unreadable
+            judgement%remark = "no number at the times that were tried"
+        else if (.not. yes) then
+            judgement%verdict = is_wrong
+            judgement%remark = "not the derivative of the motion of the line before"
+            if (order == 0) judgement%remark = "not the motion of the line before; its "// &
+                                               "constants keep their meanings"
+        end if
+    end subroutine compare_rate
+
+    subroutine compare_exact(coordinate, order, f, samples, values, is_one, judgement)
+        !! With the equation of motion that follows from L, where it has no other coordinates.
+        integer, intent(in) :: coordinate, order
+        type(expression_t), intent(in) :: f
+        type(samples_t), intent(in) :: samples
+        real(dp), intent(in) :: values(:, :)
+        logical, intent(out) :: is_one
+        type(judgement_t), intent(inout) :: judgement
+        type(expression_t) :: equation, put(3)
+        integer :: force, j, k, n, places(3)
+        logical :: judged, yes
+
+        is_one = .false.
+        n = samples%ndof
+        if (order > 0 .or. samples%lagrangian%count == 0 .or. .not. allocated(samples%mass)) return
+        do k = 1, size(samples%role)  ! letters that hide coordinates
+            if (samples%role(k) == role_parameter .and. samples%rate(k) > 0 .and. &
+                samples%lagrangian%depends_on(k)) return
+        end do
+        equation = time_derivative(derivative(samples%lagrangian, 1 + n + coordinate), &
+                                   samples%rate, 1) - derivative(samples%lagrangian, 1 + coordinate)
+        force = samples%symbols%find_definition("Q_"//trim(samples%symbols%names(1 + coordinate)))
+        if (force > 0) equation = equation - samples%symbols%definitions(force)%meaning
+        call holds(equation, samples%values, yes, judged)
+        if (.not. yes) return  ! other forces act
+        places = 1 + coordinate + [0, n, 2*n]
+        do j = 2, 1 + 3*n
+            if (.not. any(places == j) .and. equation%depends_on(j)) return
+        end do
+        do k = 1, 3
+            put(k) = rate_of(f, k - 1)
+            if (put(k)%count == 0) return
+        end do
+        call holds(substituted(equation, places, put), values, yes, judged)
+        is_one = judged
+        judgement%verdict = merge(is_right, is_wrong, yes)
+        judgement%remark = ""
+        if (.not. yes) judgement%remark = "it does not solve the equation of motion"
+        if (.not. yes .and. any(abs(samples%omega2) > 0.0_dp)) judgement%remark = "it solves "// &
+            "neither the equation of motion nor the linearised one"
+    end subroutine compare_exact
+
+    subroutine compare_linear(coordinate, order, f, samples, about_other, values, is_one, &
+                              judgement)
+        !! With the oscillations about an equilibrium.
+        integer, intent(in) :: coordinate, order
+        type(expression_t), intent(in) :: f
+        type(samples_t), intent(in) :: samples
+        logical, intent(in) :: about_other           !! the other one that the page knows
+        real(dp), intent(inout) :: values(:, :)      !! get its frequency
+        logical, intent(out) :: is_one
+        type(judgement_t), intent(inout) :: judgement
+        real(dp), allocatable :: equilibrium(:, :)
+        real(dp), allocatable, dimension(:, :, :) :: stiffness, turning, inertia
+        logical :: alone, known, yes
+        integer :: counted, first
+
+        is_one = .false.
+        if (about_other) then
+            allocate (equilibrium, source=samples%other_equilibrium)
+            allocate (stiffness, source=samples%other_stiffness)
+            allocate (turning, source=samples%other_turning)
+            allocate (inertia, source=samples%other_inertia)
+        else
+            allocate (equilibrium, source=samples%equilibrium)
+            allocate (stiffness, source=samples%stiffness)
+            allocate (turning, source=samples%turning)
+            allocate (inertia, source=samples%inertia)
+        end if
+        first = merge(samples%ndof + 1, 1, about_other)
+        call put_frequencies(samples, first, values)
+        call put_places(samples, equilibrium, values)
+        alone = is_alone(coordinate, samples)
+        if (.not. alone .and. (samples%ndof > most_coordinates .or. .not. is_free(samples))) return
+        do counted = 0, merge(1, 0, order == 0)
+            call solves(counted == 1, yes, known)
+            if (.not. known) return
+            if (yes) exit
+        end do
+        is_one = .true.
+        judgement%verdict = merge(is_right, is_wrong, yes)
+        if (.not. yes) then
+            if (judgement%remark == "") judgement%remark = "it does not solve the linearised "// &
+                "equations of motion"
+        else if (counted == 1) then
+            judgement%remark = "of small oscillations, if the coordinates are counted from the "// &
+                               "equilibrium"
+        else
+            judgement%remark = "of small oscillations"
+        end if
+    contains
+        subroutine solves(from_equilibrium, holds_true, is_known)
+            !! The product of all \(D^2+\omega_k^2\), or \(M D^2 + C D + K\), takes f to 0.
+            logical, intent(in) :: from_equilibrium
+            logical, intent(out) :: holds_true, is_known
+            real(dp), allocatable :: rates(:, :), factors(:)
+            real(dp) :: place, terms
+            type(expression_t) :: rate
+            integer :: draw, finite, k, row, times
+
+            times = merge(2, 2*samples%ndof, alone)
+            allocate (rates(size(values, 1), 0:times), source=0.0_dp)
+            do k = 0, times
+                rate = rate_of(f, k)
+                if (rate%count == 0) cycle
+                rates(:, k) = values_of(rate, values)
+            end do
+            finite = 0
+            holds_true = .true.
+            do row = 1, size(values, 1)
+                draw = 1 + (row - 1)/states
+                place = equilibrium(coordinate, draw)
+                if (from_equilibrium .or. order > 0) place = 0.0_dp
+                factors = coefficients(draw)
+                rates(row, 0) = rates(row, 0) - place
+                if (.not. all(ieee_is_finite([factors, rates(row, :)]))) cycle
+                finite = finite + 1
+                terms = sum(abs(factors*rates(row, :))) + abs(factors(1)*place)
+                if (abs(sum(factors*rates(row, :))) > tolerance*terms) holds_true = .false.
+            end do
+            is_known = finite >= enough
+        end subroutine solves
+
+        function coefficients(draw) result(factors)
+            !! Of f, its rate, and so on.
+            integer, intent(in) :: draw
+            real(dp), allocatable :: factors(:)
+            integer :: k, last
+
+            associate (i => coordinate)
+                if (alone) then
+                    factors = [stiffness(i, i, draw), turning(i, i, draw), &
+                               inertia(i, i, draw)]
+                    return
+                end if
+            end associate
+            allocate (factors(2*samples%ndof + 1), source=0.0_dp)
+            factors(1) = 1.0_dp
+            last = 1
+            do k = 1, samples%ndof
+                factors(3:last + 2) = samples%omega2(draw, k)*factors(3:last + 2) + factors(1:last)
+                factors(1:2) = samples%omega2(draw, k)*factors(1:2)
+                last = last + 2
+            end do
+        end function coefficients
+    end subroutine compare_linear
+
+    pure function is_alone(coordinate, samples) result(yes)
+        !! Is its linearised equation free of other coordinates?
+        integer, intent(in) :: coordinate
+        type(samples_t), intent(in) :: samples
+        logical :: yes
+        integer :: j
+
+        yes = .true.
+        do j = 1, samples%ndof
+            if (j == coordinate) cycle
+            yes = yes .and. all(abs(samples%inertia(coordinate, j, :)) <= 0.0_dp) .and. &
+                  all(abs(samples%stiffness(coordinate, j, :)) <= 0.0_dp) .and. &
+                  all(.not. abs(samples%turning(coordinate, j, :)) > 0.0_dp)
+        end do
+    end function is_alone
+
+    pure function is_free(samples) result(yes)
+        !! No drag, which the frequencies of several coordinates leave out.
+        type(samples_t), intent(in) :: samples
+        logical :: yes
+        integer :: draw
+
+        yes = .true.
+        do draw = 1, draws
+            associate (b => samples%turning(:, :, draw))
+                yes = yes .and. all(.not. abs(b + transpose(b)) > 1e-12_dp*sum(abs(b)))
+            end associate
+        end do
+    end function is_free
+end module lagrangia_motion_statements

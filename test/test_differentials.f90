@@ -1,0 +1,160 @@
+module test_differentials
+    !! Derivatives as they are written by hand, and what depends on what.
+    use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
+    use lagrangia_judgement, only: is_right, is_unreadable, is_wrong
+    use lagrangia_text, only: to_text
+    use tried_responses, only: graded
+    implicit none (type, external)
+    private
+    public :: differentials_suite
+
+contains
+
+    function differentials_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("differentials")
+        call suite%addTest(TestMethod("derivatives_by_hand", &
+                                      derivatives_by_hand))
+        call suite%addTest(TestMethod("on_what_it_depends", &
+                                      on_what_it_depends))
+    end function differentials_suite
+
+    subroutine derivatives_by_hand()
+        !! With d, partial and primes.
+        call judged("double_pendulum", &
+                    "d^2V/(dtheta1 dtheta2) = 0", is_right)
+        call judged("double_pendulum", &
+                    "d^2V/dtheta1^2 = (m1+m2) g l1 cos(theta1)", is_right)
+        call judged("double_pendulum", &
+                    "partial^2 V/(partial theta1 partial theta2) = 0", is_right)
+        call judged("double_pendulum", &
+                    "d^2V/dtheta2^2 = m2 g l2 sin(theta2)", is_wrong)
+        call judged("double_pendulum", &
+                    "theta1'' = theta1_ddot", is_right)
+        call judged("double_pendulum", &
+                    "V' = 0", is_unreadable)
+        call judged("cart_pendulum", &
+                    "d/dt((m1+m2) x_dot + m2 l theta_dot cos(theta)) = 0", is_right)
+        call judged("cart_pendulum", &
+                    "dx/dt = x_dot", is_right)
+        call judged("cart_pendulum", &
+                    "d x/dt = x_dot", is_right)
+        call judged("cart_pendulum", &
+                    "d/dt x = x_dot", is_right)
+        call judged("cart_pendulum", &
+                    "d/dx_dot L = p_x", is_right)
+        call judged("cart_pendulum", &
+                    "d/dtheta (m2 g l cos(theta)) = -m2 g l sin(theta)", is_right)
+        call judged("cart_pendulum", &
+                    "d/dtheta(T - V) = dL/dtheta", is_right)
+        call judged("cart_pendulum", &
+                    "d^2/dt^2 x = x_ddot", is_right)
+        call judged("cart_pendulum", &
+                    "d^2x/dt^2 = x_ddot", is_right)
+        call judged("cart_pendulum", &
+                    "d2x/dt2 = x_ddot", is_right)
+        call judged("cart_pendulum", &
+                    "d(l cos(theta))/dt = -l theta_dot sin(theta)", is_right)
+        call judged("cart_pendulum", &
+                    "d(l cos(theta))/dtheta = -l sin(theta)", is_right)
+        call judged("cart_pendulum", &
+                    "(d/dt) x = x_dot", is_unreadable)
+        call judged("cart_pendulum", &
+                    "d theta/d t = theta_dot", is_right)
+        call judged("cart_pendulum", &
+                    "partial L/partial theta_dot = p_theta", is_right)
+        call judged("cart_pendulum", &
+                    "d/dt (dL/dx_dot) = 0", is_right)
+        call judged("cart_pendulum", &
+                    "d/dt dL/dx_dot - dL/dx = 0", is_right)
+        call judged("cart_pendulum", &
+                    "x(t) = x", is_right)
+        call judged("cart_pendulum", &
+                    "d x(t)/dt = x_dot", is_right)
+    end subroutine derivatives_by_hand
+
+    subroutine on_what_it_depends()
+        !! V(theta), V'(theta), and what is refused.
+        call judged("cart_pendulum", &
+                    "dV(theta)/dtheta = m2 g l sin(theta)", is_right)
+        call judged("cart_pendulum", &
+                    "V(theta) = -m2 g l cos(theta)", is_right)
+        call judged("cart_pendulum", &
+                    "T(x_dot, theta, theta_dot) = (m1 + m2)/2 x_dot^2 + m2/2 l^2"// &
+                    " theta_dot^2 + m2 l x_dot theta_dot cos(theta)", is_right)
+        call judged("pendulum", &
+                    "V(theta) = -m g l cos(theta)", is_right)
+        call judged("pendulum", &
+                    "T(theta_dot) = m/2 l^2 theta_dot^2", is_right)
+        call judged("pendulum", &
+                    "L(theta, theta_dot) = m/2 l^2 theta_dot^2 + m g l cos(theta)", is_right)
+        call judged("pendulum", &
+                    "E = T + V(theta)", is_right)
+        call judged("pendulum", &
+                    "d/dtheta V = m g l sin(theta)", is_right)
+        call judged("pendulum", &
+                    "d^2V/dtheta^2 = m g l cos(theta)", is_right)
+        call judged("pendulum", &
+                    "d^2theta/dt^2 = -g/l sin(theta)", is_right)
+        call judged("pendulum", &
+                    "d2theta/dt2 = -g/l sin(theta)", is_right)
+        call judged("pendulum", &
+                    "partial V/partial theta = m g l sin(theta)", is_right)
+        call judged("pendulum", &
+                    "V'(theta) = m g l sin(theta)", is_right)
+        call judged("pendulum", &
+                    "V'' = m g l cos(theta)", is_right)
+        call judged("pendulum", &
+                    "V''(0) = m g l", is_right)
+        call judged("pendulum", &
+                    "omega^2 = V''(0)/(m l^2)", is_right)
+        call judged("pendulum", &
+                    "theta'' = -g/l sin(theta)", is_right)
+        call judged("pendulum", &
+                    "H(theta, p_theta) = p_theta^2/(2 m l^2) - m g l cos(theta)", is_right)
+        call judged("pendulum", &
+                    "theta_dot = dH/dp_theta", is_right)
+        call judged("pendulum", &
+                    "d^2T/dtheta_dot^2 = m l^2", is_right)
+        call judged("pendulum", &
+                    "V(theta) = m g l cos(theta)", is_wrong)
+        call judged("pendulum", &
+                    "V'(theta) = m g l cos(theta)", is_wrong)
+        call judged("pendulum", &
+                    "V''(0) = -m g l", is_wrong)
+        call judged("pendulum", &
+                    "theta'' = g/l sin(theta)", is_wrong)
+        call judged("pendulum", &
+                    "d^2V/dtheta^2 = m g l sin(theta)", is_wrong)
+        call judged("pendulum", &
+                    "d theta/dt = p_theta/(m l)", is_wrong)
+        call judged("double_pendulum", "V' = 0", is_unreadable, &
+                    "a prime does not say by what; write dV/dtheta1")
+        call judged("pendulum", "theta' = theta_dot", is_unreadable, &
+                    "column 6: a prime is no derivative; write theta_dot")
+        call judged("pendulum", "d/dt m l = 0", is_unreadable, &
+                    "of what is it the derivative?")
+        call judged("pendulum", "d + 1 = 0", is_unreadable, &
+                    "a derivative is written d/dt(m x_dot), dV/dx")
+        call judged("double_pendulum", "d/dtheta1 p_theta2 = 0", is_unreadable, &
+                    "the derivative of 'p_theta2' by 'theta1' is not known here; write the formula")
+        call judged("pendulum", "d q/dt = 0", is_unreadable, &
+                    "unknown name 'q'")
+        call judged("pendulum", "cos(0,5) = 1", is_unreadable, &
+                    "column 6: ',' has no meaning here; decimals have a point")
+    end subroutine on_what_it_depends
+
+    subroutine judged(system, statement, expected, remark)
+        character(*), intent(in) :: system, statement
+        integer, intent(in) :: expected
+        character(*), intent(in), optional :: remark
+        character(:), allocatable :: said
+        integer :: verdict
+
+        call graded(system, statement, verdict, said)
+        call assertEqual(expected, verdict, statement//": verdict "//to_text(verdict)//", "//said)
+        if (present(remark)) call assertTrue(index(said, remark) > 0, statement//": "//said)
+    end subroutine judged
+end module test_differentials

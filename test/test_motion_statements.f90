@@ -1,0 +1,166 @@
+module test_motion_statements
+    !! Motions that are written out, frequencies as numbers, systems without an equilibrium.
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_errors, only: error_t
+    use lagrangia_judgement, only: is_definition, is_right, is_unreadable, is_wrong
+    use lagrangia_kinds, only: dp
+    use lagrangia_scene_reader, only: read_named_system
+    use lagrangia_small_oscillations, only: find_modes, modes_t
+    use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text, word_t
+    use tried_responses, only: graded
+    implicit none (type, external)
+    private
+    public :: motion_statements_suite
+
+    character, parameter :: line_feed = new_line("a")
+
+contains
+
+    function motion_statements_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("motion_statements")
+        call suite%addTest(TestMethod("motions", motions))
+        call suite%addTest(TestMethod("frequencies_as_numbers", frequencies_as_numbers))
+        call suite%addTest(TestMethod("no_equilibrium", no_equilibrium))
+    end function motion_statements_suite
+
+    subroutine motions()
+        !! Right if they solve the equation of motion or the linearised one.
+        call judged("pendulum", &
+                    "theta(t) = A cos(omega t + phi)", is_right)
+        call judged("pendulum", &
+                    "theta = theta_0 cos(sqrt(g/l) t)", is_right)
+        call judged("pendulum", &
+                    "small: theta = A cos(omega t) + B sin(omega t)", is_right)
+        call judged("pendulum", &
+                    "theta = A cos(omega t)^2", is_wrong)
+        call judged("pendulum", &
+                    "theta = A cos(sqrt(l/g) t)", is_wrong)
+        call judged("pendulum", &
+                    "theta = A exp(-omega t)", is_wrong)
+        call judged("pendulum", &
+                    "theta = A e^(-gamma t) cos(omega t + delta)", is_right)
+        call judged("pendulum", &
+                    "theta = A cos(omega t + phi)"//line_feed//"theta_dot = -A"// &
+                    " omega sin(omega t + phi)", is_right)
+        call judged("pendulum", &
+                    "theta = A cos(omega t + phi)"//line_feed//"theta_dot = A"// &
+                    " omega sin(omega t + phi)", is_wrong)
+        call judged("pendulum", &
+                    "theta = A cos(omega t + phi)"//line_feed//"theta_ddot ="// &
+                    " -omega^2 A cos(omega t + phi)", is_right)
+        call judged("pendulum", &
+                    "theta = theta_0 cos(omega t) + theta_dot0/omega sin(omega t)", is_right)
+        call judged("pendulum", &
+                    "\theta(t) = A\cos(\omega t+\varphi)", is_right)
+        call judged("pendulum", &
+                    "\theta = A\cos\omega t + B\sin\omega t", is_right)
+        call judged("pendulum", &
+                    "omega_0 = sqrt(g/l)"//line_feed//"theta = A cos(omega_0 t)", is_right)
+        call judged("pendulum", &
+                    "omega_0 = sqrt(l/g)"//line_feed//"theta = A cos(omega_0 t)", is_wrong)
+        call judged("pendulum", &
+                    "theta = A cos(2 pi t/T)", is_right)
+        call judged("pendulum", &
+                    "theta = omega t", is_wrong)
+        call judged("oscillator", &
+                    "x(t) = x0 cos(omega t) + v0/omega sin(omega t)", is_right)
+        call judged("oscillator", &
+                    "x = x_0 cos(sqrt(k/m) t)", is_right)
+        call judged("oscillator", &
+                    "x = x_0 cos(k/m t)", is_wrong)
+        call judged("oscillator", &
+                    "x = x_0 cos(omega t) + v0 sin(omega t) + 1", is_wrong)
+        call judged("double_pendulum", &
+                    "theta1 = A cos(omega t + phi)", is_right)
+        call judged("double_pendulum", &
+                    "theta1 = A_1 cos(omega_1 t + phi_1) + A_2 cos(omega_2 t + phi_2)", is_right)
+        call judged("double_pendulum", &
+                    "theta1 = A cos(sqrt(g/l1) t)", is_wrong)
+        call judged("cart_pendulum", &
+                    "theta = A cos(omega t)", is_right)
+        call judged("cart_pendulum", &
+                    "x = x0 + v0 t + B cos(omega t)", is_right)
+        call judged("cart_pendulum", &
+                    "x = x0 + v0 t + a t^2/2", is_unreadable)
+        call judged("cart_pendulum", &
+                    "theta = A cos(sqrt((m1 + m2) g/(m1 l)) t)", is_right)
+        call judged("cart_pendulum", &
+                    "theta = A cos(sqrt((m1 + m2) g/(m2 l)) t)", is_wrong)
+        call judged("atwood", &
+                    "x = x0 + v0 t + (m1 - m2)/(m1 + m2) g t^2/2", is_right)
+        call judged("atwood", &
+                    "x = x0 + v0 t + (m1 - m2)/(m1 + m2) g t^2", is_wrong)
+        call judged("atwood", &
+                    "x = (m1 - m2)/(m1 + m2) g t^2/2"//line_feed//"x_dot = (m1 -"// &
+                    " m2)/(m1 + m2) g t", is_right)
+        call judged("atwood", &
+                    "x = x0 + v0 t", is_wrong)
+        call judged("rotating_hoop", &
+                    "theta = A cos(sqrt(g/r - omega^2) t)", is_unreadable)
+        call judged("rotating_hoop", &
+                    "theta = theta_eq + A cos(Omega t)", is_right)
+        call judged("rotating_hoop", &
+                    "theta = theta_eq + A cos(omega t)", is_wrong)
+        call judged("rolling_disk", &
+                    "x = A t", is_unreadable)
+        call judged("charged_particle", &
+                    "x = R cos(Omega t)", is_unreadable)
+        call judged("pendulum", "theta = A cos(w1 x t)", is_unreadable, &
+                    "unknown name")
+        call judged("pendulum", "theta = A cos(q t)", is_unreadable, &
+                    "what is 'q'?")
+    end subroutine motions
+
+    subroutine frequencies_as_numbers()
+        !! To the digits given, where lines `set:` fix all parameters; else they are new names.
+        character(*), parameter :: sheet = "set: g = 9.81"//line_feed//"set: l1 = 1"//line_feed// &
+            "set: l2 = 1"//line_feed//"set: m1 = 1"//line_feed//"set: m2 = 1"//line_feed
+
+        call judged("double_pendulum", sheet//"omega_1 = 2.40", is_right, "to the digits given")
+        call judged("double_pendulum", sheet//"omega_2 = 5.79", is_right, "to the digits given")
+        call judged("double_pendulum", sheet//"omega_1 = 2.50", is_wrong, "the left side is ")
+        call judged("double_pendulum", "omega_1 = 2.50", is_definition)
+        ! gamma is that of the drag b, which nobody names
+        call judged("pendulum", "theta_ddot + 2 gamma theta_dot + g/l sin(theta) = 0", is_right)
+        call judged("pendulum", "theta_ddot - 2 gamma theta_dot + g/l sin(theta) = 0", is_wrong)
+        call judged("double_pendulum", "L_z = const", is_wrong, "it changes")
+        call judged("double_pendulum", "set: g = 0"//line_feed//"L_z = const", is_right)
+    end subroutine frequencies_as_numbers
+
+    subroutine no_equilibrium()
+        !! In words, with what to type.
+        class(system_t), allocatable :: system
+        type(modes_t) :: modes
+        type(error_t), allocatable :: error
+        type(word_t) :: none(0)
+
+        call read_named_system("kepler", none, system, error)
+        call assertFalse(allocated(error), "kepler")
+        if (allocated(error)) return
+        call find_modes(system, [0.0_dp, 0.0_dp], .false., modes, error)
+        call assertTrue(allocated(error), "none")
+        call assertEqual("kepler has no equilibrium that is found: at r,phi = 0.0, 0.0 L is no "// &
+                         "finite number, and at rest elsewhere a force on r remains; if you "// &
+                         "know one, give it: --at r,phi", error%message)
+        call assertEqual(2, error%status)
+        call find_modes(system, [0.0_dp, 0.0_dp], .true., modes, error)
+        call assertEqual("L of kepler is no finite number at r,phi = 0.0, 0.0; give --at r,phi "// &
+                         "with other values", error%message)
+    end subroutine no_equilibrium
+
+    subroutine judged(system, statement, expected, remark)
+        character(*), intent(in) :: system, statement
+        integer, intent(in) :: expected
+        character(*), intent(in), optional :: remark
+        character(:), allocatable :: said
+        integer :: verdict
+
+        call graded(system, statement, verdict, said)
+        call assertEqual(expected, verdict, statement//": verdict "//to_text(verdict)//", "//said)
+        if (present(remark)) call assertTrue(index(said, remark) > 0, statement//": "//said)
+    end subroutine judged
+end module test_motion_statements
