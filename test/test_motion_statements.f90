@@ -109,8 +109,6 @@ contains
                     "x = A t", is_unreadable)
         call judged("charged_particle", &
                     "x = R cos(Omega t)", is_unreadable)
-        call judged("pendulum", "theta = A cos(w1 x t)", is_unreadable, &
-                    "unknown name")
         call judged("pendulum", "theta = A cos(q t)", is_unreadable, &
                     "what is 'q'?")
     end subroutine motions
