@@ -171,6 +171,7 @@ module suites
     use test_shipped_files, only: shipped_files_suite
     use test_sinc, only: sinc_suite
     use test_sine_cosine, only: sine_cosine_suite
+    use test_sizes_of_motions, only: sizes_of_motions_suite
     use test_slow_sweeps, only: slow_sweeps_suite
     use test_small_angle, only: small_angle_suite
     use test_small_energies, only: small_energies_suite
@@ -393,6 +394,7 @@ contains
         call suite%addTest(sinc_suite())
         call suite%addTest(slow_sweeps_suite())
         call suite%addTest(sine_cosine_suite())
+        call suite%addTest(sizes_of_motions_suite())
         call suite%addTest(small_energies_suite())
         call suite%addTest(small_oscillations_suite())
         call suite%addTest(step_warning_suite())

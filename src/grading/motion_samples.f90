@@ -96,7 +96,7 @@ contains
         call put_places(samples, samples%equilibrium, samples%values)
         samples%elsewhere = samples%values
         do k = 1, size(samples%role)
-            call move_away(samples, k)
+            call move_away(samples, k, allocated(d%typical_places))
         end do
         call follow_elsewhere(samples)
     end subroutine new_samples
@@ -421,17 +421,20 @@ contains
         end subroutine put_rates
     end subroutine add_modes
 
-    subroutine move_away(samples, k)
-        !! Other accelerations and other known values than those of the motion.
+    subroutine move_away(samples, k, by_size)
+        !! Other accelerations and other known values than those of the motion: by 1 and more, or
+        !! by the size of what is far from 1.
         type(samples_t), intent(inout) :: samples
         integer, intent(in) :: k
+        logical, intent(in) :: by_size
         real(dp) :: shift, usual
         integer :: i
 
         if (samples%role(k) /= role_acceleration .and. samples%role(k) /= role_known .and. &
             samples%role(k) /= role_frequency) return
-        usual = maxval(abs(samples%values(:, k)))
-        if (usual > 1e-3_dp .and. usual < 1e3_dp .or. usual <= 0.0_dp) usual = 1.0_dp
+        usual = 1.0_dp
+        if (by_size) usual = maxval(abs(samples%values(:, k)))
+        if (usual <= 0.0_dp) usual = 1.0_dp
         do i = 1, size(samples%elsewhere, 1)
             call samples%random%uniform(0.5_dp, 1.5_dp, shift)
             samples%elsewhere(i, k) = samples%elsewhere(i, k) + &

@@ -14,10 +14,10 @@ contains
 
     pure subroutine check_mass_matrix(mass, error)
         !! Fails (status 4) where an eigenvalue of \(S_{ij} = M_{ij}/\sqrt{|M_{ii} M_{jj}|}\) is
-        !! negative, or \(|\lambda_1| \le 4n\epsilon\,\lambda_n\): then rounding alone decides on its
-        !! sign. \(S\) does not depend on the units of the coordinates, metres or radians.
+        !! negative, or \(|\lambda_1| \le 4n\epsilon\,\lambda_n\): then rounding alone decides on
+        !! its sign. \(S\) does not depend on the units of the coordinates, metres or radians.
         real(dp), intent(in) :: mass(:, :)                !! \(M\), symmetric, (n, n), not empty
-        type(error_t), allocatable, intent(out) :: error  !! which it is, and the eigenvalue of \(M\)
+        type(error_t), allocatable, intent(out) :: error  !! which it is, and \(M\)'s eigenvalue
         real(dp) :: scaled(size(mass, 1), size(mass, 1)), root(size(mass, 1))
         real(dp) :: lambda(size(mass, 1)), bound
         logical :: negative

@@ -17,8 +17,8 @@ contains
 
     subroutine settle(system, wanted, q, error)
         !! Newton's method from `q` to an equilibrium; where it leads to none, down to a minimum of
-        !! \(-L(q, 0)\). A `wanted` equilibrium must be there already, to 1e-12 of \(\max(s_i, |q_i|)\)
-        !! with the typical sizes \(s_i\) of the system.
+        !! \(-L(q, 0)\). A `wanted` equilibrium must be there already, to 1e-12 of
+        !! \(\max(s_i, |q_i|)\) with the typical sizes \(s_i\) of the system.
         class(system_t), intent(in) :: system             !! configured
         logical, intent(in) :: wanted                     !! `q` must be one
         real(dp), intent(inout) :: q(:)                   !! (n), from where to where

@@ -51,7 +51,7 @@ contains
         where (size_of <= 0.0_dp) size_of = action/sqrt(mass)
         time = power_of_two(1.0_dp/rate)
         allocate (places, source=power_of_two(size_of))
-        if (all(abs(places - 1.0_dp) <= 0.0_dp) .and. abs(time - 1.0_dp) <= 0.0_dp) deallocate (places)
+        if (all(abs([places, time] - 1.0_dp) <= 0.0_dp)) deallocate (places)
     end subroutine find_typical_sizes
 
     elemental function power_of_two(x) result(near)
@@ -61,6 +61,7 @@ contains
 
         near = 1.0_dp
         if (.not. ieee_is_finite(x)) return
-        if (x > 0.0_dp .and. (x < 1.0_dp/usual .or. x > usual)) near = 2.0_dp**nint(log(x)/log(2.0_dp))
+        if (x <= 0.0_dp .or. (x >= 1.0_dp/usual .and. x <= usual)) return
+        near = 2.0_dp**nint(log(x)/log(2.0_dp))
     end function power_of_two
 end module lagrangia_typical_sizes
