@@ -23,6 +23,7 @@ contains
 
         suite = TestSuite("motion_statements")
         call suite%addTest(TestMethod("motions", motions))
+        call suite%addTest(TestMethod("starts", starts))
         call suite%addTest(TestMethod("frequencies_as_numbers", frequencies_as_numbers))
         call suite%addTest(TestMethod("no_equilibrium", no_equilibrium))
     end function motion_statements_suite
@@ -112,6 +113,26 @@ contains
         call judged("pendulum", "theta = A cos(q t)", is_unreadable, &
                     "what is 'q'?")
     end subroutine motions
+
+    subroutine starts()
+        !! Of any motion, or of that of a line before. A start that is read as a product with 0
+        !! would be wrong.
+        call judged("pendulum", "theta(0) = 1.0", is_definition)
+        call judged("pendulum", "theta(t = 0) = theta_0", is_definition)
+        call judged("pendulum", "\dot\theta(0) = 0", is_definition)
+        call judged("cart_pendulum", "x_dot(t=0) = v_0", is_definition)
+        call judged("pendulum", "theta = A cos(omega t + phi)"//line_feed// &
+                    "theta(0) = A cos(phi)", is_right)
+        call judged("pendulum", "theta = A cos(omega t + phi)"//line_feed// &
+                    "theta_dot(0) = -A omega sin(phi)", is_right)
+        call judged("pendulum", "theta = A cos(omega t + phi)"//line_feed// &
+                    "theta_dot(0) = A omega sin(phi)", is_wrong)
+        call judged("pendulum", "theta = A cos(omega t + phi)"//line_feed// &
+                    "theta(0) = theta_0", is_definition)
+        call judged("pendulum", "theta = A cos(omega t)"//line_feed//"theta(0) = 1.0", &
+                    is_definition)
+        call judged("pendulum", "theta(0) = theta", is_wrong)
+    end subroutine starts
 
     subroutine frequencies_as_numbers()
         !! To the digits given, where lines `set:` fix all parameters; else they are new names.

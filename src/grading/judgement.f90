@@ -17,7 +17,7 @@ module lagrangia_judgement
     use lagrangia_kinds, only: dp
     use lagrangia_mode_choice, only: choose_modes
     use lagrangia_motion_samples, only: put_places
-    use lagrangia_motion_statements, only: judge_motion
+    use lagrangia_motion_statements, only: judge_motion, with_short_starts
     use lagrangia_rounded_numbers, only: holds_to_digits, true_number
     use lagrangia_same_motion, only: same_equations
     use lagrangia_sample_names, only: draws, samples_t, states
@@ -67,7 +67,7 @@ contains
         judgement%example = ""
         call read_signs(statement%text, text, nearly)
         if (statement%small) text(:index(text, ":")) = ""
-        text = without_full_stop(text)
+        text = with_short_starts(without_full_stop(text))
         next = index(text, "=")
         call find_empty_side(text, judgement)
         if (judgement%verdict == is_unreadable) return

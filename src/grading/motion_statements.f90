@@ -4,7 +4,7 @@ module lagrangia_motion_statements
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_derivative, only: derivative, time_derivative
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: expression_t, function_names, operator(-)
+    use lagrangia_expression, only: expression_t, function_names, operator(-), whole
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_formula_tokens, only: cut, is_name, tokens_t
     use lagrangia_kinds, only: dp
@@ -16,10 +16,10 @@ module lagrangia_motion_statements
     use lagrangia_statement_forms, only: period
     use lagrangia_substitution, only: substituted
     use lagrangia_symbols, only: symbols_t
-    use lagrangia_verdict, only: is_right, is_unreadable, is_wrong, judgement_t
+    use lagrangia_verdict, only: is_definition, is_right, is_unreadable, is_wrong, judgement_t
     implicit none (type, external)
     private
-    public :: judge_motion
+    public :: judge_motion, with_short_starts
 
     integer, parameter :: most_coordinates = 3  !! of which all modes are tried
     integer, parameter :: enough = 4            !! states at which all is finite
@@ -29,7 +29,7 @@ contains
 
     subroutine judge_motion(side, text, samples, is_one, judgement)
         !! A coordinate alone on the left side, or its rate, and a function of the time on the right
-        !! one; else `is_one` is false.
+        !! one, or either at the time 0 and a constant; else `is_one` is false.
         character(*), intent(in) :: side                !! the left one, in plain letters
         character(*), intent(in) :: text                !! the right one, behind blanks
         type(samples_t), intent(inout) :: samples       !! remember the motion
@@ -41,9 +41,16 @@ contains
         real(dp), allocatable :: values(:, :)
         character(:), allocatable :: unknown
         integer :: coordinate, letter, order, which
-        logical :: judged, known, solved
+        logical :: judged, known, solved, starts
 
-        call find_side(side, samples, coordinate, order)
+        which = index(side, "(0)")
+        starts = which > 1
+        if (starts) starts = side(which:) == "(0)"
+        if (starts) then
+            call find_side(side(:which - 1), samples, coordinate, order)
+        else
+            call find_side(side, samples, coordinate, order)
+        end if
         is_one = .false.
         if (coordinate == 0) return
         symbols = samples%symbols
@@ -55,6 +62,10 @@ contains
         letter = samples%symbols%find("T")
         if (letter > 0) then
             if (f%depends_on(letter)) f = substituted(f, [letter], at_period)
+        end if
+        if (starts) then
+            call judge_start(coordinate, order, f, samples, size(symbols%names), is_one, judgement)
+            return
         end if
         if (.not. is_of_time(f, samples)) return
         call draw_values(samples, size(symbols%names), values)
@@ -183,6 +194,54 @@ contains
                                                "constants keep their meanings"
         end if
     end subroutine compare_rate
+
+    pure function with_short_starts(text) result(short)
+        !! `theta(0) = 1` for `theta(t = 0) = 1`, with blanks behind, so that columns stay.
+        character(*), intent(in) :: text  !! a statement
+        character(len(text)) :: short, inside
+        integer :: first, last
+
+        short = text
+        first = index(text, "(t")
+        if (first == 0) return
+        last = first + index(text(first:), ")") - 1
+        if (last <= first + 2) return
+        inside = adjustl(text(first + 2:last - 1))
+        if (inside(:1) == "=" .and. adjustl(inside(2:)) == "0") short(first:last) = "(0)"
+    end function with_short_starts
+
+    subroutine judge_start(coordinate, order, f, samples, names, is_one, judgement)
+        !! `theta(0) = theta_0`: how one motion of many begins, or that of a line before.
+        integer, intent(in) :: coordinate, order
+        type(expression_t), intent(in) :: f         !! the right side
+        type(samples_t), intent(in) :: samples
+        integer, intent(in) :: names                !! with the constants
+        logical, intent(out) :: is_one              !! the right side is a constant
+        type(judgement_t), intent(inout) :: judgement
+        type(expression_t) :: begun
+        real(dp), allocatable :: values(:, :)
+        integer :: i, k
+        logical :: judged, yes
+
+        is_one = .not. any([(f%depends_on(k), k=1, 1 + 3*samples%ndof)])
+        if (.not. is_one) return
+        judgement%verdict = is_definition
+        judgement%remark = "an initial condition, of one motion of many"
+        if (samples%motion(coordinate)%count == 0) return
+        call draw_values(samples, names, values)
+        begun = substituted(rate_of(samples%motion(coordinate), order), [1], [whole(0)])
+        call holds(begun - f, values, yes, judged)
+        if (.not. judged) return
+        k = size(samples%symbols%names)
+        associate (ours => [(begun%depends_on(i), i=k + 1, names)], &
+                   theirs => [(f%depends_on(i), i=k + 1, names)])
+            ! theta_0 or 1.0 says what A is, as nothing else does
+            if (.not. yes .and. any(ours) .and. .not. any(ours .and. theirs)) return
+        end associate
+        judgement%verdict = merge(is_right, is_wrong, yes)
+        judgement%remark = ""
+        if (.not. yes) judgement%remark = "the motion of the line before begins elsewhere"
+    end subroutine judge_start
 
     subroutine compare_exact(coordinate, order, f, samples, values, is_one, judgement)
         !! With the equation of motion that follows from L, where it has no other coordinates.
