@@ -7,6 +7,7 @@ module lagrangia_wrong_words
     use lagrangia_names, only: nearest_name
     use lagrangia_registry, only: accepts, command_t, commands
     use lagrangia_scene_keys, only: keys
+    use lagrangia_shipped, only: named_scenes, named_sweeps, scene_name
     use lagrangia_text, only: join, lower, quoted
     use lagrangia_vocabulary, only: words_of
     implicit none (type, external)
@@ -52,18 +53,26 @@ contains
     end subroutine check_arguments
 
     subroutine words_taken(command, words)
-        !! All words that its arguments may be, those of files aside.
+        !! All words that its arguments may be, also the scenes of the working folder; those of
+        !! files aside.
         type(command_t), intent(in) :: command
         type(word_t), allocatable, intent(out) :: words(:)
         type(word_t), allocatable :: more(:)
         character(:), allocatable :: rest
-        integer :: blank
+        integer :: blank, i
 
         allocate (words(0))
         rest = trim(command%takes)//" "
         do while (len(rest) > 1)
             blank = index(rest, " ")
-            call words_of(rest(:blank - 1), more)
+            select case (rest(:blank - 1))
+            case ("scenes"); call named_scenes(more)
+            case ("sweeps"); call named_sweeps(more)
+            case default; call words_of(rest(:blank - 1), more)
+            end select
+            do i = 1, size(more)
+                if (scan(more(i)%text, "/") > 0) more(i)%text = scene_name(more(i)%text)
+            end do
             call add(words, more)
             rest = rest(blank + 1:)
         end do
