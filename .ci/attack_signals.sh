@@ -210,7 +210,7 @@ for memory in 100000 140000 180000 200000; do
         check "$writer: ulimit -v $memory: works or says what it lacks" eval '[ $status -eq 0 ] || { [ $status -eq 4 ] && one_line && grep -q "not enough memory" "$work/err"; }'
     done
 done
-for memory in 210000 220000 230000; do
+for memory in 220000 225000 230000; do
     in_little -v $memory -- modes hanging_chain --set hanging_chain%n=600
     check "modes of 600 coordinates: ulimit -v $memory is not enough, and that is said" eval '[ $status -eq 4 ] && one_line && grep -q "not enough memory: the eigenproblem of 600 coordinates needs 58 MB" "$work/err"'
 done
