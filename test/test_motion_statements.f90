@@ -7,8 +7,8 @@ module test_motion_statements
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_small_oscillations, only: find_modes, modes_t
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: to_text, word_t
-    use tried_responses, only: graded
+    use lagrangia_text, only: word_t
+    use tried_responses, only: judged
     implicit none (type, external)
     private
     public :: motion_statements_suite
@@ -170,16 +170,4 @@ contains
         call assertEqual("L of kepler is no finite number at r,phi = 0.0, 0.0; give --at r,phi "// &
                          "with other values", error%message)
     end subroutine no_equilibrium
-
-    subroutine judged(system, statement, expected, remark)
-        character(*), intent(in) :: system, statement
-        integer, intent(in) :: expected
-        character(*), intent(in), optional :: remark
-        character(:), allocatable :: said
-        integer :: verdict
-
-        call graded(system, statement, verdict, said)
-        call assertEqual(expected, verdict, statement//": verdict "//to_text(verdict)//", "//said)
-        if (present(remark)) call assertTrue(index(said, remark) > 0, statement//": "//said)
-    end subroutine judged
 end module test_motion_statements

@@ -1,9 +1,8 @@
 module test_pasted_latex
     !! Statements that are pasted from LaTeX.
-    use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
+    use funit, only: TestMethod, TestSuite
     use lagrangia_judgement, only: is_right, is_unreadable, is_wrong
-    use lagrangia_text, only: to_text
-    use tried_responses, only: graded
+    use tried_responses, only: judged
     implicit none (type, external)
     private
     public :: pasted_latex_suite
@@ -132,16 +131,4 @@ contains
         call judged("pendulum", "\dot{(m l)} = 1", is_unreadable, &
                     "column 1: dots stand on one letter")
     end subroutine statements_in_latex
-
-    subroutine judged(system, statement, expected, remark)
-        character(*), intent(in) :: system, statement
-        integer, intent(in) :: expected
-        character(*), intent(in), optional :: remark
-        character(:), allocatable :: said
-        integer :: verdict
-
-        call graded(system, statement, verdict, said)
-        call assertEqual(expected, verdict, statement//": verdict "//to_text(verdict)//", "//said)
-        if (present(remark)) call assertTrue(index(said, remark) > 0, statement//": "//said)
-    end subroutine judged
 end module test_pasted_latex

@@ -1,6 +1,7 @@
 module tried_responses
     !! Statements that are graded, of which we know what is to come out: written by hand, the slips
     !! of the notes, and drawn from what the systems print, in other words or with slips.
+    use funit, only: assertEqual, assertTrue
     use lagrangia_catalogue, only: built_in, nth_system
     use lagrangia_description, only: description_t
     use lagrangia_errata_ledger, only: slip_t, slips_of_the_notes
@@ -18,13 +19,13 @@ module tried_responses
     use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: word_t
+    use lagrangia_text, only: to_text, word_t
     use rewritings, only: draw_rewriting, draw_slip
     implicit none (type, external)
     private
     public :: group_t, response_t
-    public :: draw_derivations, draw_responses, graded, printed_statements, responses_by_hand, &
-              responses_of_the_notes
+    public :: draw_derivations, draw_responses, graded, judged, printed_statements, &
+              responses_by_hand, responses_of_the_notes
 
     type :: response_t
         !! A statement, and what the program says about it.
@@ -100,6 +101,19 @@ contains
         verdict = result%of(size(result%of))%verdict
         remark = result%of(size(result%of))%remark
     end subroutine graded
+
+    subroutine judged(system, statement, expected, remark)
+        !! Assert the verdict on the last statement of several lines, and words of its remark.
+        character(*), intent(in) :: system, statement
+        integer, intent(in) :: expected
+        character(*), intent(in), optional :: remark
+        character(:), allocatable :: said
+        integer :: verdict
+
+        call graded(system, statement, verdict, said)
+        call assertEqual(expected, verdict, statement//": verdict "//to_text(verdict)//", "//said)
+        if (present(remark)) call assertTrue(index(said, remark) > 0, statement//": "//said)
+    end subroutine judged
 
     subroutine responses_by_hand(group)
         !! Chosen so that each kind of change and of equivalence is there.

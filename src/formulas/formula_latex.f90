@@ -6,16 +6,12 @@ module lagrangia_formula_latex
                                     kind_quotient, kind_sum, kind_symbol
     use lagrangia_formula_text, only: number_in_formula, rank_factor, rank_of, rank_power, &
                                       rank_product, rank_sum
+    use lagrangia_latex_source, only: greek
     use lagrangia_symbols, only: symbols_t
     use lagrangia_text, only: replaced, word_t
     implicit none (type, external)
     private
     public :: latex, latex_name
-
-    character(7), parameter :: greek(*) = [character(7) :: "alpha", "beta", "gamma", "delta", &
-        "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu", "xi", "pi", &
-        "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi", "omega", "Gamma", "Delta", &
-        "Theta", "Lambda", "Xi", "Pi", "Sigma", "Upsilon", "Phi", "Psi", "Omega"]
 
 contains
 

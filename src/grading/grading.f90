@@ -7,7 +7,7 @@ module lagrangia_grading
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, kind_number
-    use lagrangia_formula_characters, only: plain_formula
+    use lagrangia_formula_characters, only: plainly
     use lagrangia_formula_parser, only: parse_equation, parse_formula
     use lagrangia_homework, only: homework_t
     use lagrangia_judgement, only: is_consequence, is_right, is_wrong, judge, &
@@ -52,14 +52,15 @@ contains
         type(homework_t) :: sheet
         type(description_t) :: d
         character(:), allocatable :: plain, said
-        integer, allocatable :: columns(:)
         integer :: i
+        logical :: primes
 
         said = ""
+        primes = .false.
         do i = 1, size(homework%statements)
-            call plain_formula(homework%statements(i)%text, plain, columns, error)
-            if (allocated(error)) plain = homework%statements(i)%text
+            plain = plainly(homework%statements(i)%text)
             said = said//" "//plain
+            primes = primes .or. has_double_prime(plain)
         end do
         call new_samples(system, said, homework%settings, samples, error)
         if (allocated(error)) return
@@ -68,7 +69,7 @@ contains
         call add_usual_names(d, homework, samples)
         sheet = homework
         call mark_used(sheet, samples)
-        samples%symbols%primes = writes_primes(homework)
+        samples%symbols%primes = primes
         call explain_rates(samples, said, result%meaning)
         call collect_terms(system, samples, library)
         allocate (result%of(size(homework%statements)))
@@ -97,23 +98,16 @@ contains
         call find_determined(samples, result)
     end subroutine grade
 
-    pure function writes_primes(homework) result(yes)
+    pure function has_double_prime(statement) result(yes)
         !! `theta''`, so that `theta'` is the velocity, and no coordinate of another frame?
-        type(homework_t), intent(in) :: homework
+        character(*), intent(in) :: statement  !! in plain letters
         logical :: yes
-        character(:), allocatable :: plain
-        integer, allocatable :: columns(:)
-        type(error_t), allocatable :: error
-        integer :: at, i
+        integer :: at
 
-        yes = .false.
-        do i = 1, size(homework%statements)
-            call plain_formula(homework%statements(i)%text, plain, columns, error)
-            if (allocated(error)) cycle
-            at = index(plain, "''")
-            if (at > 1) yes = yes .or. scan(plain(at - 1:at - 1), "LTVU)") == 0
-        end do
-    end function writes_primes
+        at = index(statement, "''")
+        yes = at > 1
+        if (yes) yes = scan(statement(at - 1:at - 1), "LTVU)") == 0
+    end function has_double_prime
 
     pure subroutine explain_rates(samples, said, meaning)
         !! What omega and gamma are, if there is drag and the sheet speaks of them.

@@ -2,14 +2,13 @@ module lagrangia_judgement
     !! Is this statement right? Both sides are evaluated on the motion, at states and with
     !! parameters at random: any equivalent form is right, whatever it was multiplied by or mixed
     !! with.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_characters, only: characters
     use lagrangia_constancy, only: explain_change, read_constancy
     use lagrangia_equality_signs, only: read_signs
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: apply, expression_t, f_sqrt, kind_function, kind_symbol, &
                                     operator(-), whole
-    use lagrangia_formula_characters, only: plain_formula
+    use lagrangia_formula_characters, only: plain_formula, plainly
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_frequency_squares, only: with_squares
     use lagrangia_further_slips, only: explain_further
@@ -20,10 +19,9 @@ module lagrangia_judgement
     use lagrangia_motion_statements, only: judge_motion, with_short_starts
     use lagrangia_rounded_numbers, only: holds_to_digits, true_number
     use lagrangia_same_motion, only: same_equations
-    use lagrangia_sample_names, only: draws, samples_t, states
-    use lagrangia_sampled_formula, only: evaluate_nodes
+    use lagrangia_sample_names, only: samples_t
     use lagrangia_slip_search, only: explain_slip, holds, is_trivial
-    use lagrangia_small_energies, only: is_energy, put_same_constant
+    use lagrangia_small_energies, only: is_constant_of_each_draw, is_energy, put_same_constant
     use lagrangia_small_judgement, only: judge_small
     use lagrangia_squared_statements, only: compare_squares, explain_squares
     use lagrangia_statement_forms, only: define_by_period, define_rates, drop_root_of_name, &
@@ -55,7 +53,6 @@ contains
         type(error_t), allocatable :: error
         type(expression_t) :: left, right
         character(:), allocatable :: name, side, side_and, text
-        integer, allocatable :: columns(:)
         integer :: begun, first, next, last
         logical, allocatable :: nearly(:)
         logical :: chained, constancy, is_one, small, squared
@@ -71,8 +68,7 @@ contains
         next = index(text, "=")
         call find_empty_side(text, judgement)
         if (judgement%verdict == is_unreadable) return
-        call plain_formula(as_in(text, 1, next - 1), side, columns, error)
-        if (allocated(error)) side = text(:next - 1)
+        side = plainly(as_in(text, 1, next - 1))
         call read_new_name(side, samples, name, squared)
         if (name /= "" .and. index(text(next + 1:), "=") == 0) then
             call define(name, squared, text, next, statement%used, samples, library, judgement)
@@ -136,17 +132,6 @@ contains
         side = text(first:last)
         if (index(text, "\") > 0 .and. index(side, "\") == 0) side = side//"\ "
     end function as_in
-
-    pure function plainly(text) result(plain)
-        !! In plain letters, if it can be.
-        character(*), intent(in) :: text
-        character(:), allocatable :: plain
-        integer, allocatable :: columns(:)
-        type(error_t), allocatable :: error
-
-        call plain_formula(text, plain, columns, error)
-        if (allocated(error)) plain = text
-    end function plainly
 
     pure function without_full_stop(text) result(formula)
         !! What ends a sentence is no part of its formula.
@@ -414,23 +399,9 @@ contains
         type(expression_t), intent(in) :: left, residual
         type(samples_t), intent(in) :: samples
         logical :: yes
-        real(dp), allocatable :: results(:, :), sizes(:, :)
-        integer :: draw, first, n
 
-        yes = .false.
-        n = residual%count
-        if (.not. is_energy(left, samples)) return
-        allocate (results(size(samples%values, 1), n), sizes(size(samples%values, 1), n))
-        call evaluate_nodes(residual, samples%values, results, sizes=sizes)
-        do draw = 1, draws
-            first = (draw - 1)*states
-            associate (r => results(first + 1:first + states, n))
-                if (.not. all(ieee_is_finite(r))) return
-                if (maxval(r) - minval(r) > 1e-8_dp*maxval(abs(r)) + &
-                    1e-12_dp*maxval(sizes(first + 1:first + states, n))) return
-            end associate
-        end do
-        yes = .true.
+        yes = is_energy(left, samples)
+        if (yes) yes = is_constant_of_each_draw(residual, samples)
     end function is_up_to_constant
 
     function is_other_lagrangian(left, right, samples) result(yes)

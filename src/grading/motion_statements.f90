@@ -218,7 +218,7 @@ contains
         integer, intent(in) :: names                !! with the constants
         logical, intent(out) :: is_one              !! the right side is a constant
         type(judgement_t), intent(inout) :: judgement
-        type(expression_t) :: begun
+        type(expression_t) :: begun, beginning(1)
         real(dp), allocatable :: values(:, :)
         integer :: i, k
         logical :: judged, yes
@@ -229,7 +229,8 @@ contains
         judgement%remark = "an initial condition, of one motion of many"
         if (samples%motion(coordinate)%count == 0) return
         call draw_values(samples, names, values)
-        begun = substituted(rate_of(samples%motion(coordinate), order), [1], [whole(0)])
+        beginning(1) = whole(0)  ! t
+        begun = substituted(rate_of(samples%motion(coordinate), order), [1], beginning)
         call holds(begun - f, values, yes, judged)
         if (.not. judged) return
         k = size(samples%symbols%names)

@@ -7,12 +7,12 @@ module lagrangia_small_energies
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_sample_names, only: draws, role_acceleration, role_known, samples_t, states
-    use lagrangia_sampled_formula, only: summands
+    use lagrangia_sampled_formula, only: evaluate_nodes, summands
     use lagrangia_written_out, only: energy_formulas, energy_places, written_out
     implicit none (type, external)
     private
     public :: agreement_t
-    public :: compare_energies, is_energy, put_same_constant
+    public :: compare_energies, is_constant_of_each_draw, is_energy, put_same_constant
 
     real(dp), parameter :: zero = 1e-9_dp  !! of the sizes of what is added up
 
@@ -31,6 +31,28 @@ module lagrangia_small_energies
     end type series_t
 
 contains
+
+    function is_constant_of_each_draw(residual, samples) result(yes)
+        !! The same finite number, but for rounding, at all states with the same parameters.
+        type(expression_t), intent(in) :: residual  !! not empty
+        type(samples_t), intent(in) :: samples      !! on the motion
+        logical :: yes
+        real(dp), allocatable, dimension(:, :) :: results, sizes
+        integer :: draw, first, last, n
+
+        n = residual%count
+        allocate (results(size(samples%values, 1), n), sizes(size(samples%values, 1), n))
+        call evaluate_nodes(residual, samples%values, results, sizes=sizes)
+        yes = .true.
+        do draw = 1, draws
+            first = (draw - 1)*states + 1
+            last = draw*states
+            yes = yes .and. all(ieee_is_finite(results(first:last, n)))
+            if (yes) yes = maxval(results(first:last, n)) - minval(results(first:last, n)) <= &
+                           1e-8_dp*maxval(abs(results(first:last, n))) + &
+                           1e-12_dp*maxval(sizes(first:last, n))
+        end do
+    end function is_constant_of_each_draw
 
     pure function is_energy(expression, samples) result(yes)
         !! Is it L, V or E alone, which have a constant that nobody sees?

@@ -2,16 +2,14 @@ module lagrangia_usual_names
     !! Names that every course uses without saying so: H, U, p, v, the force S of a string. They
     !! stand for what they mostly mean, if the sheet does not define them; if it does, the
     !! definition is compared with that.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, operator(**), operator(+), operator(-)
-    use lagrangia_formula_characters, only: plain_formula
+    use lagrangia_formula_characters, only: plainly
     use lagrangia_homework, only: homework_t
-    use lagrangia_kinds, only: dp
-    use lagrangia_sample_names, only: draws, role_parameter, samples_t, states, usual_t
-    use lagrangia_sampled_formula, only: evaluate_nodes
+    use lagrangia_sample_names, only: role_parameter, samples_t, usual_t
     use lagrangia_slip_search, only: holds
+    use lagrangia_small_energies, only: is_constant_of_each_draw
     use lagrangia_statement_forms, only: define_rates, read_new_name
     use lagrangia_usual_meanings, only: collect_meanings
     implicit none (type, external)
@@ -130,24 +128,9 @@ contains
         logical, intent(in) :: but_constant
         type(samples_t), intent(in) :: samples
         logical :: yes, judged
-        real(dp), allocatable :: results(:, :), sizes(:, :)
-        integer :: draw, first, n
 
         call holds(residual, samples%values, yes, judged)
-        if (yes .or. .not. but_constant) return
-        n = residual%count
-        allocate (results(size(samples%values, 1), n), sizes(size(samples%values, 1), n))
-        call evaluate_nodes(residual, samples%values, results, sizes=sizes)
-        yes = .true.
-        do draw = 1, draws
-            first = (draw - 1)*states
-            associate (r => results(first + 1:first + states, n), &
-                       terms => sizes(first + 1:first + states, n))
-                yes = yes .and. all(ieee_is_finite(r))
-                if (yes) yes = maxval(r) - minval(r) <= 1e-8_dp*maxval(abs(r)) + &
-                               1e-12_dp*maxval(terms)
-            end associate
-        end do
+        if (.not. yes .and. but_constant) yes = is_constant_of_each_draw(residual, samples)
     end function is_same
 
     pure function moves(expression, samples) result(yes)
@@ -216,17 +199,6 @@ contains
             said = [character(name_length) :: said, one]
         end subroutine add_one
     end subroutine collect_names
-
-    function plainly(text) result(plain)
-        !! In plain letters, if it can be: `theta` for the Greek one.
-        character(*), intent(in) :: text
-        character(:), allocatable :: plain
-        integer, allocatable :: columns(:)
-        type(error_t), allocatable :: error
-
-        call plain_formula(text, plain, columns, error)
-        if (allocated(error)) plain = text
-    end function plainly
 
     pure function bare_name(name) result(bare)
         !! Without the `_` before a number behind: `T1` of `T_1`.
