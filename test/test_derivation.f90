@@ -228,6 +228,13 @@ contains
         character(3), parameter :: ids(5) = ["E1 ", "E2 ", "E3 ", "E21", "E25"]
         integer, parameter :: kinds(5) = [line_equation, line_kinetic, line_equation, &
                                           line_equation, line_equation]
+        character(*), parameter :: formulas(5) = [character(100) :: &
+            "m2 l (l theta_ddot + x_ddot cos(theta) - g sin(theta)) = 0", &
+            "m1/2 x_dot^2 + m2/2 (x_dot^2 + l^2 theta_dot^2 cos^2(theta) "// &
+                "+ l^2 theta_dot^2 sin^2(theta))", &
+            "m2 l theta_ddot + m2 l x_ddot cos(theta) - m2 g l sin(theta) = 0", &
+            "m g sin(alpha) = M (q1_ddot + q2_ddot cos(alpha))", &
+            "(m1 + m2) x_ddot + m2 l theta_ddot cos(theta) = m2 l theta_ddot^2 sin(theta)"]
         class(system_t), allocatable :: system
         type(description_t) :: d
         type(derivation_t) :: derivation
@@ -246,6 +253,7 @@ contains
             call find_slip(trim(ids(k)), trim(d%name), slip, error)
             call assertFalse(allocated(error), message=ids(k))
             if (allocated(error)) cycle
+            call assertEqual(formulas(k), slip%formula, message=ids(k)//": what is put in")
             call derive(system, slip, derivation, error)
             if (.not. allocated(error)) then
                 call compare_lines(derivation, system, random, comparisons, error)

@@ -121,6 +121,8 @@ contains
 
     subroutine sines_are_joined()
         call joined("m sin(x)^2 + m cos(x)^2", "m")
+        call joined("m sin(x)^2 + l^2 + l sin(x) + l cos(x) + m cos(x)^2", &
+                    "l sin(x) + l cos(x) + m + l^2")
         call joined("cos(l) cos(x) + sin(l) sin(x)", "cos(l - x)")
         call joined("cos(l) cos(x) - sin(l) sin(x)", "cos(l + x)")
         call joined("sin(l) cos(x) - cos(l) sin(x)", "sin(l - x)")

@@ -157,6 +157,7 @@ contains
         !! One line each, at the formula.
         call refused("'cos(x) = y'", "'y'")
         call refused("'tan(x) = 1'", "write a formula of parameters, or 'x = ...', 'cos(x) = ...'")
+        call refused("'x^2 = 4'", "this is the place of x")
         call refused("'cos(2 x) = 1'", "this is the place of x")
         call refused("'cos(x) ='", "column 9")
         call refused("'cos(x) = x'", "an equilibrium depends on x")

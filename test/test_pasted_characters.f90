@@ -129,7 +129,8 @@ contains
     subroutine remedies_of_their_own()
         call refused("2"//utf8(189)//" m", "column 2: U+00BD is a fraction; write it with '/'")
         call refused("m "//utf8(8776)//" x", "column 3: U+2248 is no equality; write '='")
-        call refused("m "//utf8(177)//" x", "column 3: U+00B1 has two meanings; write")
+        call refused("m "//utf8(177)//" x", "column 3: U+00B1 has two meanings; write a "// &
+                     "statement with + and one with -")
         call refused("m "//utf8(8658)//" x", "column 3: U+21D2 is an arrow; write each")
         call refused("m"//utf8(8242)//" x", "column 2: a prime is no derivative; write m_dot")
         call refused("m"//utf8(8243)//" x", "column 2: a prime is no derivative; write m_ddot")

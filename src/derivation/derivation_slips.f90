@@ -20,33 +20,32 @@ contains
         type(slip_in_formula_t), intent(out) :: slip      !! what takes the place of what
         type(error_t), allocatable, intent(out) :: error  !! no such slip, or of another system
         type(slip_t), allocatable :: all_slips(:)
-        character(:), allocatable :: reads, home
+        type(slip_t) :: found
+        character(:), allocatable :: reads
         integer :: i
 
         allocate (all_slips, source=slips_of_the_notes())
-        reads = ""
         do i = 1, size(all_slips)
-            if (lower(trim(all_slips(i)%id)) == lower(id)) reads = trim(all_slips(i)%reads)
+            if (lower(trim(all_slips(i)%id)) == lower(id)) found = all_slips(i)
         end do
-        home = "cart_pendulum"
+        reads = trim(found%reads)
         slip%kind = line_equation
         select case (lower(id))
         case ("e1")
             slip%i = 2
             slip%formula = "m2 l ("//reads(:index(reads, "=") - 2)//") = 0"
-        case ("e3")
-            slip%i = 2
-            slip%formula = reads
         case ("e2")
             slip%kind = line_kinetic
             slip%formula = "m1/2 x_dot^2 + "//reads
+        case ("e3")
+            slip%i = 2
+            slip%formula = reads
         case ("e21")
-            home = "wedge"
             slip%i = 1
             slip%formula = reads
         case ("e25")
             slip%i = 1
-            slip%formula = "(m1 + m2) x_ddot + m2 l theta_ddot cos(theta) - "//reads//" = 0"
+            slip%formula = trim(found%wrong)
         case default
             if (reads == "") then
                 call fail(error, "unknown slip "//quoted(id)//"; 'lagrangia errata' lists "// &
@@ -57,7 +56,8 @@ contains
             end if
             return
         end select
-        if (system /= home) call fail(error, "slip "//quoted(id)//" is one of the "//home// &
-                                      ": 'lagrangia derive "//home//" --slip "//trim(id)//"'")
+        if (system == found%system) return
+        call fail(error, "slip "//quoted(id)//" is one of the "//trim(found%system)// &
+                  ": 'lagrangia derive "//trim(found%system)//" --slip "//trim(id)//"'")
     end subroutine find_slip
 end module lagrangia_derivation_slips

@@ -3,7 +3,7 @@ module lagrangia_sweep
     !! trajectory a few numbers are kept.
     use lagrangia_attractor, only: signature_size
     use lagrangia_columns, only: columns_t
-    use lagrangia_description, only: description_t, name_length
+    use lagrangia_description, only: description_t, name_length, velocity_names
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_events, only: column_event_t, new_column_event
     use lagrangia_kept, only: is_lyapunov, keeps_attractor, keeps_end, keeps_event, keeps_flip, &
@@ -16,7 +16,7 @@ module lagrangia_sweep
     use lagrangia_strobe, only: new_strobe, strobe_t
     use lagrangia_sweep_axis, only: new_sweep_axis, sweep_axis_t
     use lagrangia_system, only: reduced_t, system_t
-    use lagrangia_text, only: quoted, to_text
+    use lagrangia_text, only: join, quoted, to_text
     use lagrangia_variational, only: new_variational, variational_t
     implicit none (type, external)
     private
@@ -94,6 +94,8 @@ contains
                 return
             end if
         end do
+        call check_free(sweep, error)
+        if (allocated(error)) return
         if (size(over) == 2) then
             if (sweep%axes(1)%changes_the_same(sweep%axes(size(over)))) then
                 call fail(error, "both axes change "//trim(sweep%axes(1)%name), key="over")
@@ -122,6 +124,28 @@ contains
         trial = sweep%scene
         if (.not. any(sweep%axes%is_parameter())) call sweep%set_strobe(trial, time, error)
     end subroutine new_sweep
+
+    subroutine check_free(sweep, error)
+        !! No axis may be a velocity that follows from the others.
+        type(sweep_t), intent(in) :: sweep                !! with its axes
+        type(error_t), allocatable, intent(out) :: error  !! names the axis, and what may be one
+        type(description_t) :: d
+        integer :: i, k
+
+        if (.not. allocated(sweep%scene%given)) return
+        associate (given => sweep%scene%given)
+            do i = 1, size(sweep%axes)
+                if (.not. any(sweep%axes(i)%is_velocity([(k, k=1, size(given))]) .and. &
+                              .not. given)) cycle
+                call sweep%system%describe(d)
+                call fail(error, trim(sweep%axes(i)%name)//" follows from the other velocities "// &
+                          "by the constraints; take one of "// &
+                          join(pack(velocity_names(d), given), ", "), key="over")
+                error%element = i
+                return
+            end do
+        end associate
+    end subroutine check_free
 
     subroutine plan_points(sweep, events, error)
         !! Points of a stroboscope or a section in the place of whole trajectories.
@@ -166,15 +190,11 @@ contains
         type(error_t), allocatable, intent(out) :: error
         type(description_t) :: d
         character(name_length), allocatable :: names(:)
-        integer :: i
 
         associate (scene => sweep%scene, by => sweep%scene%sweep%energy_by)
             if (by == "") return
             call sweep%system%describe(d)
-            names = [(d%coordinates(i)%name, i=1, size(d%coordinates))]
-            do i = 1, size(names)
-                names(i) = trim(names(i))//"_dot"
-            end do
+            allocate (names, source=velocity_names(d))
             sweep%energy_by = findloc(names == by, .true., 1)
             sweep%energy = sweep%system%energy(scene%t0, scene%q, scene%v)
             if (sweep%energy_by == 0) then
@@ -184,7 +204,7 @@ contains
                 call fail(error, trim(by)//" cannot be an axis and be chosen by the energy", &
                           key="energy_by")
             else if (sweep%system%constraints > 0) then
-                call fail(error, "the constraints leave no velocity free to be chosen", &
+                call fail(error, "others follow from it by the constraints; make it an axis", &
                           key="energy_by")
             end if
         end associate

@@ -39,7 +39,8 @@ contains
         class(system_t), allocatable :: system
         class(reference_t), allocatable :: closed_form
         type(scene_t) :: scene
-        real(dp) :: after, given(size(sweep%scene%v))
+        real(dp), allocatable :: given(:)
+        real(dp) :: after
 
         values = ieee_value(values, ieee_quiet_nan)
         scene = sweep%scene
@@ -49,9 +50,11 @@ contains
         if (.not. allocated(error)) call check_state(system, scene%q, scene%v, error)
         if (allocated(error)) return
         if (system%constraints > 0) then
-            given = scene%v
             call system%check_places(scene%t0, scene%q, error)
             if (allocated(error)) return
+            given = scene%v
+            if (allocated(scene%given)) given = pack(scene%v, system%free_velocities(scene%t0, &
+                                                                                     scene%q))
             call system%complete_velocities(scene%t0, scene%q, given, scene%v, error)
             if (allocated(error)) return
         end if

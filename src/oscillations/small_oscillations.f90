@@ -5,6 +5,7 @@ module lagrangia_small_oscillations
     !! \(M\ddot\delta + G\dot\delta + K\delta = 0\) with \(M = L_{vv}\), \(G = L_{vq} - L_{qv}\) and
     !! \(K = -L_{qq}\): once as derived by hand, once from the exact second derivatives of L.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_counted, only: counted
     use lagrangia_description, only: description_t, name_length
     use lagrangia_eigen, only: modes_from_factors, residual_ratio
     use lagrangia_equilibrium, only: expand_at_rest, force_at_rest, settle
@@ -182,8 +183,7 @@ contains
         end if
         call system%describe(d)
         if (size(start) /= system%ndof) then
-            call fail(error, "--at takes "//to_text(system%ndof)//" value"// &
-                      trim(merge(" ", "s", system%ndof == 1))//" for "//trim(d%name)// &
+            call fail(error, "--at takes "//counted(system%ndof, "value")//" for "//trim(d%name)// &
                       ", not "//to_text(size(start))//trim(merge( &
                       "; a decimal point, no comma, is needed in a number", repeat(" ", 50), &
                       size(start) == 2*system%ndof)))

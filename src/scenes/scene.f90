@@ -49,6 +49,7 @@ module lagrangia_scene
         real(dp) :: tolerance = 0.0_dp             !! above 0: the method chooses its steps,
         integer(i8) :: samples = 0                 !! and there are so many samples
         real(dp), allocatable :: q(:), v(:)        !! at `t0`
+        logical, allocatable :: given(:)           !! velocities that are; absent: all of them
         real(dp), allocatable :: parameters(:)     !! in the order of the system's description
         character(name_length), allocatable :: columns(:)
         character(200), allocatable :: plots(:)    !! panels: `'y'`, `'x:y'`, `'t:y1+y2'`
@@ -109,7 +110,11 @@ contains
             call add("  every = "//to_text(scene%every))
         end if
         call add("  q = "//numbers(scene%q))
-        call add("  v = "//numbers(scene%v))
+        if (allocated(scene%given)) then
+            call add("  v = "//numbers(pack(scene%v, scene%given)))
+        else
+            call add("  v = "//numbers(scene%v))
+        end if
         call add_texts(lines, "columns", scene%columns)
         call add_texts(lines, "plot", scene%plots)
         if (allocated(scene%figure)) call add_texts(lines, "figure", scene%figure)

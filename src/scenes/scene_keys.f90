@@ -1,6 +1,7 @@
 module lagrangia_scene_keys
     !! The keys of the group `&scene`, each checked as far as it can be by itself.
     use lagrangia_columns, only: column_names, why_energy_changes
+    use lagrangia_counted, only: counted
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
@@ -115,8 +116,7 @@ contains
         call get_reals(tree, "scene", "q", 1, most, scene%q, error, required=.true.)
         if (allocated(error)) return
         if (size(scene%q) /= system%ndof) then
-            call refuse_value(tree, "scene", "q", to_text(size(scene%q))//" value"// &
-                              trim(merge(" ", "s", size(scene%q) == 1))//", but "// &
+            call refuse_value(tree, "scene", "q", counted(size(scene%q), "value")//", but "// &
                               to_text(system%ndof)// &
                               trim(merge(" is ", " are", system%ndof == 1))// &
                               " needed: "//coordinates(d)// &
@@ -137,6 +137,7 @@ contains
         call system%complete_velocities(scene%t0, scene%q, given, scene%v, found)
         if (allocated(found)) call refuse_value(tree, "scene", "v", found%message// &
             point_advice(tree, "scene", "v", system%ndof), error)
+        if (size(given) < system%ndof) scene%given = system%free_velocities(scene%t0, scene%q)
     end subroutine read_state
 
     pure function start_advice(tree, q, ndof) result(remedy)

@@ -3,7 +3,7 @@ module lagrangia_bound_system
     !! \(A(t, q)\,\dot q + b(t, q) = 0\): who has some gives `constraint_rows`, and, of holonomic
     !! ones, `constraint_values`; how a state is put onto them follows.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use lagrangia_description, only: description_t, name_length
+    use lagrangia_description, only: description_t, velocity_names
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
@@ -29,6 +29,7 @@ module lagrangia_bound_system
         procedure :: multipliers
         procedure :: residuals
         procedure :: complete_velocities
+        procedure :: free_velocities
         procedure :: check_places
         procedure :: keep_constraints
     end type bound_system_t
@@ -74,12 +75,10 @@ contains
         real(dp), intent(in) :: t, q(self%ndof), given(:)
         real(dp), intent(out) :: v(self%ndof)
         type(error_t), allocatable, intent(out) :: error
-        type(hyperdual_t) :: rows(self%constraints, self%ndof), drift(self%constraints), &
-                             qq(self%ndof)
-        real(dp) :: a(self%constraints, self%ndof), bound(self%constraints)
+        real(dp) :: a(self%constraints, self%ndof), drift(self%constraints), bound(self%constraints)
         logical :: free(self%ndof)
-        integer :: i, m, n, rank
         integer, allocatable :: last(:)
+        integer :: m, n
 
         n = self%ndof
         m = self%constraints
@@ -88,33 +87,20 @@ contains
             return
         end if
         v = 0.0_dp
-        qq%re = q
-        call self%constraint_rows(hyperdual_t(re=t), qq, rows, drift)
-        a = rows%re
-        if (.not. (all(ieee_is_finite(a)) .and. all(ieee_is_finite(drift%re)))) then
-            call fail(error, "a constraint has no finite derivatives where it starts")
-            return
-        end if
-        allocate (last(0))
+        call choose_last(self, t, q, a, drift, last, error)
+        if (allocated(error)) return
         free = .true.
-        do i = n, 1, -1
-            if (size(last) == m) exit
-            call matrix_rank(a(:, [last, i]), rank, error)
-            if (allocated(error)) return
-            if (rank <= size(last)) cycle
-            last = [last, i]
-            free(i) = .false.
-        end do
+        free(last) = .false.
         if (size(last) < m) then
             call fail(error, "the constraints are not independent where it starts")
         else if (size(given) == n) then
             v = given
-            if (any(.not. abs(matmul(a, v) + drift%re) &
-                    <= slip*(matmul(abs(a), abs(v)) + abs(drift%re)))) call fail(error, &
+            if (any(.not. abs(matmul(a, v) + drift) &
+                    <= slip*(matmul(abs(a), abs(v)) + abs(drift)))) call fail(error, &
                 "v does not keep the constraints; give those of "//names_of(self, free)//" only")
         else if (size(given) == n - m) then
             v = unpack(given, free, v)
-            call solve_linear(a(:, last), -matmul(a, v) - drift%re, bound, error)
+            call solve_linear(a(:, last), -matmul(a, v) - drift, bound, error)
             if (.not. allocated(error)) v(last) = bound
         else
             call fail(error, "v takes "//to_text(n - m)//" values ("//names_of(self, free)// &
@@ -122,20 +108,57 @@ contains
         end if
     end subroutine complete_velocities
 
+    pure function free_velocities(self, t, q) result(free)
+        !! See `system_t`: all but the last ones that the others determine.
+        class(bound_system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof)
+        logical :: free(self%ndof)
+        real(dp) :: a(self%constraints, self%ndof), drift(self%constraints)
+        integer, allocatable :: last(:)
+        type(error_t), allocatable :: error
+
+        free = .true.
+        call choose_last(self, t, q, a, drift, last, error)
+        if (.not. allocated(error)) free(last) = .false.
+    end function free_velocities
+
+    pure subroutine choose_last(self, t, q, a, drift, last, error)
+        !! The constraints \(A\dot q + b = 0\), and the last coordinates whose velocities they
+        !! determine: fewer than constraints where these depend on each other.
+        class(bound_system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof)
+        real(dp), intent(out) :: a(self%constraints, self%ndof), drift(self%constraints)
+        integer, allocatable, intent(out) :: last(:)
+        type(error_t), allocatable, intent(out) :: error
+        type(hyperdual_t) :: rows(self%constraints, self%ndof), b(self%constraints), qq(self%ndof)
+        integer :: i, rank
+
+        allocate (last(0))
+        qq%re = q
+        call self%constraint_rows(hyperdual_t(re=t), qq, rows, b)
+        a = rows%re
+        drift = b%re
+        if (.not. (all(ieee_is_finite(a)) .and. all(ieee_is_finite(drift)))) then
+            call fail(error, "a constraint has no finite derivatives where it starts")
+            return
+        end if
+        do i = self%ndof, 1, -1
+            if (size(last) == self%constraints) exit
+            call matrix_rank(a(:, [last, i]), rank, error)
+            if (allocated(error)) return
+            if (rank > size(last)) last = [last, i]
+        end do
+    end subroutine choose_last
+
     pure function names_of(self, free) result(text)
         !! `x_dot, y_dot`.
         class(bound_system_t), intent(in) :: self
         logical, intent(in) :: free(:)
         character(:), allocatable :: text
-        character(name_length) :: names(size(free))
         type(description_t) :: d
-        integer :: i
 
         call self%describe(d)
-        do i = 1, size(free)
-            names(i) = trim(d%coordinates(i)%name)//"_dot"
-        end do
-        text = join(pack(names, free), ", ")
+        text = join(pack(velocity_names(d), free), ", ")
     end function names_of
 
     pure subroutine check_places(self, t, q, error)

@@ -11,7 +11,7 @@ module lagrangia_description
     public :: coordinate, conserved, quantity, positive, nonnegative, between, real_number, &
               whole_number, real_vector, mass_point
     public :: add_zeros, check_parameter, constraint_text, default_values, described_by, &
-              sizes_of_places, value_names
+              sizes_of_places, value_names, velocity_names
     public :: constraint_length, figure_length, formula_length, line_length, name_length
 
     integer, parameter :: line_length = 120     !! of a line of text
@@ -314,6 +314,18 @@ contains
             values = [values, d%parameters(i)%value(:d%parameters(i)%count)]
         end do
     end function default_values
+
+    pure function velocity_names(d) result(names)
+        !! `theta_dot`, in the order of the coordinates.
+        type(description_t), intent(in) :: d  !! of any system
+        character(name_length), allocatable :: names(:)
+        integer :: i
+
+        allocate (names(size(d%coordinates)))
+        do i = 1, size(names)
+            names(i) = trim(d%coordinates(i)%name)//"_dot"
+        end do
+    end function velocity_names
 
     pure function value_names(d) result(names)
         !! What formulas call the entries of `default_values`: `m`, or of a vector `electric_x`, ...

@@ -48,6 +48,7 @@ module lagrangia_rolling_disk
         procedure :: angles
         procedure :: constraint_rows
         procedure :: complete_velocities
+        procedure :: free_velocities
         procedure :: pull
         procedure :: roll_acceleration
         procedure :: closed_form
@@ -309,6 +310,15 @@ contains
         rows(2, 2) = 1.0_dp
         rows(2, 3) = self%r*cos(q(4))
     end subroutine constraint_rows
+
+    pure function free_velocities(self, t, q) result(free)
+        !! \(\dot\varphi, \dot\theta\).
+        class(rolling_disk_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof)
+        logical :: free(self%ndof)
+
+        free = [.false., .false., .true., .true.]
+    end function free_velocities
 
     pure subroutine complete_velocities(self, t, q, given, v, error)
         !! From \((\dot\varphi, \dot\theta)\); or all four, which are kept as they are, so that the

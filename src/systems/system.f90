@@ -5,6 +5,7 @@ module lagrangia_system
     !! takes its parameters (`configure`), and gives its equations of motion twice: as derived by
     !! hand (`accelerations`), and as the Lagrangian from which they were derived, with the
     !! generalised forces beside it.
+    use lagrangia_counted, only: counted
     use lagrangia_description, only: check_parameter, default_values, description_t
     use lagrangia_elimination, only: solve_positive
     use lagrangia_errors, only: error_t, fail
@@ -48,6 +49,7 @@ module lagrangia_system
         procedure :: positions => no_positions
         procedure :: constraint_rows => no_constraint_rows
         procedure :: complete_velocities => all_velocities
+        procedure :: free_velocities => all_free
         procedure :: check_places => any_place
         procedure :: keep_constraints => nothing_to_keep
         procedure :: linearise => nothing_by_hand
@@ -236,8 +238,7 @@ contains
         !! equations as whole-array statements, with `sine_cosine` of all lanes at once. That is
         !! good to a unit in the last place and libm to half of one, so the last digits differ.
         class(system_t), intent(in) :: self
-        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)
-        !! times, s; states
+        real(dp), intent(in) :: t(lanes), q(lanes, self%ndof), v(lanes, self%ndof)  !! s; states
         real(dp), intent(out) :: a(lanes, self%ndof)  !! accelerations
         real(dp) :: x(self%ndof), x_dot(self%ndof), x_ddot(self%ndof)
         integer :: i
@@ -298,22 +299,29 @@ contains
         drift = hyperdual_t()
     end subroutine no_constraint_rows
 
+    pure function all_free(self, t, q) result(free)
+        !! Which velocities the constraints leave free; the others follow from them: here none.
+        class(system_t), intent(in) :: self
+        real(dp), intent(in) :: t, q(self%ndof)  !! time, s; coordinates
+        logical :: free(self%ndof)
+
+        free = .true.
+    end function all_free
+
     pure subroutine all_velocities(self, t, q, given, v, error)
         !! All velocities from those that a scene gives: here every one must be given.
         class(system_t), intent(in) :: self
-        real(dp), intent(in) :: t, q(self%ndof), given(:)
-        !! time, s; coordinates; velocities of a scene
-        real(dp), intent(out) :: v(self%ndof)  !! all of them
-        type(error_t), allocatable, intent(out) :: error
-        !! status 2: too many, too few, or not allowed
+        real(dp), intent(in) :: t, q(self%ndof), given(:) !! s; coordinates; a scene's velocities
+        real(dp), intent(out) :: v(self%ndof)             !! all of them
+        type(error_t), allocatable, intent(out) :: error  !! status 2: how many, or not allowed
 
-        v = 0.0_dp
-        if (size(given) /= self%ndof) then
-            call fail(error, "v takes "//to_text(self%ndof)//" value"// &
-                      trim(merge(" ", "s", self%ndof == 1))//", not "//to_text(size(given)))
-            return
+        if (size(given) == self%ndof) then
+            v = given
+        else
+            v = 0.0_dp
+            call fail(error, "v takes "//counted(self%ndof, "value")//", not "// &
+                      to_text(size(given)))
         end if
-        v = given
     end subroutine all_velocities
 
     pure subroutine any_place(self, t, q, error)
@@ -347,13 +355,11 @@ contains
         !!
         !! The Cartesian coordinates are three of each point of the description, then one angle of
         !! each rotor, whose "mass" is its moment of inertia. With reactions \(\lambda_k\) and
-        !! residuals \(f_k\), which vanish,
-        !! \(m_i\ddot x_i = F_i + \sum_k\lambda_k\,\partial f_k/\partial x_i\). First come
-        !! \(f_k(t, x)\), then the `constraints` non-holonomic ones, linear in \(u\), with
-        !! \(\partial f_k/\partial u_i\) instead. A residual in m has a reaction in N.
+        !! residuals \(f_k\) of zero, \(m_i\ddot x_i = F_i + \sum_k\lambda_k\,\partial f_k/\partial
+        !! x_i\). First come \(f_k(t, x)\), then the `constraints` non-holonomic ones, linear in
+        !! \(u\), with \(\partial f_k/\partial u_i\) instead. A residual in m has a reaction in N.
         class(system_t), intent(in) :: self
-        type(hyperdual_t), intent(in) :: t, x(:), u(:)
-        !! time, s; coordinates, m or rad; their rates
+        type(hyperdual_t), intent(in) :: t, x(:), u(:)  !! s; coordinates, m or rad; their rates
         real(dp), intent(out) :: force(:)  !! applied, as many as `x`: N, or N m on an angle
         type(hyperdual_t), intent(out) :: constraint_residual(:)  !! (reactions), zero
 
@@ -377,8 +383,8 @@ contains
         !! set onto the constraint, which rounding may have missed. A system that would go on to
         !! meet it ever sooner must stay there, with accelerations that hold it.
         class(system_t), intent(in) :: self
-        integer, intent(in) :: i                               !! from 1 to `contacts`
-        real(dp), intent(in) :: t                              !! of the impact, s
+        integer, intent(in) :: i   !! from 1 to `contacts`
+        real(dp), intent(in) :: t  !! of the impact, s
         real(dp), intent(inout) :: q(self%ndof), v(self%ndof)  !! before it; becomes that after it
     end subroutine no_impact
 
@@ -408,13 +414,12 @@ contains
         if (self%ndof < 1) then
             call fail(error, "the system has no coordinates: configure it first")
         else if (size(q) /= self%ndof) then
-            call fail(error, "q has "//to_text(size(q))//trim(merge(" value ", " values", &
-                      size(q) == 1))//"; the system has "//to_text(self%ndof)// &
-                      trim(merge(" coordinate ", " coordinates", self%ndof == 1)), key="q")
+            call fail(error, "q has "//counted(size(q), "value")//"; the system has "// &
+                      counted(self%ndof, "coordinate"), key="q")
         else if (size(v) /= self%ndof) then
-            call fail(error, "v has "//to_text(size(v))//trim(merge(" value ", " values", &
-                      size(v) == 1))//"; the system has "//to_text(self%ndof)// &
-                      trim(merge(" velocity  ", " velocities", self%ndof == 1)), key="v")
+            call fail(error, "v has "//counted(size(v), "value")//"; the system has "// &
+                      to_text(self%ndof)//trim(merge(" velocity  ", " velocities", &
+                                                     self%ndof == 1)), key="v")
         end if
     end subroutine check_state
 
@@ -422,8 +427,7 @@ contains
         !! Refuse `values` that are too many, too few or outside their domains.
         class(system_t), intent(in) :: self  !! says what is allowed
         real(dp), intent(in) :: values(:)    !! in the order of `describe`
-        type(error_t), allocatable, intent(out) :: error
-        !! status 2: names the system and the parameter
+        type(error_t), allocatable, intent(out) :: error  !! status 2: of which system, which one
         type(description_t) :: d
         integer :: i, first
 

@@ -113,7 +113,8 @@ contains
             last = first + index(stack(first:)//nl, nl) - 2
             line = adjustl(stack(first + verify(stack(first:last), achar(9)//" ") - 1:last))
             first = last + 2
-            if (index(line, before) /= 1) cycle
+            ! below main, where the C library was compiled with line numbers, stand lines of its own
+            if (index(line, before) /= 1 .or. index(line, ".f90:") == 0) cycle
             line = shown(line(len(before) + 1:))
             if (index(line, "funit/runner.f90") > 0) exit
             if (index(line, "funit/") > 0 .or. found > most_callers) cycle
