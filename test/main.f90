@@ -186,6 +186,7 @@ module suites
     use test_sweep, only: sweep_suite
     use test_sweep_lanes, only: sweep_lanes_suite
     use test_sweep_points, only: sweep_points_suite
+    use test_sweep_scenes, only: sweep_scenes_suite
     use test_sweep_store, only: sweep_store_suite
     use test_swings, only: swings_suite
     use test_systems, only: systems_suite
@@ -407,6 +408,7 @@ contains
         call suite%addTest(sweep_suite())
         call suite%addTest(sweep_lanes_suite())
         call suite%addTest(sweep_points_suite())
+        call suite%addTest(sweep_scenes_suite())
         call suite%addTest(sweep_store_suite())
         call suite%addTest(swings_suite())
         call suite%addTest(systems_suite())

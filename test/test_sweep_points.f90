@@ -42,8 +42,6 @@ contains
                                       fixed_steps_meet_the_stroboscope))
         call suite%addTest(TestMethod("a_section_is_a_period_apart", a_section_is_a_period_apart))
         call suite%addTest(TestMethod("contacts_are_no_points", contacts_are_no_points))
-        call suite%addTest(TestMethod("constrained_velocities_follow", &
-                                      constrained_velocities_follow))
         call suite%addTest(TestMethod("all_starts_have_one_energy", all_starts_have_one_energy))
         call suite%addTest(TestMethod("angles_are_wrapped", angles_are_wrapped))
         call suite%addTest(TestMethod("attractors_are_the_two_wells", &
@@ -185,29 +183,6 @@ contains
         call assertEqual(height*[1.0_dp, 0.64_dp, 0.64_dp**2], result%values(:, 2), 1e-12_dp, &
                          "from 1 m, upwards with 3 m/s")
     end subroutine contacts_are_no_points
-
-    subroutine constrained_velocities_follow()
-        !! A disk that rolls towards \((\sin\theta, -\cos\theta)\), as fast as it turns.
-        character(*), parameter :: scene = "&scene system='rolling_disk', method='rk4', "// &
-            "dt=1e-3, duration=2, samples=4, q=0, 0, 0, 0.7, v=4, 0 / &rolling_disk m=1, r=0.3 /"
-        type(sweep_numbers_t) :: result
-        type(sweep_t) :: sweep
-        type(error_t), allocatable :: error
-        integer :: i
-
-        call compute(scene, ["phi_dot=1:3:3"], ["x", "y"], result, error, sweep)
-        call assertFalse(allocated(error), "it can be computed")
-        if (allocated(error)) return
-        do i = 1, 3
-            call assertEqual(0.6_dp*i*[sin(0.7_dp), -cos(0.7_dp)], result%values(:, i), 1e-12_dp, &
-                             "after 2 s straight ahead with r phi_dot")
-        end do
-        call compute(scene, ["x_dot=1:3:3"], ["x", "y"], result, error, sweep)
-        call assertTrue(allocated(error), "x_dot is not free")
-        if (allocated(error)) call assertEqual("x_dot follows from the other velocities by the "// &
-                                               "constraints; take one of phi_dot, theta_dot", &
-                                               error%message)
-    end subroutine constrained_velocities_follow
 
     subroutine all_starts_have_one_energy()
         !! That of the scene's own, by the velocity that is left free; who cannot have it fails.

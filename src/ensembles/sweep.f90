@@ -1,9 +1,10 @@
 module lagrangia_sweep
     !! Many trajectories of one scene: a number or two of it are changed over a grid, and of each
     !! trajectory a few numbers are kept.
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
     use lagrangia_attractor, only: signature_size
     use lagrangia_columns, only: columns_t
-    use lagrangia_description, only: description_t, name_length, velocity_names
+    use lagrangia_description, only: default_values, description_t, name_length, velocity_names
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_events, only: column_event_t, new_column_event
     use lagrangia_kept, only: is_lyapunov, keeps_attractor, keeps_end, keeps_event, keeps_flip, &
@@ -15,6 +16,7 @@ module lagrangia_sweep
     use lagrangia_scene, only: most_axes, scene_t, sweep_text_length
     use lagrangia_strobe, only: new_strobe, strobe_t
     use lagrangia_sweep_axis, only: new_sweep_axis, sweep_axis_t
+    use lagrangia_sweep_events, only: choose_events
     use lagrangia_system, only: reduced_t, system_t
     use lagrangia_text, only: join, quoted, to_text
     use lagrangia_variational, only: new_variational, variational_t
@@ -31,6 +33,7 @@ module lagrangia_sweep
         type(kept_t), allocatable :: kept(:)
         type(columns_t) :: columns               !! those that `kept` takes
         integer :: events = 0                    !! number of events that `kept` takes
+        logical :: stops = .false.               !! an event of the scene's own may end a trajectory
         real(dp) :: after = 0.0_dp               !! samples before this time don't count, s
         integer(i8) :: most_steps = huge(1_i8)   !! of a trajectory, where the method chooses them
         type(strobe_t) :: strobe                 !! samples are its points
@@ -117,10 +120,13 @@ contains
         call plan_points(sweep, events, error)
         if (.not. allocated(error)) call plan_energy(sweep, error)
         if (allocated(error)) return
+        sweep%events = size(events)
+        call choose_events(sweep%scene, system, sweep%kept, events, sweep%stops, error)
+        if (allocated(error)) return
         if (any(sweep%axes%is_parameter()) .or. any(is_lyapunov(sweep%kept%kind))) then
             call new_variational(sweep%variational, system)
         end if
-        call adapt_scene(sweep, events)
+        call adapt_scene(sweep)
         trial = sweep%scene
         if (.not. any(sweep%axes%is_parameter())) call sweep%set_strobe(trial, time, error)
     end subroutine new_sweep
@@ -285,29 +291,17 @@ contains
         if (self%attractors) n = n + signature_size(self%system%ndof)
     end function width
 
-    subroutine adapt_scene(sweep, events)
-        !! The scene computes what is kept, and no more: no samples where none is looked at, its
-        !! own events replaced, and an end at the event where that is all that is kept.
-        type(sweep_t), intent(inout) :: sweep
-        character(*), intent(in) :: events(:)
-        logical :: stops
+    subroutine adapt_scene(sweep)
+        !! The scene computes what is kept, and no more: no samples where none is looked at.
+        type(sweep_t), intent(inout) :: sweep  !! knows its events
         integer(i8) :: steps
 
-        sweep%events = size(events)
         associate (scene => sweep%scene, kept => sweep%kept)
             if (scene%method == auto) then
                 scene%method = "dop853"
                 if (.not. fits_lanes(sweep)) scene%method = workhorse
             end if
             scene%error_estimate = .false.
-            if (allocated(scene%events)) deallocate (scene%events)
-            if (size(events) > 0) then
-                stops = all(kept%kind == keeps_flip .or. kept%kind == keeps_event) .and. &
-                        size(kept) == 1
-                scene%events = events
-                if (stops) scene%events = [character(len(scene%events)) :: &
-                                           stopping(events)]
-            end if
             if (any(kept%kind == keeps_largest .or. kept%kind == keeps_smallest)) return
             scene%samples = min(scene%samples, 1_i8)
             if (scene%tolerance > 0.0_dp) return
@@ -328,7 +322,7 @@ contains
         yes = follows_displacements(sweep)
         if (yes) return
         associate (scene => sweep%scene, system => sweep%system, kept => sweep%kept)
-            yes = .not. scene%compensated .and. system%contacts == 0 .and. &
+            yes = .not. (scene%compensated .or. sweep%stops) .and. system%contacts == 0 .and. &
                   system%constraints == 0 .and. &
                   (sweep%strobe%given .or. .not. sweep%keeps_points) .and. &
                   all(kept%kind == keeps_end .or. kept%kind == keeps_flip .or. &
@@ -366,17 +360,6 @@ contains
                   sweep%after < scene%t0 + scene%duration
         end associate
     end function follows_displacements
-
-    pure function stopping(events) result(texts)
-        !! The same, each of which ends the run.
-        character(*), intent(in) :: events(:)
-        character(len(events) + len(" stop")) :: texts(size(events))
-        integer :: i
-
-        do i = 1, size(events)
-            texts(i) = trim(events(i))//" stop"
-        end do
-    end function stopping
 
     pure function trajectories(self) result(n)
         !! How many.
@@ -420,16 +403,28 @@ contains
         end do
     end function coordinates_of
 
-    pure subroutine set_start(self, index, q, v, parameters)
-        !! Put the values of trajectory number `index` in their places.
+    subroutine set_start(self, index, q, v, parameters)
+        !! Put the values of trajectory number `index` in their places; parameters that are not
+        !! given follow from them, if they are allowed.
         class(sweep_t), intent(in) :: self
         integer(i8), intent(in) :: index                      !! from 1 to `trajectories`
         real(dp), intent(inout) :: q(:), v(:), parameters(:)  !! those of `scene`
+        class(system_t), allocatable :: system
+        type(description_t) :: d
+        type(error_t), allocatable :: error
         integer :: i, which(size(self%axes))
 
         which = self%places(index)
+        if (allocated(self%scene%computed)) where (self%scene%computed) &
+            parameters = ieee_value(parameters, ieee_quiet_nan)
         do i = 1, size(which)
             call self%axes(i)%set(which(i), q, v, parameters)
         end do
+        if (.not. any(ieee_is_nan(parameters))) return
+        allocate (system, source=self%system)
+        call system%configure(parameters, error)
+        if (allocated(error)) return
+        call system%describe(d)
+        parameters = default_values(d)
     end subroutine set_start
 end module lagrangia_sweep

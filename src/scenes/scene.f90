@@ -51,6 +51,7 @@ module lagrangia_scene
         real(dp), allocatable :: q(:), v(:)        !! at `t0`
         logical, allocatable :: given(:)           !! velocities that are; absent: all of them
         real(dp), allocatable :: parameters(:)     !! in the order of the system's description
+        logical, allocatable :: computed(:)        !! from others, by default; absent: none
         character(name_length), allocatable :: columns(:)
         character(200), allocatable :: plots(:)    !! panels: `'y'`, `'x:y'`, `'t:y1+y2'`
         character(120), allocatable :: events(:)   !! `'theta = 0.5 rising'`

@@ -1,7 +1,7 @@
 module lagrangia_scene_reader
     !! From a scene file to a scene and its system. What the text alone shows to be wrong is refused
     !! here; what only a method or a column shows, where the run is planned (`lagrangia_run_plan`).
-    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
     use lagrangia_catalogue, only: new_system, system_names
     use lagrangia_command_line, only: word_t
     use lagrangia_constrained_system, only: constrained_system_t, new_constrained_system
@@ -262,6 +262,7 @@ contains
         call system%configure(scene%parameters, error)
         if (allocated(error)) return
         call system%describe(d)
+        if (any(ieee_is_nan(scene%parameters))) scene%computed = ieee_is_nan(scene%parameters)
         scene%parameters = default_values(d)
     end subroutine read_system
 
