@@ -196,6 +196,9 @@ contains
         call traced("double_pendulum", "rwr", &
                     "cos(theta1 - theta2) ~ 1 - (theta1 - theta2)^2/2;"// &
                     "cos(theta1 - theta2) ~ 1 - (theta1 - theta2)^2; cos(theta1 - theta2) ~ 1")
+        call traced("pendulum", "rwrr", "theta cos(theta) ~ theta - theta^3/2;"// &
+                    "theta cos(theta) ~ theta - theta^3; cos(theta)^2 ~ 1 - sin(theta)^2;"// &
+                    "theta/cos(theta) ~ theta + theta^3/2")
     end subroutine orders_that_are_written
 
     subroutine negligible_terms()
