@@ -113,6 +113,8 @@ contains
         character(*), parameter :: scene = pendulum//adaptive
         character(*), parameter :: looks = &
             "event = 'theta = 0.5 rising' or event = 'tension falling stop'"
+        character(*), parameter :: behind = "behind '=' a number is needed, or a formula of "// &
+            "numbers: "
 
         call refused(scene//"event = ' '", "event = ' ': an event needs a column, as in "//looks)
         call refused(scene//"event = 'tehta'", &
@@ -120,11 +122,18 @@ contains
         call refused(scene//"event = 'theta', 'theta = '", &
                      "event = 'theta = ': a number is needed behind '=', as in "//looks)
         call refused(scene//"event = 'theta = up'", &
-                     "event = 'theta = up': a number is needed behind '=', as in "//looks)
+                     "event = 'theta = up': "//behind//"'up': column 1: unknown name 'up'; "// &
+                     "there is only pi")
         call refused(scene//"event = 'theta = 1e999'", &
-                     "event = 'theta = 1e999': a number is needed behind '=', as in "//looks)
-        call refused(scene//"event = 'theta = 1-3'", &
-                     "event = 'theta = 1-3': a number is needed behind '=', as in "//looks)
+                     "event = 'theta = 1e999': "//behind//"'1e999': column 1: '1e999' is "// &
+                     "too large for a double (at most 1.79769e308)")
+        call refused(scene//"event = 'theta = 45 deg'", &
+                     "event = 'theta = 45 deg': "//behind//"'45 deg': angles are in "// &
+                     "radians; write 0.7853981633974483")
+        call refused(scene//"event = 'theta = 1/0 rising'", &
+                     "event = 'theta = 1/0 rising': "//behind//"'1/0' is no number")
+        call refused(scene//"event = 'theta = pi/2 risng'", "event = 'theta = pi/2 risng': "// &
+                     "'risng' is none of rising, falling, stop; an event looks like "//looks)
         call refused(scene//"event = 'theta upwards'", "event = 'theta upwards': 'upwards' is "// &
                      "none of rising, falling, stop; an event looks like "//looks)
         call refused(scene//"event = 'energy_drift'", &

@@ -5,16 +5,13 @@ module lagrangia_sweep_axis
     !! spaces them by equal factors, `:random` draws them between the ends. A name is that of a
     !! coordinate, a velocity (`theta_dot`), a parameter (`m1`, `B(3)`), or `q`, `v`, `q(2)`.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_constant_formula, only: read_constant
     use lagrangia_description, only: described_by, description_t, name_length
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_expression, only: expression_t
-    use lagrangia_formula_parser, only: parse_formula
-    use lagrangia_formula_program, only: formula_program_t, new_formula_program
     use lagrangia_kinds, only: dp, i8
     use lagrangia_names, only: abbreviation, advice, nearest_name
-    use lagrangia_number_reader, only: misread, to_integer
+    use lagrangia_number_reader, only: to_integer
     use lagrangia_random_draws, only: random_t
-    use lagrangia_symbols, only: symbols_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
@@ -84,9 +81,9 @@ contains
                       example)
             return
         end if
-        call read_constant(range(:bounds(1) - 1), ends(1), error)
-        if (.not. allocated(error)) call read_constant(range(bounds(1) + 1:bounds(2) - 1), &
-                                                       ends(2), error)
+        call read_end(range(:bounds(1) - 1), ends(1), error)
+        if (.not. allocated(error)) call read_end(range(bounds(1) + 1:bounds(2) - 1), ends(2), &
+                                                  error)
         if (allocated(error)) then
             error%message = "the axis "//trim(axis%name)//": "//error%message
             return
@@ -162,55 +159,19 @@ contains
         end do
     end subroutine cut
 
-    subroutine read_constant(text, value, error)
-        !! A number, or a formula of numbers: `-pi/2`. As in a namelist, `1d-3` is a number too.
+    subroutine read_end(text, value, error)
+        !! The first or the last value of an axis.
         character(*), intent(in) :: text
         real(dp), intent(out) :: value
         type(error_t), allocatable, intent(out) :: error
-        character(:), allocatable :: phrase, problem
-        type(symbols_t) :: none
-        type(expression_t) :: formula
-        type(formula_program_t) :: program
-        real(dp) :: results(1)
 
         value = 0.0_dp
         if (text == "") then
             call fail(error, "an end is missing; write "//example)
-            return
+        else
+            call read_constant(text, value, error)
         end if
-        call misread(trim(adjustl(text)), phrase, problem)
-        if (index(problem, "angles are in radians") == 1) then
-            call fail(error, quoted(phrase)//": "//problem)
-            return
-        end if
-        allocate (none%names(0))
-        call parse_formula(with_e(text), none, formula, error)
-        if (allocated(error)) then
-            error%message = quoted(trim(adjustl(text)))//": "//error%message
-            return
-        end if
-        call new_formula_program(program, [formula], 0)
-        call program%evaluate([real(dp) ::], results)
-        value = results(1)
-        if (.not. ieee_is_finite(value)) call fail(error, quoted(trim(text))//" is no number")
-    end subroutine read_constant
-
-    pure function with_e(text) result(plain)
-        !! The exponents of Fortran's doubles as a formula has them: a `d` between digits can be
-        !! nothing else where no name is known.
-        character(*), intent(in) :: text
-        character(len(text)) :: plain
-        character(*), parameter :: digits = "0123456789"
-        integer :: behind, i
-
-        plain = text
-        do i = 2, len(text) - 1
-            if (scan(text(i:i), "dD") == 0 .or. scan(text(i - 1:i - 1), digits//".") == 0) cycle
-            behind = i + 1
-            if (scan(text(behind:behind), "+-") == 1) behind = behind + 1
-            if (scan(text(min(behind, len(text)):), digits) == 1) plain(i:i) = "e"
-        end do
-    end function with_e
+    end subroutine read_end
 
     subroutine find_target(axis, name, system, error)
         !! Which number of the scene `name` is.

@@ -8,7 +8,7 @@ module lagrangia_formula_characters
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: plain_formula, plainly
+    public :: plain_formula, plain_letters
 
     character(*), parameter :: digits = "0123456789", lower = "abcdefghijklmnopqrstuvwxyz"
     character(*), parameter :: upper = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
@@ -83,7 +83,7 @@ contains
         end function follows
     end subroutine plain_formula
 
-    pure function plainly(text) result(plain)
+    pure function plain_letters(text) result(plain)
         !! In plain letters, `theta` for the Greek one; as it is where a character has no meaning.
         character(*), intent(in) :: text  !! UTF-8, perhaps
         character(:), allocatable :: plain
@@ -92,7 +92,7 @@ contains
 
         call plain_formula(text, plain, columns, error)
         if (allocated(error)) plain = text
-    end function plainly
+    end function plain_letters
 
     pure function stands_alone(code) result(yes)
         !! Is it a letter that is a name, or begins one? Not so the wide ones, ligatures, and the

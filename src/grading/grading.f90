@@ -7,7 +7,7 @@ module lagrangia_grading
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, kind_number
-    use lagrangia_formula_characters, only: plainly
+    use lagrangia_formula_characters, only: plain_letters
     use lagrangia_formula_parser, only: parse_equation, parse_formula
     use lagrangia_homework, only: homework_t
     use lagrangia_judgement, only: is_consequence, is_right, is_wrong, judge, &
@@ -58,7 +58,7 @@ contains
         said = ""
         primes = .false.
         do i = 1, size(homework%statements)
-            plain = plainly(homework%statements(i)%text)
+            plain = plain_letters(homework%statements(i)%text)
             said = said//" "//plain
             primes = primes .or. has_double_prime(plain)
         end do

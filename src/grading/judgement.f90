@@ -8,7 +8,7 @@ module lagrangia_judgement
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: apply, expression_t, f_sqrt, kind_function, kind_symbol, &
                                     operator(-), whole
-    use lagrangia_formula_characters, only: plain_formula, plainly
+    use lagrangia_formula_characters, only: plain_formula, plain_letters
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_frequency_squares, only: with_squares
     use lagrangia_further_slips, only: explain_further
@@ -68,7 +68,7 @@ contains
         next = index(text, "=")
         call find_empty_side(text, judgement)
         if (judgement%verdict == is_unreadable) return
-        side = plainly(as_in(text, 1, next - 1))
+        side = plain_letters(as_in(text, 1, next - 1))
         call read_new_name(side, samples, name, squared)
         if (name /= "" .and. index(text(next + 1:), "=") == 0) then
             call define(name, squared, text, next, statement%used, samples, library, judgement)
@@ -94,7 +94,8 @@ contains
             call parse_formula(repeat(" ", characters(text(:first - 1)))// &
                                as_in(text, first, next - 1), samples%symbols, right, error)
             if (.not. allocated(error)) call read_as_period(left, right, samples, chained)
-            call read_constancy(plainly(as_in(text, first, next - 1)), samples, side_and, constancy)
+            call read_constancy(plain_letters(as_in(text, first, next - 1)), samples, side_and, &
+                                constancy)
             if (constancy) then
                 call parse_formula("d/dt("//as_in(text, begun, first - 2)//side_and//")", &
                                    samples%symbols, left, error)

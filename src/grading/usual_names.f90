@@ -5,7 +5,7 @@ module lagrangia_usual_names
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, operator(**), operator(+), operator(-)
-    use lagrangia_formula_characters, only: plainly
+    use lagrangia_formula_characters, only: plain_letters
     use lagrangia_homework, only: homework_t
     use lagrangia_sample_names, only: role_parameter, samples_t, usual_t
     use lagrangia_slip_search, only: holds
@@ -62,8 +62,8 @@ contains
 
         do i = 1, size(homework%statements)
             associate (text => homework%statements(i)%text)
-                call read_new_name(plainly(text(:max(0, index(text, "=") - 1))), samples, name, &
-                                   squared)
+                call read_new_name(plain_letters(text(:max(0, index(text, "=") - 1))), samples, &
+                                   name, squared)
             end associate
             if (name == "") cycle
             others = homework
@@ -160,7 +160,7 @@ contains
         allocate (said(0), given(0))
         do i = 1, size(homework%statements)
             associate (text => homework%statements(i)%text)
-                plain = plainly(text)
+                plain = plain_letters(text)
                 first = 1
                 do
                     last = scan(plain(first:), letters)

@@ -9,10 +9,11 @@ module lagrangia_events
     !! A zero at the very start counts by how the function leaves it: not, for where it came from
     !! is not known. Only a gap that closes at once is an impact at once.
     use lagrangia_columns, only: columns_t, new_columns, refuse_work
+    use lagrangia_constant_formula, only: read_constant
     use lagrangia_description, only: description_t, line_length, name_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp
-    use lagrangia_number_reader, only: read_number
+    use lagrangia_number_reader, only: letters
     use lagrangia_system, only: system_t
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
@@ -80,14 +81,14 @@ contains
 
     subroutine new_column_event(self, text, system, error)
         !! An event as a scene has it: `NAME [= LEVEL] [rising|falling] [stop]`, where `NAME` is a
-        !! column: `'theta = 0.5 rising'`, `'tension stop'`.
+        !! column and `LEVEL` a formula of numbers: `'theta = pi/2 rising'`, `'tension stop'`.
         type(column_event_t), intent(out) :: self  !! looks for the column's level
         character(*), intent(in) :: text  !! as above, words between blanks
         class(system_t), intent(in) :: system  !! has the column
         type(error_t), allocatable, intent(out) :: error  !! not understood, or no such column
-        character(word_length) :: words(7)
+        character(word_length) :: words(16)
         character(name_length) :: name(1)
-        character(:), allocatable :: problem
+        character(:), allocatable :: level
         type(description_t) :: d
         integer :: i, count
 
@@ -108,13 +109,23 @@ contains
         i = 2
         self%place = "where "//trim(words(1))//" = 0"
         if (words(i) == "=") then
-            self%place = "where "//trim(words(1))//" = "//words(i + 1)
-            call read_number(trim(words(i + 1)), self%level, problem)
-            if (problem /= "") then
+            level = ""
+            do i = 3, count
+                if (any(words(i) == ["rising ", "falling", "stop   "])) exit
+                if (i > 3 .and. is_word(words(i)) .and. index(words(i), "deg") /= 1) exit
+                level = level//" "//trim(words(i))
+            end do
+            if (level == "") then
                 call fail(error, "a number is needed behind '=', as in "//example())
                 return
             end if
-            i = i + 2
+            call read_constant(level(2:), self%level, error)
+            if (allocated(error)) then
+                error%message = "behind '=' a number is needed, or a formula of numbers: "// &
+                                error%message
+                return
+            end if
+            self%place = "where "//trim(words(1))//" ="//level
         end if
         do i = i, count
             select case (words(i))
@@ -135,6 +146,15 @@ contains
         if (d%quantities(i)%meaning /= "") self%place = trim(self%place)//"; "//trim(name(1))// &
             ": "//d%quantities(i)%meaning
     end subroutine new_column_event
+
+    pure function is_word(text) result(yes)
+        !! Letters that a formula of numbers cannot have: no `pi`, no function.
+        character(*), intent(in) :: text
+        logical :: yes
+
+        yes = verify(text(:1), letters) == 0 .and. index(text, "pi") /= 1 .and. &
+              index(text, "(") == 0
+    end function is_word
 
     pure function example() result(text)
         !! What an event looks like.

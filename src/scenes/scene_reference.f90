@@ -63,8 +63,8 @@ module lagrangia_scene_reference
         entry_t("scene", "figure", "", "the system's own", "how --animate draws it, part by "// &
                 "part: docs/animation.md", "figure = 'spring origin bob', 'ball bob'"), &
         entry_t("scene", "event", "", absent, "up to 8: 'COLUMN = LEVEL', with 'rising', "// &
-                "'falling' or 'stop' behind it", &
-                "event = 'theta = 0 rising'"), &
+                "'falling' or 'stop' behind it; a level may be a formula of numbers", &
+                "event = 'theta = pi/2 rising'"), &
         entry_t("scene", "event_columns", "", "columns, without errors and drifts", &
                 "of the file "// &
                 "of events", "event_columns = 't', 'theta_dot'"), &
