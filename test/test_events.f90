@@ -98,7 +98,8 @@ contains
         call assertEqual(7, record%events, message="any")
         record%events = 0
         call oscillate([character(30) :: "x = sqrt(3) / 2 rising", "x = 1-3/2 falling", &
-                        "x=cos(pi/4) falling stop"], 0.0_dp, 1.0_dp, 20.0_dp, 1e-13_dp, record, ended)
+                        "x=cos(pi/4) falling stop"], 0.0_dp, 1.0_dp, 20.0_dp, 1e-13_dp, record, &
+                       ended)
         call assertEqual([pi/3, 3*pi/4], record%event_t(:record%events), 1e-11_dp, "formulas")
         call assertEqual(3*pi/4, ended, 1e-11_dp, "stop behind a formula")
     end subroutine directions
