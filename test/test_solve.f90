@@ -20,6 +20,8 @@ contains
         call suite%addTest(TestMethod("two_coordinates_keep_apart", two_coordinates_keep_apart))
         call suite%addTest(TestMethod("events_are_found", events_are_found))
         call suite%addTest(TestMethod("a_ball_bounces", a_ball_bounces))
+        call suite%addTest(TestMethod("constraints_hold_at_the_start", &
+                                      constraints_hold_at_the_start))
         call suite%addTest(TestMethod("refusals", refusals))
     end function solve_suite
 
@@ -130,6 +132,33 @@ contains
         call assertEqual(spread(0.5_dp, 1, 3), q(1, :), 1e-12_dp, "height")
         call assertEqual(2, found%events, "bounces")
     end subroutine a_ball_bounces
+
+    subroutine constraints_hold_at_the_start()
+        !! A disk that rolls straight ahead, its velocities completed; one that slips is refused.
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: q(:, :), v(:, :)
+        real(dp), parameter :: q0(4) = [0.0_dp, 0.0_dp, 0.0_dp, 0.7_dp]
+        real(dp) :: state(4, 2)
+
+        call new_system("rolling_disk", system, error)
+        call system%configure([1.0_dp, 0.3_dp, 0.045_dp, 0.0225_dp, 9.81_dp, 0.0_dp], error)
+        call solve(system, "rk4", [0.0_dp, 1.0_dp], q0, [2.0_dp, 0.0_dp], q, v, error, dt=0.01_dp)
+        call assertFalse(allocated(error), message="phi_dot and theta_dot are enough")
+        if (allocated(error)) return
+        call assertEqual(0.6_dp*[sin(0.7_dp), -cos(0.7_dp)], q(:2, 2), 1e-13_dp, "it rolls")
+        state = reshape([q(:, 2), v(:, 2)], [4, 2])
+        call solve(system, "rk4", [1.0_dp, 2.0_dp], state(:, 1), state(:, 2), q, v, error, &
+                   dt=0.01_dp)
+        call assertFalse(allocated(error), message="the end is a start")
+        call solve(system, "rk4", [0.0_dp, 1.0_dp], q0, [1.0_dp, 0.0_dp, 2.0_dp, 0.0_dp], q, v, &
+                   error, dt=0.01_dp)
+        call assertTrue(allocated(error), message="it slips")
+        if (allocated(error)) call assertEqual(1, index(error%message, "v does not roll"), &
+                                               message=error%message)
+        call solve(system, "rk4", [0.0_dp, 1.0_dp], q0, [1.0_dp], q, v, error, dt=0.01_dp)
+        call assertTrue(allocated(error), message="one velocity of four")
+    end subroutine constraints_hold_at_the_start
 
     subroutine refusals()
         !! Each names what is wrong.

@@ -32,7 +32,8 @@ contains
         class(system_t), intent(in) :: system               !! configured
         character(*), intent(in) :: method                  !! `rk4`, `gauss16`, `auto`, ...
         real(dp), intent(in) :: t(:)                        !! times, s, each later than the last
-        real(dp), intent(in) :: q0(:), v0(:)                !! the state at `t(1)`, (ndof)
+        real(dp), intent(in) :: q0(:), v0(:)                !! the state at `t(1)`, (ndof); of
+        !! velocities those that constraints leave free are enough
         real(dp), allocatable, intent(out) :: q(:, :)       !! coordinates, (ndof, size(t))
         real(dp), allocatable, intent(out) :: v(:, :)       !! velocities, (ndof, size(t))
         type(error_t), allocatable, intent(out) :: error    !! 2: an argument; 3: the numbers
@@ -46,6 +47,7 @@ contains
         type(scene_t) :: scene
         type(time_grid_t) :: samples
         type(observer_box_t) :: observers(1)
+        real(dp), allocatable :: start_v(:)
         real(dp) :: ended
 
         call check_arguments()
@@ -81,8 +83,19 @@ contains
                 if (.not. tolerance > 0.0_dp) call fail(error, "must be positive, not "// &
                                                         to_text(tolerance), key="tolerance")
             end if
-            if (.not. allocated(error)) call check_start(system, t(1), q0, v0, error)
+            if (.not. allocated(error)) call complete_start()
+            if (.not. allocated(error)) call check_start(system, t(1), q0, start_v, error)
         end subroutine check_arguments
+
+        subroutine complete_start()
+            !! A start that does not keep the constraints is refused.
+            start_v = v0
+            if (system%constraints == 0 .or. size(q0) /= system%ndof) return
+            call system%check_places(t(1), q0, error)
+            if (allocated(error)) return
+            start_v = spread(0.0_dp, 1, system%ndof)
+            call system%complete_velocities(t(1), q0, v0, start_v, error)
+        end subroutine complete_start
 
         subroutine make_scene()
             !! What the arguments say.
@@ -90,7 +103,7 @@ contains
             scene%t0 = samples%t0
             scene%duration = samples%duration
             scene%q = q0
-            scene%v = v0
+            scene%v = start_v
             scene%samples = samples%samples
             if (present(dt)) then
                 scene%dt = dt
