@@ -131,8 +131,9 @@ contains
                     "d theta/dt = p_theta/(m l)", is_wrong)
         call judged("double_pendulum", "V' = 0", is_unreadable, &
                     "a prime does not say by what; write dV/dtheta1")
-        call judged("pendulum", "theta' = theta_dot", is_unreadable, &
-                    "column 6: a prime is no derivative; write theta_dot")
+        call judged("pendulum", "theta' = theta_dot", is_right)
+        call judged("oscillator", "x' = x + 1", is_unreadable, &
+                    "column 2: a prime is no derivative; write x_dot")
         call judged("pendulum", "d/dt m l = 0", is_unreadable, &
                     "of what is it the derivative?")
         call judged("pendulum", "d + 1 = 0", is_unreadable, &

@@ -33,7 +33,9 @@ module test_docs_formulae
         "'y cos(w t) = x sin(w t)'", "'cos(theta) = g/(w^2 r)'", "'cos(theta) = g/l0'", &
         "'L_z [kg m^2/s] angular momentum = m r^2 theta_dot'", &
         "constraint = 'd_1 .. d_3 = l^2'", "definitions = 'd_1 .. d_3 = (x_(i + 1) - x_i)^2'", &
-        "p_x = const", "T = 2 pi sqrt(l/g)", &
+        "p_x = const", "T = 2 pi sqrt(l/g)", "=> x_ddot = g", "with D = ...", "Energy: E = T + V", &
+        "x = l sin(theta), y = -l cos(theta)", "x' = x + s", "omega = theta_dot", &
+        "theta_dot^2/2 = g/l cos(theta) + h", &
         "g = 4 pi^2 l/T^2"]
     !! spans with '=' that state nothing about a system
 

@@ -3,8 +3,10 @@ module test_graded_responses
     use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
     use lagrangia_errors, only: error_t
     use lagrangia_files, only: read_whole_file
-    use lagrangia_judgement, only: is_consequence, is_right, is_unreadable, is_wrong
+    use lagrangia_judgement, only: is_consequence, is_definition, is_right, &
+                                   is_unreadable, is_wrong
     use lagrangia_text, only: to_text
+    use student_sheets, only: grade_student_sheets
     use tried_responses, only: draw_derivations, draw_responses, group_t, responses_by_hand, &
                                responses_of_the_notes
     implicit none (type, external)
@@ -27,7 +29,7 @@ contains
 
     subroutine the_page_is_what_comes_out()
         !! None is misjudged, nine of ten slips are named, and the page has every row.
-        type(group_t) :: groups(6)
+        type(group_t) :: groups(7)
         type(error_t), allocatable :: error
         character(:), allocatable :: text, there
         integer :: i
@@ -38,6 +40,7 @@ contains
         call draw_responses(.true., 200, groups(4))
         call draw_derivations(.true., 100, groups(5))
         call draw_derivations(.false., 100, groups(6))
+        call grade_student_sheets(groups(7))
         do i = 1, size(groups)
             call assertEqual("", misjudged(groups(i)))
         end do
@@ -81,7 +84,7 @@ contains
 
     function page_text(groups) result(text)
         !! All of the page.
-        type(group_t), intent(in) :: groups(6)
+        type(group_t), intent(in) :: groups(7)
         character(:), allocatable :: text
 
         text = "# Every response that was tried"//line_feed//line_feed// &
@@ -102,6 +105,9 @@ contains
                        "words what the first one says wrongly.", groups(5))
         call add_group("A slip, and another one", "The second line has a slip of its own.", &
                        groups(6))
+        call add_group("Sheets as students write them", "Each line of "//"`test/"// &
+                       "student_sheets.txt`, with the verdict that was worked out before.", &
+                       groups(7))
     contains
         subroutine add_group(title, meaning, group)
             character(*), intent(in) :: title, meaning
@@ -150,6 +156,7 @@ contains
         case (is_wrong); text = "wrong"
         case (is_unreadable); text = "unreadable"
         case (is_consequence); text = "follows"
+        case (is_definition); text = "definition"
         case default; text = "?"
         end select
     end function verdict_text

@@ -101,7 +101,7 @@ contains
         call judged("atwood", &
                     "x = x0 + v0 t", is_wrong)
         call judged("rotating_hoop", &
-                    "theta = A cos(sqrt(g/r - omega^2) t)", is_unreadable)
+                    "theta = A cos(sqrt(g/r - omega^2) t)", is_right)
         call judged("rotating_hoop", &
                     "theta = theta_eq + A cos(Omega t)", is_right)
         call judged("rotating_hoop", &

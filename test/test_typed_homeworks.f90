@@ -1,11 +1,16 @@
 module test_typed_homeworks
     !! Sheets as students type them, for systems of the lecture: what is right in each form is
     !! right, and what is wrong has its term named.
-    use funit, only: TestMethod, TestSuite
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_errors, only: error_t
+    use lagrangia_homework, only: homework_t, parse_homework
+    use lagrangia_sheet_lines, only: is_remark
     use traced_sheets, only: traced
     implicit none (type, external)
     private
     public :: typed_homeworks_suite
+
+    character, parameter :: line_feed = new_line("a")
 
 contains
 
@@ -17,6 +22,16 @@ contains
         call suite%addTest(TestMethod("one_coordinate", one_coordinate))
         call suite%addTest(TestMethod("several_coordinates", several_coordinates))
         call suite%addTest(TestMethod("shipped_scenes", shipped_scenes))
+        call suite%addTest(TestMethod("remarks", remarks))
+        call suite%addTest(TestMethod("statements_of_a_line", statements_of_a_line))
+        call suite%addTest(TestMethod("lines_that_are_refused", lines_that_are_refused))
+        call suite%addTest(TestMethod("names_before_their_definition", &
+                                      names_before_their_definition))
+        call suite%addTest(TestMethod("usual_names", usual_names))
+        call suite%addTest(TestMethod("definitions_follow_nothing", definitions_follow_nothing))
+        call suite%addTest(TestMethod("constants", constants))
+        call suite%addTest(TestMethod("rounded_frequencies", rounded_frequencies))
+        call suite%addTest(TestMethod("signs_but_for_a_constant", signs_but_for_a_constant))
     end function typed_homeworks_suite
 
     subroutine one_coordinate()
@@ -121,4 +136,128 @@ contains
             remarks="2 the number '40.74' must be 1; 3 'sqrt(m/k)' must be counted 2 pi times"// &
             "; 4 'pi sqrt(m/k)' must be counted 2 times")
     end subroutine shipped_scenes
+
+    subroutine remarks()
+        !! A formula without its other side is none.
+        call assertTrue(is_remark("Bewegungsgleichungen des Doppelpendels"), "heading")
+        call assertTrue(is_remark("Damit gilt:"), "colon")
+        call assertTrue(is_remark("The energy is conserved, therefore"), "sentence")
+        call assertFalse(is_remark("m l theta_ddot"), "formula")
+        call assertFalse(is_remark("m g l sin theta"), "formula without brackets")
+        call assertFalse(is_remark("sqrt(theta) omega"), "Greek letters and functions")
+        call assertFalse(is_remark("energy = const"), "an equality")
+        call assertFalse(is_remark("alpha beta + gamma delta"), "a sum")
+        call assertFalse(is_remark(""), "nothing")
+    end subroutine remarks
+
+    subroutine statements_of_a_line()
+        call says("x = l sin(theta), y = -l cos(theta)", "x = l sin(theta)|y = -l cos(theta)")
+        call says("x' = v und y' = 0", "x' = v|y' = 0")
+        call says("V(theta, t) = 3", "V(theta, t) = 3")
+        call says("\begin{align}"//line_feed//"T &= \frac{m}{2} v^2, & V &= m g y \\"// &
+                  line_feed//"L &= T - V \\"//line_feed//"&= 5"//line_feed//"\end{align}", &
+                  "T  = \frac{m}{2} v^2|V  = m g y|L  = T - V|L = 5")
+        call says("\Rightarrow \ddot\theta = 0", "\ddot\theta = 0")
+        call says("=> x_ddot = g", "x_ddot = g")
+        call says("also gilt: x = 1", "x = 1")
+        call says("Newton: m a = F", "m a = F")
+        call says("mit D = 3 und E = 4", "D = 3|E = 4")
+        call says("da = 3", "da = 3")
+        call says("T = 1"//line_feed//"= 2", "T = 1|T = 2")
+        call says("T = 1 "//line_feed//"== 2", "T = 1|== 2")
+        call says("a = b, c", "a = b, c")
+    end subroutine statements_of_a_line
+
+    subroutine says(text, expected)
+        !! The statements, with bars between them.
+        character(*), intent(in) :: text, expected
+        type(homework_t) :: homework
+        type(error_t), allocatable :: error
+        character(:), allocatable :: found
+        integer :: i
+
+        call parse_homework("system: pendulum"//line_feed//text, "sheet", homework, error)
+        call assertFalse(allocated(error), text)
+        if (allocated(error)) return
+        found = ""
+        do i = 1, size(homework%statements)
+            if (i > 1) found = found//"|"
+            found = found//homework%statements(i)%text
+        end do
+        call assertEqual(expected, found, text)
+    end subroutine says
+
+    subroutine lines_that_are_refused()
+        !! A mistyped `system:` is no label of a formula.
+        type(homework_t) :: homework
+        type(error_t), allocatable :: error
+
+        call parse_homework("sytem: pendulum"//line_feed//"x = 1", "sheet", homework, error)
+        call assertTrue(allocated(error), "sytem")
+        call parse_homework("system: pendulum"//line_feed//"smal: x = 1", "sheet", homework, error)
+        call assertTrue(allocated(error), "smal")
+        call parse_homework("system: pendulum"//line_feed//"constant: ,"//line_feed//"x = 1", &
+                            "sheet", homework, error)
+        call assertTrue(allocated(error), "constant")
+    end subroutine lines_that_are_refused
+
+    subroutine names_before_their_definition()
+        !! Also of definitions that wait for another one.
+        call traced("kepler", "0r0w", "p = l^2/(m k); p = l^2/(m k); l = m r^2 phi_dot"// &
+                    "; p = l/(m k)")
+        call traced("double_pendulum", "rw0", "l2 theta2_ddot + l1 theta1_ddot cos(W) - l1 "// &
+                    "theta1_dot^2 sin(W) + g sin(theta2) = 0; l2 theta2_ddot + l1 theta1_ddot "// &
+                    "cos(W) + l1 theta1_dot^2 sin(W) + g sin(theta2) = 0; W = theta1 - theta2", &
+                    remarks="2 the sign of 'l1 theta1_dot^2 sin(theta1 - theta2)'")
+    end subroutine names_before_their_definition
+
+    subroutine usual_names()
+        !! A definition is wrong if lines are right with the usual meaning of its name only.
+        call traced("atwood", "rw", "m1 x_ddot = m1 g - S; S = m1 g", &
+                    remarks="2 'm1 g' lacks the factor '2 m2/(m1 + m2)'")
+        call traced("atwood", "wr", "S = m1 g; m1 x_ddot = m1 g - S")
+        call traced("atwood", "0w", "S = m1 g; m1 x_ddot = m1 g - 2 S")
+        call traced("wedge", "wr", "N = m g cos(alpha); M q2_ddot = -N sin(alpha)", &
+                    remarks="1 'm g cos(alpha)' lacks the factor 'M/(M + m sin(alpha)^2)'")
+        call traced("wedge", "0", "N = m g cos(alpha)", remarks="1 taken for a new name: not")
+        call traced("rotating_wire", "rw", "F_Zwang = 2 m omega r_dot; F_Zwang = m omega r_dot")
+        call traced("oscillator", "wr", "omega_0^2 = 2 k/m; x_ddot = -omega_0^2 x")
+        call traced("pendulum", "0rw", "omega = theta_dot; E = m/2 l^2 omega^2 - m g l "// &
+                    "cos(theta); omega_dot = g/l sin(theta)")
+        call traced("pendulum", "0", "F = -m g sin(theta) = m l theta_ddot")
+        call traced("pendulum", "w", "F = -m g sin(theta) = -m l theta_ddot")
+    end subroutine usual_names
+
+    subroutine definitions_follow_nothing()
+        !! A wrong frequency does not follow from any wrong line before, as its name is new.
+        call traced("coupled_oscillators", "ww", "m x1_ddot + (k + k_c) x1 + k_c x2 = 0"// &
+                    "; omega_2^2 = (k + k_c)/(2 m)")
+    end subroutine definitions_follow_nothing
+
+    subroutine constants()
+        call traced("pendulum", "rwwu", "theta_dot^2 = 2 g/l (cos(theta) - cos(theta_0))"// &
+                    "; theta_dot^2 = 2 g/l (cos(theta_0) - cos(theta))"// &
+                    "; theta_dot^2 = g/l (cos(theta) - cos(theta_0))"// &
+                    "; theta_dot^2 = 2 g/l (cos(theta) - sin(theta_0))")
+        call traced("pendulum", "rw", "constant: h, C; theta_dot = sqrt(2/(m l^2) "// &
+                    "(h + m g l cos(theta))); theta_dot^2/2 = -g/l cos(theta) + h")
+        call traced("kepler", "r", "constant: H0; m/2 r_dot^2 + p_phi^2/(2 m r^2) - k/r = H0")
+    end subroutine constants
+
+    subroutine rounded_frequencies()
+        !! The name of a rounded frequency goes on with all digits.
+        call traced("pendulum", "rrr", "set: g = 9.81; set: l = 1; omega_1 = 3.13"// &
+                    "; theta = A cos(omega_1 t); T_1 = 2 pi/omega_1")
+        call traced("pendulum", "rw", "set: g = 9.81; set: l = 1; theta = A cos(3.13 t)"// &
+                    "; theta = B cos(3.12 t)")
+        call traced("coupled_oscillators", "rw", "set: k = 10; set: m = 1; set: k_c = 1"// &
+                    "; f_1 = 0.503; f_2 = 0.553", &
+                    remarks="2 no small oscillation has this frequency")
+    end subroutine rounded_frequencies
+
+    subroutine signs_but_for_a_constant()
+        call traced("pendulum", "w", "V(theta) = m g l (1 + cos(theta))", &
+                    remarks="1 the sign of 'cos(theta)'")
+        call traced("pendulum", "r", "V(theta) = m g l (1 - cos(theta))")
+    end subroutine signs_but_for_a_constant
 end module test_typed_homeworks

@@ -24,7 +24,7 @@ contains
         type(homework_t) :: homework
         type(grade_t) :: result
         type(error_t), allocatable :: error
-        type(word_t) :: none(0)
+        type(word_t), allocatable :: settings(:)
         character(:), allocatable :: text
         integer :: i, first, last
 
@@ -32,11 +32,15 @@ contains
         do i = 1, len(text)
             if (text(i:i) == ";") text(i:i) = line_feed
         end do
-        call read_named_system(system, none, about, error)
-        call assertFalse(allocated(error), system)
         call parse_homework("system: "//system//line_feed//text, "sheet", homework, error)
         call assertFalse(allocated(error), statements)
         if (allocated(error)) return
+        allocate (settings(size(homework%settings)))
+        do i = 1, size(settings)
+            settings(i)%text = system//"%"//homework%settings(i)%text
+        end do
+        call read_named_system(system, settings, about, error)
+        call assertFalse(allocated(error), system)
         call grade(homework, about, result, error)
         call assertFalse(allocated(error), "no error")
         call assertEqual(len(expected), size(result%of), statements)

@@ -138,6 +138,10 @@ contains
                 by = word(k + 1)
                 k = k + 3
             end if
+            if (symbols%primes .and. word(k) == "'") then  ! the velocity
+                by = trim(symbols%spelling(by))//"_dot"
+                k = k + 1
+            end if
             if (order == 2 .and. count == 0 .and. len(by) > 1) then  ! dt2
                 if (by(len(by):) == "2" .and. .not. can_divide(symbols, by)) then
                     by = by(:len(by) - 1)

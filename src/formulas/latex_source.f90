@@ -22,7 +22,8 @@ module lagrangia_latex_source
     character(*), parameter :: functions(*) = [character(6) :: "sin", "cos", "tan", "sinh", &
         "cosh", "tanh", "exp", "ln", "log", "arctan"]
     character(*), parameter :: upright(*) = [character(12) :: "text", "mathrm", "textrm", &
-                                             "mathit", "operatorname", "mbox", "mathsf"]
+                                             "mathit", "operatorname", "mbox", "mathsf", &
+                                             "mathcal", "mathscr", "textit"]
     character(*), parameter :: nothing(*) = [character(12) :: ",", ";", ":", "!", " ", "\", &
         "quad", "qquad", "left", "right", "big", "Big", "bigg", "Bigg", "bigl", "bigr", &
         "Bigl", "Bigr", &

@@ -5,22 +5,23 @@ module lagrangia_grading
     use lagrangia_consequences, only: consequences_t
     use lagrangia_derivative, only: derivative, time_derivative
     use lagrangia_description, only: description_t
-    use lagrangia_errors, only: error_t
+    use lagrangia_errors, only: error_t, fail
     use lagrangia_expression, only: expression_t, kind_number
     use lagrangia_formula_characters, only: plain_letters
     use lagrangia_formula_parser, only: parse_equation, parse_formula
     use lagrangia_homework, only: homework_t
-    use lagrangia_judgement, only: is_consequence, is_right, is_wrong, judge, &
-                                   judgement_t
+    use lagrangia_judged_sheet, only: judge_sheet
+    use lagrangia_judgement, only: is_consequence, is_definition, is_right, is_wrong, judgement_t
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: matrix_rank
     use lagrangia_motion_samples, only: new_samples
+    use lagrangia_parameter_choice, only: occurs
     use lagrangia_sample_names, only: samples_t
     use lagrangia_sampled_formula, only: evaluate_nodes, summands
+    use lagrangia_symbols, only: check_name
     use lagrangia_system, only: system_t
     use lagrangia_term_search, only: library_t
-    use lagrangia_text, only: to_text
-    use lagrangia_usual_names, only: add_usual_names, mark_used
+    use lagrangia_text, only: quoted, short_source, to_text, word_t
     implicit none (type, external)
     private
     public :: grade_t
@@ -48,66 +49,116 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! the system has no states to try
         type(samples_t) :: samples
         type(library_t), allocatable :: library(:)
-        type(consequences_t) :: consequences
-        type(homework_t) :: sheet
+        type(judgement_t), allocatable :: attempt(:)
         type(description_t) :: d
-        character(:), allocatable :: plain, said
-        integer :: i
-        logical :: primes
+        type(word_t), allocatable :: insisted(:)
+        character(:), allocatable :: said
+        integer :: i, k
 
         said = ""
-        primes = .false.
         do i = 1, size(homework%statements)
-            plain = plain_letters(homework%statements(i)%text)
-            said = said//" "//plain
-            primes = primes .or. has_double_prime(plain)
+            said = said//" "//plain_letters(homework%statements(i)%text)
         end do
-        call new_samples(system, said, homework%settings, samples, error)
+        call new_samples(system, said, homework%settings, samples, error, calls_it_omega(homework))
+        if (.not. allocated(error)) call declare_constants(homework, samples, error)
         if (allocated(error)) return
-        result%kept = samples%kept
         call system%describe(d)
-        call add_usual_names(d, homework, samples)
-        sheet = homework
-        call mark_used(sheet, samples)
-        samples%symbols%primes = primes
-        call explain_rates(samples, said, result%meaning)
         call collect_terms(system, samples, library)
-        allocate (result%of(size(homework%statements)))
+        allocate (insisted(0))
+        call judge_sheet(homework, d, insisted, samples, library, result%of)
         do i = 1, size(homework%statements)
-            call judge(sheet%statements(i), samples, library, .true., result%of(i))
-            associate (judgement => result%of(i))
-                call consequences%add_names(samples%symbols)
-                select case (judgement%verdict)
-                case (is_wrong)
-                    allocate (judgement%because(0))
-                    if (judgement%residual%count == 0) cycle  ! a motion
-                    call consequences%find(sheet%statements(i), judgement%residual, samples, &
-                                           judgement%because)
-                    if (size(judgement%because) > 0) then
-                        call put_consequence(homework, judgement)
-                        call consequences%add_consequence(judgement%because, &
-                                                          judgement%residual, samples)
-                    else
-                        call consequences%add_mistake(i, judgement%residual, samples)
-                    end if
-                case default
-                    cycle
-                end select
-            end associate
+            if (.not. result%of(i)%contradicts) cycle
+            call insist_on(result%of(i)%defines, insisted)
+            call judge_sheet(homework, d, insisted, samples, library, attempt)
+            if (is_better(attempt, result%of, i)) then
+                do k = 1, size(result%of)
+                    result%of(k) = attempt(k)
+                end do
+            else
+                insisted = insisted(:size(insisted) - 1)
+            end if
         end do
+        result%kept = samples%kept
+        call explain_rates(samples, said, result%meaning)
         call find_determined(samples, result)
     end subroutine grade
 
-    pure function has_double_prime(statement) result(yes)
-        !! `theta''`, so that `theta'` is the velocity, and no coordinate of another frame?
-        character(*), intent(in) :: statement  !! in plain letters
-        logical :: yes
-        integer :: at
+    pure subroutine insist_on(name, insisted)
+        !! One more name with its usual meaning.
+        character(*), intent(in) :: name
+        type(word_t), allocatable, intent(inout) :: insisted(:)
+        type(word_t), allocatable :: longer(:)
+        integer :: i, n
 
-        at = index(statement, "''")
-        yes = at > 1
-        if (yes) yes = scan(statement(at - 1:at - 1), "LTVU)") == 0
-    end function has_double_prime
+        n = size(insisted)
+        allocate (longer(n + 1))
+        do i = 1, n
+            longer(i)%text = insisted(i)%text
+        end do
+        longer(n + 1)%text = name
+        call move_alloc(longer, insisted)
+    end subroutine insist_on
+
+    pure function is_better(attempt, result, i) result(yes)
+        !! Are more statements right if line `i` is no definition, and none of them less?
+        type(judgement_t), intent(in) :: attempt(:), result(:)
+        integer, intent(in) :: i
+        logical :: yes
+        integer :: k
+
+        yes = .false.
+        do k = 1, size(result)
+            associate (now => attempt(k)%verdict, before => result(k)%verdict)
+                if (k == i) cycle
+                yes = yes .or. (now == is_right .and. (before == is_wrong .or. &
+                                                       before == is_consequence))
+                if (before /= now .and. (before == is_right .or. before == is_definition)) then
+                    yes = .false.
+                    return
+                end if
+            end associate
+        end do
+    end function is_better
+
+    subroutine declare_constants(homework, samples, error)
+        !! The names behind `constant:`.
+        type(homework_t), intent(in) :: homework
+        type(samples_t), intent(inout) :: samples
+        type(error_t), allocatable, intent(out) :: error  !! one of them has a meaning here
+        integer :: i
+
+        do i = 1, size(homework%constants)
+            associate (name => homework%constants(i)%text)
+                call check_name(name, error)
+                if (.not. allocated(error) .and. samples%symbols%find(name) > 0) call fail( &
+                    error, quoted(name)//" has a meaning here; call the constant another name")
+                if (allocated(error)) then
+                    call fail(error, trim(short_source(homework%source))//":"// &
+                              to_text(homework%constant_lines(i))//": constant: "//error%message)
+                    return
+                end if
+                samples%declared = [character(len(samples%declared)) :: samples%declared, name]
+            end associate
+        end do
+    end subroutine declare_constants
+
+    pure function calls_it_omega(homework) result(yes)
+        !! A line such as `omega = theta_dot` gives the name omega to what moves.
+        type(homework_t), intent(in) :: homework
+        logical :: yes
+        character(:), allocatable :: plain
+        integer :: equals, i
+
+        yes = .false.
+        do i = 1, size(homework%statements)
+            plain = plain_letters(homework%statements(i)%text)
+            equals = index(plain, "=")
+            if (equals < 2) cycle
+            if (adjustl(plain(:equals - 1)) /= "omega") cycle
+            yes = yes .or. index(plain(equals:), "_dot") > 0 .or. index(plain(equals:), "'") > 0 &
+                  .or. occurs(plain(equals:), "v")
+        end do
+    end function calls_it_omega
 
     pure subroutine explain_rates(samples, said, meaning)
         !! What omega and gamma are, if there is drag and the sheet speaks of them.
@@ -124,23 +175,6 @@ contains
         meaning = "with the drag q goes as exp(-"//decay//" t) cos("//frequency//" t); "// &
                   frequency//"_0 is without it"
     end subroutine explain_rates
-
-    pure subroutine put_consequence(homework, judgement)
-        !! The mistake was made before.
-        type(homework_t), intent(in) :: homework
-        type(judgement_t), intent(inout) :: judgement
-
-        judgement%verdict = is_consequence
-        judgement%example = ""
-        associate (lines => homework%statements(judgement%because)%line)
-            if (size(lines) == 1) then
-                judgement%remark = "from line "//to_text(lines(1))//", which is wrong"
-            else
-                judgement%remark = "from lines "//to_text(minval(lines))//" and "// &
-                                   to_text(maxval(lines))//", which are wrong"
-            end if
-        end associate
-    end subroutine put_consequence
 
     subroutine collect_terms(system, samples, library)
         !! The terms of all formulas that the system prints, without signs.

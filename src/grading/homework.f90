@@ -9,13 +9,15 @@ module lagrangia_homework
     !! l1 theta1_ddot + ... = 0
     !! ```
     !! `#` begins a comment. `system:` names a system of the catalogue or a scene file, `set:` fixes
-    !! a parameter (`set: g = 0`), and behind `small:` is a statement about small oscillations. A
+    !! a parameter (`set: g = 0`), `constant: h, C` makes names of constants of integration, and
+    !! behind `small:` is a statement about small oscillations. A line of words is a remark. A
     !! line that ends in `\` goes on in the next one. Lines end in LF, CR or both; a byte order mark
     !! is skipped, and other signs for `=` and `:` are read as these.
     use lagrangia_characters, only: decode, plainly
     use lagrangia_errors, only: error_t, fail, status_file
     use lagrangia_files, only: facts_t, look_at
     use lagrangia_names, only: name_length, nearest_name
+    use lagrangia_sheet_lines, only: is_remark, read_statements
     use lagrangia_shipped_files, only: read_file_or_shipped, shipped_files
     use lagrangia_text, only: quoted, short_source, to_text, word_t
     implicit none (type, external)
@@ -42,6 +44,8 @@ module lagrangia_homework
         integer :: system_line = 0                       !! where that stands
         type(word_t), allocatable :: settings(:)         !! `name=value`, behind `set:`
         integer, allocatable :: setting_lines(:)         !! where these stand
+        type(word_t), allocatable :: constants(:)        !! names behind `constant:`
+        integer, allocatable :: constant_lines(:)        !! where these stand
         type(statement_t), allocatable :: statements(:)  !! in the order of the file
     end type homework_t
 
@@ -109,6 +113,7 @@ contains
         homework%source = source
         homework%system = ""
         allocate (homework%settings(0), homework%setting_lines(0), homework%statements(0))
+        allocate (homework%constants(0), homework%constant_lines(0))
         whole = ""
         begun = 0
         number = 0
@@ -246,28 +251,80 @@ contains
                 else
                     call add_setting(plainly(text(colon + 1:)))
                 end if
+            case ("constant", "constants")
+                call add_names(plainly(text(colon + 1:)))
             case ("small")
-                call take_statement()
+                call add_statement(text)
             case default
-                if (verify(trim(text(:colon - 1)), letters) == 0) then
+                if (is_remark(text)) then
+                    return
+                else if (is_label(text(:colon - 1))) then
+                    call take_statements(trim(adjustl(text(colon + 1:))))
+                else if (verify(trim(text(:colon - 1)), letters) == 0) then
                     call refuse("column "//to_text(colon)//": what is "// &
                                 quoted(trim(text(:colon - 1)))//":? Before a colon stands "// &
-                                "'system', 'set' or 'small'")
+                                "'system', 'set', 'constant' or 'small'")
                 else
-                    call take_statement()  ! which nobody can read
+                    call add_statement(text)  ! which nobody can read
                 end if
             end select
-        else
-            call take_statement()
+        else if (.not. is_remark(text)) then
+            call take_statements(text)
         end if
     contains
-        subroutine take_statement()
-            if (size(homework%statements) == most_statements) then
-                call refuse("more than "//to_text(most_statements)//" statements")
-            else
-                call add_statement()
-            end if
-        end subroutine take_statement
+        logical function is_label(words)
+            !! `Equation of motion: ...`: not one that is nearly `system`, `set` or `small`.
+            character(*), intent(in) :: words
+            character(name_length), parameter :: ours(*) = [character(name_length) :: "system", &
+                                                            "set", "small", "constant"]
+
+            is_label = index(text(colon + 1:), "=") > 0 .and. len_trim(words) > 3 .and. &
+                       scan(words, "=+*/^<>_\|{}'()") == 0
+            if (is_label) is_label = nearest_name(trim(plainly(words)), ours) == ""
+        end function is_label
+
+        subroutine take_statements(said)
+            !! Those of a line.
+            character(*), intent(in) :: said
+            type(word_t), allocatable :: parts(:)
+            character(:), allocatable :: before
+            integer :: i, n
+
+            n = size(homework%statements)
+            before = ""
+            if (n > 0) before = homework%statements(n)%text
+            call read_statements(said, before, parts)
+            do i = 1, size(parts)
+                call add_statement(parts(i)%text)
+                if (allocated(error)) return
+            end do
+        end subroutine take_statements
+
+        subroutine add_names(list)
+            !! Names between commas or blanks.
+            character(*), intent(in) :: list
+            type(word_t), allocatable :: longer(:)
+            integer :: first, i, last, n
+
+            if (verify(list, " ,") == 0) call refuse("'constant:' needs names, say "// &
+                                                     "'constant: C, h'")
+            first = 1
+            do while (first <= len(list))
+                last = verify(list(first:), " ,")
+                if (last == 0) return
+                first = first + last - 1
+                last = first + scan(list(first:)//" ", " ,") - 2
+                n = size(homework%constants)
+                allocate (longer(n + 1))
+                do i = 1, n
+                    call move_alloc(homework%constants(i)%text, longer(i)%text)
+                end do
+                longer(n + 1)%text = list(first:last)
+                call move_alloc(longer, homework%constants)
+                homework%constant_lines = [homework%constant_lines, number]
+                first = last + 1
+            end do
+        end subroutine add_names
 
         subroutine add_setting(setting)
             !! Blanks stay between several values only, `electric = 0 0 1`.
@@ -287,20 +344,25 @@ contains
             homework%setting_lines = [homework%setting_lines, number]
         end subroutine add_setting
 
-        subroutine add_statement()
+        subroutine add_statement(said)
+            character(*), intent(in) :: said
             type(statement_t), allocatable :: longer(:)
             integer :: i, n
 
             n = size(homework%statements)
+            if (n == most_statements) then
+                call refuse("more than "//to_text(most_statements)//" statements")
+                return
+            end if
             allocate (longer(n + 1))
             do i = 1, n
                 call move_alloc(homework%statements(i)%text, longer(i)%text)
                 longer(i)%line = homework%statements(i)%line
                 longer(i)%small = homework%statements(i)%small
             end do
-            longer(n + 1)%text = text
+            longer(n + 1)%text = said
             longer(n + 1)%line = number
-            longer(n + 1)%small = index(text, "small") == 1 .and. colon > 0
+            longer(n + 1)%small = index(said, "small") == 1 .and. index(said, ":") > 0
             call move_alloc(longer, homework%statements)
         end subroutine add_statement
 

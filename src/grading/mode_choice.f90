@@ -3,6 +3,7 @@ module lagrangia_mode_choice
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_expression, only: expression_t
     use lagrangia_kinds, only: dp
+    use lagrangia_mode_samples, only: put_places
     use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_slip_search, only: holds
     implicit none (type, external)
@@ -20,13 +21,16 @@ contains
         logical, intent(out) :: right_one            !! it holds for modes
         logical, intent(out) :: found                !! there are modes
         real(dp), allocatable :: first_choice(:, :)
-        logical :: found_one
-        integer :: n
+        logical :: found_one, speaks_of_place
+        integer :: i, n
 
         n = size(samples%omega2, 2)/2
+        speaks_of_place = any([(residual%depends_on(samples%place(i)), i=1, size(samples%place))])
+        if (speaks_of_place) call put_places(samples, samples%equilibrium, values)
         call choose_about(samples%omega2(:, :n), residual, samples, values, right_one, found)
         if (right_one) return
         first_choice = values
+        if (speaks_of_place) call put_places(samples, samples%other_equilibrium, values)
         call choose_about(samples%omega2(:, n + 1:), residual, samples, values, right_one, &
                           found_one)
         if (found .and. .not. right_one) values = first_choice

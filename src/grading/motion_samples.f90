@@ -1,15 +1,15 @@
 module lagrangia_motion_samples
     !! What a statement about a system may name, and the values of all these names on its motion: at
     !! states at random, with parameters at random, as the equations of motion have it.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_damped_rates, only: damping_matrix
     use lagrangia_description, only: default_values, description_t, name_length, value_names
-    use lagrangia_equilibrium, only: stiffness_beside
     use lagrangia_errors, only: error_t, fail
     use lagrangia_gauss_principle, only: masses_of, place_points
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
+    use lagrangia_mode_samples, only: add_modes, put_places, stable_somewhere
     use lagrangia_named_values, only: motion_state_t, path
     use lagrangia_parameter_choice, only: keep, spread_values
     use lagrangia_random_draws, only: random_t
@@ -21,9 +21,10 @@ module lagrangia_motion_samples
     use lagrangia_text, only: word_t
     implicit none (type, external)
     private
-    public :: new_samples, put_places
+    public :: new_samples
 
     integer, parameter :: most_expanded = 8  !! coordinates whose mass matrix is kept
+    integer, parameter :: most_tries = 60    !! of parameters with an oscillation
 
 contains
 
@@ -49,7 +50,7 @@ contains
         end do
     end subroutine refuse_letters
 
-    subroutine new_samples(system, said, settings, samples, error)
+    subroutine new_samples(system, said, settings, samples, error, own_omega)
         !! Of `system`, about which `said` speaks: a parameter that it does not name and whose
         !! default is zero or a formula keeps that.
         class(system_t), intent(in) :: system             !! configured
@@ -57,13 +58,14 @@ contains
         type(word_t), intent(in) :: settings(:)           !! `name=value`: these keep their values
         type(samples_t), intent(out) :: samples           !! names and values
         type(error_t), allocatable, intent(out) :: error  !! no states at which L is a number
+        logical, intent(in), optional :: own_omega        !! the sheet calls something else omega
         class(system_t), allocatable :: drawn
         type(description_t) :: d
         type(error_t), allocatable :: refusal
         real(dp), allocatable :: values(:), given(:)
         logical, allocatable :: drawn_value(:), fixed(:)
-        logical :: damped
-        integer :: draw, k
+        logical :: damped, own
+        integer :: draw, k, tries
 
         call system%describe(d)
         call refuse_letters(d, error)
@@ -74,19 +76,26 @@ contains
         if (damped .and. allocated(d%letters)) then  ! they may be those of no drag, or of another
             d%letters = pack(d%letters, d%letters%name /= "omega" .and. d%letters%name /= "gamma")
         end if
-        call name_symbols(system, d, damped, samples)
+        own = .false.
+        if (present(own_omega)) own = own_omega
+        call name_symbols(system, d, damped, own, samples)
         allocate (samples%values(draws*states, size(samples%symbols%names)))
         allocate (drawn, source=system)
         draw = 0
-        do k = 1, 20*draws
-            call spread_values(d, drawn_value, fixed, given, samples%random)
+        tries = 0
+        do k = 1, 40*draws
+            call spread_values(d, drawn_value, fixed, given, samples%random, &
+                               merge(0.1_dp, 1.0_dp, tries > 0))
             call samples%random%parameters(drawn, .false., values, refusal, &
                                            fixed .or. drawn_value, given)
             if (.not. allocated(refusal)) call add_states(samples, drawn, d, draw, refusal)
             if (allocated(refusal)) cycle
             draw = draw + 1
             call add_modes(samples, drawn, draw)
-            if (draw == draws) exit
+            if (draw < draws) cycle
+            if (tries == most_tries .or. stable_somewhere(samples) .or. index(said, "t)") == 0) exit
+            tries = tries + 1  ! a sheet may write out a motion that needs an oscillation
+            draw = draw - 1
         end do
         if (draw < draws) then
             call fail(error, trim(d%name)// &
@@ -100,18 +109,6 @@ contains
         end do
         call follow_elsewhere(samples)
     end subroutine new_samples
-
-    pure subroutine put_places(samples, equilibrium, values)
-        !! `theta_eq`, for each draw of parameters.
-        type(samples_t), intent(in) :: samples         !! know where it stands
-        real(dp), intent(in) :: equilibrium(:, :)      !! (ndof, draws)
-        real(dp), intent(inout) :: values(:, :)        !! (draws*states, symbols)
-        integer :: row
-
-        do row = 1, size(values, 1)
-            values(row, samples%place) = equilibrium(:, 1 + (row - 1)/states)
-        end do
-    end subroutine put_places
 
     subroutine take_energies(system, fixed, given, d)
         !! L, T, V and quantities as the page has them with parameters at random: those that a sheet
@@ -304,9 +301,13 @@ contains
                 qq(j)%d1 = 0.0_dp
                 call put("dL_d"//trim(name), l%d1)
             end do
+            call put("L_dot", l%d2)
             gain = gain - l%d2  ! of p v - L
             call drop_rounding(scale + abs(l%d2), gain)
             call put("E_dot", gain)
+            tt = hyperdual_t(t, d1=1.0_dp)
+            l = system%lagrangian(tt, hyperdual(q), hyperdual(v))
+            call put("dL_dt", l%d1)
         end subroutine put_derivatives
 
         pure subroutine drop_rounding(scale, x)
@@ -317,109 +318,6 @@ contains
             if (abs(x) <= 1e-12_dp*scale) x = 0.0_dp
         end subroutine drop_rounding
     end subroutine add_states
-
-    subroutine add_modes(samples, system, draw)
-        !! \(\omega^2\) of the oscillations about the equilibrium of the scene, or at or near zero,
-        !! and about another one that the page knows, or at zero; 0 where there is none.
-        type(samples_t), intent(inout) :: samples
-        class(system_t), intent(in) :: system  !! with the parameters of this draw
-        integer, intent(in) :: draw
-        type(modes_t) :: modes, others
-        type(error_t), allocatable :: error
-        real(dp) :: start(system%ndof)
-        integer :: n
-
-        n = system%ndof
-        if (draw == 1) then
-            allocate (samples%omega2(draws, 2*n), source=0.0_dp)
-            allocate (samples%equilibrium(n, draws), source=ieee_value(1.0_dp, ieee_quiet_nan))
-            allocate (samples%stiffness(n, n, draws), samples%inertia(n, n, draws), source=0.0_dp)
-            allocate (samples%turning(n, n, draws), source=ieee_value(1.0_dp, ieee_quiet_nan))
-            samples%other_equilibrium = samples%equilibrium
-            samples%other_stiffness = samples%turning
-            samples%other_inertia = samples%turning
-            samples%other_turning = samples%turning
-        end if
-        if (samples%decay > 0) call put_rates(ieee_value(1.0_dp, ieee_quiet_nan), 0.0_dp)
-        start = likely_equilibrium(system)
-        call find_modes(system, start, .true., modes, error)
-        if (allocated(error)) call find_modes(system, start, .false., modes, error)
-        if (allocated(error)) return
-        samples%omega2(draw, :size(modes%omega2)) = modes%omega2
-        if (allocated(modes%stiffness)) then
-            samples%equilibrium(:, draw) = modes%at
-            samples%stiffness(:, :, draw) = modes%stiffness
-            samples%inertia(:, :, draw) = modes%mass
-            call add_forces(modes, samples%omega2(draw, :n))
-        end if
-        if (allocated(modes%analytic%elsewhere)) then
-            start = modes%analytic%elsewhere
-        else if (any(abs(start) > 0.0_dp)) then
-            start = 0.0_dp
-        else
-            return
-        end if
-        call find_modes(system, start, .true., others, error)
-        if (allocated(error)) return
-        samples%omega2(draw, n + 1:n + size(others%omega2)) = others%omega2
-        if (allocated(others%stiffness)) then
-            samples%other_equilibrium(:, draw) = others%at
-            samples%other_stiffness(:, :, draw) = others%stiffness
-            samples%other_inertia(:, :, draw) = others%mass
-            call put_turning(others, samples%other_turning(:, :, draw))
-        end if
-        if (samples%decay > 0) call damp(others, samples%omega2(draw, n + 1:))
-    contains
-        subroutine add_forces(modes, omega2)
-            !! What is linear in the velocities; omega of a damped oscillation.
-            type(modes_t), intent(in) :: modes
-            real(dp), intent(inout) :: omega2(:)
-            real(dp), dimension(n, n) :: beside, drag
-            real(dp) :: free
-
-            call put_turning(modes, samples%turning(:, :, draw))
-            call stiffness_beside(system, modes%at, beside)
-            call damping_matrix(system, modes%at, drag)
-            if (samples%decay == 0) return
-            call damp(modes, omega2)
-            free = (modes%stiffness(1, 1) + beside(1, 1))/modes%mass(1, 1)
-            call put_rates(drag(1, 1)/(2.0_dp*modes%mass(1, 1)), free)
-        end subroutine add_forces
-
-        subroutine put_turning(modes, turning)
-            !! NaN where forces beside L depend on the place, or constraints bind.
-            type(modes_t), intent(in) :: modes
-            real(dp), intent(inout) :: turning(:, :)
-            real(dp), dimension(n, n) :: beside, drag
-
-            call stiffness_beside(system, modes%at, beside)
-            call damping_matrix(system, modes%at, drag)
-            if (any(abs(beside) > 0.0_dp) .or. allocated(modes%basis)) return
-            turning = modes%gyroscopic + drag
-        end subroutine put_turning
-
-        subroutine damp(modes, omega2)
-            !! \(\omega^2 = K/M - (C/2M)^2\).
-            type(modes_t), intent(in) :: modes
-            real(dp), intent(inout) :: omega2(:)
-            real(dp), dimension(1, 1) :: beside, drag
-
-            call stiffness_beside(system, modes%at, beside)
-            call damping_matrix(system, modes%at, drag)
-            omega2 = (modes%stiffness(1, 1) + beside(1, 1))/modes%mass(1, 1) - &
-                     (drag(1, 1)/(2.0_dp*modes%mass(1, 1)))**2
-        end subroutine damp
-
-        subroutine put_rates(gamma, free)
-            !! \(\gamma\) and \(\omega_0\), if that is a number, for all states of this draw.
-            real(dp), intent(in) :: gamma, free
-
-            associate (rows => samples%values((draw - 1)*states + 1:draw*states, :))
-                rows(:, samples%decay) = gamma
-                rows(:, samples%decay + 1) = sqrt(free)
-            end associate
-        end subroutine put_rates
-    end subroutine add_modes
 
     subroutine move_away(samples, k, by_size)
         !! Other accelerations and other known values than those of the motion: by 1 and more, or

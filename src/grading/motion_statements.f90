@@ -4,22 +4,26 @@ module lagrangia_motion_statements
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_derivative, only: derivative, time_derivative
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: expression_t, function_names, operator(-), whole
+    use lagrangia_expression, only: expression_t, function_names, operator(*), operator(+), &
+                                    operator(-), symbol, whole
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_formula_tokens, only: cut, is_name, tokens_t
+    use lagrangia_initial_conditions, only: judge_start
     use lagrangia_kinds, only: dp
-    use lagrangia_motion_samples, only: put_places
+    use lagrangia_mode_samples, only: put_places
     use lagrangia_motion_values, only: draw_values, put_frequencies, rate_of, unknown_rate, &
                                        values_of
+    use lagrangia_rounded_numbers, only: put_exact_frequencies
     use lagrangia_sample_names, only: draws, role_frequency, role_parameter, samples_t, states
     use lagrangia_slip_search, only: holds
+    use lagrangia_small_energies, only: is_constant_of_each_draw
     use lagrangia_statement_forms, only: period
     use lagrangia_substitution, only: substituted
     use lagrangia_symbols, only: symbols_t
-    use lagrangia_verdict, only: is_definition, is_right, is_unreadable, is_wrong, judgement_t
+    use lagrangia_verdict, only: is_right, is_unreadable, is_wrong, judgement_t
     implicit none (type, external)
     private
-    public :: judge_motion, with_short_starts
+    public :: judge_motion
 
     integer, parameter :: most_coordinates = 3  !! of which all modes are tried
     integer, parameter :: enough = 4            !! states at which all is finite
@@ -27,11 +31,12 @@ module lagrangia_motion_statements
 
 contains
 
-    subroutine judge_motion(side, text, samples, is_one, judgement)
+    subroutine judge_motion(side, text, typed, samples, is_one, judgement)
         !! A coordinate alone on the left side, or its rate, and a function of the time on the right
         !! one, or either at the time 0 and a constant; else `is_one` is false.
         character(*), intent(in) :: side                !! the left one, in plain letters
         character(*), intent(in) :: text                !! the right one, behind blanks
+        character(*), intent(in) :: typed               !! both, as typed
         type(samples_t), intent(inout) :: samples       !! remember the motion
         logical, intent(out) :: is_one                  !! all is said
         type(judgement_t), intent(inout) :: judgement   !! of it
@@ -70,10 +75,11 @@ contains
         if (.not. is_of_time(f, samples)) return
         call draw_values(samples, size(symbols%names), values)
         is_one = .true.
-        if (samples%motion(coordinate)%count > 0) then
+        if (is_same_motion(f, samples%motion(coordinate), samples)) then
             call compare_rate(coordinate, order, f, samples, values, judgement)
             return
         end if
+        call put_exact_frequencies(typed, samples, f)
         call compare_exact(coordinate, order, f, samples, values, known, judgement)
         solved = known .and. judgement%verdict == is_right
         do which = 1, merge(2, 1, samples%ndof == 1)
@@ -101,6 +107,25 @@ contains
         judgement%remark = "a motion of coupled coordinates is not graded, only what holds at "// &
             "all times; write its equation, or its frequency"
     end subroutine judge_motion
+
+    pure function is_same_motion(f, motion, samples) result(yes)
+        !! Does a line speak of the motion of a line before? It has one of its constants, or none.
+        type(expression_t), intent(in) :: f, motion   !! of the time
+        type(samples_t), intent(in) :: samples        !! know the constants
+        logical :: yes
+        logical :: any_of_its_own
+        integer :: k
+
+        yes = motion%count > 0
+        if (.not. yes) return
+        any_of_its_own = .false.
+        do k = size(samples%role) + 1, size(samples%role) + size(samples%constants)
+            if (.not. f%depends_on(k)) cycle
+            if (motion%depends_on(k)) return
+            any_of_its_own = .true.
+        end do
+        yes = .not. any_of_its_own
+    end function is_same_motion
 
     subroutine find_side(side, samples, coordinate, order)
         !! Which coordinate, and how often it is differentiated; 0: it is none.
@@ -180,9 +205,29 @@ contains
         type(samples_t), intent(in) :: samples
         real(dp), intent(in) :: values(:, :)
         type(judgement_t), intent(inout) :: judgement
-        logical :: judged, yes
+        real(dp), allocatable :: there(:, :)
+        type(expression_t) :: residual
+        logical :: judged, known, yes
+        integer :: about, k
 
-        call holds(rate_of(samples%motion(coordinate), order) - f, values, yes, judged)
+        judged = .false.
+        allocate (there, source=values)
+        do about = 1, 2
+            if (about == 2 .and. any(abs(samples%omega2(:, samples%ndof + 1)) <= 0.0_dp)) exit
+            call put_frequencies(samples, merge(1, samples%ndof + 1, about == 1), there)
+            if (about == 1) call put_places(samples, samples%equilibrium, there)
+            if (about == 2) call put_places(samples, samples%other_equilibrium, there)
+            residual = rate_of(samples%motion(coordinate), order) - f
+            do k = 0, merge(2, 0, order == 0)
+                ! perhaps one of both lines counts from the equilibrium
+                if (k == 1) residual = residual - symbol(samples%place(coordinate))
+                if (k == 2) residual = residual + whole(2)*symbol(samples%place(coordinate))
+                call holds(residual, there, yes, known)
+                judged = judged .or. known
+                if (yes) exit
+            end do
+            if (yes) exit
+        end do
         judgement%verdict = is_right
         if (.not. judged) then
             judgement%verdict = is_unreadable
@@ -194,55 +239,6 @@ contains
                                                "constants keep their meanings"
         end if
     end subroutine compare_rate
-
-    pure function with_short_starts(text) result(short)
-        !! `theta(0) = 1` for `theta(t = 0) = 1`, with blanks behind, so that columns stay.
-        character(*), intent(in) :: text  !! a statement
-        character(len(text)) :: short, inside
-        integer :: first, last
-
-        short = text
-        first = index(text, "(t")
-        if (first == 0) return
-        last = first + index(text(first:), ")") - 1
-        if (last <= first + 2) return
-        inside = adjustl(text(first + 2:last - 1))
-        if (inside(:1) == "=" .and. adjustl(inside(2:)) == "0") short(first:last) = "(0)"
-    end function with_short_starts
-
-    subroutine judge_start(coordinate, order, f, samples, names, is_one, judgement)
-        !! `theta(0) = theta_0`: how one motion of many begins, or that of a line before.
-        integer, intent(in) :: coordinate, order
-        type(expression_t), intent(in) :: f         !! the right side
-        type(samples_t), intent(in) :: samples
-        integer, intent(in) :: names                !! with the constants
-        logical, intent(out) :: is_one              !! the right side is a constant
-        type(judgement_t), intent(inout) :: judgement
-        type(expression_t) :: begun, beginning(1)
-        real(dp), allocatable :: values(:, :)
-        integer :: i, k
-        logical :: judged, yes
-
-        is_one = .not. any([(f%depends_on(k), k=1, 1 + 3*samples%ndof)])
-        if (.not. is_one) return
-        judgement%verdict = is_definition
-        judgement%remark = "an initial condition, of one motion of many"
-        if (samples%motion(coordinate)%count == 0) return
-        call draw_values(samples, names, values)
-        beginning(1) = whole(0)  ! t
-        begun = substituted(rate_of(samples%motion(coordinate), order), [1], beginning)
-        call holds(begun - f, values, yes, judged)
-        if (.not. judged) return
-        k = size(samples%symbols%names)
-        associate (ours => [(begun%depends_on(i), i=k + 1, names)], &
-                   theirs => [(f%depends_on(i), i=k + 1, names)])
-            ! theta_0 or 1.0 says what A is, as nothing else does
-            if (.not. yes .and. any(ours) .and. .not. any(ours .and. theirs)) return
-        end associate
-        judgement%verdict = merge(is_right, is_wrong, yes)
-        judgement%remark = ""
-        if (.not. yes) judgement%remark = "the motion of the line before begins elsewhere"
-    end subroutine judge_start
 
     subroutine compare_exact(coordinate, order, f, samples, values, is_one, judgement)
         !! With the equation of motion that follows from L, where it has no other coordinates.
@@ -258,6 +254,19 @@ contains
 
         is_one = .false.
         n = samples%ndof
+        equation = symbol(samples%first_acceleration - 1 + coordinate)
+        yes = order < 2
+        if (yes) yes = is_constant_of_each_draw(equation, samples)
+        if (yes) then
+            ! free fall, and what rolls or slides down a plane
+            put(1) = rate_of(f, 2 - order)
+            if (put(1)%count == 0) put(1) = whole(0)
+            call holds(put(1) - equation, values, yes, is_one)
+            judgement%verdict = merge(is_right, is_wrong, yes)
+            judgement%remark = ""
+            if (.not. yes) judgement%remark = "it does not solve the equation of motion"
+            return
+        end if
         if (order > 0 .or. samples%lagrangian%count == 0 .or. .not. allocated(samples%mass)) return
         do k = 1, size(samples%role)  ! letters that hide coordinates
             if (samples%role(k) == role_parameter .and. samples%rate(k) > 0 .and. &

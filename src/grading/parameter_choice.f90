@@ -7,7 +7,7 @@ module lagrangia_parameter_choice
     use lagrangia_text, only: word_t
     implicit none (type, external)
     private
-    public :: keep, spread_values
+    public :: keep, occurs, spread_values
 
 contains
 
@@ -72,7 +72,7 @@ contains
         end function is_named
     end subroutine keep
 
-    subroutine spread_values(d, drawn_value, fixed, given, random)
+    subroutine spread_values(d, drawn_value, fixed, given, random, shrink)
         !! A parameter without bounds that is not zero keeps its sign: from a half to twice its
         !! value.
         type(description_t), intent(in) :: d                 !! of the system
@@ -80,6 +80,7 @@ contains
         logical, intent(in) :: fixed(:)                      !! it keeps its value
         real(dp), intent(inout) :: given(:)                  !! gets what is drawn
         type(random_t), intent(inout) :: random              !! moves on
+        real(dp), intent(in), optional :: shrink             !! by which they are multiplied as well
         real(dp) :: factor
         integer :: first, i, k
 
@@ -91,6 +92,7 @@ contains
                     if (fixed(k) .or. p%lower > -huge(p%lower)) cycle
                     drawn_value(k) = abs(p%value(k - first)) > 0.0_dp
                     call random%uniform(0.5_dp, 2.0_dp, factor)
+                    if (present(shrink)) factor = shrink*factor
                     if (drawn_value(k)) given(k) = factor*p%value(k - first)
                 end do
                 first = first + p%count
@@ -100,7 +102,8 @@ contains
 
     pure function occurs(text, name) result(yes)
         !! `name` as a word of its own.
-        character(*), intent(in) :: text, name
+        character(*), intent(in) :: text  !! formulas
+        character(*), intent(in) :: name  !! as it stands there
         character(*), &
             parameter :: inside = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"// &
                                             "_0123456789"

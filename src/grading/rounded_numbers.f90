@@ -1,14 +1,15 @@
 module lagrangia_rounded_numbers
     !! Statements with numbers that somebody has rounded: `omega = 3.13` for 3.1321.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use lagrangia_expression, only: expression_t, kind_number, kind_symbol, operator(-)
+    use lagrangia_expression, only: constant, expression_t, kind_number, kind_symbol, &
+                                    operator(-)
     use lagrangia_kinds, only: dp
     use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_sampled_formula, only: change_factor, change_t, evaluate_nodes
     use lagrangia_verdict, only: brief
     implicit none (type, external)
     private
-    public :: holds_to_digits, true_number
+    public :: holds_at, holds_to_digits, put_exact_frequencies, put_exact_number, true_number
 
     character(*), parameter :: digits = "0123456789"
     integer, parameter :: enough = 4  !! samples at which all is finite
@@ -57,6 +58,115 @@ contains
             if (yes) return
         end do
     end function holds_to_digits
+
+    function holds_at(residual, text, values) result(yes)
+        !! Do the sides differ by no more than the roundings of their numbers at all these states?
+        type(expression_t), intent(in) :: residual      !! left less right side
+        character(*), intent(in) :: text                !! both, as typed
+        real(dp), intent(in) :: values(:, :)            !! of the symbols, (states, symbols)
+        logical :: yes
+        real(dp), dimension(size(values, 1), residual%count) :: before, after
+        real(dp) :: allowed(size(values, 1)), half
+        integer :: i
+
+        call evaluate_nodes(residual, values, before)
+        allowed = 0.0_dp
+        do i = 1, residual%count
+            if (residual%nodes(i)%kind /= kind_number) cycle
+            half = rounding(residual%nodes(i)%number%value, text, .true.)
+            if (.not. half > 0.0_dp) cycle
+            call evaluate_nodes(residual, values, after, change_t(change_factor, i, 0, 1.0_dp &
+                                                   + half/residual%nodes(i)%number%value))
+            allowed = allowed + abs(after(:, residual%count) - before(:, residual%count))
+        end do
+        yes = all(allowed > 0.0_dp) .and. &
+              all(abs(before(:, residual%count)) <= 1.000001_dp*allowed)
+    end function holds_at
+
+    subroutine put_exact_number(truth, text, samples, meaning)
+        !! The one rounded number of a formula, with all its digits: those with which it is what it
+        !! must be. Nothing changes where there are several, or none.
+        type(expression_t), intent(in) :: truth           !! what the formula must be
+        character(*), intent(in) :: text                  !! of the statement, as typed
+        type(samples_t), intent(in) :: samples            !! know the modes
+        type(expression_t), intent(inout) :: meaning      !! the formula
+        type(expression_t) :: residual, exact
+        real(dp), allocatable :: values(:, :), results(:, :)
+        real(dp) :: f(2), half, number, x(2)
+        integer :: i, k, mode, rounded
+
+        rounded = 0
+        do i = 1, meaning%count
+            if (meaning%nodes(i)%kind /= kind_number) cycle
+            number = meaning%nodes(i)%number%value
+            half = rounding(number, text, meaning%count <= 2)
+            if (.not. half > 0.0_dp) cycle
+            if (rounded > 0) return
+            rounded = i
+            x = [number, number + half]
+        end do
+        if (rounded == 0) return
+        residual = truth - meaning
+        half = x(2) - x(1)
+        number = x(1)
+        allocate (results(size(samples%values, 1), residual%count))
+        do mode = 0, size(samples%omega2, 2)
+            call choose(residual, samples, mode, values)
+            if (.not. allocated(values)) cycle
+            x = [number, number + half]
+            f(1) = at(x(1))
+            do k = 1, 20  ! a secant each
+                f(2) = at(x(2))
+                if (.not. abs(f(2) - f(1)) > 0.0_dp) exit
+                x = [x(2), x(2) - f(2)*(x(2) - x(1))/(f(2) - f(1))]
+                f(1) = f(2)
+            end do
+            if (.not. abs(x(2) - number) <= 1.000001_dp*half) cycle
+            f(2) = at(x(2))
+            if (.not. all(abs(results(:, residual%count)) <= 1e-10_dp*abs(results(:, &
+                                                                        truth%count)))) cycle
+            exact = constant(x(2))
+            meaning%nodes(rounded)%number = exact%nodes(1)%number
+            return
+        end do
+    contains
+        real(dp) function at(changed)
+            !! The residual of the first sample with another number.
+            real(dp), intent(in) :: changed
+
+            call evaluate_nodes(residual, values, results, change_t(change_factor, &
+                                             truth%count + rounded, 0, changed/number))
+            at = results(1, residual%count)
+        end function at
+    end subroutine put_exact_number
+
+    subroutine put_exact_frequencies(text, samples, motion)
+        !! `A cos(3.13 t)`: a rounded number that is a frequency gets all its digits, where lines
+        !! `set:` fix all parameters.
+        character(*), intent(in) :: text                  !! as typed
+        type(samples_t), intent(in) :: samples            !! know the modes
+        type(expression_t), intent(inout) :: motion       !! a function of the time
+        type(expression_t) :: exact
+        real(dp) :: half, omega
+        integer :: i, mode
+
+        do i = 1, motion%count
+            if (motion%nodes(i)%kind /= kind_number) cycle
+            half = rounding(motion%nodes(i)%number%value, text, .false.)
+            if (.not. half > 0.0_dp) cycle
+            do mode = 1, size(samples%omega2, 2)
+                associate (omega2 => samples%omega2(:, mode))
+                    if (.not. all(omega2 > 0.0_dp)) cycle
+                    if (maxval(omega2) - minval(omega2) > 1e-12_dp*maxval(omega2)) cycle
+                    omega = sqrt(omega2(1))
+                end associate
+                if (abs(motion%nodes(i)%number%value - omega) > half) cycle
+                exact = constant(omega)
+                motion%nodes(i)%number = exact%nodes(1)%number
+                exit
+            end do
+        end do
+    end subroutine put_exact_frequencies
 
     pure function rounding(value, text, alone) result(half)
         !! Half a unit of the last digit of the number of this value in the text; 0: it is exact.

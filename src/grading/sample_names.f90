@@ -48,6 +48,7 @@ module lagrangia_sample_names
         logical :: always = .false.              !! nobody means anything else by it
         logical :: either_sign = .false.         !! so may be its opposite
         logical :: any_zero = .false.            !! a constant may be added
+        logical :: is_force = .false.            !! which may be constant
         logical :: only_compared = .false.       !! unknown where the sheet does not define it
     end type usual_t
 
@@ -87,6 +88,7 @@ module lagrangia_sample_names
         type(usual_t), allocatable :: usual(:)          !! names beside `symbols`
         character(name_length), allocatable :: constants(:)
         !! of motions that are written out, `A` of A cos(omega t): symbols behind all others
+        character(name_length), allocatable :: declared(:)  !! names behind `constant:`
         type(expression_t), allocatable :: motion(:)
         !! of each coordinate, as a line has it; empty: none
         type(random_t) :: random
@@ -103,13 +105,15 @@ module lagrangia_sample_names
 
 contains
 
-    subroutine name_symbols(system, d, damped, samples)
+    subroutine name_symbols(system, d, damped, own_omega, samples)
         !! All names, in one order.
         class(system_t), intent(in) :: system         !! of which the statements speak
         type(description_t), intent(in) :: d          !! its own
         logical, intent(in) :: damped                 !! it has a decay rate
+        logical, intent(in) :: own_omega              !! the sheet calls something else omega
         type(samples_t), intent(inout) :: samples     !! gets names, roles, rates and letters
         character(name_length), allocatable :: names(:)
+        logical :: has_rate, has_second_rate
         integer :: i
 
         samples%ndof = system%ndof
@@ -130,11 +134,15 @@ contains
         end if
         do i = 1, size(d%quantities)
             call add(trim(d%quantities(i)%name), role_known)
-            if (has_rate(d%quantities(i))) call add(trim(d%quantities(i)%name)//"_dot", role_known)
+            call find_rates(d%quantities(i), has_rate, has_second_rate)
+            if (has_rate) call add(trim(d%quantities(i)%name)//"_dot", role_known)
+            if (has_second_rate) call add(trim(d%quantities(i)%name)//"_ddot", role_known)
         end do
         call add("E_dot", role_known)
         call add_points()
         call add("L", role_known)
+        call add("L_dot", role_known)
+        call add("dL_dt", role_known)  ! by the time alone
         call add("E", role_known)
         call add_each("p_", "", role_known)
         call add_each("dL_d", "_dot", role_known)
@@ -142,7 +150,7 @@ contains
         call add_each("d_dt_dL_d", "_dot", role_known)
         if (allocated(d%kinetic_energy)) call add_energy("T")
         if (allocated(d%potential_energy)) call add_energy("V")
-        if (samples%symbols%find("omega") == 0) then
+        if (samples%symbols%find("omega") == 0 .and. .not. own_omega) then
             call add("omega", role_frequency)
             call add("omega^2", role_frequency)
         else
@@ -159,7 +167,7 @@ contains
             samples%decay = size(samples%role)
             call add(trim(samples%symbols%names(samples%frequency))//"_0", role_known)
         end if
-        allocate (samples%constants(0), samples%motion(samples%ndof))
+        allocate (samples%constants(0), samples%declared(0), samples%motion(samples%ndof))
         allocate (samples%place(samples%ndof))
         do i = 1, samples%ndof
             call add(trim(samples%symbols%names(1 + i))//"_eq", role_known)
@@ -235,16 +243,18 @@ contains
             call add(letter//"_ddot", role_parameter)
         end subroutine add_letter
 
-        function has_rate(quantity) result(yes)
-            !! Has it a formula without accelerations and other quantities, and is no momentum?
+        subroutine find_rates(quantity, yes, second)
+            !! Has it a formula without accelerations and other quantities, and is no momentum? Has
+            !! the formula only places and parameters?
             type(quantity_t), intent(in) :: quantity
-            logical :: yes
+            logical, intent(out) :: yes, second
             type(expression_t) :: formula
             type(symbols_t) :: symbols
             type(error_t), allocatable :: error
             integer :: j
 
             yes = .false.
+            second = .false.
             if (quantity%formula == "") return
             symbols = samples%symbols  ! and momenta, which get their names later
             do j = 1, size(d%coordinates)  ! whose rate is that of dL/dx_dot
@@ -255,7 +265,13 @@ contains
             if (allocated(error)) return
             yes = .not. any([(formula%depends_on(j), j=1, size(samples%role))] .and. &
                             (samples%role == role_acceleration .or. samples%role == role_known))
-        end function has_rate
+            second = yes
+            do j = 2, size(samples%role)
+                if (samples%role(j) == role_coordinate .or. .not. formula%depends_on(j)) cycle
+                second = second .and. samples%role(j) == role_parameter .and. &
+                         samples%symbols%find(trim(samples%symbols%names(j))//"_dot") == 0
+            end do
+        end subroutine find_rates
 
         subroutine add(called, role)
             character(*), intent(in) :: called

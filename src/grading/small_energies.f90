@@ -7,7 +7,7 @@ module lagrangia_small_energies
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_sample_names, only: draws, role_acceleration, role_known, samples_t, states
-    use lagrangia_sampled_formula, only: evaluate_nodes, summands
+    use lagrangia_sampled_formula, only: change_t, evaluate_nodes, summands
     use lagrangia_written_out, only: energy_formulas, energy_places, written_out
     implicit none (type, external)
     private
@@ -32,17 +32,18 @@ module lagrangia_small_energies
 
 contains
 
-    function is_constant_of_each_draw(residual, samples) result(yes)
+    function is_constant_of_each_draw(residual, samples, change) result(yes)
         !! The same finite number, but for rounding, at all states with the same parameters.
         type(expression_t), intent(in) :: residual  !! not empty
         type(samples_t), intent(in) :: samples      !! on the motion
+        type(change_t), intent(in), optional :: change  !! of one node
         logical :: yes
         real(dp), allocatable, dimension(:, :) :: results, sizes
         integer :: draw, first, last, n
 
         n = residual%count
         allocate (results(size(samples%values, 1), n), sizes(size(samples%values, 1), n))
-        call evaluate_nodes(residual, samples%values, results, sizes=sizes)
+        call evaluate_nodes(residual, samples%values, results, change, sizes)
         yes = .true.
         do draw = 1, draws
             first = (draw - 1)*states + 1

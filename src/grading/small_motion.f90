@@ -6,7 +6,7 @@ module lagrangia_small_motion
     use lagrangia_expression, only: expression_t
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
-    use lagrangia_motion_samples, only: put_places
+    use lagrangia_mode_samples, only: put_places
     use lagrangia_sample_names, only: draws, role_acceleration, role_coordinate, role_frequency, &
                                       role_parameter, role_time, role_velocity, samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes

@@ -1,11 +1,13 @@
 module lagrangia_squared_statements
     !! Statements about omega with roots in them, by their squares.
-    use lagrangia_expression, only: expression_t, kind_function, operator(-)
+    use lagrangia_expression, only: expression_t, kind_function, kind_symbol, operator(**), &
+                                    operator(-), symbol
     use lagrangia_frequency_squares, only: square
     use lagrangia_further_slips, only: explain_further
     use lagrangia_kinds, only: dp
     use lagrangia_mode_choice, only: choose_modes
     use lagrangia_sample_names, only: samples_t
+    use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_slip_search, only: explain_slip
     use lagrangia_term_search, only: library_t
     implicit none (type, external)
@@ -26,12 +28,38 @@ contains
         integer :: first
 
         call subtract_squares(left, right, samples, squares, first)
-        if (first == 0) return
+        if (first == 0) then
+            call compare_sizes(left, right, samples, right_one, found)
+            return
+        end if
         values = samples%values
         call choose_modes(squares, samples, values, yes, known)
         right_one = yes
         found = found .or. yes
     end subroutine compare_squares
+
+    subroutine compare_sizes(left, right, samples, right_one, found)
+        !! `omega = W sin(theta_eq)`, whose right side is negative for some of the parameters, or
+        !! where the equilibrium is on the other side.
+        type(expression_t), intent(in) :: left, right   !! both sides
+        type(samples_t), intent(in) :: samples          !! know the modes
+        logical, intent(inout) :: right_one, found  !! become true where the sizes agree
+        real(dp), allocatable :: values(:, :), results(:, :)
+        logical :: known, yes
+        integer :: i
+
+        if (left%count /= 1 .or. left%nodes(1)%kind /= kind_symbol) return
+        if (left%nodes(1)%which /= samples%frequency) return
+        values = samples%values
+        call choose_modes(symbol(samples%frequency + 1) - right**2, samples, values, yes, known)
+        if (.not. yes) return
+        allocate (results(size(values, 1), right%count))
+        call evaluate_nodes(right, values, results)
+        if (.not. (any(results(:, right%count) > 0.0_dp) .or. &
+                   any([(right%depends_on(samples%place(i)), i=1, size(samples%place))]))) return
+        right_one = .true.
+        found = .true.
+    end subroutine compare_sizes
 
     subroutine explain_squares(left, right, samples, library, remark)
         !! Of a wrong `omega = sqrt(...)`: which change makes its square right.

@@ -90,6 +90,10 @@ contains
             if (k >= samples%first_point .and. modulo(k - samples%first_point, 3) < 2) cycle
             samples%values(:, k) = ieee_value(1.0_dp, ieee_quiet_nan)
         end do
+        do k = 1, size(samples%role)
+            if (all(samples%symbols%names(k) /= ["L_dot", "dL_dt"])) cycle
+            samples%values(:, k) = ieee_value(1.0_dp, ieee_quiet_nan)
+        end do
     end subroutine forget_quantities
 
     subroutine suppose_modes(samples, program)

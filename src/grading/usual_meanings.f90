@@ -5,7 +5,8 @@ module lagrangia_usual_meanings
     use lagrangia_expression, only: apply, expression_t, f_sqrt, operator(**), operator(*), &
                                     operator(+), operator(-), operator(/), symbol, whole
     use lagrangia_formula_parser, only: parse_formula
-    use lagrangia_sample_names, only: samples_t, usual_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_sample_names, only: samples_t, states, usual_t
     use lagrangia_substitution, only: substituted
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -171,8 +172,10 @@ contains
         type(samples_t), intent(in) :: samples
         type(usual_t), intent(inout) :: all(:)
         integer, intent(inout) :: n
-        character(*), parameter :: of_string(*) = [character(6) :: "S", "F_T", "F_S", "lambda", "F"]
-        character(*), parameter :: others(*) = [character(6) :: "N", "F_N", "lambda", "F"]
+        character(*), parameter :: of_string(*) = [character(7) :: "S", "F_T", "F_S", "F_Zwang", &
+                                                   "F_Z", "Z", "lambda", "F"]
+        character(*), parameter :: others(*) = [character(7) :: "N", "F_N", "F_Zwang", "F_Z", "Z", &
+                                             "lambda", "F"]
         type(expression_t) :: still(1), effective
         integer :: i
 
@@ -209,7 +212,8 @@ contains
             character(*), intent(in) :: letter
 
             call put(all, n, samples, letter, d%quantities(i)%name, &
-                     symbol(samples%symbols%find(trim(d%quantities(i)%name))), either_sign=.true.)
+                     symbol(samples%symbols%find(trim(d%quantities(i)%name))), either_sign=.true., &
+                     is_force=.true.)
         end subroutine put_force
     end subroutine collect_forces
 
@@ -221,7 +225,16 @@ contains
         character(*), parameter :: called(*) = [character(7) :: "omega_0", "w", "w_0", "Omega"]
         integer :: i
 
-        if (samples%ndof /= 1 .or. samples%symbols%names(samples%frequency) /= "omega") return
+        if (samples%ndof /= 1) return
+        i = samples%symbols%find("omega")
+        if (i /= samples%frequency) then
+            ! a letter may stand for it, as sqrt(k/m) does
+            if (samples%decay > 0 .or. i == 0) return
+            if (any(abs(samples%values(::states, i)**2 - samples%omega2(:, 1)) > &
+                    1e-9_dp*samples%omega2(:, 1))) return
+            call put(all, n, samples, "omega_0", "omega", symbol(i))
+            return
+        end if
         do i = 1, size(called)
             if (samples%decay > 0 .and. index(called(i), "_0") > 0) then
                 call put(all, n, samples, called(i), "omega_0", symbol(samples%decay + 1))
@@ -235,14 +248,14 @@ contains
     end subroutine collect_frequencies
 
     pure subroutine put(all, n, samples, name, label, meaning, always, either_sign, any_zero, &
-                        only_compared)
+                        only_compared, is_force)
         !! One more, if no name of the system is called that.
         type(usual_t), intent(inout) :: all(:)
         integer, intent(inout) :: n
         type(samples_t), intent(in) :: samples
         character(*), intent(in) :: name, label
         type(expression_t), intent(in) :: meaning
-        logical, intent(in), optional :: always, either_sign, any_zero, only_compared
+        logical, intent(in), optional :: always, either_sign, any_zero, only_compared, is_force
 
         if (n == size(all)) return
         if (samples%symbols%find(name) > 0 .or. samples%symbols%find_definition(name) > 0) return
@@ -254,6 +267,7 @@ contains
         if (present(either_sign)) all(n)%either_sign = either_sign
         if (present(any_zero)) all(n)%any_zero = any_zero
         if (present(only_compared)) all(n)%only_compared = only_compared
+        if (present(is_force)) all(n)%is_force = is_force
     end subroutine put
 
     pure function number_of(name) result(number)

@@ -11,6 +11,7 @@ module lagrangia_usual_names
     use lagrangia_slip_search, only: holds
     use lagrangia_small_energies, only: is_constant_of_each_draw
     use lagrangia_statement_forms, only: define_rates, read_new_name
+    use lagrangia_text, only: word_t
     use lagrangia_usual_meanings, only: collect_meanings
     implicit none (type, external)
     private
@@ -21,10 +22,11 @@ module lagrangia_usual_names
 
 contains
 
-    subroutine add_usual_names(d, homework, samples)
-        !! Those that the sheet speaks of.
+    subroutine add_usual_names(d, homework, insisted, samples)
+        !! Those that the sheet speaks of; it defines none of those in `insisted`.
         type(description_t), intent(in) :: d          !! of the system
         type(homework_t), intent(in) :: homework      !! the sheet
+        type(word_t), intent(in) :: insisted(:)       !! names with their usual meaning
         type(samples_t), intent(inout) :: samples     !! get the names
         type(usual_t), allocatable :: all(:)
         character(name_length), allocatable :: said(:), given(:)
@@ -42,12 +44,22 @@ contains
         allocate (samples%usual(count))
         do i = 1, count
             samples%usual(i) = all(i)
-            if (all(i)%only_compared) cycle
-            if (.not. all(i)%always .and. any(given == bare_name(all(i)%name))) cycle
+            if (.not. is_insisted(all(i)%name)) then
+                if (all(i)%only_compared) cycle
+                if (.not. all(i)%always .and. any(given == bare_name(all(i)%name))) cycle
+            end if
             call samples%symbols%define(trim(all(i)%name), all(i)%meaning, error)
             if (allocated(error)) cycle
             call define_rates(trim(all(i)%name), all(i)%meaning, samples)
         end do
+    contains
+        logical function is_insisted(name)
+            character(*), intent(in) :: name
+            integer :: k
+
+            is_insisted = any([(bare_name(insisted(k)%text) == bare_name(name), &
+                                k=1, size(insisted))])
+        end function is_insisted
     end subroutine add_usual_names
 
     subroutine mark_used(homework, samples)
@@ -113,7 +125,7 @@ contains
                         agrees = is_same(usual%meaning**2 - meaning**2, .false., samples)
                     end if
                 end if
-                if (.not. agrees .and. &
+                if (.not. agrees .and. .not. usual%is_force .and. &
                     (moves(usual%meaning, samples) .neqv. moves(meaning, samples))) cycle
                 known = .true.
                 if (agrees .or. label == "") label = trim(usual%label)

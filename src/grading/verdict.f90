@@ -25,6 +25,9 @@ module lagrangia_verdict
         type(expression_t) :: residual
         !! left less right of the first pair, or of the wrong one
         logical :: of_motion = .false.        !! it holds on the motion only
+        character(:), allocatable :: defines  !! the new name, where it is a definition
+        logical :: contradicts = .false.      !! which mostly means something else
+        logical :: of_oscillation = .false.   !! or is a frequency or a period of one
         integer, allocatable :: because(:)    !! wrong statements that it follows from, or none
     end type judgement_t
 

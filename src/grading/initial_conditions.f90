@@ -1,0 +1,65 @@
+module lagrangia_initial_conditions
+    !! `theta(0) = theta_0`: how a motion begins.
+    use lagrangia_expression, only: expression_t, operator(-), whole
+    use lagrangia_kinds, only: dp
+    use lagrangia_motion_values, only: draw_values, rate_of
+    use lagrangia_sample_names, only: samples_t
+    use lagrangia_slip_search, only: holds
+    use lagrangia_substitution, only: substituted
+    use lagrangia_verdict, only: is_definition, is_right, is_wrong, judgement_t
+    implicit none (type, external)
+    private
+    public :: judge_start, with_short_starts
+
+contains
+
+    pure function with_short_starts(text) result(short)
+        !! `theta(0) = 1` for `theta(t = 0) = 1`, with blanks behind, so that columns stay.
+        character(*), intent(in) :: text  !! a statement
+        character(len(text)) :: short, inside
+        integer :: first, last
+
+        short = text
+        first = index(text, "(t")
+        if (first == 0) return
+        last = first + index(text(first:), ")") - 1
+        if (last <= first + 2) return
+        inside = adjustl(text(first + 2:last - 1))
+        if (inside(:1) == "=" .and. adjustl(inside(2:)) == "0") short(first:last) = "(0)"
+    end function with_short_starts
+
+    subroutine judge_start(coordinate, order, f, samples, names, is_one, judgement)
+        !! `theta(0) = theta_0`: how one motion of many begins, or that of a line before.
+        integer, intent(in) :: coordinate           !! which begins
+        integer, intent(in) :: order                !! of its derivative, 0 or 1
+        type(expression_t), intent(in) :: f         !! the right side
+        type(samples_t), intent(in) :: samples      !! know the motion
+        integer, intent(in) :: names                !! with the constants
+        logical, intent(out) :: is_one              !! the right side is a constant
+        type(judgement_t), intent(inout) :: judgement   !! of the line
+        type(expression_t) :: begun, beginning(1)
+        real(dp), allocatable :: values(:, :)
+        integer :: i, k
+        logical :: judged, yes
+
+        is_one = .not. any([(f%depends_on(k), k=1, 1 + 3*samples%ndof)])
+        if (.not. is_one) return
+        judgement%verdict = is_definition
+        judgement%remark = "an initial condition, of one motion of many"
+        if (samples%motion(coordinate)%count == 0) return
+        call draw_values(samples, names, values)
+        beginning(1) = whole(0)  ! t
+        begun = substituted(rate_of(samples%motion(coordinate), order), [1], beginning)
+        call holds(begun - f, values, yes, judged)
+        if (.not. judged) return
+        k = size(samples%symbols%names)
+        associate (ours => [(begun%depends_on(i), i=k + 1, names)], &
+                   theirs => [(f%depends_on(i), i=k + 1, names)])
+            ! theta_0 or 1.0 says what A is, as nothing else does
+            if (.not. yes .and. any(ours) .and. .not. any(ours .and. theirs)) return
+        end associate
+        judgement%verdict = merge(is_right, is_wrong, yes)
+        judgement%remark = ""
+        if (.not. yes) judgement%remark = "the motion of the line before begins elsewhere"
+    end subroutine judge_start
+end module lagrangia_initial_conditions

@@ -1,0 +1,228 @@
+module lagrangia_judged_equality
+    !! Is this equality right? Both sides are evaluated on the motion, at states and with parameters
+    !! at random: any equivalent form is right, whatever it was multiplied by or mixed with.
+    use lagrangia_errors, only: error_t
+    use lagrangia_expression, only: expression_t, kind_function, kind_number, kind_symbol, &
+                                    operator(-)
+    use lagrangia_further_slips, only: explain_further
+    use lagrangia_kinds, only: dp
+    use lagrangia_mode_choice, only: choose_modes
+    use lagrangia_mode_samples, only: put_places
+    use lagrangia_rounded_numbers, only: holds_to_digits, true_number
+    use lagrangia_same_motion, only: same_equations
+    use lagrangia_sample_names, only: samples_t
+    use lagrangia_sampled_formula, only: change_sign, change_t
+    use lagrangia_slip_search, only: context, explain_slip, holds, is_trivial
+    use lagrangia_small_energies, only: is_constant_of_each_draw, is_energy, put_same_constant
+    use lagrangia_small_judgement, only: judge_small
+    use lagrangia_squared_statements, only: compare_squares, explain_squares
+    use lagrangia_statement_forms, only: has_velocities, is_branch, is_motion, is_value, &
+                                         read_as_tension, speaks_of_place, tensions
+    use lagrangia_term_search, only: library_t, part_text
+    use lagrangia_verdict, only: is_right, is_unreadable, is_wrong, judgement_t, put_example
+    implicit none (type, external)
+    private
+    public :: judge_forms, put_unreadable
+
+contains
+
+    subroutine judge_forms(left, right, text, chained, small, samples, library, explain, judgement)
+        !! One equality; also with T for a string's tension, with rounded numbers, with one sign of
+        !! a root, or nearly.
+        type(expression_t), intent(in) :: left, right  !! both sides
+        character(*), intent(in) :: text    !! both sides, as typed
+        logical, intent(in) :: chained      !! the left side is known to be right
+        logical, intent(in) :: small        !! a sign says "nearly"
+        type(samples_t), intent(in) :: samples             !! on the motion
+        type(library_t), intent(in) :: library(:)          !! right terms
+        logical, intent(in) :: explain                     !! say what is wrong
+        type(judgement_t), intent(inout) :: judgement      !! of it
+        type(judgement_t) :: attempt
+        type(expression_t) :: one, other
+        integer :: i
+
+        attempt%remark = ""
+        attempt%example = ""
+        call judge_pair(left, right, chained, samples, library, explain .and. .not. small, &
+                        judgement)
+        if (judgement%verdict == is_right) return
+        do i = 1, tensions(samples)
+            call read_as_tension(left, right, samples, i, one, other)
+            if (one%count == 0) exit
+            attempt%verdict = is_right
+            call judge_pair(one, other, chained, samples, library, explain .and. i == 1, attempt)
+            if (attempt%verdict == is_right .or. (i == 1 .and. (judgement%verdict == &
+                is_unreadable .or. (.not. has_velocities(one - other, samples) .and. &
+                                    index(attempt%remark, "no single") /= 1)))) judgement = attempt
+            if (attempt%verdict == is_right) exit
+        end do
+        if (judgement%verdict /= is_wrong) return
+        if (holds_to_digits(left, right, text, samples)) then
+            judgement%remark = "to the digits given"
+        else if (is_branch(left, right, samples)) then
+            judgement%remark = "where the sign of the root is that of the other side"
+        else if (small) then
+            judgement%remark = ""
+            judgement%verdict = is_right
+            call judge_small(left, right, chained, samples, library, explain, judgement)
+            return
+        else
+            if (explain) then
+                call true_number(left, right, samples, judgement%remark)
+                call add_small(left, right, samples, judgement%remark)
+            end if
+            return
+        end if
+        judgement%verdict = is_right
+        judgement%example = ""
+    end subroutine judge_forms
+
+    pure subroutine put_unreadable(error, judgement)
+        !! What the reader says.
+        type(error_t), intent(in) :: error              !! column and remedy
+        type(judgement_t), intent(inout) :: judgement   !! gets it
+
+        judgement%verdict = is_unreadable
+        judgement%remark = error%message
+    end subroutine put_unreadable
+
+    subroutine judge_pair(left, right, chained, samples, library, explain, judgement)
+        !! One equality.
+        type(expression_t), intent(in) :: left, right
+        logical, intent(in) :: chained  !! the left side is known to be right
+        type(samples_t), intent(in) :: samples
+        type(library_t), intent(in) :: library(:)
+        logical, intent(in) :: explain
+        type(judgement_t), intent(inout) :: judgement
+        real(dp), allocatable :: values(:, :)
+        logical :: judged, right_one, found
+
+        judgement%residual = left - right
+        values = samples%values
+        if (speaks_of_place(judgement%residual, samples)) then
+            call holds(judgement%residual, samples%values, right_one, judged)
+            call put_places(samples, samples%other_equilibrium, values)
+            call holds(judgement%residual, values, found, judged)
+            if (right_one .or. .not. judged) values = samples%values
+        end if
+        if (judgement%residual%depends_on(samples%frequency) .or. &
+            judgement%residual%depends_on(samples%frequency + 1)) then
+            call choose_modes(judgement%residual, samples, values, right_one, found)
+            if (.not. right_one) call compare_squares(left, right, samples, right_one, found)
+            if (.not. found) then
+                judgement%verdict = is_unreadable
+                judgement%remark = "no small oscillation about the equilibrium at or near "// &
+                    "zero to compare with"
+                return
+            end if
+            judged = .true.
+        else
+            call holds(judgement%residual, values, right_one, judged)
+        end if
+        if (is_motion(left, right, samples)) then
+            judgement%verdict = is_unreadable
+            judgement%remark = "a motion is not graded, only what holds at all times; write "// &
+                "its equation, or its frequency"
+        else if (is_value(left, right, samples)) then
+            judgement%verdict = is_unreadable
+            judgement%remark = "graded for any value; a line 'set: "// &
+                trim(samples%symbols%names(left%nodes(1)%which))//" = ...' fixes one"
+        else if (.not. judged) then
+            judgement%verdict = is_unreadable
+            judgement%remark = "no number at the states that were tried: a root, a logarithm "// &
+                "or a "// &
+                               "division fails"
+        else if (right_one) then
+            judgement%of_motion = .not. is_trivial(judgement%residual, samples)
+            if (.not. judgement%of_motion) judgement%remark = "true of any motion"
+        else if (is_up_to_constant(left, judgement%residual, samples)) then
+            judgement%remark = "but for a constant"
+        else if (is_other_lagrangian(left, right, samples)) then
+            judgement%remark = "another L of the same motion"
+        else
+            judgement%verdict = is_wrong
+            if (.not. explain) return
+            call explain_slip(judgement%residual, merge(left%count + 1, 1, chained), samples, &
+                              values, library, judgement%remark)
+            call put_example(left, right, samples, values, judgement%example)
+            if (index(judgement%remark, "no single") == 1) call explain_squares( &
+                left, right, samples, library, judgement%remark)
+            if (index(judgement%remark, "no single") == 1 .and. is_energy(left, samples)) then
+                call put_same_constant(left, judgement%residual, samples, values)
+                call explain_slip(judgement%residual, merge(left%count + 1, 1, chained), samples, &
+                                  values, library, judgement%remark)
+                if (index(judgement%remark, "no single") == 1) call explain_but_constant( &
+                    judgement%residual, left%count + 1, samples, judgement%remark)
+            end if
+            if (index(judgement%remark, "no single") == 1 .or. &
+                index(judgement%remark, "a term with") == 1) call explain_further( &
+                left, right, samples, values, library, judgement%remark)
+        end if
+    end subroutine judge_pair
+
+    subroutine explain_but_constant(residual, first, samples, remark)
+        !! The sign that makes an energy right but for a constant: of cos(theta) in
+        !! m g l (1 + cos(theta)).
+        type(expression_t), intent(in) :: residual  !! left less right side
+        integer, intent(in) :: first                !! nodes before it are right
+        type(samples_t), intent(in) :: samples      !! on the motion
+        character(:), allocatable, intent(inout) :: remark
+        logical :: is_constant, is_function
+        integer :: i, turn
+
+        do turn = 1, 2  ! of a function, or else of the longest part
+            do i = residual%count - 1, first, -1
+                if (residual%nodes(i)%kind == kind_number) cycle
+                is_function = residual%nodes(i)%kind == kind_function
+                if (turn == 1 .neqv. is_function) cycle
+                is_constant = is_constant_of_each_draw(residual, samples, change_t(change_sign, i))
+                if (.not. is_constant) cycle
+                remark = "the sign of "//part_text(residual, i, samples)// &
+                         context(residual, samples, i)//", but for a constant"
+                return
+            end do
+        end do
+    end subroutine explain_but_constant
+
+    subroutine add_small(left, right, samples, remark)
+        !! Say so if a wrong statement without functions holds for small motions, and not only as
+        !! 0 = 0.
+        type(expression_t), intent(in) :: left, right
+        type(samples_t), intent(in) :: samples
+        character(:), allocatable, intent(inout) :: remark
+        type(judgement_t) :: small, opposite
+        type(library_t) :: none(0)
+
+        if (any(left%nodes(:left%count)%kind == kind_function) .or. &
+            any(right%nodes(:right%count)%kind == kind_function)) return
+        small%remark = ""
+        opposite%remark = ""
+        call judge_small(left, right, .false., samples, none, .false., small)
+        if (small%verdict /= is_right .or. small%remark /= "") return
+        call judge_small(left, -right, .false., samples, none, .false., opposite)
+        if (opposite%verdict == is_wrong) remark = remark// &
+            "; true of small motions: write 'small:' in front"
+    end subroutine add_small
+
+    function is_up_to_constant(left, residual, samples) result(yes)
+        !! A potential or an energy alone on the left side, which differs by the same number at all
+        !! states with the same parameters.
+        type(expression_t), intent(in) :: left, residual
+        type(samples_t), intent(in) :: samples
+        logical :: yes
+
+        yes = is_energy(left, samples)
+        if (yes) yes = is_constant_of_each_draw(residual, samples)
+    end function is_up_to_constant
+
+    function is_other_lagrangian(left, right, samples) result(yes)
+        !! L alone on the left side, and on the right one with the same equations of motion.
+        type(expression_t), intent(in) :: left, right
+        type(samples_t), intent(in) :: samples
+        logical :: yes
+
+        yes = left%count == 1 .and. left%nodes(1)%kind == kind_symbol
+        if (yes) yes = samples%symbols%names(left%nodes(1)%which) == "L"
+        if (yes) yes = same_equations(samples, right)
+    end function is_other_lagrangian
+end module lagrangia_judged_equality

@@ -1,0 +1,182 @@
+module lagrangia_judged_sheet
+    !! The statements of a sheet, one after the other: what each defines, and what follows from
+    !! what is wrong.
+    use lagrangia_consequences, only: consequences_t
+    use lagrangia_description, only: description_t
+    use lagrangia_formula_characters, only: plain_letters
+    use lagrangia_homework, only: homework_t
+    use lagrangia_judgement, only: is_consequence, is_definition, is_right, is_unreadable, &
+                                   is_wrong, judge, judgement_t
+    use lagrangia_parameter_choice, only: occurs
+    use lagrangia_sample_names, only: samples_t
+    use lagrangia_statement_forms, only: read_new_name, without_number
+    use lagrangia_symbols, only: symbols_t
+    use lagrangia_term_search, only: library_t
+    use lagrangia_text, only: to_text, word_t
+    use lagrangia_usual_names, only: add_usual_names, mark_used
+    implicit none (type, external)
+    private
+    public :: judge_sheet
+
+contains
+
+    subroutine judge_sheet(homework, d, insisted, truth, library, result)
+        !! Each statement, in their order; one with a name that a later one defines waits for it.
+        type(homework_t), intent(in) :: homework      !! as read
+        type(description_t), intent(in) :: d          !! of the system
+        type(word_t), intent(in) :: insisted(:)       !! names with their usual meaning
+        type(samples_t), intent(in) :: truth          !! without the sheet's names
+        type(library_t), intent(in) :: library(:)     !! right terms
+        type(judgement_t), allocatable, intent(out) :: result(:)  !! of each statement
+        type(samples_t) :: samples
+        type(consequences_t) :: consequences
+        type(homework_t) :: sheet
+        type(word_t), allocatable :: names(:), plain(:)
+        logical, allocatable :: waits(:)
+        logical :: again, squared
+        integer :: i, k, n
+
+        n = size(homework%statements)
+        samples = truth
+        call add_usual_names(d, homework, insisted, samples)
+        sheet = homework
+        call mark_used(sheet, samples)
+        allocate (result(n), names(n), plain(n), waits(n))
+        waits = .false.
+        do i = 1, n
+            plain(i)%text = plain_letters(homework%statements(i)%text)
+            call read_new_name(plain(i)%text(:max(0, index(plain(i)%text, "=") - 1)), samples, &
+                               names(i)%text, squared)
+        end do
+        samples%symbols%primes = has_primes(plain, samples)
+        do i = 1, n
+            call judge_one(i)
+            again = result(i)%verdict == is_right .or. result(i)%verdict == is_definition
+            do while (again)
+                again = .false.
+                do k = 1, i - 1
+                    if (.not. waits(k)) cycle
+                    call judge_one(k)
+                    if (.not. waits(k)) again = .true.
+                end do
+            end do
+        end do
+        call compare_siblings(result)
+    contains
+        subroutine judge_one(at)
+            integer, intent(in) :: at
+            type(symbols_t) :: before
+
+            before = samples%symbols
+            call judge(sheet%statements(at), samples, library, .true., result(at))
+            waits(at) = result(at)%verdict == is_unreadable .and. speaks_of_later(at)
+            if (waits(at)) return
+            associate (judgement => result(at))
+                call consequences%add_names(samples%symbols)
+                if (judgement%verdict /= is_wrong) return
+                allocate (judgement%because(0))
+                if (judgement%residual%count == 0) return  ! a motion
+                ! in other worlds, too, the name that it defines is new
+                if (allocated(judgement%defines)) call consequences%add_names(before)
+                call consequences%find(sheet%statements(at), judgement%residual, samples, &
+                                       judgement%because)
+                if (allocated(judgement%defines)) call consequences%add_names(samples%symbols)
+                if (size(judgement%because) > 0) then
+                    call put_consequence(homework, judgement)
+                    call consequences%add_consequence(judgement%because, judgement%residual, &
+                                                      samples)
+                else
+                    call consequences%add_mistake(at, judgement%residual, samples)
+                end if
+            end associate
+        end subroutine judge_one
+
+        logical function speaks_of_later(at)
+            !! Has it a name that a later statement defines, and none before?
+            integer, intent(in) :: at
+            integer :: j
+
+            speaks_of_later = .false.
+            do j = at + 1, n
+                if (names(j)%text == "") cycle
+                if (samples%symbols%find_definition(names(j)%text) > 0) cycle
+                speaks_of_later = occurs(plain(at)%text, names(j)%text) .or. &
+                                  occurs(plain(at)%text, names(j)%text//"_dot") .or. &
+                                  occurs(plain(at)%text, names(j)%text//"_ddot")
+                if (speaks_of_later) return
+            end do
+        end function speaks_of_later
+    end subroutine judge_sheet
+
+    pure subroutine compare_siblings(result)
+        !! `T_2` is wrong if it is no period, and `T_1` of the same sheet is one.
+        type(judgement_t), intent(inout) :: result(:)
+        integer :: i, k
+
+        do i = 1, size(result)
+            if (result(i)%verdict /= is_definition) cycle
+            if (index(result(i)%remark, "taken for a new name: no small") /= 1) cycle
+            do k = 1, size(result)
+                if (.not. result(k)%of_oscillation) cycle
+                if (without_number(result(k)%defines) /= &
+                    without_number(result(i)%defines)) cycle
+                result(i)%verdict = is_wrong
+                result(i)%remark = result(i)%remark(len("taken for a new name: ") + 1:)
+                exit
+            end do
+        end do
+    end subroutine compare_siblings
+
+    pure function has_primes(statements, samples) result(yes)
+        !! Is `theta'` the velocity, and no coordinate of another frame, as in `x' = x + s`?
+        type(word_t), intent(in) :: statements(:)  !! in plain letters
+        type(samples_t), intent(in) :: samples     !! know the coordinates
+        logical :: yes
+        character(:), allocatable :: left
+        integer :: equals, i, place
+
+        yes = .true.
+        do i = 1, size(statements)
+            if (has_double_prime(statements(i)%text)) return
+        end do
+        do i = 1, size(statements)
+            associate (text => statements(i)%text)
+                equals = index(text, "=")
+                left = trim(adjustl(text(:max(0, equals - 1))))
+                if (len(left) < 2) cycle
+                if (left(len(left):) /= "'") cycle
+                place = samples%symbols%find(samples%symbols%spelling(left(:len(left) - 1)))
+                if (place < 2 .or. place > 1 + samples%ndof) cycle
+                yes = yes .and. (scan(text(equals:), "'") > 0 .or. index(text(equals:), "_d") > 0)
+            end associate
+        end do
+    end function has_primes
+
+    pure function has_double_prime(statement) result(yes)
+        !! `theta''`, so that `theta'` is the velocity, and no coordinate of another frame?
+        character(*), intent(in) :: statement  !! in plain letters
+        logical :: yes
+        integer :: at
+
+        at = index(statement, "''")
+        yes = at > 1
+        if (yes) yes = scan(statement(at - 1:at - 1), "LTVU)") == 0
+    end function has_double_prime
+
+    pure subroutine put_consequence(homework, judgement)
+        !! The mistake was made before.
+        type(homework_t), intent(in) :: homework
+        type(judgement_t), intent(inout) :: judgement
+
+        judgement%verdict = is_consequence
+        judgement%example = ""
+        associate (lines => homework%statements(judgement%because)%line)
+            if (size(lines) == 1) then
+                judgement%remark = "from line "//to_text(lines(1))//", which is wrong"
+            else
+                judgement%remark = "from lines "//to_text(minval(lines))//" and "// &
+                                   to_text(maxval(lines))//", which are wrong"
+            end if
+        end associate
+    end subroutine put_consequence
+end module lagrangia_judged_sheet

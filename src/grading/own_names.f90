@@ -1,0 +1,96 @@
+module lagrangia_own_names
+    !! Names that a student gives: what they stand for, and whether that is what everybody means by
+    !! them.
+    use lagrangia_errors, only: error_t
+    use lagrangia_expression, only: apply, expression_t, f_sqrt
+    use lagrangia_formula_parser, only: parse_formula
+    use lagrangia_judged_equality, only: judge_forms, put_unreadable
+    use lagrangia_rounded_numbers, only: put_exact_number
+    use lagrangia_sample_names, only: samples_t
+    use lagrangia_statement_forms, only: define_by_period, define_rates, find_frequency, &
+                                         means_frequency
+    use lagrangia_term_search, only: library_t
+    use lagrangia_usual_names, only: find_usual
+    use lagrangia_verdict, only: is_definition, is_right, is_wrong, judgement_t
+    implicit none (type, external)
+    private
+    public :: define
+
+contains
+
+    subroutine define(name, squared, formula, text, used, samples, library, judgement)
+        !! A name of the student's own, or the square of one; right if it is what is mostly called
+        !! that. A name that must be a frequency, is none and abbreviates nothing is wrong.
+        character(*), intent(in) :: name     !! new
+        logical, intent(in) :: squared       !! `v^2 = ...`
+        character(*), intent(in) :: formula  !! what it stands for, in its column
+        character(*), intent(in) :: text     !! both sides, as typed
+        logical, intent(in) :: used          !! another statement has the name
+        type(samples_t), intent(inout) :: samples          !! get the name
+        type(library_t), intent(in) :: library(:)          !! right terms
+        type(judgement_t), intent(inout) :: judgement      !! of the statement
+        type(expression_t) :: meaning, truth
+        type(judgement_t) :: attempt
+        type(error_t), allocatable :: error
+
+        judgement%verdict = is_definition
+        judgement%defines = name
+        call parse_formula(formula, samples%symbols, meaning, error)
+        if (.not. allocated(error)) then
+            call define_by_period(meaning, samples)
+            if (squared) meaning = apply(f_sqrt, meaning)
+            call find_frequency(name, meaning, samples, truth)
+            if (truth%count > 0) then
+                attempt%remark = ""
+                attempt%example = ""
+                call judge_forms(truth, meaning, text, .true., .false., samples, library, .true., &
+                                 attempt)
+                ! of a rounded number the name goes on with all digits
+                if (attempt%verdict == is_right) call put_exact_number(truth, text, samples, &
+                                                                       meaning)
+            end if
+            call samples%symbols%define(name, meaning, error)
+        end if
+        if (allocated(error)) then
+            call put_unreadable(error, judgement)
+            return
+        end if
+        call define_rates(name, meaning, samples)
+        call compare_usual(name, meaning, samples, judgement)
+        if (judgement%verdict == is_right .or. truth%count == 0) return
+        attempt%defines = name
+        attempt%contradicts = judgement%contradicts
+        if (attempt%verdict == is_right) then
+            judgement = attempt
+            judgement%contradicts = .false.
+            judgement%of_oscillation = .true.
+        end if
+        if (attempt%verdict /= is_wrong) return
+        if (means_frequency(name, samples) .and. (.not. used .or. meaning%count == 1)) then
+            judgement = attempt
+            if (index(attempt%remark, "no single") == 1) judgement%remark = "no small "// &
+                "oscillation has this frequency; see 'lagrangia modes'"
+        else if (samples%decay == 0 .and. scan(name, "0") == 0 .and. scan(name, "wt") /= 1) then
+            judgement%remark = "taken for a new name: no small oscillation has this "// &
+                trim(merge("period   ", "frequency", name(1:1) == "T"))
+        end if
+    end subroutine define
+
+    subroutine compare_usual(name, meaning, samples, judgement)
+        !! A definition of H, v or S is right if it is what is mostly called that.
+        character(*), intent(in) :: name
+        type(expression_t), intent(in) :: meaning
+        type(samples_t), intent(in) :: samples
+        type(judgement_t), intent(inout) :: judgement
+        character(:), allocatable :: label
+        logical :: agrees, known
+
+        call find_usual(name, meaning, samples, known, agrees, label)
+        if (.not. known) return
+        if (agrees) judgement%verdict = is_right
+        judgement%contradicts = .not. agrees
+        judgement%remark = trim(merge("as                          ", &
+                                      "taken for a new name: not   ", agrees))//" "//label
+    end subroutine compare_usual
+
+end module lagrangia_own_names
