@@ -39,7 +39,17 @@ contains
         call suite%addTest(TestMethod("points_without_masses", points_without_masses))
         call suite%addTest(TestMethod("a_slip_is_seen", a_slip_is_seen))
         call suite%addTest(TestMethod("forces_of_places_count", forces_of_places_count))
+        call suite%addTest(TestMethod("pi_stays_a_letter", pi_stays_a_letter))
     end function derivation_rest_suite
+
+    subroutine pi_stays_a_letter()
+        !! Also where it is squared, and behind a sign.
+        call holds(two//"T = 'm/2 (x_dot^2 + y_dot^2) + 2 pi m/w (x y_dot - y x_dot)' "// &
+                   "V = '(k + (-pi)^2) (x^2 + y^2)/2'", "dL/dx_dot = m x_dot - 2 pi m/w y|"// &
+                   "d/dt dL/dx_dot = m x_ddot - 2 pi m/w y_dot|"// &
+                   "L = T - V = m/2 x_dot^2 + m/2 y_dot^2 + 2 pi m/w x y_dot - 2 pi m/w y x_dot"// &
+                   " - (k + pi^2)/2 x^2 - (k + pi^2)/2 y^2")
+    end subroutine pi_stays_a_letter
 
     subroutine make(formulas, system, error)
         !! With positive parameters m, k, b, w.

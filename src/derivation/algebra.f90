@@ -13,12 +13,14 @@ module lagrangia_algebra
     implicit none (type, external)
     private
     public :: algebra_t, atom_t
-    public :: atom_function, atom_root, atom_sum, atom_symbol
+    public :: atom_function, atom_number_pi, atom_root, atom_sum, atom_symbol
 
     integer, parameter :: atom_symbol = 0    !! a name
     integer, parameter :: atom_function = 1  !! of `argument`
     integer, parameter :: atom_sum = 2       !! `argument`, a sum, to the power that it has
     integer, parameter :: atom_root = 3      !! `argument` to the power `exponent`, a fraction
+    integer, parameter :: atom_number_pi = 4  !! the number
+    real(dp), parameter :: pi = acos(-1.0_dp)
     integer, parameter :: largest_power = 12  !! to which a sum is multiplied out
 
     type :: atom_t
@@ -102,7 +104,7 @@ contains
         type(polynomial_t), intent(out) :: p          !! equal to it
         type(polynomial_t), allocatable :: at(:)
         type(polynomial_t) :: other
-        integer :: i
+        integer :: atom, i
 
         if (expression%count == 0) return
         allocate (at(expression%count))
@@ -111,6 +113,11 @@ contains
                 select case (node%kind)
                 case (kind_number)
                     at(i) = number_polynomial(node%number)
+                    if (abs(abs(node%number%value) - pi) <= 0.0_dp) then
+                        call self%atom_number(atom_number_pi, 0, number_t(), polynomial_t(), atom)
+                        at(i) = atom_power(atom, 1)
+                        if (node%number%value < 0.0_dp) at(i) = -at(i)
+                    end if
                 case (kind_symbol)
                     at(i) = atom_power(node%which, 1)
                 case (kind_sum)
@@ -258,6 +265,7 @@ contains
             if (atom == name) d = whole_polynomial(1)
             return
         end if
+        if (self%atoms(atom)%kind == atom_number_pi) return
         argument = self%atoms(atom)%argument
         call self%derivative(argument, name, inner)
         if (inner%terms == 0) return
@@ -330,6 +338,10 @@ contains
             do k = 1, size(names)
                 if (names(k) == atom) p = values(k)
             end do
+            return
+        end if
+        if (self%atoms(atom)%kind == atom_number_pi) then
+            p = atom_power(atom, 1)
             return
         end if
         call self%substitute(self%atoms(atom)%argument, names, values, argument)

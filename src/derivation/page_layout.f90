@@ -2,7 +2,7 @@ module lagrangia_page_layout
     !! Sums of products as formulas in the order of the lecture: `(m1 + m2)/2 x_dot^2 + m2 g l
     !! cos(theta)`. Terms of the same motion share a bracket of parameters; masses come first, then
     !! gravity, other parameters, coordinates, velocities, accelerations and functions.
-    use lagrangia_algebra, only: algebra_t, atom_root, atom_sum, atom_symbol
+    use lagrangia_algebra, only: algebra_t, atom_number_pi, atom_root, atom_sum, atom_symbol
     use lagrangia_exact_number, only: number_t, operator(-), operator(*), operator(/), ratio
     use lagrangia_expression, only: apply, constant, expression_t, kind_product, operator(-), &
                                     operator(*), operator(**), operator(+), operator(/), symbol, &
@@ -19,6 +19,7 @@ module lagrangia_page_layout
 
     integer, parameter :: role_time = 4, role_coordinate = 5, role_velocity = 6, &
                           role_acceleration = 7
+    integer, parameter :: role_number = 0       !! pi
     integer, parameter :: role_function = 8     !! of anything
     integer, parameter :: role_multiplier = 9   !! of a constraint
     integer, parameter :: role_frequency = 10   !! omega
@@ -336,7 +337,7 @@ contains
         type(expression_t) :: one
         integer :: i, role
 
-        do role = role_mass, last_role
+        do role = role_number, last_role
             do i = 1, algebra%count
                 if (powers(i) <= 0 .or. .not. wanted(i)) cycle
                 if (role_of(algebra, roles, i) /= role) cycle
@@ -362,7 +363,7 @@ contains
         if (bracketed) then
             one = bracket
         else
-            search: do role = role_mass, last_role
+            search: do role = role_number, last_role
                 do i = 1, algebra%count
                     if (powers(i) <= 0 .or. .not. fixed(i)) cycle
                     if (role_of(algebra, roles, i) /= role) cycle
@@ -386,6 +387,7 @@ contains
         role = role_function
         if (atom > algebra%count) return
         if (algebra%atoms(atom)%kind == atom_symbol) role = roles(atom)
+        if (algebra%atoms(atom)%kind == atom_number_pi) role = role_number
     end function role_of
 
     pure recursive subroutine atom_expression(algebra, roles, atom, e)
@@ -397,6 +399,9 @@ contains
 
         if (algebra%atoms(atom)%kind == atom_symbol) then
             e = symbol(atom)
+            return
+        else if (algebra%atoms(atom)%kind == atom_number_pi) then
+            e = constant(acos(-1.0_dp))
             return
         end if
         call lay_out(algebra, roles, algebra%atoms(atom)%argument, argument)
