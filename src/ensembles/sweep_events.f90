@@ -30,7 +30,7 @@ contains
         if (allocated(scene%events)) then
             do i = 1, size(scene%events)
                 call new_column_event(event, trim(scene%events(i)), system, none)
-                if (event%terminal) own = [own, scene%events(i)]
+                if (event%terminal) own = [character(sweep_text_length) :: own, scene%events(i)]
             end do
             deallocate (scene%events)
         end if

@@ -20,7 +20,7 @@ module lagrangia_scorecard
     character(*), parameter :: scorecard_legend = &
         "method   of the steps; exact: none, but the closed form of the motion"//lf// &
         "drift    of the invariant that changed most: its largest change in the rows,"//lf// &
-        "         relative to its start or natural size; a hyphen: the scene asks for none"//lf// &
+        "         relative to its start or natural size; a hyphen: none is asked for"//lf// &
         "error    the largest of a coordinate in the rows, not of a velocity, absolute"//lf// &
         "         below 1 and relative above; exact: against the closed form; estimate:"//lf// &
         "         against the same run at half the step or a hundredth of the tolerance,"//lf// &
