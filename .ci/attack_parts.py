@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 WORDS = ["sweep", "pendulum", "--over", "theta=0.1:3:160", "--keep", "period", "--output", "o",
-         "--set", "scene%duration=400", "--set", "scene%method='gauss16'", "--set", "scene%tolerance=1e-13"]
+         "--set", "scene%duration=400", "--set", "scene%method='gauss16'", "--set", "scene%tolerance=1e-13", "--set", "scene%output=pendulum"]
 TABLE, PART = "o/pendulum_sweep.dat", "o/pendulum_sweep.dat.part"
 RECORD = 8*6  # bytes: three words, two trajectories of one number, a check sum
 

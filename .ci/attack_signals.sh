@@ -55,7 +55,7 @@ wait
 check "four runs into one file: it is whole" eval 'diff -r "$work/alone" "$work/both"'
 
 # A sweep: what is complete stays, and --resume gives the bytes of a sweep that nobody ended
-diagram=(sweep bifurcation --over f=1:1.5:300)
+diagram=(sweep bifurcation --set scene%output=bifurcation --over f=1:1.5:300)
 kept() { # how many bytes of the sweep
     stat -c %s "$work/sweep/${diagram[1]}_sweep.dat.part" 2>/dev/null || echo 0
 }
@@ -82,7 +82,7 @@ check "sweep: the processes that compute end with it" eval '[ -n "$others" ] && 
 check "sweep: kill -9 leaves what is complete" eval '[ $status -eq 137 ] && [ -s "$work/sweep/bifurcation_sweep.dat.part" ] && [ ! -e "$work/sweep/bifurcation_sweep.dat" ]'
 run "${diagram[@]}" --output "$work/sweep"
 check "sweep: not begun anew over that" eval '[ $status -eq 5 ] && one_line && grep -q -- --resume "$work/err"'
-run sweep bifurcation --over f=1:1.5:301 --output "$work/sweep" --resume
+run sweep bifurcation --set scene%output=bifurcation --over f=1:1.5:301 --output "$work/sweep" --resume
 check "sweep: --resume of another sweep is refused" eval '[ $status -eq 5 ] && one_line && grep -q "another sweep" "$work/err"'
 begin_sweep --resume --threads 1
 ended KILL
@@ -119,7 +119,7 @@ run "${diagram[@]}" --output "$work/sweep" --resume
 check "sweep: and --resume writes it" eval '[ $status -eq 0 ] && diff -r "$work/whole" "$work/sweep"'
 
 # In lanes, by dop853, each trajectory with its own mass and to its own end
-diagram=(sweep double_pendulum --set "scene%method='dop853'" --set scene%tolerance=1e-9 --set scene%samples=1 --set scene%duration=60 --over m1=0.5:2:100 --over theta1=1:3:60 --keep theta2)
+diagram=(sweep double_pendulum --set scene%output=double_pendulum --set "scene%method='dop853'" --set scene%tolerance=1e-9 --set scene%samples=1 --set scene%duration=60 --over m1=0.5:2:100 --over theta1=1:3:60 --keep theta2)
 rm -r "$work/whole" "$work/sweep"
 run "${diagram[@]}" --output "$work/whole"
 check "a sweep by dop853 in lanes that nobody ends" eval '[ $status -eq 0 ] && grep -q "by dop853 .*, in lanes" "$work/out" && leftovers "$work/whole"'

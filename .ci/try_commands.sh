@@ -328,10 +328,10 @@ modes_are rotating_hoop --set rotating_hoop%r=0.5 --set rotating_hoop%omega=7 --
 modes_are charged_particle --set charged_particle%trap=3 --set charged_particle%magnetic=0,0,2
 run modes hanging_chain --set hanging_chain%n=200 --output "$work/modes"
 check "modes: a long chain, a file and a script a mode, and all as the mechanism" eval '[ $status -eq 0 ] && [ "$(ls "$work/modes" | wc -l)" -eq 402 ]'
-refuses 2 "the nearest is --at 0.0" modes pendulum --at 1
+refuses 2 "the nearest is 0.0" modes pendulum --at 1
 run modes pendulum --at -0
 check "modes: zero has no sign" eval '[ $status -eq 0 ] && grep -q "theta = 0.0$" "$work/out"'
-refuses 2 "takes 2 values" modes double_pendulum --at 0
+refuses 2 "has 2 values, not 1" modes double_pendulum --at 0
 refuses 2 "greater than 0.0 is needed" modes cart_pendulum --set cart_pendulum%m1=0
 refuses 4 "other units are needed" modes pendulum --set pendulum%g=1e308 --set pendulum%l=1e-300
 run check pendulum rolling_disk --json
@@ -395,11 +395,11 @@ check "bench precision: points and times of the methods asked for" json 'all({r[
 # Every key of a scene
 # Many trajectories: numbers that are known, a picture of each kind, the same file by any number of processes
 for sweep in flip_map period_of_amplitude; do
-    run sweep $sweep --over theta$([ $sweep = flip_map ] && echo 1)=0.5:3:200 --output "$work/sweep" --plot --threads 1
+    run sweep $sweep --over theta$([ $sweep = flip_map ] && echo 1)=0.5:3:200 --set scene%output=$sweep --output "$work/sweep" --plot --threads 1
     check "sweep $sweep: a table and a picture" eval '[ $status -eq 0 ] && [ ! -s "$work/err" ] && [ -s "$work/sweep/${sweep}_sweep.png" ] &&
         [ "$(grep -vc "^#" "$work/sweep/${sweep}_sweep.dat")" -eq 200 ]'
     cp "$work/sweep/${sweep}_sweep.dat" "$work/one"
-    run sweep $sweep --over theta$([ $sweep = flip_map ] && echo 1)=0.5:3:200 --output "$work/sweep" --threads 3 --json
+    run sweep $sweep --over theta$([ $sweep = flip_map ] && echo 1)=0.5:3:200 --set scene%output=$sweep --output "$work/sweep" --threads 3 --json
     check "sweep $sweep: the same by three processes, and JSON" eval 'cmp "$work/one" "$work/sweep/${sweep}_sweep.dat" &&
         python3 -c "import json, sys; r = json.load(open(sys.argv[1])); assert r[\"trajectories\"] == 200 and r[\"threads\"] == 3 and r[\"failed\"] == 0" "$work/out"'
 done
@@ -435,7 +435,7 @@ run sweep pendulum --over l=0.1:10:4:log --over theta=0.1:3:3 --keep period --ou
 check "sweep over two axes: a map" eval '[ $status -eq 0 ] && [ -s "$work/sweep/pendulum_sweep.png" ] && [ "$(grep -c "^$" "$work/sweep/pendulum_sweep.dat")" -eq 3 ]'
 for row in "bifurcation f=1:1.5:3 210" "section theta2_dot=-4:4:3 1800" "basins theta=-3:3:8 8" "lyapunov_map f=1:1.5:2 2"; do
     read -r sweep over rows <<<"$row"
-    run sweep $sweep --over $over --output "$work/sweep" --plot
+    run sweep $sweep --over $over --set scene%output=$sweep --output "$work/sweep" --plot
     check "sweep $sweep: $rows rows and a picture" eval '[ $status -eq 0 ] && [ ! -s "$work/err" ] && [ -s "$work/sweep/${sweep}_sweep.png" ] &&
         [ "$(grep -c "^[^#]" "$work/sweep/${sweep}_sweep.dat")" -eq $rows ]'
 done
@@ -478,7 +478,7 @@ rows = [[float(x) for x in line.split()] for name in sys.argv[1:] for line in op
 mean = sum(r[1]/r[2]**2 for r in rows)/sum(1/r[2]**2 for r in rows)
 z = [(r[1] - mean)/r[2] for r in rows]
 sys.exit(not (len(rows) == 40 and abs(mean - 1.446) < 0.03 and max(map(abs, z)) < 6 and 0.53 < (sum(x*x for x in z)/39)**0.5 < 1.61))' "$work/sweep/chaos_1e-8_sweep.dat" "$work/sweep/chaos_1e-6_sweep.dat"
-run sweep ueda --over x=2:3:4 --keep lyapunov --keep "lyapunov error" --set sweep%after=1000 --set scene%duration=100000 --set scene%tolerance=1e-6 --output "$work/sweep"
+run sweep ueda --over x=2:3:4 --keep lyapunov --keep "lyapunov error" --set sweep%after=1000 --set scene%duration=100000 --set scene%tolerance=1e-6 --set scene%output=ueda --output "$work/sweep"
 # Sprott, Chaos and Time-Series Analysis (2003), appendix A: 0.1034; 16 starts and 24, of 1e6 s each, gave 0.10350(6) and 0.10345(6)
 check "sweep: Ueda's exponent is the book's, within four of its errors, from windows in which a displacement would overflow" python3 -c 'import sys
 rows = [[float(x) for x in line.split()] for line in open(sys.argv[1]) if line[:1] not in "#\n"]
@@ -753,12 +753,21 @@ run ${chain#lagrangia }
 check "the command that is named shows the columns of ten bobs" grep -q "theta10_ddot" "$work/out"
 refuses 2 "a sweep cannot change 'hanging_chain%l'; did you mean 'l'?" sweep hanging_chain --over hanging_chain%l=1:2:3 --keep period
 run run hanging_chain --set scene%duration=0.1 --animate --quiet --output "$work/whole"
+printf '%s\n' "&scene system = 'pendulum', dt = 0.1, duration = 1, q = 1 /" >"$work/no_title.nml"
+run report "$work/no_title.nml" --output "$work/whole"
+check "a report names a scene that has no title" eval 'grep -q "<h2>no title</h2>" "$work/whole/report.html" && grep -q "no title</a></li>" "$work/whole/report.html"'
 check "a film says how many bobs there are, by a whole number" grep -q '"n = 10"' "$work/whole/"hanging_chain*.html
 run run duffing --set scene%duration=30 --set scene%samples=30 --quiet --output "$work/whole"
 check "a picture of events says what vanishes" grep -q "where strobe = 0; strobe: zero once in each period of the drive" "$work/whole/"duffing*events.gp
 run sweep basins --over theta=-3:3:5 --over theta_dot=-4:4:5 --output "$work/whole"
 check "attractors are counted" grep -qE "^  attractor  [01] to [12]$" "$work/out"
+check "and it says where each is, and how many come to it" eval 'grep -qE "^    [12] at theta = 3.142, theta_dot = 0.0: [0-9]+ trajectories$" "$work/out" &&
+    awk "/ trajectories$/ { n += \$(NF - 1) } END { exit n != 25 }" "$work/out" &&
+    grep -q "^# trajectories: 25, failed: 0; attractor 1 at theta = " "$work/whole/basins_theta_-3_3_5_theta_dot_-4_4_5_sweep.dat"'
+check "a changed sweep leaves the file of the sweep alone" [ ! -e "$work/whole/basins_sweep.dat" ]
 check "a sweep says its time in plain digits" grep -qE "^basins: 25 trajectories by rk4 in [0-9.]+(e-[45])? s by" "$work/out"
+run sweep basins --over theta=-3:3:5 --set scene%output=mine/basins --set driven_pendulum%b=2 --output "$work/whole"
+check "an output that is set is the file" [ -s "$work/whole/mine/basins_sweep.dat" ]
 run sweep pendulum --over theta=0.5:2:3 --keep lyapunov --set scene%duration=5 --set scene%method=rk4 --output "$work/whole"
 check "a sweep names the method of its exponents" grep -q "^pendulum: 3 trajectories by gauss16 in " "$work/out"
 run sweep pendulum --over theta=0.5:2:3 --keep lyapunov,theta --set scene%duration=5 --set scene%method=rk4 --output "$work/whole"
@@ -819,10 +828,13 @@ check "an axis to 180 rad may be meant as degrees" eval '[ $status -eq 0 ] && on
 run sweep pendulum --over theta=0:3:3 --keep "max theta" --output "$work/sweep"
 check "an axis to 3 rad is not" eval '[ $status -eq 0 ] && [ ! -s "$work/err" ]'
 refuses 2 "; angles are in radians: 180.0 degrees are 3.141592653589793" modes pendulum --at 180
-refuses 2 "--at takes 1 value for pendulum, not 2; a decimal point, no comma, is needed in a number" modes pendulum --at 3,14
+refuses 2 "an equilibrium of pendulum has 1 value, not 2; a decimal point, no comma, is needed in a number" modes pendulum --at 3,14
 refuses 2 "the axis theta: '180deg': angles are in radians; write 3.141592653589793" sweep pendulum --over theta=0:180deg:5 --keep period
 refuses 2 "a sweep cannot change 'length'; did you mean 'l'?" sweep pendulum --over length=0.5:2:5 --keep period
 refuses 2 "not 'Period'; did you mean 'period'?" sweep pendulum --over theta=0.1:3:5 --keep Period
+refuses 2 "not 'max(theta_dot)'; did you mean 'max theta_dot'?" sweep pendulum --over theta=0.1:3:5 --keep "max(theta_dot)"
+refuses 2 "not 'amplitude'; did you mean 'max theta'?" sweep pendulum --over theta=0.1:3:5 --keep amplitude
+refuses 2 "the groups are scene, pendulum" modes pendulum --set l=2
 refuses 2 "not 'T'; did you mean 'period'?" sweep pendulum --over theta=0.1:3:5 --keep T
 refuses 2 "expected GROUP%KEY=VALUE, as in scene%dt=1e-3; write pendulum%l=2" run pendulum --set l=2
 refuses 2 "; write pendulum%l=2" run pendulum --set pendulum.l=2

@@ -93,7 +93,7 @@ fi
 
 while read -r name words; do
     for n in 0 2 3; do
-        on $n images_$n $name $words || check "sweep $name on $n images: status $?" false
+        on $n images_$n $name --set scene%output=$name $words || check "sweep $name on $n images: status $?" false
     done
     check "sweep $name: one process, two images and three" same "${name}_sweep.dat" images_0 \
         images_2 images_3
@@ -104,7 +104,7 @@ basins --over theta=-3:3:9 --over theta_dot=-8:8:5
 double_pendulum --set scene%method='dop853' --set scene%tolerance=1e-9 --set scene%samples=1 --over theta1=0:1:300 --keep theta2
 SWEEPS
 
-map=(flip_map --over theta1=-pi:pi:100 --over theta2=-pi:pi:100)
+map=(flip_map --set scene%output=flip_map --over theta1=-pi:pi:100 --over theta2=-pi:pi:100)
 on 0 whole "${map[@]}"
 on 2 killed "${map[@]}" &
 running=$!

@@ -1,13 +1,13 @@
 module test_changed_scene
     !! What `--set` makes of a scene.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
-    use lagrangia_changed_scene, only: ending_start, make_own_scene, retitle_sweep
+    use lagrangia_changed_scene, only: ending_start, make_own_scene, make_own_sweep
     use lagrangia_description, only: check_parameter, description_t, parameter_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp
     use lagrangia_run_plan, only: new_run_plan, run_plan_t
     use lagrangia_scene, only: scene_t
-    use lagrangia_scene_reader, only: parse_scene, read_scene
+    use lagrangia_scene_reader, only: parse_scene, read_scene, read_unchanged
     use lagrangia_shipped, only: shipped_scenes
     use lagrangia_system, only: system_t
     use lagrangia_text, only: join, to_text, word_t
@@ -39,6 +39,8 @@ contains
         call suite%addTest(TestMethod("slips_are_still_refused", slips_are_still_refused))
         call suite%addTest(TestMethod("a_changed_sweep_has_its_own_title", &
                                       a_changed_sweep_has_its_own_title))
+        call suite%addTest(TestMethod("a_changed_sweep_has_its_own_files", &
+                                      a_changed_sweep_has_its_own_files))
     end function changed_scene_suite
 
     subroutine change(settings, scene)
@@ -360,24 +362,60 @@ contains
         !! Of other axes, of other values, of both; one that is given stays.
         character(*), parameter :: own = "When does the lower bob of a double pendulum first "// &
             "go over the top?"
-        character(32), parameter :: keys(3) = [character(32) :: "double_pendulum%m1=5", &
-            "scene%samples=8", "scene%title=Mine"]
+        character(32), parameter :: keys(4) = [character(32) :: "double_pendulum%m1=5", &
+            "scene%samples=8", "scene%title=Mine", "scene%columns=t"]
 
         call assertEqual(own, title_of(keys(:0), "theta1 = -pi:pi:400"))
         call assertEqual(own, title_of(keys(:0), " theta1=0:1:3"), "another part of the axis")
-        call assertEqual(own, title_of(keys(2:2), "theta1 = -pi:pi:400"), "the same motion")
-        call assertEqual(own//" (m1=5)", title_of(keys(:2), "theta1 = -pi:pi:400"))
+        call assertEqual(own, title_of(keys(4:), "theta1 = -pi:pi:400"), "the same numbers")
+        call assertEqual(own//" (m1=5, samples=8)", title_of(keys(:2), "theta1 = -pi:pi:400"))
         call assertEqual("flip_map: flip theta2 over l1 and theta2", title_of(keys(:0), "l1=1:2:3"))
         call assertEqual("flip_map: flip theta2 over l1 and theta2 (m1=5)", &
                          title_of(keys(:1), "l1=1:2:3"))
-        call assertEqual("Mine", title_of(keys, "l1=1:2:3"))
+        call assertEqual("Mine", title_of(keys(:3), "l1=1:2:3"))
     end subroutine a_changed_sweep_has_its_own_title
+
+    subroutine a_changed_sweep_has_its_own_files()
+        !! Those of the unchanged sweep stay. A scene that has no sweep has none to lose.
+        character(64), parameter :: keys(5) = [character(64) :: "double_pendulum%m1=5", &
+            "scene%output=mine", "sweep%after=2", "sweep%keep=energy", "scene%columns=t"]
+        character(64), parameter :: whole(2) = [character(64) :: "sweep%over=theta=0:1:3", &
+            "sweep%keep=period"]
+        type(scene_t) :: scene
+
+        call change_sweep("flip_map", keys(:0), "theta1 = -pi:pi:400", scene)
+        call assertEqual("flip_map", trim(scene%output))
+        call change_sweep("flip_map", keys(5:), "theta1=-pi:pi:400", scene)
+        call assertEqual("flip_map", trim(scene%output), "the same numbers")
+        call change_sweep("flip_map", keys(:0), " theta1=0:1:3", scene)
+        call assertEqual("flip_map_theta1_0_1_3_theta2_-pi_pi_400", trim(scene%output))
+        call change_sweep("flip_map", keys(:1), "theta1 = -pi:pi:400", scene)
+        call assertEqual("flip_map_m1_5", trim(scene%output))
+        call change_sweep("flip_map", keys(:2), "theta1 = 0:1:3", scene)
+        call assertEqual("mine", trim(scene%output))
+        call change_sweep("flip_map", keys(3:4), "theta1 = -pi:pi:400", scene)
+        call assertEqual("flip_map_keep_energy_after_2.0", trim(scene%output))
+        call assertEqual("flip_map: energy over theta1 and theta2 (after=2.0)", trim(scene%title))
+        call change_sweep("pendulum", whole, "", scene)
+        call assertEqual("pendulum", trim(scene%output))
+        call assertEqual("pendulum: period over theta", trim(scene%title))
+    end subroutine a_changed_sweep_has_its_own_files
 
     function title_of(settings, axis) result(title)
         !! Of the shipped sweep with these settings and this first axis.
         character(*), intent(in) :: settings(:), axis
         character(:), allocatable :: title
-        type(scene_t) :: before, scene
+        type(scene_t) :: scene
+
+        call change_sweep("flip_map", settings, axis, scene)
+        title = trim(scene%title)
+    end function title_of
+
+    subroutine change_sweep(name, settings, axis, scene)
+        !! A shipped scene with these settings, and this first axis if it is not empty.
+        character(*), intent(in) :: name, settings(:), axis
+        type(scene_t), intent(out) :: scene
+        type(scene_t) :: file
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
         type(description_t) :: d
@@ -387,15 +425,14 @@ contains
         do i = 1, size(settings)
             overrides(i)%text = trim(settings(i))
         end do
-        title = ""
-        call read_scene("data/sweeps/flip_map.nml", overrides, scene, system, error)
+        call read_scene(merge("data/sweeps/", "data/scenes/", name == "flip_map")//name//".nml", &
+                        overrides, scene, system, error)
         call assertFalse(allocated(error), "a good scene")
-        if (allocated(error)) title = error%message
+        if (allocated(error)) scene%title = error%message
         if (allocated(error)) return
         call system%describe(d)
-        before = scene
-        scene%sweep%over(1) = axis
-        call retitle_sweep(scene, before, overrides, (d%parameters%name))
-        title = trim(scene%title)
-    end function title_of
+        call read_unchanged(scene, file)
+        if (axis /= "") scene%sweep%over(1) = axis
+        call make_own_sweep(scene, file, overrides, (d%parameters%name))
+    end subroutine change_sweep
 end module test_changed_scene

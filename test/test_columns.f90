@@ -188,7 +188,9 @@ contains
         call refused(system, [character(8) :: "t", "x", "x_dt"], 3, &
                      "unknown column 'x_dt'; did you mean 'x_dot'?")
         call refused(system, [character(8) :: "velocity"], 1, &
-                     "unknown column 'velocity'; oscillator has t, x, x_dot, x_ddot, energy, "// &
+                     "unknown column 'velocity'; did you mean 'x_dot'?")
+        call refused(system, [character(8) :: "pressure"], 1, &
+                     "unknown column 'pressure'; oscillator has t, x, x_dot, x_ddot, energy, "// &
                      "energy_drift, force, p_x, x_mass")
         call refused(system, [character(8) :: "x", "t", "x"], 3, "the column is there already")
         call refused(system, [character(8) :: "t", "error"], 2, &

@@ -207,7 +207,8 @@ contains
     subroutine wrong_commands_are_refused()
         !! With the nearest, or all of them.
         call check_refused("rn", "unknown command 'rn'; did you mean 'run'?")
-        call check_refused("wibble", "unknown command 'wibble'; there are run, ")
+        call check_refused("wibble", "unknown command 'wibble'; a scene's name stands "// &
+                           "behind a command, as in 'lagrangia run pendulum'; there are run, ")
         call check_refused("benchmark", "unknown command 'benchmark'; did you mean 'bench'?")
     end subroutine wrong_commands_are_refused
 

@@ -141,7 +141,7 @@ contains
         call assertEqual([0.0_dp, -l1, 0.0_dp, -l1 - l2], modes%at, 1e-14_dp)
         call find_modes(system, [0.2_dp, -0.8_dp, 0.5_dp, -2.1_dp], .true., modes, error)
         call assert_refused(error, "not a place that the constraints of own allow; the nearest "// &
-                            "is --at 0.0,-0.9,0.0,")
+                            "is 0.0,-0.9,0.0,")
         ! on the constraints, but not at rest
         call find_modes(system, [0.54_dp, -0.72_dp, 0.54_dp, -2.12_dp], .true., modes, error)
         call assert_refused(error, "not an equilibrium of own: the force on x")
@@ -211,7 +211,7 @@ contains
         call read_typed("coordinates = 'x', 'y', parameters = 'l', T = '(x_dot^2 + y_dot^2)/2',"// &
                         " constraint = 'x^2 + y^2 = l^2'", "l = 1.0", "0.0, -1.0", system, error)
         call find_modes(system, [0.0_dp, 0.0_dp], .false., modes, error)
-        call assert_refused(error, "not independent at q = 0.0, 0.0; say where the equilibrium is")
+        call assert_refused(error, "not independent at q = 0.0, 0.0; an equilibrium elsewhere")
     end subroutine refusals
 
     subroutine assert_refused(error, text)

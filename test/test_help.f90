@@ -100,10 +100,8 @@ contains
     end subroutine examples_are_taken
 
     subroutine a_wrong_word_is_answered()
-        !! With the nearest command; a system's name by where it is told of.
+        !! With the nearest command.
         call answered("runn", "no help on 'runn'; did you mean 'run'?")
-        call answered("pendulum", "no help on 'pendulum'; 'lagrangia describe pendulum' tells "// &
-                      "of it")
         call answered("scene", "no help on 'scene'; 'lagrangia describe scene' tells of it")
         call answered("xyzzy", "no help on 'xyzzy'; there are run, ")
         call answered("", "no help on ''; there are run, ")

@@ -164,10 +164,10 @@ contains
         call assertTrue(allocated(error), "none")
         call assertEqual("kepler has no equilibrium that is found: at r,phi = 0.0, 0.0 L is no "// &
                          "finite number, and at rest elsewhere a force on r remains; if you "// &
-                         "know one, give it: --at r,phi", error%message)
+                         "know one, give its r,phi", error%message)
         call assertEqual(2, error%status)
         call find_modes(system, [0.0_dp, 0.0_dp], .true., modes, error)
-        call assertEqual("L of kepler is no finite number at r,phi = 0.0, 0.0; give --at r,phi "// &
-                         "with other values", error%message)
+        call assertEqual("L of kepler is no finite number at r,phi = 0.0, 0.0; other "// &
+                         "values are needed", error%message)
     end subroutine no_equilibrium
 end module test_motion_statements

@@ -266,12 +266,12 @@ contains
         !! With the residual force and the nearest equilibrium.
         call no_modes("rotating_hoop", [1.167_dp], "not an equilibrium of rotating_hoop: the "// &
                       "force on theta is 0.0117746253")
-        call no_modes("pendulum", [1.0_dp], "the nearest is --at 0.0")
-        call no_modes("rotating_hoop", [1.167_dp], "N m; the nearest is --at 1.1675569038050")
+        call no_modes("pendulum", [1.0_dp], "the nearest is 0.0")
+        call no_modes("rotating_hoop", [1.167_dp], "N m; the nearest is 1.1675569038050")
         call no_modes("wedge", [0.0_dp, 0.0_dp], "N; none is near")
         ! a zero mode: the stiffness is singular, and where the cart stands is as it was
-        call no_modes("cart_pendulum", [0.3_dp, 0.1_dp], "the nearest is --at 0.3,0.0")
-        call no_modes("pendulum", [0.0_dp, 1.0_dp], "--at takes 1 value for pendulum, not 2")
+        call no_modes("cart_pendulum", [0.3_dp, 0.1_dp], "the nearest is 0.3,0.0")
+        call no_modes("pendulum", [0.0_dp, 1.0_dp], "an equilibrium of pendulum has 1 value, not 2")
         call no_modes("rolling_disk", [0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], &
                       "its constraints are nonholonomic: steady motions")
         call no_modes("driven_pendulum", [0.0_dp], "contains the time")

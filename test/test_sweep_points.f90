@@ -2,6 +2,8 @@ module test_sweep_points
     !! Points of a stroboscope and of a section, one energy for all starts, attractors.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_attractor, only: attractors_t
+    use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_files, only: read_whole_file
     use lagrangia_kept, only: wrapped
@@ -44,6 +46,7 @@ contains
         call suite%addTest(TestMethod("contacts_are_no_points", contacts_are_no_points))
         call suite%addTest(TestMethod("all_starts_have_one_energy", all_starts_have_one_energy))
         call suite%addTest(TestMethod("angles_are_wrapped", angles_are_wrapped))
+        call suite%addTest(TestMethod("attractors_have_places", attractors_have_places))
         call suite%addTest(TestMethod("attractors_are_the_two_wells", &
                                       attractors_are_the_two_wells))
         call suite%addTest(TestMethod("what_has_settled_has_an_attractor", &
@@ -243,6 +246,34 @@ contains
                         count(abs(expected - 2) < 0.1_dp) > 30, "there are many of either")
     end subroutine attractors_are_the_two_wells
 
+    subroutine attractors_have_places()
+        !! Angles from -pi to pi, means of several points, and how many motions come to each.
+        type(attractors_t) :: attractors
+        type(description_t) :: d
+        real(dp), parameter :: down(7) = [1.0_dp, 1.0_dp, 2.0_dp, -1e-9_dp, 0.0_dp, 0.0_dp, &
+                                          -1.23456_dp]
+        real(dp), parameter :: up(7) = [1.0_dp, -1.0_dp, 2.0_dp, -1e-9_dp, 0.0_dp, 0.0_dp, 0.5_dp]
+        integer :: i
+
+        allocate (d%coordinates(2))
+        d%coordinates%name = ["phi", "x  "]
+        d%coordinates%unit = ["rad", "m  "]
+        call assertEqual(1.0_dp, attractors%number_of(down), 0.0_dp)
+        do i = 1, 9
+            call assertEqual(2.0_dp, attractors%number_of(up), 0.0_dp)
+            call assertEqual(real(i + 2, dp), attractors%number_of([3.0_dp, up(2:6), i*1.0_dp]), &
+                             0.0_dp)
+        end do
+        call assertEqual(0.0_dp, attractors%number_of(0*up), 0.0_dp)
+        call assertEqual("at phi = 0.0, x = 2.0, phi_dot = 0.0, x_dot = -1.235", &
+                         attractors%place_of(1, d))
+        call assertEqual("at phi = 3.142, x = 2.0, phi_dot = 0.0, x_dot = 0.5", &
+                         attractors%place_of(2, d))
+        call assertEqual("of 3 points, on average at phi = 3.142, x = 2.0, phi_dot = 0.0, "// &
+                         "x_dot = 9.0", attractors%place_of(11, d))
+        call assertEqual([1, 1, 9, 1, 1], int(attractors%met(:4)))
+    end subroutine attractors_have_places
+
     subroutine what_has_settled_has_an_attractor()
         !! Driven, lit twice a period: the two points are one attractor. Undamped or chaotic: none.
         type(sweep_numbers_t) :: result
@@ -386,6 +417,9 @@ contains
                      ["attractor"], result, error, sweep)
         call write_sweep(sweep, result%of, path, "text", ["a line"], error)
         call read_whole_file(path(:len(path) - 3)//"gp", text, error)
-        call assertTrue(index(text, "set palette maxcolors 1 defined (1 ") > 0, "one colour")
+        call assertTrue(index(text, "set palette maxcolors 2 defined (1 '#fde725', 2 "// &
+                              "'#fde725')") > 0, "one colour")
+        call assertTrue(index(text, 'unset cbtics; set label "1 at x = 0.0, ') > 0, "what it is")
+        call assertTrue(index(text, " = 0.0"" at graph 1.13,0.5 center rotate by 90") > 0, "where")
     end subroutine a_row_is_a_point
 end module test_sweep_points

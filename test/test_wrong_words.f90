@@ -1,15 +1,24 @@
 module test_wrong_words
-    !! Arguments that a command does not take get told what they are, or where they go.
+    !! Arguments that a command does not take get told what they are, or where they go; keys and
+    !! columns by other names, and texts of a scene without quotes, how they are written.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_command_line, only: command_line_t, parse_words, word_t
     use lagrangia_errors, only: error_t, status_usage
     use lagrangia_registry, only: check_line, commands, options
+    use lagrangia_run_plan, only: new_run_plan, run_plan_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_scene_keys, only: keys
+    use lagrangia_scene_reader, only: parse_scene
+    use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
+    use lagrangia_usual_keys, only: usual_key, usual_names
     use lagrangia_vocabulary, only: words_of
     use lagrangia_wrong_words, only: check_arguments
     implicit none (type, external)
     private
     public :: wrong_words_suite
+
+    character(*), parameter :: feed = new_line("a"), needs = ": it is a text, and needs quotes: "
 
 contains
 
@@ -21,6 +30,14 @@ contains
         call suite%addTest(TestMethod("two_words_are_a_name", two_words_are_a_name))
         call suite%addTest(TestMethod("lists_are_shown_elsewhere", lists_are_shown_elsewhere))
         call suite%addTest(TestMethod("names_go_elsewhere", names_go_elsewhere))
+        call suite%addTest(TestMethod("options_stand_behind_hyphens", &
+                                      options_stand_behind_hyphens))
+        call suite%addTest(TestMethod("other_programs_names", other_programs_names))
+        call suite%addTest(TestMethod("formulas_need_quotes", formulas_need_quotes))
+        call suite%addTest(TestMethod("other_texts_need_quotes", other_texts_need_quotes))
+        call suite%addTest(TestMethod("lists_are_shown", lists_are_shown))
+        call suite%addTest(TestMethod("settings_need_quotes", settings_need_quotes))
+        call suite%addTest(TestMethod("other_reasons_stay", other_reasons_stay))
         call suite%addTest(TestMethod("one_argument_is_enough", one_argument_is_enough))
         call suite%addTest(TestMethod("good_words_pass", good_words_pass))
     end function wrong_words_suite
@@ -112,6 +129,149 @@ contains
                      "tells of it, 'lagrangia help describe' shows what 'describe' takes")
     end subroutine names_go_elsewhere
 
+    subroutine options_stand_behind_hyphens()
+        !! And their values behind them; `help` tells of any option and of any name.
+        character(*), parameter :: none = "'GIF' is no format that '--plot' draws; there are "// &
+            "png, svg, pdf; '--animate' writes a film as an HTML page"
+
+        call refused("run pendulum --plot GIF", none)
+        call refused("modes pendulum GIF --plot", none)
+        call refused("sweep basins --plot eps", "'eps' is no format that '--plot' draws; there "// &
+                     "are png, svg, pdf")
+        call refused("run pendulum PDF", "'PDF' is a format of pictures; write '--plot=pdf'")
+        call refused("run pendulum csv", "'csv' is a format; write '--format csv'")
+        call refused("modes pendulum Json", "'Json' is an option, which two hyphens go "// &
+                     "before: --json")
+        call refused("help plot", "'plot' is an option, --plot[=png|svg|pdf]: draw the data "// &
+                     "files by gnuplot, as in 'lagrangia run SCENE... --plot'")
+        call refused("help --slip E1", "option '--slip' does not go with 'lagrangia help'; it "// &
+                     "takes none but --help; --slip ID: derive with this slip of the notes, as "// &
+                     "in 'lagrangia derive SYSTEM|SCENE --slip'")
+        call refused("run pendulum --svg", "unknown option '--svg'; write --plot=svg")
+        call refused("sweep basins --csv", "unknown option '--csv'; write --format csv")
+        call refused("run pendulum --movie", "unknown option '--movie'; did you mean '--animate'?")
+        call refused("run pendulum --tmax 5", "unknown option '--tmax'; a key of the scene "// &
+                     "says that: --set scene%duration=...")
+        call refused("run --all", "unknown option '--all'; 'lagrangia' alone runs every scene")
+        call refused("sweep pendulum theta=0:1:5", "'theta=0:1:5' is an axis; write '--over "// &
+                     "theta=0:1:5'")
+        call refused("run pendulum pendulum%l=2", "'pendulum%l=2' is a setting; write '--set "// &
+                     "pendulum%l=2'")
+        call refused("run pendulum dt=0.1", "'dt=0.1' is a setting; write '--set scene%dt=0.1'")
+        call refused("run pendulum l=0.1", "'l=0.1' is a setting; write '--set GROUP%l=0.1'")
+        call refused("modes double_pendulum --at 0 0", "'0' is a number; the place of an "// &
+                     "equilibrium is '--at Q1,Q2,...', with commas and no blanks")
+        call refused("compare pendulum 1 2", "'1' is a number; starts are ""--starts 'Q1,Q2 "// &
+                     "Q1,Q2'"", with blanks between them")
+        call refused("help sweep Keep", "'Keep' is an option, --keep COLUMN|period|...: what "// &
+                     "is kept of each trajectory, as in 'lagrangia sweep SCENE --keep'")
+        call refused("help RK4", "'RK4' is a method; 'lagrangia list methods' tells of it")
+        call refused("help kepler", "'kepler' is a scene; 'lagrangia run kepler' goes with it")
+        call refused("help pendulum", "'pendulum' is a system; 'lagrangia describe pendulum' "// &
+                     "goes with it")
+        call refused("sweep pendulum run", "'run' is a command; 'lagrangia help run' tells of "// &
+                     "it, 'lagrangia help sweep' shows what 'sweep' takes")
+    end subroutine options_stand_behind_hyphens
+
+    subroutine other_programs_names()
+        !! Of keys, columns and what is kept; each of the usual names means a key that there is.
+        character(*), parameter :: start = "&scene system = 'pendulum', dt = 0.1, duration = "// &
+            "1, q = 1 "
+        integer :: i
+
+        call refused_scene(start//", tmax = 5 /", &
+                           "a.nml:1:61: &scene: unknown key 'tmax'; did you mean 'duration'?")
+        call refused_scene(start//"Solver = 'rk4' /", "unknown key 'solver'; did you mean "// &
+                           "'method'?")
+        call refused_scene(start//"columns = 'omega' /", "'omega': unknown column 'omega'; did "// &
+                           "you mean 'theta_dot'?")
+        call refused_scene(start//"columns = 'Time' /", "did you mean 't'?")
+        call refused_scene(start//"columns = 'E' /", "did you mean 'energy'?")
+        call refused_scene(start//"columns = 'x' /", "unknown column 'x'; pendulum has t, theta")
+        do i = 1, size(usual_names)
+            call assertTrue(any(keys == usual_key(trim(usual_names(i)))), usual_names(i))
+            call assertFalse(any(keys == usual_names(i)), usual_names(i))
+        end do
+        call assertEqual("", usual_key("colour"))
+        call assertEqual("", usual_key(""))
+    end subroutine other_programs_names
+
+    subroutine formulas_need_quotes()
+        !! Whatever the parser makes of them.
+        character(28), parameter :: texts(*) = [character(28) :: "1/2 m v^2", "m x_dot^2", &
+            "(m/2) x_dot^2", "0.5*m*x_dot^2", "m x_dot^2 / 2", "$m$", "atan2(x, m)", "-m*x^2"]
+        integer :: i
+
+        do i = 1, size(texts)
+            call refused_scene("&lagrangian"//feed//"  T = "//trim(texts(i))//feed//"/", &
+                         "a.nml:2:7: &lagrangian: T"//needs//"T = '"//trim(texts(i))//"'")
+        end do
+        call refused_scene("&lagrangian T=2 x_dot^2, ! kinetic"//feed//"/", &
+                     "a.nml:1:15: &lagrangian: T"//needs//"T = '2 x_dot^2'")
+        call refused_scene("&lagrangian T=2 x_dot^2, V = 0 /", &
+                     "a.nml:1:15: &lagrangian: T"//needs//"T = '2 x_dot^2'")
+        call refused_scene("&lagrangian T = m x'^2 /", &
+                     "a.nml:1:17: &lagrangian: T"//needs//'T = "m x''^2"')
+        call refused_scene("&lagrangian Q_x = 1/2 k /", &
+                     "a.nml:1:19: &lagrangian: Q_x"//needs//"Q_x = '1/2 k'")
+    end subroutine formulas_need_quotes
+
+    subroutine other_texts_need_quotes()
+        !! Titles, names of files, events.
+        call refused_scene("&scene title = 60 degrees /", &
+                     "a.nml:1:16: &scene: title"//needs//"title = '60 degrees'")
+        call refused_scene("&scene output = my/file /", &
+                     "a.nml:1:17: &scene: output"//needs//"output = 'my/file'")
+        call refused_scene("&scene event = theta = 0 rising, dt = 1 /", &
+                     "a.nml:1:16: &scene: event"//needs//"event = 'theta = 0 rising'")
+        call refused_scene("&sweep strobe = 2 pi/w /", &
+                     "a.nml:1:17: &sweep: strobe"//needs//"strobe = '2 pi/w'")
+    end subroutine other_texts_need_quotes
+
+    subroutine lists_are_shown()
+        !! Where each text has quotes of its own.
+        character(*), parameter :: stand = ": its texts stand between quotes, as in "
+
+        call refused_scene("&scene columns = t theta /", "a.nml:1:18: &scene: columns"//stand// &
+                     "columns = 't', 'theta', 'theta_dot', 'energy_drift'")
+        call refused_scene("&sweep keep = max theta /", "a.nml:1:15: &sweep: keep"//stand// &
+                     "keep = 'period', 'max theta_dot'")
+    end subroutine lists_are_shown
+
+    subroutine settings_need_quotes()
+        !! Behind `--set` those of a text that begins like a number.
+        call refused_scene("&lagrangian /", "--set lagrangian%T=1/2 m: &lagrangian: T"//needs// &
+                     '--set "lagrangian%T=''1/2 m''"', "lagrangian%T=1/2 m")
+    end subroutine settings_need_quotes
+
+    subroutine other_reasons_stay()
+        !! Of numbers, of texts that have quotes, of what is wrong in another line.
+        call refused_scene("&scene dt = 1/2 /", "a.nml:1:13: &scene: dt: '1/2': a number is "// &
+                     "needed, nothing is computed; write 0.5")
+        call refused_scene("&lagrangian T = 'm (x'^2)' /", "a.nml:1:23: &lagrangian: t: "// &
+                     "unexpected '^' behind a text; a quote within it is doubled")
+        call refused_scene("&pendulum m = 1/2 /", "a.nml:1:15: &pendulum: m: '1/2': a number "// &
+                     "is needed, nothing is computed; write 0.5")
+    end subroutine other_reasons_stay
+
+    subroutine refused_scene(text, message, setting)
+        !! Assert that the scene, perhaps with a setting, is refused, and that the message has this.
+        character(*), intent(in) :: text, message
+        character(*), intent(in), optional :: setting
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(run_plan_t) :: plan
+        type(scene_t) :: scene
+        type(word_t), allocatable :: overrides(:)
+
+        allocate (overrides(merge(1, 0, present(setting))))
+        if (present(setting)) overrides(1)%text = setting
+        call parse_scene(text, "a.nml", overrides, scene, system, error)
+        if (.not. allocated(error)) call new_run_plan(plan, scene, system, error)
+        call assertTrue(allocated(error), text)
+        if (allocated(error)) call assertTrue(index(error%message, message) > 0, error%message)
+    end subroutine refused_scene
+
     subroutine one_argument_is_enough()
         !! Of those commands that take one.
         call refused("compare pendulum oscillator", "'lagrangia compare' takes one argument, "// &
@@ -143,7 +303,7 @@ contains
         call taken("run nosuch")
         call taken("run ./all")
         call taken("grade data")
-        call taken("help pendulum")
+        call taken("run Pendulum")
         call taken("show pendulum atwood.nml")
         call taken("errata "//to_text(7))
     end subroutine good_words_pass

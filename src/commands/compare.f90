@@ -24,7 +24,7 @@ module lagrangia_compare
     use lagrangia_progress, only: progress_t
     use lagrangia_run_files, only: method_text
     use lagrangia_run_plan, only: new_run_plan, run_plan_t
-    use lagrangia_scene, only: scene_t
+    use lagrangia_scene, only: heading, scene_t
     use lagrangia_scene_claims, only: claim_files, claim_scene, claim_table, size_warning
     use lagrangia_scene_reader, only: read_scene
     use lagrangia_scene_run, only: run_scene
@@ -88,8 +88,7 @@ contains
                            error)
         if (allocated(error)) return
         remark = ""
-        title = trim(runs(1)%plan%scene%title)
-        if (title == "") title = trim(runs(1)%plan%scene%name)
+        title = heading(runs(1)%plan%scene)
         if (line%has("starts")) then
             remark = method_text(runs(1)%plan%settled)
             title = trim(runs(1)%plan%scene%system)//" from "//to_text(size(runs))//" starts"

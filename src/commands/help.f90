@@ -1,6 +1,5 @@
 module lagrangia_help
     !! The help of all commands and of each, in 80 columns; `lagrangia help COMMAND`.
-    use lagrangia_catalogue, only: system_names
     use lagrangia_command_line, only: command_line_t, option_t
     use lagrangia_command_pages, only: pages
     use lagrangia_console, only: line_width, put
@@ -37,7 +36,7 @@ contains
                     near = nearest_name(word, [character(name_length) :: commands(2:)%name])
                     if (near /= "") then
                         near = "did you mean '"//near//"'?"
-                    else if (any(system_names() == word) .or. word == "scene") then
+                    else if (word == "scene") then
                         near = "'lagrangia describe "//word//"' tells of it"
                     else
                         near = "there are "//join(commands(2:)%name, ", ")

@@ -83,6 +83,8 @@ contains
         call find_modes(system, at, line%has("at"), modes, error)
         call progress%clear()
         if (allocated(error)) then
+            if (allocated(error%key) .and. .not. line%has("at")) error%message = error%message// &
+                "; '--at' says where, or equilibrium in &lagrangian"
             do j = 1, min(size(at), size(d%coordinates))
                 advice = degrees_in(at(j:j), trim(d%coordinates(j)%unit))
                 if (advice == "") cycle

@@ -3,14 +3,16 @@ module lagrangia_registry
     use lagrangia_command_line, only: command_line_t, has_outer_blanks, is_same, &
                                       may_have_value, needs_value, no_value, option_t, &
                                       without_hyphens
+    use lagrangia_data_files, only: film_kinds, formats, pictures
     use lagrangia_errors, only: error_t, fail
     use lagrangia_names, only: nearest_name
     use lagrangia_scene_keys, only: keys
     use lagrangia_text, only: join, lower, quoted
+    use lagrangia_usual_keys, only: usual_key
     implicit none (type, external)
     private
     public :: command_t, commands, options
-    public :: accepts, check_line, usage
+    public :: accepts, check_line, told, usage
 
     type :: command_t
         character(12) :: name = ""
@@ -127,8 +129,8 @@ contains
             else if (near /= "") then
                 near = "; did you mean '"//near//"'?"
             else
-                near = "; there are "//join(commands(2:)%name, ", ")// &
-                       "; a scene's name stands behind 'run'"
+                near = "; a scene's name stands behind a command, as in 'lagrangia run "// &
+                       "pendulum'; there are "//join(commands(2:)%name, ", ")
             end if
             call fail(error, "unknown command "//quoted(line%command)//near)
             return
@@ -139,6 +141,8 @@ contains
             if (.not. accepts(command, line%names(i)%text)) then
                 call fail(error, "option '--"//line%names(i)%text//"' does not go with '"// &
                           trim("lagrangia "//command%name)//"'; "//taken(command))
+                if (command%name == "help") error%message = error%message//"; "// &
+                    told(line%names(i)%text)
                 return
             end if
         end do
@@ -174,6 +178,8 @@ contains
         character(*), intent(in) :: name
         integer, intent(in) :: which  !! beyond the end: no command either
         type(error_t), allocatable, intent(out) :: error
+        character(*), parameter :: films(*) = [character(5) :: film_kinds, "film", "movie", &
+            "video", "html"]
         character(:), allocatable :: initial, near
         type(command_t) :: command
         logical :: fits(size(options))
@@ -197,10 +203,21 @@ contains
             near = "did you mean '--"//near//"'?"
         else if (initial /= "") then
             near = "an option is a whole word behind two hyphens: "//initial(3:)
+        else if (accepts(command, "plot") .and. any(pictures == without_hyphens(name))) then
+            near = "write --plot="//without_hyphens(name)
+        else if (accepts(command, "format") .and. any(formats == without_hyphens(name))) then
+            near = "write --format "//without_hyphens(name)
+        else if (accepts(command, "animate") .and. any(films == without_hyphens(name))) then
+            near = "did you mean '--animate'?"
+        else if (without_hyphens(name) == "all" .and. command%name == "run") then
+            near = "'lagrangia' alone runs every scene"
         else if (any(commands(2:)%name == without_hyphens(name))) then
             near = "a command has no hyphens: 'lagrangia "//without_hyphens(name)//"'"
         else if (accepts(command, "set") .and. any(keys == without_hyphens(name))) then
             near = "it is a key of the scene: --set scene%"//without_hyphens(name)//"=..."
+        else if (accepts(command, "set") .and. usual_key(without_hyphens(name)) /= "") then
+            near = "a key of the scene says that: --set scene%"// &
+                   usual_key(without_hyphens(name))//"=..."
         else
             near = taken(command)
         end if
@@ -215,6 +232,16 @@ contains
 
         yes = index(" "//command%accepts, " "//trim(name)//" ") > 0
     end function accepts
+
+    pure function told(name) result(text)
+        !! How an option is written, what it does, and a command that takes it.
+        character(*), intent(in) :: name  !! of `options`
+        character(:), allocatable :: text
+        integer :: i
+
+        i = findloc(options%name == name, .true., 1)
+        text = usage(options(i))//": "//trim(options(i)%meaning)//with_command(trim(name))
+    end function told
 
     pure function taken(command) result(text)
         !! The options that go with it, beside those that go with all.

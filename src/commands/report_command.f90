@@ -16,6 +16,7 @@ module lagrangia_report_command
     use lagrangia_report_page, only: report_page_t
     use lagrangia_run_command, only: choose_scenes, chosen_t
     use lagrangia_run_plan, only: run_plan_t
+    use lagrangia_scene, only: heading
     use lagrangia_scene_run, only: run_scene
     use lagrangia_scorecard, only: missed_text
     implicit none (type, external)
@@ -89,7 +90,7 @@ contains
         type(error_t), allocatable, intent(inout) :: error  !! why its run, or its film, failed
         character(:), allocatable :: film
 
-        call page%begin_scene(trim(plan%scene%title), outcome)
+        call page%begin_scene(heading(plan%scene), outcome)
         if (.not. allocated(error)) then
             call scene_film(plan, film, error)
             if (.not. allocated(error)) call page%add_film(plan, film)
@@ -111,7 +112,7 @@ contains
             script = script_path(path)
             call draw_picture(path, "svg", quiet, why)
             if (.not. allocated(why)) call page%add_picture(script(:len(script) - 2)//"svg", &
-                                                            trim(plan%scene%title), why)
+                                                            heading(plan%scene), why)
             if (.not. allocated(why)) return
             call page%add_remark("no picture: "//why%message)
             if (is_signal(why)) call move_alloc(why, error)

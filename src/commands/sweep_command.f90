@@ -1,19 +1,16 @@
 module lagrangia_sweep_command
     !! `lagrangia sweep SCENE`: many trajectories of a scene, and a number or more of each.
-    use lagrangia_changed_scene, only: retitle_sweep
+    use lagrangia_changed_scene, only: make_own_sweep
     use lagrangia_command_line, only: command_line_t, word_t
-    use lagrangia_console, only: note, put_line
-    use lagrangia_counted, only: counted
+    use lagrangia_console, only: note
     use lagrangia_data_files, only: check_format, data_path, path_beside, script_path
     use lagrangia_degrees, only: degrees_in
     use lagrangia_description, only: description_t
     use lagrangia_disk_space, only: free_space, short, space_warning
     use lagrangia_errors, only: error_t, fail, status_file, status_library
     use lagrangia_files, only: facts_t, look_at
-    use lagrangia_images, only: image_count, image_number
+    use lagrangia_images, only: image_number
     use lagrangia_interrupt, only: interrupt_status
-    use lagrangia_json, only: json_item, json_object, json_pair
-    use lagrangia_kept, only: is_lyapunov
     use lagrangia_kinds, only: dp, i8
     use lagrangia_namelist, only: has_key, refuse_value
     use lagrangia_number_reader, only: to_integer
@@ -22,19 +19,19 @@ module lagrangia_sweep_command
     use lagrangia_output_file, only: output_file_t
     use lagrangia_output_options, only: show_picture, take_folder, take_picture
     use lagrangia_places, only: places_t
-    use lagrangia_printed_table, only: in_digits => short
     use lagrangia_progress, only: progress_t
     use lagrangia_resources, only: check_memory
-    use lagrangia_scene, only: add_texts, scene_line_length, scene_t, &
-                               sweep_text_length
+    use lagrangia_scene, only: scene_t, sweep_text_length
     use lagrangia_scene_claims, only: claim_scene, claim_table
-    use lagrangia_scene_reader, only: read_scene
+    use lagrangia_scene_reader, only: read_scene, read_unchanged
     use lagrangia_shipped, only: find_sweep
-    use lagrangia_sweep, only: exponent_method, new_sweep, sweep_t
+    use lagrangia_sweep, only: new_sweep, sweep_t
     use lagrangia_sweep_files, only: sweep_header, write_sweep
     use lagrangia_sweep_grid, only: block_size, compute_grid, most_threads, &
                                     parts_a_trajectory, sweep_result_t, thread_count
+    use lagrangia_sweep_group, only: sweep_lines
     use lagrangia_sweep_store, only: part_name
+    use lagrangia_sweep_summary, only: put_json, put_summary
     use lagrangia_sweep_warning, only: corner_warning
     use lagrangia_system, only: system_t
     use lagrangia_text, only: quoted, to_text
@@ -49,7 +46,7 @@ contains
         !! write, and say what came out.
         type(command_line_t), intent(in) :: line          !! what was typed
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
-        type(scene_t) :: before, scene
+        type(scene_t) :: file, scene
         class(system_t), allocatable :: system
         type(description_t) :: d
         type(sweep_t) :: sweep
@@ -76,11 +73,11 @@ contains
         call find_sweep(line%arguments(1)%text, path, error)
         if (.not. allocated(error)) call read_scene(path, line%values_of("set"), scene, system, &
                                                     error)
-        before = scene
+        if (.not. allocated(error)) call read_unchanged(scene, file)
         if (.not. allocated(error)) call take_options(line, scene, error)
         if (.not. allocated(error)) then
             call system%describe(d)
-            call retitle_sweep(scene, before, line%values_of("set"), (d%parameters%name))
+            call make_own_sweep(scene, file, line%values_of("set"), (d%parameters%name))
         end if
         if (.not. allocated(error)) call plan(line, scene, system, sweep, error)
         if (.not. allocated(error)) call claim(scene, folder, format, path, error)
@@ -99,12 +96,13 @@ contains
         end if
         call progress%restart(trim(scene%name), quiet, "trajectories", parts_a_trajectory)
         call compute_grid(sweep, threads, observer, result, error, path, &
-                          all_lines(sweep_header(sweep, sweep_lines(scene))), line%has("resume"))
+                          all_lines(sweep_header(sweep, sweep_lines(scene%sweep))), &
+                          line%has("resume"))
         call progress%clear()
         if (allocated(error)) then
             call leave(result, path, error)
         else if (image_number() == 1) then
-            call write_sweep(sweep, result, path, format, sweep_lines(scene), error)
+            call write_sweep(sweep, result, path, format, sweep_lines(scene%sweep), error)
             if (allocated(error)) error%message = error%message//"; all trajectories are kept "// &
                 "in '"//part_name(path, 1)//"', '--resume' goes on"
         end if
@@ -320,129 +318,4 @@ contains
         call file%open(path, error)
         call file%abandon()
     end subroutine check_place
-
-    function sweep_lines(scene) result(lines)
-        !! The group `&sweep` as it was computed, for the file's header.
-        type(scene_t), intent(in) :: scene
-        character(scene_line_length), allocatable :: lines(:)
-
-        lines = [character(scene_line_length) :: "&sweep"]
-        call add_texts(lines, "over", scene%sweep%over)
-        call add_texts(lines, "keep", scene%sweep%keep)
-        if (scene%sweep%after > -huge(1.0_dp)) lines = [character(scene_line_length) :: lines, &
-            "  after = "//to_text(scene%sweep%after)]
-        if (scene%sweep%strobe /= "") call add_texts(lines, "strobe", [scene%sweep%strobe])
-        if (scene%sweep%section /= "") call add_texts(lines, "section", [scene%sweep%section])
-        if (scene%sweep%strobe /= "" .or. scene%sweep%section /= "") lines = &
-            [character(scene_line_length) :: lines, "  points = "//to_text(scene%sweep%points)]
-        if (scene%sweep%energy_by /= "") call add_texts(lines, "energy_by", [scene%sweep%energy_by])
-        if (scene%sweep%most_steps < huge(1_i8)) lines = [character(scene_line_length) :: lines, &
-            "  most_steps = "//to_text(scene%sweep%most_steps)]
-        lines = [character(scene_line_length) :: lines, "  seed = "//to_text(scene%sweep%seed), "/"]
-    end function sweep_lines
-
-    subroutine put_summary(sweep, result, path)
-        !! How many, how long, and between what bounds the numbers lie.
-        type(sweep_t), intent(in) :: sweep
-        type(sweep_result_t), intent(in) :: result
-        character(*), intent(in) :: path
-        character(:), allocatable :: how, method
-        real(dp) :: largest, least
-        integer(i8) :: found
-        integer :: i, width
-
-        how = " by "//to_text(result%processes)//" process"// &
-              trim(merge("  ", "es", result%processes == 1))
-        if (image_count() > 1) how = how//" on each of "//to_text(image_count())//" images"
-        if (result%in_lanes) how = how//", in lanes"
-        if (result%resumed > 0) how = how//"; "//to_text(result%resumed)//" were there already"
-        method = trim(sweep%scene%method)
-        if (all(is_lyapunov(sweep%kept%kind))) then
-            method = exponent_method(sweep%scene)
-        else if (any(is_lyapunov(sweep%kept%kind)) .and. &
-                 method /= exponent_method(sweep%scene)) then
-            method = method//", exponents by "//exponent_method(sweep%scene)
-        end if
-        call put_line(trim(sweep%scene%name)//": "//to_text(sweep%trajectories())// &
-                      trim(merge(" trajectory  ", " trajectories", &
-                                 sweep%trajectories() == 1))//" by "//method//" in "// &
-                      in_digits(result%seconds, 3)//" s"//how)
-        width = maxval(len_trim(sweep%kept%text)) + 2
-        do i = 1, size(sweep%kept)
-            call result%range_of(i, found, least, largest)
-            associate (kept => sweep%kept(i))
-                if (found > 0) then
-                    call put_line("  "//kept%text(:width)//shown(least)//" to "// &
-                                  shown(largest)//trim(" "//unit(kept%unit))// &
-                                  missing(found))
-                else
-                    call put_line("  "//kept%text(:width)//"none of them has it")
-                end if
-            end associate
-        end do
-        call put_line("data file: "//path)
-        call put_line("gnuplot script: "//script_path(path))
-    contains
-        pure function shown(number) result(text)
-            !! Attractors are counted.
-            real(dp), intent(in) :: number
-            character(:), allocatable :: text
-
-            text = in_digits(number, 6)
-            if (sweep%kept(i)%text == "attractor") text = to_text(nint(number))
-        end function shown
-
-        pure function unit(text)
-            character(*), intent(in) :: text
-            character(:), allocatable :: unit
-
-            unit = trim(text)
-            if (text == "1") unit = ""
-        end function unit
-
-        pure function missing(found) result(text)
-            integer(i8), intent(in) :: found
-            character(:), allocatable :: text
-            integer(i8) :: number
-
-            text = ""
-            number = sweep%trajectories() - found
-            if (sweep%keeps_points) then
-                text = " in "//counted(found, "point")
-            else if (number > 0) then
-                text = "; "//to_text(number)//" of them "// &
-                       trim(merge("has ", "have", number == 1))//" none"
-            end if
-        end function missing
-    end subroutine put_summary
-
-    subroutine put_json(sweep, result, path)
-        !! The same as an object.
-        type(sweep_t), intent(in) :: sweep
-        type(sweep_result_t), intent(in) :: result
-        character(*), intent(in) :: path
-        character(:), allocatable :: rows
-        real(dp) :: largest, least
-        integer(i8) :: found
-        integer :: i
-
-        rows = ""
-        do i = 1, size(sweep%kept)
-            call result%range_of(i, found, least, largest)
-            rows = rows//", "//json_object(json_pair("keep", trim(sweep%kept(i)%text))// &
-                json_pair("unit", trim(sweep%kept(i)%unit))// &
-                json_pair("found", to_text(found))// &
-                json_pair("least", least)//json_pair("largest", largest))
-        end do
-        call put_line(json_object(json_pair("scene", trim(sweep%scene%name))// &
-            json_pair("file", path)// &
-            json_item("trajectories", to_text(sweep%trajectories()))// &
-            json_item("failed", to_text(result%failures))// &
-            json_item("resumed", to_text(result%resumed))// &
-            json_item("images", to_text(image_count()))// &
-            json_item("threads", to_text(result%processes))// &
-            json_pair("in_lanes", result%in_lanes)// &
-            json_pair("seconds", result%seconds)// &
-            json_item("kept", "["//rows(3:)//"]")))
-    end subroutine put_json
 end module lagrangia_sweep_command

@@ -5,6 +5,8 @@ module lagrangia_wrong_words
     use lagrangia_errors, only: error_t, fail
     use lagrangia_files, only: facts_t, look_at
     use lagrangia_names, only: nearest_name
+    use lagrangia_number_reader, only: starts_number
+    use lagrangia_option_words, only: option_advice
     use lagrangia_registry, only: accepts, command_t, commands
     use lagrangia_scene_keys, only: keys
     use lagrangia_shipped, only: named_scenes, named_sweeps, scene_name
@@ -45,6 +47,7 @@ contains
         if (allocated(error)) return
         do i = 1, size(arguments)
             if (is_one_of(arguments(i)%text, taken)) cycle
+            if (is_one_of(lower(arguments(i)%text), taken)) cycle  ! the command says it
             call explain(command, arguments(i)%text, taken, error)
             if (allocated(error)) return
         end do
@@ -161,7 +164,8 @@ contains
         type(facts_t) :: facts
         integer :: i
 
-        if (word == "" .or. scan(word, "./") > 0 .or. command%name == "grade") return
+        if (word == "" .or. command%name == "grade") return
+        if (scan(word, "./") > 0 .and. scan(word, "=") == 0 .and. .not. starts_number(word)) return
         if (command%name == "help" .and. lower(word) == "scene") return
         facts = look_at(word)
         if (facts%found .and. index(command%takes, "files") > 0) return
@@ -181,7 +185,11 @@ contains
             end if
             return
         end do
-        if (all(command%name /= ["help", "show"])) call explain_name(command, word, error)
+        if (option_advice(command, word) /= "") then
+            call fail(error, quoted(word)//" is "//option_advice(command, word))
+        else if (command%name /= "show") then
+            call explain_name(command, word, error)
+        end if
     end subroutine explain
 
     pure function all_of_them(command) result(text)
@@ -215,16 +223,21 @@ contains
             "systems", "system", "describe", "scenes", "scene", "run", "sweeps", "sweep", "sweep", &
             "principles", "principle", "principle", "parts", "part", "bench", "rows", "row", &
             "stress"], [3, 6])
+        character(len(word)) :: small
 
         meaning = ""
+        small = lower(word)
         call words_of("contestants", words)
-        if (any(keys == word)) meaning = "a key of a scene; 'lagrangia describe scene' tells of it"
-        if (is_one_of(word, words)) meaning = method_advice(command, word)
+        if (any(keys == small)) meaning = "a key of a scene; 'lagrangia describe scene' tells of it"
+        if (is_one_of(small, words)) meaning = method_advice(command, small)
         do i = size(kinds, 2), 1, -1
             call words_of(trim(kinds(1, i)), words)
-            if (is_one_of(word, words) .and. commands_name(i) /= command%name) meaning = "a "// &
-                trim(kinds(2, i))//"; 'lagrangia "//trim(kinds(3, i))//" "//word//"' goes with it"
+            if (is_one_of(small, words) .and. commands_name(i) /= command%name) meaning = "a "// &
+                trim(kinds(2, i))//"; 'lagrangia "//trim(kinds(3, i))//" "//small//"' goes with it"
         end do
+        call words_of("commands", words)
+        if (is_one_of(small, words)) meaning = "a command; 'lagrangia help "//small// &
+            "' tells of it"
         if (meaning == "") return
         call fail(error, quoted(word)//" is "//meaning//taken_instead(command))
     contains
@@ -258,8 +271,9 @@ contains
         type(command_t), intent(in) :: command
         character(:), allocatable :: text
 
-        text = ", 'lagrangia help "//trim(command%name)//"' shows what '"//trim(command%name)// &
-               "' takes"
+        text = ""
+        if (command%name /= "help") text = ", 'lagrangia help "//trim(command%name)// &
+                                           "' shows what '"//trim(command%name)//"' takes"
     end function taken_instead
 
     pure subroutine refuse_more(command, arguments, error)
@@ -276,6 +290,8 @@ contains
                 return
             end if
             instead = ""
+            if (command%name == "help") instead = "; 'lagrangia help "//arguments(1)%text// &
+                "' tells of its options"
             if (command%name == "compare") instead = "; several scenes in one picture: "// &
                 "'lagrangia run "//arguments(1)%text//" "//word//" --plot --overlay'"
             call fail(error, name//" takes one argument, "//trim(command%arguments)// &

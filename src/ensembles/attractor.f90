@@ -8,8 +8,9 @@ module lagrangia_attractor
     !! settled, or is chaotic, has p = 0.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
     use lagrangia_description, only: description_t
-    use lagrangia_kinds, only: dp
+    use lagrangia_kinds, only: dp, i8
     use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: attractors_t, strobed_t
@@ -35,9 +36,11 @@ module lagrangia_attractor
     type :: attractors_t
         !! Those that were met, in the order in which they were.
         integer :: count = 0
+        integer(i8), allocatable :: met(:)  !! motions on each; element 0: on none
         real(dp), allocatable, private :: signatures(:, :)
     contains
         procedure :: number_of
+        procedure :: place_of
     end type attractors_t
 
 contains
@@ -128,26 +131,77 @@ contains
         class(attractors_t), intent(inout) :: self
         real(dp), intent(in) :: signature(:)  !! of a motion
         real(dp) :: number
+        integer(i8), allocatable :: more_met(:)
         real(dp), allocatable :: more(:, :)
         integer :: i
 
         number = ieee_value(number, ieee_quiet_nan)
         if (any(ieee_is_nan(signature))) return
         number = 0.0_dp
+        if (.not. allocated(self%signatures)) then
+            allocate (self%signatures(size(signature), 8), self%met(0:8))
+            self%met = 0
+        end if
+        if (signature(1) < 0.5_dp) self%met(0) = self%met(0) + 1
         if (signature(1) < 0.5_dp) return
-        if (.not. allocated(self%signatures)) allocate (self%signatures(size(signature), 8))
         do i = 1, self%count
             if (nint(signature(1)) /= nint(self%signatures(1, i))) cycle
             if (alike(signature(2:), self%signatures(2:, i), same_within)) exit
         end do
         number = i
+        if (i <= self%count) self%met(i) = self%met(i) + 1
         if (i <= self%count) return
         if (self%count == size(self%signatures, 2)) then
-            allocate (more(size(signature), 2*self%count))
+            allocate (more(size(signature), 2*self%count), more_met(0:2*self%count))
             more(:, :self%count) = self%signatures
+            more_met = 0
+            more_met(:self%count) = self%met
             call move_alloc(more, self%signatures)
+            call move_alloc(more_met, self%met)
         end if
+        self%met(i) = 1
         self%count = i
         self%signatures(:, i) = signature
     end function number_of
+
+    pure function place_of(self, number, d) result(text)
+        !! Where an attractor is, to three decimals, `at theta = 3.142, theta_dot = 0.0`, an angle
+        !! from -pi to pi; of one that repeats after several points how many, and their means.
+        class(attractors_t), intent(in) :: self
+        integer, intent(in) :: number         !! from 1 to `count`
+        type(description_t), intent(in) :: d  !! of the system
+        character(:), allocatable :: text
+        real(dp) :: value
+        integer :: i, n
+
+        n = size(d%coordinates)
+        text = ""
+        associate (s => self%signatures(2:, number))
+            do i = 1, n
+                value = s(i)
+                if (d%coordinates(i)%unit == "rad") value = atan2(s(n + i), s(i))
+                text = text//", "//trim(d%coordinates(i)%name)//" = "//rounded(value)
+            end do
+            do i = 1, n
+                text = text//", "//trim(d%coordinates(i)%name)//"_dot = "//rounded(s(2*n + i))
+            end do
+        end associate
+        i = nint(self%signatures(1, number))
+        if (i == 1) text = "at"//text(2:)
+        if (i > 1) text = "of "//to_text(i)//" points, on average at"//text(2:)
+    end function place_of
+
+    pure function rounded(value) result(text)
+        !! To three decimals; -pi is pi, and there is no -0.
+        real(dp), intent(in) :: value
+        character(:), allocatable :: text
+        real(dp), parameter :: unit = 1e-3_dp, half_turn = acos(-1.0_dp)
+        real(dp) :: near
+
+        near = value
+        if (abs(value + half_turn) < 0.5_dp*unit) near = half_turn
+        near = anint(near/unit)
+        if (abs(near) < 0.5_dp) near = 0.0_dp
+        text = to_text(near/1000.0_dp)
+    end function rounded
 end module lagrangia_attractor

@@ -174,17 +174,23 @@ contains
         end subroutine read_one
 
         subroutine refuse_word(text)
-            !! A word that is no column, but nearly one of those above, or a period's letter.
+            !! A word that is no column, but nearly one of those above, or means one of them.
             character(*), intent(in) :: text
             character(:), allocatable :: near
 
-            near = nearest_name(text, [character(12) :: "period", "exact period", "lyapunov", &
-                                       "attractor"])
-            if (text == "T") near = "period"
-            if (near /= "" .and. nearest_name(text, all_columns) == "" .or. text == "T") then
-                call fail(error, "what is kept is a column, or one of a few words, not "// &
-                          quoted(text)//"; did you mean '"//near//"'?")
-            end if
+            near = ""
+            if (nearest_name(text, all_columns) == "") near = nearest_name(text, [character(12) :: &
+                "period", "exact period", "lyapunov", "attractor"])
+            select case (text)
+            case ("T"); near = "period"
+            case ("maximum", "largest", "amplitude"); near = "max "//trim(coordinates(1))
+            case ("minimum", "smallest"); near = "min "//trim(coordinates(1))
+            case default
+            end select
+            if (any(text(:min(4, len(text))) == ["max(", "min("])) near = text(:3)//" "// &
+                text(5:index(text//")", ")") - 1)
+            if (near /= "") call fail(error, "what is kept is a column, or one of a few words, "// &
+                                      "not "//quoted(text)//"; did you mean '"//near//"'?")
         end subroutine refuse_word
 
         subroutine take_column(name, which)

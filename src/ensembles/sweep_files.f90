@@ -116,6 +116,22 @@ contains
         counts = "trajectories: "//to_text(sweep%trajectories())//", failed: "// &
                  to_text(result%failures)
         if (sweep%keeps_points) counts = counts//", points: "//to_text(rows)
+        if (sweep%attractors) counts = counts//attractor_text(sweep, result)
         if (.not. allocated(error)) call table%finish(counts, error)
     end subroutine write_rows
+
+    function attractor_text(sweep, result) result(text)
+        !! Where the attractors are: `; attractor 1 at x = 1.0, x_dot = 0.0`.
+        type(sweep_t), intent(in) :: sweep
+        type(sweep_result_t), intent(in) :: result
+        character(:), allocatable :: text
+        type(description_t) :: d
+        integer :: i
+
+        call sweep%system%describe(d)
+        text = ""
+        do i = 1, result%attractors%count
+            text = text//"; attractor "//to_text(i)//" "//result%attractors%place_of(i, d)
+        end do
+    end function attractor_text
 end module lagrangia_sweep_files

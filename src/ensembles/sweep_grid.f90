@@ -38,7 +38,7 @@ module lagrangia_sweep_grid
         integer :: processes = 1                 !! of this image, that computed
         integer(i8) :: resumed = 0               !! trajectories that were there already
         logical :: in_lanes = .false.            !! computed in the lanes of vector registers
-        type(attractors_t), private :: attractors
+        type(attractors_t) :: attractors         !! that were met, where they are kept
         integer(i8), allocatable, private :: found(:)                !! of each number that is kept
         real(dp), allocatable, private :: least(:), largest(:)
     contains

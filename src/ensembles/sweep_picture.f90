@@ -1,14 +1,15 @@
 module lagrangia_sweep_picture
     !! The gnuplot script of a sweep: curves over one axis, a map over two, points of a stroboscope
     !! or a section as a diagram.
+    use lagrangia_description, only: description_t
     use lagrangia_gnuplot_axes, only: add_spread, add_ticks
     use lagrangia_gnuplot_script, only: begin_script, gnuplot_string, lines_t
     use lagrangia_kept, only: keeps_attractor, keeps_wrapped, kept_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_plot_colour, only: line_colours => colours
-    use lagrangia_plot_label, only: label
+    use lagrangia_plot_label, only: label, width_of
     use lagrangia_plot_symbol, only: symbol
-    use lagrangia_plot_words, only: plain_label, text_label
+    use lagrangia_plot_words, only: plain_label, text_label, with_symbols
     use lagrangia_sweep, only: sweep_t
     use lagrangia_sweep_grid, only: sweep_result_t
     use lagrangia_text, only: to_text
@@ -124,18 +125,46 @@ contains
         !! A colour for each attractor; black is that of none, 0.
         integer, intent(in) :: least, largest  !! of their numbers, 0 <= least <= largest
         character(:), allocatable :: line
+        character(7) :: colour
         integer :: i
 
-        line = "set palette maxcolors "//to_text(largest - least + 1)//" defined ("
-        do i = least, largest
+        line = "set palette maxcolors "//to_text(max(2, largest - least + 1))//" defined ("
+        do i = least, max(least + 1, largest)  ! gnuplot wants two
+            colour = "#000000"
+            if (min(i, largest) > 0) colour = distinct(min(i, largest))
             if (i > least) line = line//", "
-            if (i == 0) line = line//"0 '#000000'"
-            if (i > 0) line = line//to_text(i)//" '"//distinct(i)//"'"
+            line = line//to_text(i)//" '"//colour//"'"
         end do
-        if (least == largest) line = line//", "//to_text(least + 1)//" '"//distinct(1)//"'"
         line = line//"); set cbrange ["//to_text(least - 0.5_dp)//":"// &
                to_text(largest + 0.5_dp)//"]; set cbtics 1"
     end function attractor_colours
+
+    function attractor_places(sweep, found, least, largest) result(line)
+        !! Where each attractor is, along its colour, if there is room; else its number alone.
+        !! gnuplot does not turn the tics of colours.
+        type(sweep_t), intent(in) :: sweep
+        type(sweep_result_t), intent(in) :: found
+        integer, intent(in) :: least, largest  !! of their numbers, 0 <= least <= largest
+        character(:), allocatable :: line
+        integer, parameter :: room = 80        !! characters beside the whole column of colours
+        character(:), allocatable :: text
+        type(description_t) :: d
+        integer :: i
+
+        call sweep%system%describe(d)
+        line = ""
+        do i = least, largest
+            text = "0 not settled"
+            if (i > 0) text = with_symbols(to_text(i)//" "//found%attractors%place_of(i, d))
+            if (text == "" .or. width_of(text)*(largest - least + 1) > room) then
+                line = ""
+                return
+            end if
+            line = line//"; set label "//gnuplot_string(text)//" at graph 1.13,"//to_text( &
+                   (i - least + 0.5_dp)/(largest - least + 1))//" center rotate by 90"
+        end do
+        line = "unset cbtics"//line
+    end function attractor_places
 
     subroutine add_curves(sweep, found, which, reading, script)
         !! Numbers of one unit over the only axis.
@@ -192,17 +221,22 @@ contains
         integer, intent(in) :: which
         character(*), intent(in) :: reading
         type(lines_t), intent(inout) :: script
-        character(:), allocatable :: range
+        character(:), allocatable :: apart, places, range
         real(dp) :: largest, least
         integer(i8) :: n
         integer :: i
         logical :: long
 
         call found%range_of(which, n, least, largest)
+        apart = ""
+        call script%add("unset label")
         associate (x => sweep%axes(1), y => sweep%axes(2), kept => sweep%kept(which))
             if (kept%kind == keeps_attractor .and. n > 0 .and. &
                 largest < size(distinct) + 0.5_dp) then
                 call script%add(attractor_colours(nint(least), nint(largest)))
+                places = attractor_places(sweep, found, nint(least), nint(largest))
+                if (places /= "") apart = " offset 5"
+                if (places /= "") call script%add(places)
             else
                 call script%add(colours)
                 call add_ticks(script, "cb", least, largest, long)
@@ -228,7 +262,7 @@ contains
             if (y%logarithmic) call script%add("set logscale y")
             call script%add("set xlabel "//label(x%name, x%unit))
             call script%add("set ylabel "//label(y%name, y%unit))
-            call script%add("set cblabel "//label(kept%text, kept%unit))
+            call script%add("set cblabel "//label(kept%text, kept%unit)//apart)
             call add_spread(script, "x", minval(x%values), maxval(x%values))
             call add_spread(script, "y", minval(y%values), maxval(y%values))
             if (size(x%values) == 1 .or. size(y%values) == 1) then

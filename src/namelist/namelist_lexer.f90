@@ -257,7 +257,8 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! status 2: something follows
 
         if (index(separators//",/", next_byte(tree)) > 0) return
-        if (kind == kind_string .and. scan(next_byte(tree), letters) == 1) then
+        if (kind == kind_string .and. scan(next_byte(tree), letters//digits// &
+            "^*+-)_.") == 1) then
             call refuse(tree, tree%at, "unexpected "//quoted(next_byte(tree))// &
                         " behind a text; a quote within it is doubled", error)
         else

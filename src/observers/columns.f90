@@ -6,7 +6,7 @@ module lagrangia_columns
     use lagrangia_kinds, only: dp, i8
     use lagrangia_names, only: nearest_name
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: listed, quoted
+    use lagrangia_text, only: listed, lower, quoted
     implicit none (type, external)
     private
     public :: columns_t, new_columns, column_names
@@ -209,7 +209,8 @@ contains
         character(name_length) :: names(size(all))
 
         names = all%name
-        near = nearest_name(name, names)
+        near = usual_column(name, trim(d%coordinates(1)%name))
+        if (count(names == near) == 0) near = nearest_name(name, names)
         if (name == "error") then
             call fail(error, "column 'error': "//trim(d%name)//" has no closed form from this "// &
                       "start; with expect_error it is estimated")
@@ -235,6 +236,21 @@ contains
                       listed(names, 130, described_by(d)))
         end if
     end subroutine refuse
+
+    pure function usual_column(name, q) result(column)
+        !! What others call a column that there may be; empty for other names.
+        character(*), intent(in) :: name, q  !! what was asked for, and a coordinate
+        character(:), allocatable :: column
+
+        select case (lower(name))
+        case ("time"); column = "t"
+        case ("e", "h", "hamiltonian", "total_energy", "e_total"); column = "energy"
+        case ("v", "velocity", "speed", "omega", "qdot", "q_dot"); column = q//"_dot"
+        case ("a", "acceleration", "alpha"); column = q//"_ddot"
+        case ("angle", "position", "q"); column = q
+        case default; column = ""
+        end select
+    end function usual_column
 
     pure function without_drift(name) result(text)
         !! `A_x` of `A_x_drift`; other names as they are.

@@ -56,7 +56,7 @@ contains
                 return
             end if
             where (abs(q) <= 4.0_dp*epsilon(q)*usual) q = 0.0_dp
-            near = "the nearest is --at "//to_text(q(1))
+            near = "the nearest is "//to_text(q(1))
             do i = 2, min(size(q), 6)
                 near = near//","//to_text(q(i))
             end do

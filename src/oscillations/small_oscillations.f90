@@ -183,8 +183,8 @@ contains
         end if
         call system%describe(d)
         if (size(start) /= system%ndof) then
-            call fail(error, "--at takes "//counted(system%ndof, "value")//" for "//trim(d%name)// &
-                      ", not "//to_text(size(start))//trim(merge( &
+            call fail(error, "an equilibrium of "//trim(d%name)//" has "// &
+                      counted(system%ndof, "value")//", not "//to_text(size(start))//trim(merge( &
                       "; a decimal point, no comma, is needed in a number", repeat(" ", 50), &
                       size(start) == 2*system%ndof)))
         else if (system%constraints > 0) then
@@ -235,16 +235,15 @@ contains
         call settle(system, .false., q, none)
         if (.not. allocated(none)) then
             call fail(error, "L of "//trim(d%name)//" is no finite number at "//names//" = "// &
-                      list_of(start)//"; there is an equilibrium at --at "//list_of(q))
+                      list_of(start)//"; there is an equilibrium at "//list_of(q), key="at")
         else if (wanted) then
             call fail(error, "L of "//trim(d%name)//" is no finite number at "//names//" = "// &
-                      list_of(start)//"; give --at "//names//" with other values")
+                      list_of(start)//"; other values are needed")
         else
             call fail(error, trim(d%name)//" has no equilibrium that is found: at "// &
                       names//" = "//list_of(start)//" L is no finite number, and at rest "// &
                       "elsewhere a force on "//trim(d%coordinates(worst)%name)// &
-                      " remains; if you know one, "// &
-                      "give it: --at "//names)
+                      " remains; if you know one, give its "//names, key="at")
         end if
     end subroutine refuse_start
 

@@ -75,8 +75,8 @@ contains
             end associate
         end do
         if (size(tangent%basis, 2) /= n - m) call fail(error, "the constraints are not "// &
-            "independent at q = "//list_of(q)//"; say where the equilibrium is: --at Q, or "// &
-            "equilibrium in &lagrangian")
+            "independent at q = "//list_of(q)//"; an equilibrium elsewhere is needed", &
+            key="at")
     end subroutine find_tangent
 
     subroutine check_integrable(system, q, error)

@@ -13,6 +13,7 @@ module lagrangia_animation
     use lagrangia_plot_words, only: unicode_text
     use lagrangia_run_files, only: method_text
     use lagrangia_run_plan, only: run_plan_t
+    use lagrangia_scene, only: heading
     use lagrangia_shipped_files, only: shipped_text
     use lagrangia_system, only: system_t
     use lagrangia_text, only: in_words, to_text, word_t
@@ -36,7 +37,7 @@ contains
 
         call scene_film(plan, film, error)
         if (allocated(error)) return
-        call write_page(film_path(path), trim(plan%scene%title), page_of_film(plan, film), error)
+        call write_page(film_path(path), heading(plan%scene), page_of_film(plan, film), error)
     end subroutine animate_scene
 
     subroutine animate_both(one, other, path, error)
@@ -48,7 +49,7 @@ contains
 
         call scene_film(one, film, error, other)
         if (allocated(error)) return
-        title = trim(one%scene%title)
+        title = heading(one%scene)
         call write_page(path, title, page_of_films(one%system, title, &
             method_text(one%settled)//"; beside it: "//method_text(other%settled), film), error)
     end subroutine animate_both
@@ -120,7 +121,7 @@ contains
         character(*), intent(in) :: film      !! of `scene_film`
         character(:), allocatable :: json
 
-        json = page_of_films(plan%system, trim(plan%scene%title), method_text(plan%settled), film)
+        json = page_of_films(plan%system, heading(plan%scene), method_text(plan%settled), film)
     end function page_of_film
 
     function page_of_films(system, title, method, films) result(json)

@@ -3,18 +3,23 @@ module lagrangia_data_files
     use lagrangia_changed_scene, only: ending_start
     use lagrangia_csv_table, only: csv_table_t
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_names, only: advice, nearest_name
     use lagrangia_npy, only: npy_table_t
     use lagrangia_table, only: table_t
-    use lagrangia_text, only: join, quoted
+    use lagrangia_text, only: join, lower, quoted
     use lagrangia_text_table, only: text_table_t
     implicit none (type, external)
     private
     public :: check_format, check_picture, data_path, event_path, film_path, new_table
-    public :: path_beside, picture_path, pictures, scene_path, script_path
+    public :: path_beside, picture_advice, picture_path, scene_path, script_path
+    public :: film_kinds, formats, pictures
 
     character(4), parameter :: formats(3) = ["text", "csv ", "npy "]
     character(3), parameter :: pictures(3) = ["png", "svg", "pdf"]  !! what `draw` makes
     character(4), parameter :: endings(3) = [".dat", ".csv", ".npy"]
+    character(4), parameter :: other_pictures(9) = [character(4) :: "gif", "jpg", "jpeg", "eps", &
+        "ps", "tif", "tiff", "bmp", "webp"]  !! that `draw` does not make
+    character(4), parameter :: film_kinds(5) = [character(4) :: "gif", "mp4", "avi", "mov", "webm"]
 
 contains
 
@@ -22,9 +27,17 @@ contains
         !! Refuse a format that does not exist.
         character(*), intent(in) :: format  !! a word of the command line
         type(error_t), allocatable, intent(out) :: error  !! names those that exist
+        character(:), allocatable :: meant
 
         if (any(formats == format)) return
-        call fail(error, "unknown format "//quoted(format)//"; there are text, csv, npy")
+        meant = format
+        select case (lower(format))
+        case ("dat", "txt", "ascii", "gnuplot"); meant = "text"
+        case ("excel", "xls", "xlsx"); meant = "csv"
+        case ("numpy"); meant = "npy"
+        case default
+        end select
+        call fail(error, "unknown format "//quoted(format)//"; "//advice(meant, formats))
     end subroutine check_format
 
     pure subroutine check_picture(kind, error)
@@ -33,9 +46,27 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! names those that exist
 
         if (any(pictures == kind)) return
-        call fail(error, "unknown picture format "//quoted(kind)//"; there are "// &
-                  join(pictures, ", "))
+        if (picture_advice(lower(kind)) /= "") then
+            call fail(error, "unknown picture format "//quoted(kind)//"; there are "// &
+                      picture_advice(lower(kind)))
+        else if (nearest_name(kind, pictures) /= "") then
+            call fail(error, "unknown picture format "//quoted(kind)//"; "//advice(kind, pictures))
+        else
+            call fail(error, "unknown picture format "//quoted(kind)//"; there are "// &
+                      join(pictures, ", ")//"; the scene's key 'plot' says which columns are drawn")
+        end if
     end subroutine check_picture
+
+    pure function picture_advice(kind) result(text)
+        !! The formats that there are, of one that other programs draw; else empty.
+        character(*), intent(in) :: kind  !! in small letters
+        character(:), allocatable :: text
+
+        text = ""
+        if (any(other_pictures == kind)) text = join(pictures, ", ")
+        if (any(film_kinds == kind)) text = join(pictures, ", ")// &
+            "; '--animate' writes a film as an HTML page"
+    end function picture_advice
 
     subroutine new_table(format, table)
         !! A table of that format, not yet opened.

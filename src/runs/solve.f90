@@ -2,9 +2,9 @@ module lagrangia_solve
     !! The motion at given times, as arrays: one call for programs of other people.
     use lagrangia_dense_run, only: drive
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_integrator, only: dense_integrator_t
+    use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_methods, only: auto, new_adaptive
+    use lagrangia_methods, only: auto, new_adaptive, new_integrator
     use lagrangia_observer, only: observer_box_t
     use lagrangia_recorder, only: recorder_t
     use lagrangia_reference, only: reference_t
@@ -70,6 +70,7 @@ contains
         subroutine check_arguments()
             logical :: adaptive
             class(dense_integrator_t), allocatable :: by_tolerance
+            class(integrator_t), allocatable :: by_steps
 
             call new_given_times(samples, t, error)
             if (allocated(error)) return
@@ -78,7 +79,9 @@ contains
             if (present(dt) .and. present(tolerance)) then
                 call fail(error, "give dt or tolerance, not both", key="dt")
             else if (.not. (adaptive .or. present(dt))) then
-                call fail(error, "the method "//quoted(method)//" needs dt", key="dt")
+                call new_integrator(method, by_steps, error)
+                if (.not. allocated(error)) call fail(error, "the method "//quoted(method)// &
+                                                      " needs dt", key="dt")
             else if (present(tolerance)) then
                 if (.not. tolerance > 0.0_dp) call fail(error, "must be positive, not "// &
                                                         to_text(tolerance), key="tolerance")

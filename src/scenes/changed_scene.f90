@@ -1,17 +1,19 @@
 module lagrangia_changed_scene
     !! A scene that the command line changes is another one: it has a title and files of its own,
     !! and what the file expects of the unchanged motion does not judge it.
-    use lagrangia_kinds, only: i8
-    use lagrangia_scene, only: scene_t
-    use lagrangia_text, only: join, lower, word_t
+    use lagrangia_kinds, only: dp, i8
+    use lagrangia_scene, only: scene_t, sweep_group_t
+    use lagrangia_text, only: join, lower, to_text, word_t
     implicit none (type, external)
     private
-    public :: ending_start, make_own_scene, retitle_sweep
+    public :: ending_start, make_own_scene, make_own_sweep
 
-    character(*), parameter :: same_motion(*) = [character(14) :: "title", "output", "columns", &
-        "plot", "event_columns", "event_plot", "error_estimate", "modes", "every", "samples", &
-        "period_of", "figure"]
-    !! keys of `&scene` that leave the motion as it is, and so does `expect_...`
+    character(*), parameter :: same_sweep(*) = [character(14) :: "title", "output", "columns", &
+        "plot", "event_columns", "event_plot", "error_estimate", "modes", "figure"]
+    !! keys of `&scene` that leave all numbers of a sweep as they are, and so does `expect_...`
+    character(*), parameter :: same_motion(*) = [character(14) :: same_sweep, "every", "samples", &
+        "period_of"]
+    !! those that leave the motion as it is
     integer, parameter :: longest = 120  !! bytes of what a file's name gets
 
 contains
@@ -22,65 +24,126 @@ contains
         type(scene_t), intent(inout) :: scene     !! as `read_scene` gives it
         type(word_t), intent(in) :: overrides(:)  !! `GROUP%KEY=VALUE`, as typed
         character(*), intent(in) :: names(:)      !! of the system's parameters
-        character(:), allocatable :: changes, group, key, value
-        logical, allocatable :: kept(:)
-        logical :: titled, placed
-        integer :: dot, i
+        character(:), allocatable :: changes, given
+        integer :: i
 
-        changes = ""
-        titled = .false.
-        placed = .false.
-        allocate (kept(size(scene%expectations)), source=.false.)
-        do i = 1, size(overrides)
-            call split(overrides(i)%text, group, key, value)
-            if (group == "scene") then
-                titled = titled .or. key == "title"
-                placed = placed .or. key == "output"
-                if (index(key, "expect_") == 1) where ( &
-                    lower_names(scene) == key(len("expect_") + 1:)) kept = .true.
-                if (any(same_motion == key) .or. index(key, "expect_") == 1) cycle
-            end if
-            if (changes /= "") changes = changes//", "
-            if (group /= "scene") key = as_described(key, names)
-            changes = changes//key//"="//value
-        end do
+        call read_changes(overrides, names, same_motion, changes, given)
         if (changes == "") return
         scene%changes = changes
-        scene%expectations%judged = kept
-        if (.not. titled) then
-            scene%title = trim(scene%title)//" ("//changes//")"
-        end if
-        if (placed) return
-        dot = ending_start(trim(scene%output))
-        scene%output = scene%output(:dot - 1)//"_"//name_of(changes)//scene%output(dot:)
+        do i = 1, size(scene%expectations)
+            scene%expectations(i)%judged = index(given, &
+                " expect_"//lower(trim(scene%expectations(i)%name))//" ") > 0
+        end do
+        if (index(given, " title ") == 0) scene%title = trim(scene%title)//" ("//changes//")"
+        if (index(given, " output ") == 0) call rename_output(scene, changes)
     end subroutine make_own_scene
 
-    pure subroutine retitle_sweep(scene, before, overrides, names)
+    pure subroutine make_own_sweep(scene, file, overrides, names)
         !! Give a sweep that the command line changes a title that is true of it: other axes or
-        !! numbers than those of the file are named, other values are added. A title that is given
-        !! stays.
+        !! numbers than those of the file are named, other values are added. A sweep that the file
+        !! has keeps its output; one that is another has one of its own. Of a scene that has none
+        !! the axes and numbers that are typed are no change.
         type(scene_t), intent(inout) :: scene     !! with the axes and what is kept
-        type(scene_t), intent(in) :: before       !! as `read_scene` gave it
+        type(scene_t), intent(in) :: file         !! the same without the command line
         type(word_t), intent(in) :: overrides(:)  !! `GROUP%KEY=VALUE`, as typed
         character(*), intent(in) :: names(:)      !! of the system's parameters
-        character(:), allocatable :: changes, group, key, value
+        character(:), allocatable :: axes, changes, given
+
+        call read_changes(overrides, names, same_sweep, changes, given)
+        axes = ""
+        if (size(file%sweep%over) > 0 .and. size(file%sweep%keep) > 0) then
+            call add_sweep_changes(scene%sweep, file%sweep, axes, changes)
+        end if
+        if (index(given, " title ") == 0) then
+            if (numbers_over_axes(scene) /= numbers_over_axes(file)) then
+                scene%title = trim(scene%name)//": "//numbers_over_axes(scene)
+            end if
+            if (changes /= "") scene%title = trim(scene%title)//" ("//changes//")"
+        end if
+        if (axes /= "" .and. changes /= "") axes = axes//", "
+        if (axes//changes == "" .or. index(given, " output ") > 0) return
+        call rename_output(scene, axes//changes)
+    end subroutine make_own_sweep
+
+    pure subroutine add_sweep_changes(sweep, file, axes, changes)
+        !! What another sweep is than that of the file: its axes and what it keeps, which a title
+        !! names otherwise, and the rest, which `changes` gets.
+        type(sweep_group_t), intent(in) :: sweep, file
+        character(:), allocatable, intent(inout) :: axes     !! empty; `theta=0:1:5, keep=period`
+        character(:), allocatable, intent(inout) :: changes  !! `l=2`; `, seed=3` is added
+
+        if (listed(sweep%over) /= listed(file%over)) call add(axes, listed(sweep%over))
+        if (listed(sweep%keep) /= listed(file%keep)) call add(axes, "keep="//listed(sweep%keep))
+        if (abs(sweep%after - file%after) > 0.0_dp) call add(changes, "after="//to_text( &
+            sweep%after))
+        if (sweep%strobe /= file%strobe) call add(changes, "strobe="//trim(sweep%strobe))
+        if (sweep%section /= file%section) call add(changes, "section="//trim(sweep%section))
+        if (sweep%points /= file%points) call add(changes, "points="//to_text(sweep%points))
+        if (sweep%energy_by /= file%energy_by) call add(changes, "energy_by="// &
+            trim(sweep%energy_by))
+        if (sweep%most_steps /= file%most_steps) call add(changes, "most_steps="// &
+            to_text(sweep%most_steps))
+        if (sweep%seed /= file%seed) call add(changes, "seed="//to_text(sweep%seed))
+    end subroutine add_sweep_changes
+
+    pure function listed(texts) result(text)
+        !! One behind the other, without blanks around `=`.
+        character(*), intent(in) :: texts(:)
+        character(:), allocatable :: text
+        integer :: equals, i
+
+        text = ""
+        do i = 1, size(texts)
+            equals = index(texts(i), "=")
+            if (i > 1) text = text//","
+            if (equals > 0) text = text//trim(adjustl(texts(i)(:equals - 1)))//"="
+            text = text//trim(adjustl(texts(i)(equals + 1:)))
+        end do
+    end function listed
+
+    pure subroutine add(changes, change)
+        !! One more change, behind a comma.
+        character(:), allocatable, intent(inout) :: changes
+        character(*), intent(in) :: change
+
+        if (changes /= "") changes = changes//", "
+        changes = changes//change
+    end subroutine add
+
+    pure subroutine read_changes(overrides, names, same, changes, given)
+        !! What overrides change, and which keys of `&scene` they give.
+        type(word_t), intent(in) :: overrides(:)  !! `GROUP%KEY=VALUE`, as typed
+        character(*), intent(in) :: names(:)      !! of the system's parameters
+        character(*), intent(in) :: same(:)       !! keys of `&scene` that change nothing
+        character(:), allocatable, intent(out) :: changes  !! `l=2, q_1=0.5`
+        character(:), allocatable, intent(out) :: given    !! ` title output `, or a blank
+        character(:), allocatable :: group, key, value
         integer :: i
 
         changes = ""
+        given = " "
         do i = 1, size(overrides)
             call split(overrides(i)%text, group, key, value)
             if (group == "sweep") cycle
-            if (group == "scene" .and. key == "title") return
-            if (group == "scene" .and. (any(same_motion == key) .or. &
-                                        index(key, "expect_") == 1)) cycle
-            if (group /= "scene") key = as_described(key, names)
-            changes = changes//", "//key//"="//value
+            if (group == "scene") then
+                given = given//key//" "
+                if (any(same == key) .or. index(key, "expect_") == 1) cycle
+            else
+                key = as_described(key, names)
+            end if
+            call add(changes, key//"="//value)
         end do
-        if (numbers_over_axes(scene) /= numbers_over_axes(before)) then
-            scene%title = trim(scene%name)//": "//numbers_over_axes(scene)
-        end if
-        if (changes /= "") scene%title = trim(scene%title)//" ("//changes(3:)//")"
-    end subroutine retitle_sweep
+    end subroutine read_changes
+
+    pure subroutine rename_output(scene, changes)
+        !! The changes go before the ending of its file's name.
+        type(scene_t), intent(inout) :: scene
+        character(*), intent(in) :: changes
+        integer :: dot
+
+        dot = ending_start(trim(scene%output))
+        scene%output = scene%output(:dot - 1)//"_"//name_of(changes)//scene%output(dot:)
+    end subroutine rename_output
 
     pure function numbers_over_axes(scene) result(text)
         !! What a sweep keeps over which axes: `period over theta and l`.
@@ -126,17 +189,6 @@ contains
         end if
         dot = len(name) + 1
     end function ending_start
-
-    pure function lower_names(scene) result(names)
-        !! What the scene expects something of, in small letters, as keys are.
-        type(scene_t), intent(in) :: scene
-        character(len(scene%expectations%name)) :: names(size(scene%expectations))
-        integer :: i
-
-        do i = 1, size(names)
-            names(i) = lower(scene%expectations(i)%name)
-        end do
-    end function lower_names
 
     pure subroutine split(text, group, key, value)
         !! `Scene%q(2) = 0.5` into `scene`, `q` and, with the index, what follows; no blanks.

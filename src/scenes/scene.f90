@@ -4,11 +4,11 @@ module lagrangia_scene
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_namelist, only: namelist_t, refuse_value
-    use lagrangia_text, only: to_text
+    use lagrangia_text, only: in_words, to_text
     implicit none (type, external)
     private
     public :: scene_t, expectation_t, sweep_group_t
-    public :: add_texts, most_axes, sweep_text_length, scene_lines, scene_line_length
+    public :: add_texts, heading, most_axes, sweep_text_length, scene_lines, scene_line_length
 
     integer, parameter :: scene_line_length = 600  !! what a single value may need
     integer, parameter :: sweep_text_length = 120  !! of a text of `&sweep`
@@ -86,6 +86,15 @@ contains
         located%status = error%status
         call move_alloc(located, error)
     end subroutine locate
+
+    pure function heading(scene) result(text)
+        !! The title, or the scene's name in words where it has none.
+        type(scene_t), intent(in) :: scene  !! as the reader gives it
+        character(:), allocatable :: text
+
+        text = trim(scene%title)
+        if (text == "") text = in_words(scene%name)
+    end function heading
 
     function scene_lines(scene, d) result(lines)
         !! The effective scene, all defaults filled in, as namelist text.

@@ -25,13 +25,15 @@ module lagrangia_scene_reader
     use lagrangia_sweep_group, only: read_sweep_group, sweep_group => group
     use lagrangia_system, only: check_parameter, default_values, system_t
     use lagrangia_text, only: lower, quoted
+    use lagrangia_unquoted_text, only: ask_for_quotes
+    use lagrangia_usual_keys, only: refuse_usual_names
     use lagrangia_written_expressions, only: read_expressions, unused_parameters, &
                                              written_expressions_t
     use lagrangia_written_formulas, only: written_formulas_t
     use lagrangia_written_system, only: new_written_system, written_system_t
     implicit none (type, external)
     private
-    public :: read_scene, read_named_system, names_scene, parse_scene
+    public :: read_scene, read_named_system, read_unchanged, names_scene, parse_scene
 
 contains
 
@@ -58,7 +60,8 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! unknown, or a parameter is not allowed
         character(figure_length), allocatable, intent(out), optional :: figure(:)
         !! parts that the scene draws it by; none: the system's own
-        character(:), allocatable :: path
+        character(:), allocatable :: path, text
+        type(description_t) :: d
         type(namelist_t) :: tree
         type(scene_t) :: scene
         integer :: i
@@ -76,7 +79,10 @@ contains
                                                   file_advice(name)
             return
         end if
-        call parse_namelist("&scene system = '"//name//"' /", name, tree, error)
+        call system%describe(d)
+        text = "&scene system = '"//name//"' /"
+        if (size(d%parameters) > 0) text = text//" &"//name//" /"  ! for remedies that name it
+        call parse_namelist(text, name, tree, error)
         if (allocated(error)) return
         do i = 1, size(overrides)
             call apply_override(tree, overrides(i)%text, error)
@@ -120,11 +126,12 @@ contains
 
         allocate (tree)
         call parse_namelist(text, source, tree, error)
-        if (allocated(error)) return
         do i = 1, size(overrides)
+            if (allocated(error)) exit
             call apply_override(tree, overrides(i)%text, error)
-            if (allocated(error)) return
         end do
+        if (allocated(error)) call ask_for_quotes(tree, error)
+        if (allocated(error)) return
         scene%source = source
         scene%name = scene_name(source)
         read_groups: block
@@ -155,6 +162,25 @@ contains
         call move_alloc(tree, scene%file)
     end subroutine parse_scene
 
+    subroutine read_unchanged(scene, file)
+        !! What the scene's file says without the command line; a file that is complete only with
+        !! what was set has no sweep.
+        type(scene_t), intent(in) :: scene  !! as `read_scene` gives it
+        type(scene_t), intent(out) :: file  !! without what was set
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        type(word_t) :: none(0)
+        integer :: last
+
+        associate (tree => scene%file)
+            last = len(tree%text)
+            if (size(tree%starts) > 1) last = tree%starts(2) - 1
+            call parse_scene(tree%text(:last), scene%source, none, file, system, error)
+        end associate
+        if (.not. allocated(file%sweep%over)) allocate (file%sweep%over(0))
+        if (.not. allocated(file%sweep%keep)) allocate (file%sweep%keep(0))
+    end subroutine read_unchanged
+
     subroutine fit_to_overrides(tree, text, source, system, scene, error)
         !! Leave out what the command line has made meaningless; the scene's warning says what.
         type(namelist_t), intent(inout) :: tree
@@ -184,7 +210,8 @@ contains
     end subroutine fit_to_overrides
 
     subroutine refuse_coordinates(tree, system, error)
-        !! Refuse `theta = 0.5` and the like where a key is expected.
+        !! Refuse `theta = 0.5` and the like where a key is expected, and what other programs call
+        !! a key.
         type(namelist_t), intent(inout) :: tree
         class(system_t), intent(in) :: system
         type(error_t), allocatable, intent(out) :: error
@@ -203,6 +230,7 @@ contains
                 return
             end do
         end do
+        call refuse_usual_names(tree, error)
     end subroutine refuse_coordinates
 
     subroutine read_system(tree, scene, system, error)

@@ -6,11 +6,11 @@ module lagrangia_sweep_group
     use lagrangia_kinds, only: dp, i8
     use lagrangia_namelist, only: get_integer, get_real, get_string, get_strings, &
                                   has_group, namelist_t, refuse_unknown_keys, refuse_value
-    use lagrangia_scene, only: most_axes, sweep_group_t
+    use lagrangia_scene, only: add_texts, most_axes, scene_line_length, sweep_group_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: group, keys, read_sweep_group
+    public :: group, keys, read_sweep_group, sweep_lines
 
     character(*), parameter :: group = "sweep"
     character(name_length), parameter :: keys(*) = [character(name_length) :: &
@@ -77,4 +77,29 @@ contains
         sweep%threads = int(threads)
         call refuse_unknown_keys(tree, group, keys, error)
     end subroutine read_sweep_group
+
+    function sweep_lines(sweep) result(lines)
+        !! The group `&sweep` as it was computed, for the file's header.
+        type(sweep_group_t), intent(in) :: sweep  !! all that it says
+        character(scene_line_length), allocatable :: lines(:)
+
+        lines = [character(scene_line_length) :: "&sweep"]
+        call add_texts(lines, "over", sweep%over)
+        call add_texts(lines, "keep", sweep%keep)
+        if (sweep%after > -huge(1.0_dp)) call add("after = "//to_text(sweep%after))
+        if (sweep%strobe /= "") call add_texts(lines, "strobe", [sweep%strobe])
+        if (sweep%section /= "") call add_texts(lines, "section", [sweep%section])
+        if (sweep%strobe /= "" .or. sweep%section /= "") call add("points = "// &
+            to_text(sweep%points))
+        if (sweep%energy_by /= "") call add_texts(lines, "energy_by", [sweep%energy_by])
+        if (sweep%most_steps < huge(1_i8)) call add("most_steps = "//to_text(sweep%most_steps))
+        call add("seed = "//to_text(sweep%seed))
+        lines = [character(scene_line_length) :: lines, "/"]
+    contains
+        subroutine add(text)
+            character(*), intent(in) :: text
+
+            lines = [character(scene_line_length) :: lines, "  "//text]
+        end subroutine add
+    end function sweep_lines
 end module lagrangia_sweep_group

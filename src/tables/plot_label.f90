@@ -9,7 +9,7 @@ module lagrangia_plot_label
     use lagrangia_plot_words, only: plain_label, text_label, with_symbols
     implicit none (type, external)
     private
-    public :: is_small, label, labels
+    public :: is_small, label, labels, width_of
 
     character(*), parameter :: letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
     character(*), parameter :: digits = "0123456789"
