@@ -589,7 +589,7 @@ refuses 2 "given twice, as '' and 'svg'" run pendulum --plot --plot=svg
 refuses 2 "lacks the letter of its exponent" bench --tolerances 1-3
 refuses 2 "lacks the letter of its exponent" modes pendulum --at 1-3
 refuses 2 "lacks the letter of its exponent" run pendulum --set scene%dt=1-3 --output "$work/none"
-refuses 2 "a number is needed behind '='" run pendulum --set "scene%event='theta = 1-3'" --output "$work/none"
+refuses 2 "behind '=' a number is needed, or a formula of numbers" run pendulum --set "scene%event='theta = abc'" --output "$work/none"
 refuses 2 "begins or ends with a blank; write 'csv'" run pendulum --format 'csv ' --output "$work/none"
 refuses 2 "begins or ends with a blank; write 'svg'" run pendulum --plot='svg ' --output "$work/none"
 refuses 2 "begins or ends with a blank; write 'wedge'" describe 'wedge '
