@@ -146,6 +146,10 @@ contains
             associate (left => 645*modulo(i - 1, 2), upper => 882 - 420*((i - 1)/2))
                 call follow(script, margins(left + 100, left + 620, upper - 344, upper - 46, 922))
             end associate
+            call follow(script, newline//"set xlabel 'time of a run ('.mu.'s"// &
+                        trim(merge("; of closed_form: above", "                       ", &
+                                   i == 1))// &
+                        ")' noenhanced")
             if (i == 1) call follow(script, newline//"set xrange [1.0:10.0]; set yrange "// &
                                     "[1e-16:2]; unset x2tics; unset label"//newline// &
                                     "set x2range [1.0:1.0]; set x2tics"//newline)

@@ -24,6 +24,7 @@ contains
         call suite%addTest(TestMethod("rods_stay_rods", rods_stay_rods))
         call suite%addTest(TestMethod("what_has_no_rods", what_has_no_rods))
         call suite%addTest(TestMethod("a_panel_a_mode", a_panel_a_mode))
+        call suite%addTest(TestMethod("what_stands_is_drawn_once", what_stands_is_drawn_once))
         call suite%addTest(TestMethod("carts_and_springs_are_drawn", carts_and_springs_are_drawn))
     end function mode_picture_suite
 
@@ -107,6 +108,22 @@ contains
             end do
         end do
     end subroutine rods_stay_rods
+
+    subroutine what_stands_is_drawn_once()
+        !! A hoop does not swing: it is drawn at rest, and only its bead to either side.
+        real(dp), allocatable :: rows(:, :)
+        character(:), allocatable :: script
+        integer :: side
+
+        call draw("rotating_hoop", [0.0_dp], rows, script)
+        if (anyExceptions()) return
+        call assertEqual(72, size(chosen(rows, 1, 0, is_rod), 2), message="the hoop")
+        do side = -1, 1
+            if (side /= 0) call assertEqual(0, size(chosen(rows, 1, side, is_rod), 2), &
+                                            message="no hoop at a side")
+            call assertEqual(1, size(chosen(rows, 1, side, is_mass), 2), message="the bead")
+        end do
+    end subroutine what_stands_is_drawn_once
 
     subroutine carts_and_springs_are_drawn()
         !! A cart of 0.4 m by 0.16 m about its mass, with two wheels; a spring that ends at its mass

@@ -134,6 +134,8 @@ contains
                          label("m x_ddot dx/dtheta", "N m^2"))
         call assertEqual("""m x_dot (m&)"" noenhanced", label("m x_dot", "m&"))
         call assertEqual("x\^ "//theta, with_symbols("x^ theta"))
+        call assertEqual("", with_symbols("m = 5.972e24, 1e-10, 2d3, 3e, 4e+ x"))
+        call assertEqual("2"//theta//" 1e5 v_{0}", with_symbols("2theta 1e5 v0"))
     end subroutine words_of_a_title
 
     subroutine titles_without_symbols()

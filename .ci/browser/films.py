@@ -41,6 +41,22 @@ WRITTEN = """(() => {  // what a graph writes beyond its edges
   pen.fillText = old;
   return outside;
 })()"""
+TWICE = """(() => {  // numbers that stand twice on an axis, where digits that tell them apart are cut off
+  const pen = CanvasRenderingContext2D.prototype, old = pen.fillText, seen = new Set(), twice = [];
+  const graphs = [films[0].phase.canvas, films[0].energies.canvas];
+  pen.fillText = function (text, x, y) {
+    const axis = `${graphs.indexOf(this.canvas)} ${this.textAlign} ${text}`;
+    if (graphs.includes(this.canvas) && /[0-9]/.test(text) && !/[a-zA-Z]/.test(text)) seen.has(axis) ? twice.push(axis) : seen.add(axis);
+    old.call(this, text, x, y);
+  };
+  films[0].draw();
+  pen.fillText = old;
+  return twice;
+})()"""
+UNTITLED = """&scene system = 'earth', method = 'auto', tolerance = 1e-10, duration = 6.4e7, q = 1.471e11, 0, v = 0, 2.059e-7 /
+&lagrangian coordinates = 'r', 'phi', parameters = 'm', 'S', 'G', T = 'm/2 (r_dot^2 + r^2 phi_dot^2)', V = '-G S m/r' /
+&earth m = 5.972e24, S = 1.989e30, G = 6.674e-11 /
+"""
 GROUND = """(() => {
   const { film, stage } = films[0], [w, h] = stage.size;
   return film.parts.filter(part => part.kind === "ground").every(part => {
@@ -105,6 +121,11 @@ def examine(browser, path, title=None):
         check(f"{name}: no angle is wider than 0.7 rad", widest < 0.7001, str(widest))
     check(f"{name}: words in the line below the title", "_" not in value("document.querySelector('h1').nextElementSibling.textContent")
           .replace("m_block", "").replace("m_wedge", "").replace("i_roll", "").replace("i_yaw", "").replace("k_c", ""))
+    twice = value(TWICE)
+    check(f"{name}: no number stands twice on an axis", not twice, str(twice))
+    check(f"{name}: a pure number has no unit", not value("[...document.querySelectorAll('td.unit')].some(c => c.textContent === '1')"))
+    check(f"{name}: numbers have no index", not value(r"/[0-9]e[₀-₉]/.test(document.querySelector('h1').nextElementSibling.textContent)"),
+          value("document.querySelector('h1').nextElementSibling.textContent"))
     check(f"{name}: pictures have names",
           value("[...document.querySelectorAll('canvas')].every(c => c.getAttribute('role') == 'img' && c.ariaLabel)"))
     check(f"{name}: controls have names", value(
@@ -189,6 +210,10 @@ def main():
             with open(nasty, "w", encoding="utf-8") as file:
                 file.write("\n".join(lines))
             make(program, folder, ["run", nasty])
+            untitled = os.path.join(folder, "earth.nml")
+            with open(untitled, "w", encoding="utf-8") as file:
+                file.write(UNTITLED)
+            make(program, folder, ["run", untitled])
             done = subprocess.run([program, "report", "pendulum", nasty, "sphere", "--quiet", "--output",
                                    os.path.join(folder, "report")], capture_output=True, text=True)
             check("report", done.returncode == 0, done.stderr.strip())
@@ -200,7 +225,8 @@ def main():
                 name = os.path.basename(path)[:-5]
                 if sys.argv[2:] or name in DRAWN:
                     drawing.examine_drawing(browser, path, name, check)
-                examine(browser, path, NASTY.replace("''", "'") if path.endswith("nasty.html") else None)
+                examine(browser, path, NASTY.replace("''", "'") if path.endswith("nasty.html") else
+                        "earth" if name == "earth" else None)
             if not sys.argv[2:]:
                 examine_report(browser, os.path.join(folder, "report", "report.html"))
         finally:

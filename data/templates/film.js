@@ -416,7 +416,7 @@
       this.y = y => this.bottom - (y - ys[0]) / (ys[1] - ys[0]) * (this.bottom - this.top);
       pen.lineWidth = 1;
       const label = (v, step) => {
-        const places = Math.max(0, -Math.floor(Math.log10(step) + 1e-9)), digits = Math.max(0, Math.floor(Math.log10(Math.abs(v) / step) + 1e-9));
+        const places = Math.max(0, -Math.floor(Math.log10(step) + 1e-9)), digits = v ? Math.max(0, exponent(Math.abs(v)) - exponent(step)) : 0;
         if (Math.abs(v) < step / 2) return "0";
         return power(places > 5 || Math.abs(v) >= 1e5 ? v.toExponential(Math.min(digits, 8)) : v.toFixed(places));
       };
@@ -551,7 +551,7 @@
       const value = (name, unit, get, scale) => {  // an error has no scale: two digits of it are shown
         const cell = make("td");
         cells.push([cell, get, scale]);
-        return [make("th", { scope: "row" }, name), cell, make("td", { class: "unit" }, written(unit))];
+        return [make("th", { scope: "row" }, name), cell, make("td", { class: "unit" }, unit === "1" ? "" : written(unit))];
       };
       const series = (name, unit, list) => value(name, unit, s => at(list, s), largest(list));
       rows.push([...value("t", "s", () => this.time, Math.max(Math.abs(film.start), Math.abs(film.end))),
@@ -666,7 +666,7 @@
       const get = series => i => at(series, i), graph = this.phase;
       const bounds = film.phaseRange ??= new Map(), key = `${this.coordinate} ${Boolean(other)}`;
       if (!bounds.has(key)) bounds.set(key, [range(other ? [q, other[0]] : [q]), range(other ? [v, other[1]] : [v], 1e-12 * largest(q) / film.duration)]);
-      graph.axes(...bounds.get(key), `${letter(name)} [${unit}]`, `${dotted(name)} [${unit}/s]`, colors);
+      graph.axes(...bounds.get(key), unit === "1" ? letter(name) : `${letter(name)} [${unit}]`, `${dotted(name)} [${unit}/s]`, colors);
       if (other) graph.curve(get(other[0]), get(other[1]), film.count, colors.ghost, { alpha: 0.5, dash: [5, 4] });
       graph.curve(get(q), get(v), film.count, colors.body, { alpha: 0.35 });
       graph.curve(get(q), get(v), film.count, colors.body, { to: Math.floor(s) });

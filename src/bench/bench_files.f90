@@ -162,8 +162,7 @@ contains
         call script%add("set grid lc rgb '#cccccc' lw 0.6 lt 1")
         call script%add("set logscale xyx2; set format '10^{%L}'")
         call script%add("mu = """//char(194)//char(181)//"""")
-        call script%add("set xlabel 'time of a run ('.mu.'s; of closed_form: above)' noenhanced")
-        call script%add("set ylabel 'largest error of q and v'")
+        call script%add("set ylabel 'largest error of q and v' offset 1")
         call script%add("set multiplot title 'Run time against error at the end'")
         do i = 1, size(problems)
             call place(modulo(i - 1, across), (i - 1)/across)
@@ -196,15 +195,20 @@ contains
         subroutine draw(which)
             integer, intent(in) :: which
             character(:), allocatable :: line
+            logical :: closed
             integer :: k
 
             call script%add("set title "//gnuplot_string(trim(problems(which)%name)//": "// &
                             trim(problems(which)%title)//", T = "// &
                             to_text(problems(which)%duration)//" s")//" noenhanced offset 0,-0.7")
+            closed = any(curves%problem_index == which .and. curves%source == source_closed_form)
+            call script%add("set xlabel 'time of a run ('.mu.'s"// &
+                            trim(merge("; of closed_form: above", "                       ", &
+                                       closed))//")' noenhanced")
             call script%add("set xrange ["//time_range(curves, which, .false., at_line)// &
                             "]; set yrange [1e-16:2]; unset x2tics; unset label")
             if (at_line) call put_names(which)
-            if (any(curves%problem_index == which .and. curves%source == source_closed_form)) then
+            if (closed) then
                 call script%add("set x2range ["//time_range(curves, which, .true., at_line)// &
                                 "]; set x2tics")
             end if

@@ -8,18 +8,22 @@ module lagrangia_sweep_picture
     use lagrangia_kinds, only: dp, i8
     use lagrangia_plot_colour, only: line_colours => colours
     use lagrangia_plot_label, only: label, width_of
-    use lagrangia_plot_symbol, only: symbol
     use lagrangia_plot_words, only: plain_label, text_label, with_symbols
     use lagrangia_sweep, only: sweep_t
+    use lagrangia_sweep_axis, only: sweep_axis_t
     use lagrangia_sweep_grid, only: sweep_result_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: sweep_script
 
-    integer, parameter :: few = 60  !! points of a curve that are marked
+    integer, parameter :: few = 60        !! points of a curve that are marked
+    integer, parameter :: sparse = 20000  !! points of a diagram that may be larger
     character(*), parameter :: colours = "set palette defined (0 '#440154', "// &
         "0.25 '#3b528b', 0.5 '#21908c', 0.75 '#5dc863', 1 '#fde725')"
+    !! None of these is too light for a point on white.
+    character(*), parameter :: dark_colours = "set palette defined (0 '#0d0887', "// &
+        "0.33 '#7e03a8', 0.67 '#cc4778', 1 '#f89540')"
     character(7), parameter :: distinct(*) = ["#fde725", "#3b528b", "#5dc863", "#d8576b", &
         "#21908c", "#f89540", "#7e03a8", "#a5dbf2", "#b4de2c", "#8c564b", "#e377c2", "#7f7f7f"]
 
@@ -53,7 +57,7 @@ contains
                            maxval(sweep%axes(1)%values), long)
             call script%add("set rmargin "//trim(merge("8 ", "-1", long)))
             if (sweep%keeps_points) then
-                call add_points(sweep, reading, script)
+                call add_points(sweep, found, reading, script)
             else if (size(sweep%axes) == 2) then
                 call add_map(sweep, found, i, reading, script)
             else
@@ -80,26 +84,32 @@ contains
         end do
     end function panels
 
-    subroutine add_points(sweep, reading, script)
+    subroutine add_points(sweep, found, reading, script)
         !! Points of a stroboscope or a section: the first two numbers against each other, in the
         !! colour of their trajectory; or the only one over the first axis.
         type(sweep_t), intent(in) :: sweep
+        type(sweep_result_t), intent(in) :: found
         character(*), intent(in) :: reading
         type(lines_t), intent(inout) :: script
-        character(:), allocatable :: colour, using
+        character(:), allocatable :: colour, size_of_all, using
+        integer(i8) :: count
         integer :: n
+        real(dp) :: high, low
 
         n = size(sweep%axes)
         associate (axis => sweep%axes(1), kept => sweep%kept)
-            call script%add(colours)
+            call script%add(dark_colours)
+            call found%range_of(1, count, low, high)
+            size_of_all = "0.15"
+            if (count <= sparse) size_of_all = "0.3"
+            if (count <= few) size_of_all = "1"
             colour = "palette"
             if (size(axis%values) == 1 .or. size(kept) == 1) colour = "lc rgb '#3b528b'"
             if (size(kept) > 1) then
                 call script%add("set xlabel "//kept_label(kept(1)))
                 call script%add("set ylabel "//kept_label(kept(2)))
                 using = to_text(n + 1)//":"//to_text(n + 2)//":1"
-                call script%add("set cblabel "//gnuplot_string("of the start: "// &
-                    trim(symbol(trim(axis%name)))//", "//trim(axis%unit)))
+                call script%add("set cblabel "//start_label(axis)//" offset 1")
             else
                 if (axis%logarithmic) call script%add("set logscale x")
                 call script%add("set xlabel "//label(axis%name, axis%unit))
@@ -107,9 +117,18 @@ contains
                 using = "1:"//to_text(n + 1)
             end if
             call script%add("plot data "//reading//"using "//using// &
-                            " with points pt 7 ps 0.15 "//colour)
+                            " with points pt 7 ps "//size_of_all//" "//colour)
         end associate
     end subroutine add_points
+
+    pure function start_label(axis) result(text)
+        !! Of the colours of points: where their motions began.
+        type(sweep_axis_t), intent(in) :: axis
+        character(:), allocatable :: text
+
+        text = label(axis%name, axis%unit)
+        text = """start: "//text(2:)
+    end function start_label
 
     pure function kept_label(kept) result(text)
         !! Of an axis: a wrapped angle has the letter of the angle.
@@ -182,15 +201,18 @@ contains
         associate (axis => sweep%axes(1))
             style = "lines lw 2"
             if (size(axis%values) <= few) style = "linespoints lw 2 pt 7 ps 0.7"
-            if (axis%random) style = "points pt 7 ps 0.5"
+            if (axis%random) style = "points pt 7 ps "// &
+                                     trim(merge("1  ", "0.5", size(axis%values) <= few))
             call script%add("set grid lc rgb '#cccccc' lw 0.8 lt 1")
             call script%add(trim(merge("set logscale x  ", "unset logscale x", axis%logarithmic)))
             call script%add("set xlabel "//label(axis%name, axis%unit))
             if (size(which) == 1) then
-                call script%add("unset key; set ylabel "//label(sweep%kept(which(1))%text, &
+                call script%add("unset key; set tmargin -1")
+                call script%add("set ylabel "//label(sweep%kept(which(1))%text, &
                                                                 sweep%kept(which(1))%unit))
             else
-                call script%add("set key top left reverse Left; set ylabel "// &
+                call script%add("set key at graph 1, graph 1.01 right bottom horizontal "// &
+                                "reverse Left; set tmargin 2.2; set ylabel "// &
                                 plain_label("("//trim(sweep%kept(which(1))%unit)//")"))
             end if
             call found%range_of(which(1), n, low, high)
@@ -212,6 +234,44 @@ contains
             call script%add(line(:len(line) - 1))
         end associate
     end subroutine add_curves
+
+    pure function beyond(axis, value, side) result(edge)
+        !! Half a step further on an axis: where a cell ends.
+        type(sweep_axis_t), intent(in) :: axis  !! with two values or more
+        real(dp), intent(in) :: value
+        integer, intent(in) :: side             !! -1 or 1
+        real(dp) :: edge
+
+        associate (first => axis%values(1), last => axis%values(size(axis%values)), &
+                   steps => size(axis%values) - 1)
+            if (axis%logarithmic) then
+                edge = value*exp(0.5_dp*side*abs(log(last/first))/steps)
+            else
+                edge = value + 0.5_dp*side*abs(last - first)/steps
+            end if
+        end associate
+    end function beyond
+
+    pure function edges(axis, column) result(using)
+        !! Of a cell about the value in a column, as gnuplot computes them: a pixel wider, so that
+        !! no ground is seen between cells.
+        type(sweep_axis_t), intent(in) :: axis  !! with two values or more
+        integer, intent(in) :: column
+        character(:), allocatable :: using
+        integer, parameter :: pixels = 600  !! of an axis
+        character(:), allocatable :: half, value
+        real(dp) :: wider
+
+        wider = 1.0_dp + 2.0_dp*size(axis%values)/pixels
+        value = "$"//to_text(column)
+        if (axis%logarithmic) then
+            half = to_text(beyond(axis, 1.0_dp, 1)**wider)
+            using = "("//value//"/"//half//"):("//value//"*"//half//")"
+        else
+            half = to_text(beyond(axis, 0.0_dp, 1)*wider)
+            using = "("//value//"-"//half//"):("//value//"+"//half//")"
+        end if
+    end function edges
 
     subroutine add_map(sweep, found, which, reading, script)
         !! One number over both axes, as colour; by its logarithm, if all of them are above 0 and
@@ -251,6 +311,11 @@ contains
                 associate (axis => sweep%axes(i))
                     range = range//" ["//to_text(minval(axis%values))//":"// &
                             to_text(maxval(axis%values))//"]"
+                    if ((x%logarithmic .or. y%logarithmic) .and. size(axis%values) > 1) then
+                        range = range(:index(range, "[", back=.true.))// &
+                                to_text(beyond(axis, minval(axis%values), -1))//":"// &
+                                to_text(beyond(axis, maxval(axis%values), 1))//"]"
+                    end if
                     if (size(axis%values) == 1) range = range(:index(range, "[", back=.true.))//"]"
                 end associate
             end do
@@ -272,8 +337,11 @@ contains
                 call script%add("plot"//range//" data "//reading//"using 1:2:"// &
                                 to_text(which + 2)//" with points pt 7 ps 0.5 palette")
             else if (x%logarithmic .or. y%logarithmic) then
-                call script%add("set pm3d map corners2color mean; splot"//range//" data "// &
-                                reading//"using 1:2:"//to_text(which + 2)//" with pm3d")
+                call script%add("plot"//range//" data "//reading//"using ($"// &
+                                to_text(which + 2)//" == $"//to_text(which + 2)// &
+                                " ? $1 : NaN):2:"//edges(x, 1)//":"//edges(y, 2)//":"// &
+                                to_text(which + 2)// &
+                                " with boxxyerror fs solid noborder fc palette")
             else
                 call script%add("plot"//range//" data "//reading//"using 1:2:"// &
                                 to_text(which + 2)//" with image")

@@ -24,6 +24,7 @@ module lagrangia_mode_picture
     integer, parameter :: columns = 9          !! of the data file
     real(dp), parameter :: reach = 0.25_dp     !! of a mass, of the size of the mechanism
     real(dp), parameter :: widest_angle = 0.7_dp  !! rad
+    real(dp), parameter :: still = 1e-9_dp     !! of the size of the mechanism: does not move
     real(dp), parameter :: pi = acos(-1.0_dp)
 
     type :: picture_t
@@ -94,7 +95,7 @@ contains
     end subroutine write_mode_picture
 
     subroutine fill(system, own, modes, points, picture)
-        !! All rows.
+        !! All rows. What a mode does not move is drawn once, at rest.
         class(system_t), intent(in) :: system
         character(*), intent(in) :: own(:)
         type(modes_t), intent(in) :: modes
@@ -103,6 +104,7 @@ contains
         logical, allocatable :: rods(:, :)  ! too many for the stack
         type(figure_t) :: figure
         type(error_t), allocatable :: error
+        real(dp), allocatable :: at_rest(:, :, :)
         real(dp) :: at(3, 0:points), first(3, 0:points), last(3, 0:points), q(system%ndof)
         real(dp) :: high(system%ndof), low(system%ndof), size_of_all
         integer :: i, j, k, shown
@@ -128,12 +130,12 @@ contains
         if (drawn) rods = .false.
         allocate (picture%rows(columns, 0))
         do j = 1, shown
-            call add_state(picture, j, 0, at, rods)
+            call add_state(picture, j, 0, at, rods, at, -1.0_dp)
             call add_edges(j, 0, modes%at)
             do i = 1, 2
                 q = displaced(system, modes, j, points, size_of_all, (i - 1)*pi)
                 call place(system, q, points, last)
-                call add_state(picture, j, 3 - 2*i, last, rods)
+                call add_state(picture, j, 3 - 2*i, last, rods, at, still*size_of_all)
                 call add_edges(j, 3 - 2*i, q)
             end do
             do i = 0, pieces
@@ -156,27 +158,35 @@ contains
             allocate (r(3, figure%places))
             call figure%place(system, 0.0_dp, state, 0.0_dp*state, r)
             call find_edges(figure, r, size_of_all, edges)
+            if (side == 0) at_rest = edges
             do n = 1, size(edges, 3)
+                if (side /= 0 .and. &
+                    maxval(abs(edges(:, :, n) - at_rest(:, :, n))) <= still*size_of_all) cycle
                 call add(picture, mode, side, is_rod, edges(:, 1, n), edges(:, 2, n))
             end do
         end subroutine add_edges
     end subroutine fill
 
-    pure subroutine add_state(picture, mode, side, at, rods)
+    pure subroutine add_state(picture, mode, side, at, rods, at_rest, least)
         !! The mechanism in one position.
         type(picture_t), intent(inout) :: picture
         integer, intent(in) :: mode, side
         real(dp), intent(in) :: at(:, 0:)
         logical, intent(in) :: rods(0:, :)
+        real(dp), intent(in) :: at_rest(:, 0:)
+        real(dp), intent(in) :: least  !! m; only what is further from its place at rest is drawn
+        logical :: moves(0:size(rods, 2))
         integer :: i, k
 
+        moves = norm2(at - at_rest, 1) > least
         do k = 1, size(rods, 2)
             do i = 0, size(rods, 2)
+                if (.not. (moves(i) .or. moves(k))) cycle
                 if (rods(i, k)) call add(picture, mode, side, is_rod, at(:, i), at(:, k))
             end do
         end do
         do k = 1, size(rods, 2)
-            call add(picture, mode, side, is_mass, at(:, k), at(:, k))
+            if (moves(k)) call add(picture, mode, side, is_mass, at(:, k), at(:, k))
         end do
     end subroutine add_state
 

@@ -10,12 +10,13 @@ module lagrangia_run_files
     use lagrangia_gnuplot, only: dots, gnuplot_script, new_series, panel_t, series_t
     use lagrangia_kinds, only: dp
     use lagrangia_methods, only: exact
+    use lagrangia_number_text, only: rounded
     use lagrangia_outcome, only: outcome_t
     use lagrangia_output_file, only: output_file_t, remove_partial
     use lagrangia_plot_label, only: is_small
     use lagrangia_record, only: record_t
     use lagrangia_run_plan, only: run_plan_t
-    use lagrangia_scene, only: scene_line_length, scene_lines, scene_t
+    use lagrangia_scene, only: heading, scene_line_length, scene_lines, scene_t
     use lagrangia_text, only: shortened, to_text
     use lagrangia_text_table, only: text_table_t
     use lagrangia_version, only: build_text, version
@@ -24,6 +25,7 @@ module lagrangia_run_files
     public :: abandon_files, finish_files, keep_parts, method_text, open_files
 
     character(*), parameter :: lf = new_line("a")
+    integer, parameter :: shown_digits = 6     !! of a step or a tolerance
     integer, parameter :: longest_remark = 90  !! characters below a title
 
 contains
@@ -147,7 +149,7 @@ contains
         character(:), allocatable :: rejected
         integer :: n
 
-        associate (record => plan%record, events => plan%event_record, title => plan%scene%title)
+        associate (record => plan%record, events => plan%event_record)
             if (allocated(events%table)) then
                 call events%table%finish("events: "//to_text(events%rows), error)
                 if (allocated(error)) return
@@ -155,7 +157,7 @@ contains
                 n = size(events%columns%items)
                 outcome%draws_events = events%rows > 1 .and. size(plan%event_panels) > 0
                 if (outcome%draws_events) then
-                    call write_script(events, n, trim(title), event_remark(plan), &
+                    call write_script(events, n, heading(plan%scene), event_remark(plan), &
                                       plan%event_panels, scripts(1), error, dots)
                     if (allocated(error)) return
                 end if
@@ -170,7 +172,8 @@ contains
                 ", energy evaluations: "//to_text(outcome%energy_evaluations)// &
                 ", rows: "//to_text(outcome%rows), error)
             if (allocated(error)) return
-            call write_script(record, record%shown, trim(title), method_remark(plan), &
+            call write_script(record, record%shown, heading(plan%scene), &
+                              method_remark(plan), &
                               plan%panels, scripts(2), error)
         end associate
     end subroutine complete_files
@@ -215,9 +218,9 @@ contains
         if (scene%compensated) text = text//", compensated"
         if (scene%method == exact) return
         if (scene%tolerance > 0.0_dp) then
-            text = text//", tolerance "//to_text(scene%tolerance)
+            text = text//", tolerance "//rounded(scene%tolerance, shown_digits)
         else
-            text = text//", dt = "//to_text(scene%dt)//" s"
+            text = text//", dt = "//rounded(scene%dt, shown_digits)//" s"
         end if
     end function method_text
 

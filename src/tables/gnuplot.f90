@@ -4,15 +4,15 @@ module lagrangia_gnuplot
     !!
     !! No text of the user is ever more than a string.
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_gnuplot_axes, only: frame_t
+    use lagrangia_gnuplot_axes, only: frame_t, number_width, tick_step
     use lagrangia_gnuplot_panel, only: add_envelopes, curves, dots, draw_panel, variable
     use lagrangia_gnuplot_script, only: begin_script, gnuplot_string, lines_t
     use lagrangia_kinds, only: dp
     use lagrangia_names, only: advice, name_length, nearest_name
     use lagrangia_plot_colour, only: colour_panels
     use lagrangia_plot_label, only: is_small
-    use lagrangia_plot_panel, only: aspect, is_space, most_curves, panel_t, series_t, &
-                                    shape_legend
+    use lagrangia_plot_panel, only: aspect, find_traces, is_space, most_curves, panel_t, &
+                                    ranges_of, series_t, shape_legend, trace_t
     use lagrangia_plot_words, only: text_label
     use lagrangia_text, only: join, quoted, to_text
     use lagrangia_value_range, only: value_range_t
@@ -22,11 +22,13 @@ module lagrangia_gnuplot
     public :: curves, dots
 
     integer, parameter :: text_width = 86        !! characters of a title in its largest type
-    real(dp), parameter :: left = 135.0_dp       !! pixels beside the axes, for labels
-    real(dp), parameter :: right = 25.0_dp
+    real(dp), parameter :: usual_left = 135.0_dp !! pixels beside the axes, for labels
+    real(dp), parameter :: beside_numbers = 55.0_dp  !! of the y axis, with the label
+    real(dp), parameter :: letter = 12.0_dp      !! of a number
+    real(dp), parameter :: right = 40.0_dp
     real(dp), parameter :: below = 76.0_dp       !! below an axis with a label
     real(dp), parameter :: gap = 22.0_dp         !! between panels on one time axis
-    real(dp), parameter :: legend = 26.0_dp      !! above a panel
+    real(dp), parameter :: legend = 31.0_dp      !! above a panel
     real(dp), parameter :: legend_row = 22.0_dp  !! each further row of a legend
     real(dp), parameter :: column = 1000.0_dp    !! width of panels below each other
     real(dp), parameter :: narrow = 500.0_dp     !! of those that have others beside them
@@ -175,7 +177,7 @@ contains
         call colour_panels(coloured, series(1)%names)
         how = curves
         if (present(style)) how = style
-        call lay_out(series, panels, merge(74.0_dp, 50.0_dp, remark /= ""), frames, width, height)
+        call lay_out(series, panels, merge(82.0_dp, 50.0_dp, remark /= ""), frames, width, height)
         call begin_script(script, file, width, height, 30*size(panels))
         call script%add("data = folder."//gnuplot_string(series(1)%file))
         do i = 2, size(series)
@@ -185,7 +187,8 @@ contains
         call script%add("set grid lc rgb '#cccccc' lw 0.8 lt 1; set border lw 1.2; "// &
                         "set tics font ',14'")
         do i = 1, size(panels)
-            if (how == curves) call add_envelopes(script, series, panels(i), i)
+            if (how == curves) call add_envelopes(script, series, panels(i), i, &
+                                                frames(i)%right - frames(i)%left)
         end do
         call script%add("set multiplot")
         call script%add("set label 1 "//text_label(trim(title))//" at screen 0.5, "// &
@@ -220,8 +223,13 @@ contains
         type(frame_t), intent(out) :: frames(size(panels))
         integer, intent(out) :: width, height
         logical :: beside(size(panels))
-        real(dp) :: bodies(size(panels)), edge, more, y(2)
+        real(dp) :: bodies(size(panels)), edge, left, more, y(2)
         integer :: i, k, plain
+
+        left = usual_left
+        do i = 1, size(panels)
+            left = max(left, beside_numbers + letter*widest_number(series, panels(i)))
+        end do
 
         beside = .false.
         do i = 1, size(panels)
@@ -301,4 +309,24 @@ contains
             pixels = legend*min(rows, 1) + legend_row*max(rows - 1, 0)
         end function legend_height
     end subroutine lay_out
+
+    pure function widest_number(series, panel) result(letters)
+        !! Beside the y axis of a panel; none of a logarithmic one.
+        type(series_t), intent(in) :: series(:)
+        type(panel_t), intent(in) :: panel
+        integer :: letters
+        type(trace_t), allocatable :: traces(:)
+        type(value_range_t), allocatable :: x(:), y(:)
+        real(dp) :: high, low, step
+
+        letters = 0
+        if (all(is_small(series(1)%names(panel%y(:panel%curves))))) return
+        call find_traces(series, panel, traces)
+        call ranges_of(series, traces, x, y)
+        low = minval(y%low)
+        high = maxval(y%high)
+        step = 0.1_dp*max(abs(low), abs(high))
+        if (high > low) step = max(tick_step(0.5_dp*(high - low)), 1e-5_dp*step)
+        letters = max(number_width(low, step), number_width(high, step))
+    end function widest_number
 end module lagrangia_gnuplot

@@ -10,13 +10,14 @@ module lagrangia_gnuplot_axes
     implicit none (type, external)
     private
     public :: frame_t
-    public :: add_decades, add_equal_scale, add_labels, add_margins, add_range, &
-              add_spread, add_ticks
+    public :: add_across, add_decades, add_equal_scale, add_labels, add_margins, add_range, &
+              add_spread, add_ticks, number_width, tick_step
 
     integer, parameter :: lowest = -18       !! decade; nothing below it is told from zero
     character(3), parameter :: nearly = char(226)//char(137)//char(136)  !! "almost equal to"
     integer, parameter :: most_decades = 6   !! with a tick each
     real(dp), parameter :: margin = 0.06_dp  !! around what is drawn to scale
+    real(dp), parameter :: letter = 10.0_dp  !! pixels of a digit of 14 pt
     integer, parameter :: usual = 6          !! digits of a number beside an axis
     integer, parameter :: most_digits = 15   !! that a double has
     real(dp), parameter :: roomy = 240.0_dp  !! pixels that ten numbers above each other need
@@ -62,8 +63,8 @@ contains
         if (any(y%zeros > 0 .or. y%least < 10.0_dp**first)) edge = first - 1
         ! Ticks go down from the top, and none is nearer to the edge than the others to each other.
         step = (last - first + most_decades - 1)/most_decades
-        line = "set logscale y; set yrange [0.6e"//to_text(edge)//":1e"//to_text(last)// &
-               "]; set ytics ("
+        line = "set logscale y; set yrange [0.6e"//to_text(edge)//":1.01e"// &
+               to_text(last)//"]; set ytics ("
         if (edge < first) then
             if (any(y%least < 10.0_dp**first)) then
                 line = line//""""//nearly//"0"" 1e"//to_text(edge)//", "
@@ -80,7 +81,7 @@ contains
 
     pure subroutine add_equal_scale(script, x, y, frame)
         !! A metre is as long on both axes, whatever shape the panel has. The numbers have the same
-        !! distance, but where an axis would have less than two.
+        !! distance, but where an axis would have less than two, or the x axis no room for them.
         type(lines_t), intent(inout) :: script  !! gets the lines
         type(value_range_t), intent(in) :: x(:), y(:)  !! of each curve
         type(frame_t), intent(in) :: frame  !! the panel's place
@@ -95,12 +96,78 @@ contains
         across = 0.5_dp*scale*(frame%right - frame%left)
         up = 0.5_dp*scale*(frame%top - frame%bottom)
         call script%add("set size ratio -1; set xtics "// &
-                        to_text(two_at_least(step, middle(1), across))//"; set ytics "// &
+                        to_text(two_at_least(roomy_step(step, middle(1) - across, &
+                                                        middle(1) + across, frame), &
+                                             middle(1), across))//"; set ytics "// &
                         to_text(two_at_least(step, middle(2), up)))
         call script%add("set xrange ["//rounded(middle(1) - across, 5)//":"// &
                         rounded(middle(1) + across, 5)//"]; set yrange ["// &
                         rounded(middle(2) - up, 5)//":"//rounded(middle(2) + up, 5)//"]")
     end subroutine add_equal_scale
+
+    pure subroutine add_across(script, x, frame)
+        !! The range of the x axis, and its numbers where gnuplot's would touch each other. What
+        !! only grows fills the panel; a constant gets a range.
+        type(lines_t), intent(inout) :: script  !! gets the lines
+        type(value_range_t), intent(in) :: x(:)  !! of each curve
+        type(frame_t), intent(in) :: frame  !! the panel's place
+        integer, parameter :: most = 11  !! numbers that gnuplot puts below an axis
+        real(dp) :: high, low, width
+
+        low = minval(x%low)
+        high = maxval(x%high)
+        if (.not. high > low) then
+            width = max(0.1_dp*abs(low), tiny(width))
+            if (abs(low) <= 0.0_dp) width = 1.0_dp
+            call script%add("set xrange ["//to_text(low - width)//":"//to_text(low + width)//"]")
+            return
+        end if
+        if (all(x%turns == 0)) call script%add("set xrange ["//to_text(low)//":"// &
+                                               to_text(high)//"]")
+        if (room(low, high, tick_step(high - low), frame) >= most) return
+        call script%add("set xtics "//to_text(roomy_step(tick_step(high - low), low, high, frame)))
+    end subroutine add_across
+
+    pure function roomy_step(step, low, high, frame) result(wider)
+        !! A step of at least `step`, with which the numbers below an axis have room.
+        real(dp), intent(in) :: step, low, high  !! ends of the axis
+        type(frame_t), intent(in) :: frame
+        real(dp) :: wider
+
+        wider = step
+        do while (wider < high - low .and. (high - low)/wider > room(low, high, wider, frame))
+            wider = tick_step(7.6_dp*wider)
+        end do
+    end function roomy_step
+
+    pure function room(low, high, step, frame) result(count)
+        !! How many numbers stand side by side below an axis, a letter and a half apart.
+        real(dp), intent(in) :: low, high, step
+        type(frame_t), intent(in) :: frame
+        real(dp) :: count
+
+        count = (frame%right - frame%left)/ &
+                (letter*(max(number_width(low, step), number_width(high, step)) + 1.5_dp))
+    end function room
+
+    pure function number_width(value, step) result(letters)
+        !! Of a number as `%g` writes it that is as large as `value` and a multiple of `step`.
+        real(dp), intent(in) :: value, step  !! of an axis
+        integer :: letters
+        integer :: behind, last, power
+
+        letters = 1
+        if (.not. (abs(value) > 0.0_dp .and. step > 0.0_dp)) return
+        power = floor(log10(abs(value)) + 1e-9_dp)
+        last = floor(log10(step) + 1e-9_dp)
+        if (power < -4 .or. power >= max(usual, power - last + 1)) then
+            behind = max(0, min(power - last, usual - 1))
+            letters = 5 + merge(behind + 1, 0, behind > 0) + merge(1, 0, abs(power) >= 100)
+        else
+            letters = max(power, 0) + 1 + merge(1 - last, 0, last < 0)
+        end if
+        if (value < 0.0_dp) letters = letters + 1
+    end function number_width
 
     pure subroutine add_range(script, y, frame)
         !! gnuplot draws nothing between two equal numbers, and ticks that differ by less than their
@@ -134,10 +201,8 @@ contains
         real(dp) :: largest, step
         integer :: figures
 
-        figures = usual
+        figures = figures_of(low, high)
         largest = max(abs(low), abs(high))
-        if (high > low) figures = min(most_digits, 2 + ceiling(log10(largest) - log10(high - low)))
-        figures = max(figures, usual)
         long = high > low .and. (figures > usual .or. largest >= 1e5_dp .or. largest < 1e-3_dp)
         call script%add("set format "//axis//" '%."//to_text(figures)//"g'; set "//axis// &
                         "tics autofreq")
@@ -146,6 +211,17 @@ contains
         if (figures > usual + 2) step = tick_step(2.0_dp*(high - low))
         call script%add("set "//axis//"tics "//to_text(step))
     end subroutine add_ticks
+
+    pure function figures_of(low, high) result(figures)
+        !! Significant digits that tell the numbers beside an axis apart, 6 at least.
+        real(dp), intent(in) :: low, high  !! what is drawn; none if high < low
+        integer :: figures
+
+        figures = usual
+        if (.not. high > low) return
+        figures = 2 + ceiling(log10(max(abs(low), abs(high))) - log10(high - low))
+        figures = max(min(figures, most_digits), usual)
+    end function figures_of
 
     pure subroutine add_spread(script, axis, low, high)
         !! A range for what is constant but for rounding, of which gnuplot finds none, or ticks that
@@ -168,11 +244,12 @@ contains
                         "tics autofreq")
     end subroutine add_spread
 
-    pure subroutine add_labels(script, series, panel, frame, logarithmic)
+    pure subroutine add_labels(script, series, panel, x, frame, logarithmic)
         !! Of both axes.
         type(lines_t), intent(inout) :: script  !! gets the lines
         type(series_t), intent(in) :: series  !! data files
         type(panel_t), intent(in) :: panel  !! of columns of the first data file
+        type(value_range_t), intent(in) :: x(:)  !! of each curve
         type(frame_t), intent(in) :: frame  !! the panel's place
         logical, intent(in) :: logarithmic  !! is the y axis
         character(:), allocatable :: text
@@ -180,7 +257,10 @@ contains
 
         associate (names => series%names, units => series%units, y => panel%y(:panel%curves))
             if (frame%below) then
-                call script%add("set format x '%g'; set xlabel "// &
+                text = to_text(figures_of(minval(x%low), maxval(x%high)))
+                if (text == to_text(usual)) text = ""
+                if (text /= "") text = "."//text
+                call script%add("set format x '%"//text//"g'; set xlabel "// &
                                 label(names(panel%x), units(panel%x)))
             else
                 call script%add("set format x ''; unset xlabel")
@@ -222,7 +302,7 @@ contains
 
     pure function tick_step(range) result(step)
         !! 1, 2 or 5 times a power of ten, so that there are three to seven ticks in `range`.
-        real(dp), intent(in) :: range
+        real(dp), intent(in) :: range  !! of an axis, above 0
         real(dp) :: power, step
 
         power = 10.0_dp**floor(log10(range/3.0_dp))

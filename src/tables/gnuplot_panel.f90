@@ -1,14 +1,14 @@
 module lagrangia_gnuplot_panel
     !! One panel of a picture, and the envelopes of its curves, as lines of a gnuplot script.
-    use lagrangia_gnuplot_axes, only: add_decades, add_equal_scale, add_labels, add_margins, &
-                                      add_range, frame_t
+    use lagrangia_gnuplot_axes, only: add_across, add_decades, add_equal_scale, add_labels, &
+                                      add_margins, add_range, frame_t
     use lagrangia_gnuplot_script, only: lines_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_plot_colour, only: colours
     use lagrangia_plot_label, only: is_small, label
-    use lagrangia_plot_panel, only: find_traces, has_envelope, has_legend, is_dense, is_space, &
-                                    panel_t, ranges_of, series_t, shape_legend, told_apart, &
-                                    trace_t
+    use lagrangia_plot_panel, only: alike, find_traces, has_envelope, has_legend, is_dense, &
+                                    is_space, panel_t, ranges_of, series_t, shape_legend, &
+                                    told_apart, trace_t
     use lagrangia_plot_words, only: text_label
     use lagrangia_text, only: to_text
     use lagrangia_value_range, only: value_range_t
@@ -45,9 +45,9 @@ contains
         call add_margins(script, frame, width, height)
         call script%add("unset logscale; set autoscale xy; set size noratio; "// &
                         "set xtics autofreq; set ytics autofreq; set format y '%g'")
-        if (panel%x == 1 .and. maxval(x%high) > minval(x%low) .and. style == curves) then
-            call script%add("set xrange ["//to_text(minval(x%low))//":"// &
-                            to_text(maxval(x%high))//"]")
+        turned = turns_over(series(1), panel, x)
+        if (style == curves .and. .not. turned .and. .not. is_space(series, panel)) then
+            call add_across(script, x, frame)
         end if
         if (style /= curves) call script%add("set offsets graph 0.03, 0.03, 0.05, 0.05")
         logarithmic = all(is_small(series(1)%names(panel%y(:panel%curves))))
@@ -60,32 +60,37 @@ contains
         else
             call add_range(script, y, frame)
         end if
-        turned = turns_over(series(1), panel, x)
         if (turned) call add_turn(script)
-        call add_labels(script, series(1), panel, frame, logarithmic)
+        call add_labels(script, series(1), panel, x, frame, logarithmic)
         call shape_legend(series, panel, number, frame%right - frame%left, columns, rows)
-        call add_legend(script, columns)
+        call add_legend(script, columns, frame)
         call add_curves(script, series, panel, traces, number, style, logarithmic, first, edge, &
-                        turned)
+                        turned, frame%right - frame%left)
     end subroutine draw_panel
 
-    pure subroutine add_legend(script, columns)
+    pure subroutine add_legend(script, columns, frame)
         !! Above the panel, clear of its curves and of the title.
         type(lines_t), intent(inout) :: script  !! gets the lines
         integer, intent(in) :: columns          !! of the legend; 0 if there is none
+        type(frame_t), intent(in) :: frame      !! the panel's place
+        real(dp), parameter :: above = 7.0_dp   !! pixels, for what is below a letter
+        character(8) :: place
 
         if (columns > 0) then
-            call script%add("set key at graph 1, graph 1.02 right bottom horizontal Left "// &
-                            "reverse samplen 2 font ',14' maxcols "//to_text(columns))
+            write (place, "(ss, f6.4)") 1.0_dp + above/(frame%top - frame%bottom)
+            call script%add("set key at graph 1, graph "//trim(place)// &
+                            " right bottom horizontal Left reverse samplen 2 "// &
+                            "font ',14' maxcols "//to_text(columns))
         else
             call script%add("unset key")
         end if
     end subroutine add_legend
 
     subroutine add_curves(script, series, panel, traces, number, style, logarithmic, first, &
-                          edge, turned)
+                          edge, turned, pixels)
         !! The command that draws. An envelope is a band with its edges, of magnitudes the upper
         !! one. Where curves of several files lie on each other all are seen: the first is widest.
+        !! Thin lines are wide in the legend; what stands still is a point.
         type(lines_t), intent(inout) :: script  !! gets the lines
         type(series_t), intent(in) :: series(:)  !! data files
         type(panel_t), intent(in) :: panel  !! of columns of the first data file
@@ -95,9 +100,16 @@ contains
         logical, intent(in) :: logarithmic  !! is the y axis
         integer, intent(in) :: first, edge
         logical, intent(in) :: turned  !! an angle is shown within one turn
-        character(:), allocatable :: across, band, colour, line, title, using, width
+        real(dp), intent(in) :: pixels  !! of the panel's width
+        type(value_range_t), allocatable :: x(:), y(:)
+        logical :: dense, nested
+        character(:), allocatable :: across, band, colour, line, line_of, title, using, &
+                                     width
         integer :: i, k
 
+        call ranges_of(series, traces, x, y)
+        nested = panel%nested
+        if (size(series) > 1 .and. panel%x == 1 .and. .not. logarithmic) nested = alike(x, y)
         line = ""
         do i = 1, size(traces)
             associate (trace => traces(i), from => series(traces(i)%series))
@@ -106,13 +118,13 @@ contains
                 if (size(series) > 1 .and. panel%curves == 1) k = trace%series
                 colour = " lc rgb '"//colours(modulo(k - 1, size(colours)) + 1)//"'"
                 width = " lw 2"
-                if (panel%nested .or. (size(series) > 1 .and. panel%x == 1 &
-                                       .and. .not. logarithmic)) then
+                if (nested) then
                     width = " lw "//to_text(2 + 3*max(0, min(size(traces), most_widths) - i))
                 end if
-                if (is_dense(from, trace)) width = " lw 0.3"
+                dense = is_dense(from, trace, pixels)
+                if (dense) width = " lw 0.4"
                 title = curve_title(series, panel, trace, number, logarithmic)
-                if (has_envelope(from, trace) .and. style == curves) then
+                if (has_envelope(from, trace, pixels) .and. style == curves) then
                     band = id(number, i)
                     using = " using (middle"//band//"($1)):(low"//band//"[int($1)])"
                     call add("low"//band//using//":(high"//band//"[int($1)]) with filledcurves"// &
@@ -129,8 +141,15 @@ contains
                 across = to_text(trace%x)
                 if (turned) across = "(angle = within($"//across//"), jump = abs(angle - last) "// &
                     "> pi, last = angle, jump ? NaN : angle)"
-                call add(variable(trace%series)//" "//from%reading//"using "//across//":"//using// &
-                         " with "//style//width//colour//title)
+                line_of = variable(trace%series)//" "//from%reading//"using "//across//":"//using
+                if (style == curves .and. .not. x(i)%high > x(i)%low) then
+                    call add(line_of//" with "//dots//colour//title)
+                else if (dense .and. style == curves .and. index(title, " notitle") /= 1) then
+                    call add(line_of//" with "//style//width//colour//" notitle")
+                    call add("NaN with "//style//" lw 2"//colour//title)
+                else
+                    call add(line_of//" with "//style//width//colour//title)
+                end if
             end associate
         end do
         call script%add("plot "//line)
@@ -207,13 +226,14 @@ contains
                         letter//""" pi)")
     end subroutine add_turn
 
-    subroutine add_envelopes(script, series, panel, number)
+    subroutine add_envelopes(script, series, panel, number, pixels)
         !! For each curve of a panel that needs it, before anything is drawn: the least and the
         !! largest value in each of many equal parts of the time, as arrays of gnuplot.
         type(lines_t), intent(inout) :: script  !! gets the lines
         type(series_t), intent(in) :: series(:)  !! data files; the first has all columns
         type(panel_t), intent(in) :: panel  !! of columns of the first data file
         integer, intent(in) :: number  !! of the panel
+        real(dp), intent(in) :: pixels  !! of its width
         type(trace_t), allocatable :: traces(:)
         type(value_range_t), allocatable :: x(:), y(:)
         character(:), allocatable :: band, count, value
@@ -226,7 +246,7 @@ contains
         call add_decades(ignored, y, first, edge)
         do i = 1, size(traces)
             associate (trace => traces(i), from => series(traces(i)%series))
-                if (.not. has_envelope(from, trace)) cycle
+                if (.not. has_envelope(from, trace, pixels)) cycle
                 band = id(number, i)
                 count = to_text(int(min(int(most_bins, i8), y(i)%count/10_i8)))
                 value = "$"//to_text(trace%y)

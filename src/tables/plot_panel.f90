@@ -5,12 +5,12 @@ module lagrangia_plot_panel
     implicit none (type, external)
     private
     public :: panel_t, series_t, trace_t
-    public :: aspect, find_traces, has_envelope, has_legend, is_dense, is_space, ranges_of
+    public :: alike, aspect, find_traces, has_envelope, has_legend, is_dense, is_space, ranges_of
     public :: shape_legend
     public :: most_curves, told_apart
 
     integer, parameter :: most_curves = 8
-    integer, parameter :: most_turns = 400   !! beyond them a curve is a solid block
+    real(dp), parameter :: apart = 2.1_dp    !! pixels from turn to turn; nearer is a solid block
     real(dp), parameter :: told_apart = 1e-5_dp    !! by the six digits of a tick, relative
     real(dp), parameter :: most_unequal = 12.0_dp  !! width by height, or back, drawn to scale
 
@@ -111,26 +111,42 @@ contains
         if (width > rise/huge(ratio)) ratio = rise/width
     end function aspect
 
-    pure function has_envelope(series, trace) result(yes)
-        !! More periods than can be told apart.
+    pure function has_envelope(series, trace, pixels) result(yes)
+        !! More periods than can be told apart, over what only grows or only falls.
         type(series_t), intent(in) :: series  !! data files
         type(trace_t), intent(in) :: trace  !! one of its curves
+        real(dp), intent(in) :: pixels  !! of the panel's width
         logical :: yes
 
-        yes = trace%x == 1 .and. series%ranges(trace%y)%turns > most_turns .and. &
+        yes = trace%x == 1 .and. apart*series%ranges(trace%y)%turns > pixels .and. &
               series%ranges(1)%high > series%ranges(1)%low .and. &
+              series%ranges(1)%turns == 0 .and. &
               series%ranges(trace%y)%high - series%ranges(trace%y)%low > &
               told_apart*series%ranges(trace%y)%largest()
     end function has_envelope
 
-    pure function is_dense(series, trace) result(yes)
+    pure function is_dense(series, trace, pixels) result(yes)
         !! A path so often to and fro that only thin lines show which places it visits more often.
         type(series_t), intent(in) :: series  !! data files
         type(trace_t), intent(in) :: trace  !! one of its curves
+        real(dp), intent(in) :: pixels  !! of the panel's width
         logical :: yes
 
-        yes = trace%x /= 1 .and. series%ranges(trace%y)%turns > most_turns
+        yes = (trace%x /= 1 .or. series%ranges(1)%turns > 0) .and. &
+              apart*series%ranges(trace%y)%turns > pixels
     end function is_dense
+
+    pure function alike(x, y) result(yes)
+        !! Whether curves may lie on each other: they begin, end and reach where the first does.
+        type(value_range_t), intent(in) :: x(:), y(:)  !! of each curve
+        logical :: yes
+        real(dp), parameter :: near = 0.05_dp  !! of what the first spreads
+
+        yes = all(abs(x%low - x(1)%low) <= near*(x(1)%high - x(1)%low)) .and. &
+              all(abs(x%high - x(1)%high) <= near*(x(1)%high - x(1)%low)) .and. &
+              all(abs(y%low - y(1)%low) <= near*(y(1)%high - y(1)%low)) .and. &
+              all(abs(y%high - y(1)%high) <= near*(y(1)%high - y(1)%low))
+    end function alike
 
     pure function has_legend(series, panel, number) result(yes)
         !! Of several data files only the first panel, where no column is beside another one.
@@ -151,20 +167,23 @@ contains
         integer, intent(in) :: number  !! of the panel
         real(dp), intent(in) :: pixels  !! of the panel's width
         integer, intent(out) :: columns, rows  !! 0: there is no legend
-        real(dp), parameter :: letter = 10.5_dp  !! pixels, of 14 pt
-        integer, parameter :: sample = 8         !! letters that the line in front takes, and gaps
+        real(dp), parameter :: letter = 12.0_dp  !! pixels, as gnuplot takes one of 14 pt
+        integer, parameter :: sample = 6         !! letters that the line in front takes, and gaps
         integer :: entries, i, length, longest
+        logical :: units
 
         columns = 0
         rows = 0
         if (.not. has_legend(series, panel, number)) return
         entries = merge(size(series), panel%curves, size(series) > 1)
+        units = any(series(1)%units(panel%y(:panel%curves)) /= series(1)%units(panel%y(1)))
         longest = 1
         do i = 1, entries
             if (size(series) > 1) then
                 length = len(series(i)%name)
             else
                 length = index(trim(series(1)%names(panel%y(i)))//"_drift", "_drift") - 1
+                if (units) length = length + len_trim(series(1)%units(panel%y(i))) + 3
             end if
             longest = max(longest, length)
         end do

@@ -66,6 +66,9 @@ contains
                     marked = marked//part
                     found = .true.
                 end if
+            else if (index(digits, text(i:i)) > 0) then
+                last = i + number_length(text(i:)) - 1
+                marked = marked//text(i:last)
             else if (text(i:i) == "^") then
                 call take_power(text, last, part)
                 if (last > i) then
@@ -81,6 +84,28 @@ contains
         end do
         if (.not. found) marked = ""
     end function with_symbols
+
+    pure function number_length(text) result(length)
+        !! Of the number that a text begins with: `5.97e24` is no e with an index.
+        character(*), intent(in) :: text  !! a digit first
+        integer :: length
+        integer :: first, more
+
+        length = verify(text//" ", digits//".") - 1
+        if (length == len(text)) return
+        if (scan(text(length + 1:length + 1), "eEdD") == 0) return
+        first = length + 2
+        if (first <= len(text)) then
+            if (scan(text(first:first), "+-") > 0) first = first + 1
+        end if
+        if (first > len(text)) return
+        more = verify(text(first:)//" ", digits) - 1
+        if (more == 0) return
+        if (first + more <= len(text)) then
+            if (scan(text(first + more:first + more), letters//"_") > 0) return
+        end if
+        length = first + more - 1
+    end function number_length
 
     pure subroutine take_power(text, last, part)
         !! What is raised behind the `^` at `last`, with a sign; `last` stays where nothing is.
