@@ -104,19 +104,18 @@ basins --over theta=-3:3:9 --over theta_dot=-8:8:5
 double_pendulum --set scene%method='dop853' --set scene%tolerance=1e-9 --set scene%samples=1 --over theta1=0:1:300 --keep theta2
 SWEEPS
 
-map=(flip_map --set scene%output=flip_map --over theta1=-pi:pi:100 --over theta2=-pi:pi:100)
+map=(flip_map --set scene%output=flip_map --over theta1=-pi:pi:200 --over theta2=-pi:pi:200)
 on 0 whole "${map[@]}"
 on 2 killed "${map[@]}" &
 running=$!
-for _ in $(seq 100); do
-    sleep 0.1
-    [ -n "$(find "$work/killed" -name '*.part*' -size +4k 2>/dev/null)" ] && break
+victim= # a bare Debian has no pgrep; on a busy machine the sweep must not end while we look for it
+for _ in $(seq 600); do
+    [ -n "$victim" ] || victim=$(grep -la "^$images" /proc/[0-9]*/cmdline 2>/dev/null | xargs -r grep -la "$work/killed" 2>/dev/null | head -n 1)
+    [ -n "$victim" ] && [ -n "$(find "$work/killed" -name '*.part*' -size +4k 2>/dev/null)" ] && break
+    sleep 0.05
 done
-victim= # a bare Debian has no pgrep
-for folder in /proc/[0-9]*; do
-    { tr '\0' ' ' <"$folder/cmdline"; } 2>/dev/null | grep -q "^$images sweep flip_map .*$work/killed" && victim=${folder##*/}
-done
-[ -n "$victim" ] && kill -9 "$victim"
+victim=${victim#/proc/}
+[ -n "$victim" ] && kill -9 "${victim%/cmdline}"
 wait $running
 status=$?
 check "an image that is killed ends the sweep with status $status" [ $status -ne 0 ]
