@@ -492,6 +492,8 @@ run bench sweep --quick --json --output "$work/bench"
 check "bench sweep: ours and GSL's, on one thread and on all, by rk4 to 1e-6, otherwise to 1e-9" json '(lambda r: {x["method"] for x in r} == {"rk4", "gsl_rk4", "gauss16", "dop853", "gsl_rk8pd", "lyapunov", "gsl_lyapunov"} and all(x["error"] < (1e-6 if "rk4" in x["method"] else 1e-6 if x["method"] == "gsl_lyapunov" else 1e-9) and x["us_each"] > 0 for x in r))([x for x in d if x["table"] == "sweep"])'
 run sweep pendulum --over q=0:1:1000000 --over v=0:1:1000000 --keep theta --output "$work/sweep"
 check "sweep: 1e12 trajectories are refused with their size" eval '[ $status -eq 2 ] && [ "$(wc -l <"$work/err")" -eq 1 ] && grep -q "TB on the disk and .* MB of memory, and only .* are free" "$work/err"'
+run sweep pendulum --over theta=0:1:1000000000000 --keep theta --output "$work/sweep"
+check "sweep: so is an axis of 1e12 values" eval '[ $status -eq 2 ] && [ "$(wc -l <"$work/err")" -eq 1 ] && grep -q "^lagrangia: 1000000000000 trajectories take up to .* TB on the disk and .* MB of memory" "$work/err"'
 run describe scene
 check "docs/scenes.md: what 'describe scene' prints" python3 -c 'import re, sys
 sys.exit(re.search(r"```\n(.*?)```", open("docs/scenes.md").read(), re.S).group(1) != open(sys.argv[1]).read())' "$work/out"

@@ -37,6 +37,7 @@ contains
         call suite%addTest(TestMethod("those_of_one_at_a_time", those_of_one_at_a_time))
         call suite%addTest(TestMethod("ueda", ueda))
         call suite%addTest(TestMethod("chaos_by_two_methods", chaos_by_two_methods))
+        call suite%addTest(TestMethod("exponent_of_floquet", exponent_of_floquet))
         call suite%addTest(TestMethod("neighbours_change_no_byte", neighbours_change_no_byte))
         call suite%addTest(TestMethod("processes_change_no_byte", processes_change_no_byte))
         call suite%addTest(TestMethod("who_blows_up_is_alone", who_blows_up_is_alone))
@@ -64,6 +65,8 @@ contains
         !! that begins with the length 1 because there is no time to settle.
         type(sweep_t) :: sweep
         real(dp), allocatable :: values(:, :)
+        real(dp) :: m(11)
+        integer(i8) :: i
 
         call make("&scene system='pendulum', "//times//"duration=5, q=1 / &sweep after=3 /", &
                   ["theta=pi:pi:1"], both, sweep)
@@ -74,8 +77,9 @@ contains
                   "b=0.3 /", ["m=1:2:11"], both, sweep)
         call compute(sweep, values, 0)
         call assertEqual([-0.15_dp, -0.1_dp, -0.075_dp], values(1, [1, 6, 11]), 5e-3_dp, "damped")
-        call assertTrue(all(abs(values(1, :) + 0.15_dp/sweep%axes(1)%values) < &
-                            4*values(2, :) + 1e-4_dp), "within four errors")
+        m = sweep%axes(1)%value([(i, i=1_i8, 11_i8)])
+        call assertTrue(all(abs(values(1, :) + 0.15_dp/m) < 4*values(2, :) + 1e-4_dp), &
+                        "within four errors")
         call make("&scene system='oscillator', "//times//"duration=40000, q=1 / &oscillator "// &
                   "b=0.3 /", ["m=1:1:1"], both, sweep)
         call compute(sweep, values, 0)
@@ -168,6 +172,32 @@ contains
         call assertTrue(maxval(values(1, :)) - minval(values(1, :)) > 0.1_dp, "of many motions")
     end subroutine chaos_by_two_methods
 
+    subroutine exponent_of_floquet()
+        !! A parametric resonance, \(\ddot x = -0.02\dot x - (1/4 + 0.3\cos t)x\): the growth in
+        !! whole periods is that of Floquet's solution, whose multipliers are those of the matrix
+        !! that `rk4` by hand gives in 16000 steps a period, to 1e-14. Each of 16 windows has 200
+        !! periods, each of its parts 21 e-foldings: displacements are scaled on the way.
+        character(*), parameter :: rest = "samples=1, duration=20231.856689118268, q=0 / "// &
+            "&lagrangian coordinates='x', parameters='e', L='x_dot^2/2 - (1/4 + e cos(t)) x^2/2"// &
+            "', Q_x='-0.02 x_dot' / &hill e=0.3 / &sweep after=125.66370614359172 /"
+        real(dp), parameter :: exponent = 0.134255927722876_dp
+        type(sweep_t) :: alone, in_lanes
+        type(error_t), allocatable :: error
+        real(dp), allocatable :: values(:, :)
+        real(dp) :: numbers(2)
+
+        call make("&scene system='hill', method='dop853', tolerance=1e-10, "//rest, &
+                  ["e=0.3:0.3:1"], both, in_lanes)
+        call compute(in_lanes, values, 0)
+        call assertEqual([exponent, 0.0_dp], values(:, 1), 1e-10_dp, "by dop853, in lanes")
+        call make("&scene system='hill', method='gauss16', tolerance=1e-10, "//rest, &
+                  ["e=0.3:0.3:1"], both, alone)
+        call assertFalse(fits_lanes(alone), "alone")
+        call compute_one(alone, 1_i8, numbers, error)
+        call assertFalse(allocated(error), "by gauss16")
+        call assertEqual([exponent, 0.0_dp], numbers, 1e-11_dp, "by gauss16, alone")
+    end subroutine exponent_of_floquet
+
     subroutine neighbours_change_no_byte()
         !! Each alone in a block of its own, and all together.
         call compare_neighbours(double, ["theta1=-3:3:15      ", "theta2_dot=-20:20:3 "])
@@ -219,7 +249,7 @@ contains
         !! after \(1.85/\sqrt c\).
         type(sweep_t) :: sweep
         real(dp), allocatable :: together(:, :)
-        real(dp) :: alone(2, 1)
+        real(dp) :: alone(2, 1), c(11)
         integer(i8) :: failures, first, i
 
         call make(runaway, ["x=-2:2:9"], both, sweep)
@@ -233,7 +263,8 @@ contains
         end do
         call make(runaway, ["c=-16:4:11"], both, sweep)
         call compute(sweep, together, 2)
-        call assertTrue(all(ieee_is_nan(together(1, :)) .eqv. sweep%axes(1)%values > 1), "of c")
+        c = sweep%axes(1)%value([(i, i=1_i8, 11_i8)])
+        call assertTrue(all(ieee_is_nan(together(1, :)) .eqv. c > 1), "of c")
     end subroutine who_blows_up_is_alone
 
     subroutine what_is_refused_alone()

@@ -1,23 +1,18 @@
 module test_sweep
-    !! Many trajectories of one scene: their axes, what is kept, lanes, processes, failures, files.
+    !! Many trajectories of one scene: what is kept, lanes, processes, failures, files.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
-    use lagrangia_command_line, only: word_t
     use lagrangia_errors, only: error_t, status_numbers
     use lagrangia_files, only: read_whole_file
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_random_draws, only: random_t
-    use lagrangia_scene, only: scene_t
-    use lagrangia_scene_reader, only: parse_scene
     use lagrangia_sweep, only: fits_lanes, sweep_t
-    use lagrangia_sweep_axis, only: new_sweep_axis, sweep_axis_t
     use lagrangia_sweep_files, only: write_sweep
     use lagrangia_sweep_lanes, only: compute_lanes
     use lagrangia_sweep_trajectory, only: compute_one
-    use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     use sweep_numbers, only: compute_numbers, make => make_sweep, sweep_numbers_t
     use test_scratch, only: new_folder
+    use test_sweep_axis, only: sweep_axis_suite
     implicit none (type, external)
     private
     public :: sweep_suite
@@ -35,9 +30,7 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("sweep")
-        call suite%addTest(TestMethod("axes_have_their_ends", axes_have_their_ends))
-        call suite%addTest(TestMethod("an_axis_is_drawn_by_its_seed", an_axis_is_drawn_by_its_seed))
-        call suite%addTest(TestMethod("bad_axes_are_refused", bad_axes_are_refused))
+        call suite%addTest(sweep_axis_suite())
         call suite%addTest(TestMethod("bad_sweeps_are_refused", bad_sweeps_are_refused))
         call suite%addTest(TestMethod("periods_are_those_of_closed_form", &
                                       periods_are_those_of_closed_form))
@@ -69,108 +62,6 @@ contains
         if (allocated(error)) return
         call compute_numbers(sweep, threads, result, error)
     end subroutine compute
-
-    subroutine read_axis(text, axis, error, seed)
-        !! An axis of the double pendulum.
-        character(*), intent(in) :: text
-        type(sweep_axis_t), intent(out) :: axis
-        type(error_t), allocatable, intent(out) :: error
-        integer, intent(in), optional :: seed
-        class(system_t), allocatable :: system
-        type(scene_t) :: scene
-        type(word_t) :: none(0)
-        type(random_t) :: random
-
-        call parse_scene(double, "text", none, scene, system, error)
-        if (allocated(error)) return
-        if (present(seed)) call random%start(seed)
-        call new_sweep_axis(axis, text, system, random, error)
-    end subroutine read_axis
-
-    subroutine axes_have_their_ends()
-        !! Exactly, and what lies between by the rule; each name finds its number.
-        type(sweep_axis_t) :: axis
-        type(error_t), allocatable :: error
-        real(dp) :: q(2), v(2), p(5)
-
-        call read_axis("theta1 = -pi:pi/2:4", axis, error)
-        call assertFalse(allocated(error), "a linear axis")
-        call assertEqual(acos(-1.0_dp)*[-1.0_dp, -0.5_dp, 0.0_dp, 0.5_dp], axis%values, 9e-16_dp, &
-                         "linear")
-        call assertEqual(-acos(-1.0_dp), axis%values(1), 0.0_dp, "the first end")
-        call assertEqual("rad", trim(axis%unit), "its unit")
-        call read_axis("m1 = 1e-2 : 1e2 : 5 : log", axis, error)
-        call assertFalse(allocated(error), "a logarithmic axis")
-        call assertEqual([0.01_dp, 0.1_dp, 1.0_dp, 10.0_dp, 100.0_dp], axis%values, 1e-13_dp, "log")
-        call assertEqual(100.0_dp, axis%values(5), 0.0_dp, "the last end")
-        call assertTrue(axis%is_parameter(), "m1 is a parameter")
-        q = 0.0_dp
-        v = 0.0_dp
-        p = 0.0_dp
-        call axis%set(2, q, v, p)
-        call assertEqual([0.1_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], p, 1e-16_dp, "the first one")
-        call read_axis("l2=2:2:1", axis, error)
-        call axis%set(1, q, v, p)
-        call assertEqual(2.0_dp, p(4), 0.0_dp, "the fourth one")
-        call read_axis("theta2_dot=1:3:3", axis, error)
-        call axis%set(3, q, v, p)
-        call assertEqual([0.0_dp, 3.0_dp], v, 0.0_dp, "a velocity")
-        call assertEqual("rad/s", trim(axis%unit), "a velocity's unit")
-        call read_axis("q(2)=1:3:3", axis, error)
-        call axis%set(2, q, v, p)
-        call assertEqual([0.0_dp, 2.0_dp], q, 0.0_dp, "a coordinate by its number")
-        call read_axis("theta1=-1.D-1:pi/2d0+.5d0:2", axis, error)
-        call assertFalse(allocated(error), "exponents of doubles")
-        call assertEqual([-0.1_dp, acos(0.0_dp) + 0.5_dp], axis%values, 1e-15_dp, "doubles")
-    end subroutine axes_have_their_ends
-
-    subroutine an_axis_is_drawn_by_its_seed()
-        !! The same numbers by the same seed, others by another, all between the ends.
-        type(sweep_axis_t) :: first, again, other
-        type(error_t), allocatable :: error
-
-        call read_axis("theta1=-1:3:1000:random", first, error, 7)
-        call read_axis("theta1=-1:3:1000:random", again, error, 7)
-        call read_axis("theta1=-1:3:1000:random", other, error, 8)
-        call assertEqual(first%values, again%values, 0.0_dp, "the same seed")
-        call assertTrue(all(abs(first%values - other%values) > 0.0_dp), "another seed")
-        call assertTrue(all(first%values > -1.0_dp .and. first%values < 3.0_dp), "between the ends")
-        call assertEqual(1.0_dp, sum(first%values)/1000, 4.0_dp*4.0_dp/sqrt(12.0e3_dp), &
-                         "the mean, within four standard errors")
-    end subroutine an_axis_is_drawn_by_its_seed
-
-    subroutine bad_axes_are_refused()
-        !! In one line that says what is wrong.
-        character(*), parameter :: bad(2, 17) = reshape([character(40) :: &
-            "theta1", "has no '='", &
-            "theta=0:1:5", "did you mean 'theta1'?", &
-            "theta1=0:1", "needs FROM:TO:COUNT", &
-            "theta1=0:1:x", "a whole number of values", &
-            "theta1=0:1:0", "a whole number of values", &
-            "theta1=0:1:2.5", "a whole number of values", &
-            "theta1=0:1:5:lin", "neither 'log' nor 'random'", &
-            "theta1=0:1:5:log", "both ends must be above 0", &
-            "theta1=0:1:1", "one value but two ends", &
-            "theta1=1e-320:1:3:log", "too far apart", &
-            "theta1=1e300:1e-10:3:log", "too far apart", &
-            "theta1=-1e308:1e308:3:random", "too far apart", &
-            "theta1=0: :5", "axis theta1: an end is missing", &
-            "theta1=0:y:5", "axis theta1: 'y': column 1: unknown", &
-            "theta1=0:1d:5", "a blank is missing", &
-            "theta1=0:1d+:5", "a blank is missing", &
-            "theta1=0:1/0:5", "axis theta1: '1/0' is no number"], [2, 17])
-        type(sweep_axis_t) :: axis
-        type(error_t), allocatable :: error
-        integer :: i
-
-        do i = 1, size(bad, 2)
-            call read_axis(trim(bad(1, i)), axis, error)
-            call assertTrue(allocated(error), "refused: "//bad(1, i))
-            if (.not. allocated(error)) cycle
-            call assertTrue(index(error%message, trim(bad(2, i))) > 0, &
-                            trim(bad(1, i))//": "//error%message)
-        end do
-    end subroutine bad_axes_are_refused
 
     subroutine bad_sweeps_are_refused()
         !! What is kept, too, with the key to blame.
@@ -251,10 +142,11 @@ contains
         type(sweep_t) :: sweep
         type(error_t), allocatable :: error
         real(dp) :: amplitude(9), w(9)
+        integer(i8) :: i
 
         call compute(text, ["drive_frequency=0.4:2:9"], ["max x"], 1, result, error, sweep)
         call assertFalse(allocated(error), "all can be computed")
-        w = sweep%axes(1)%values
+        w = sweep%axes(1)%value([(i, i=1_i8, 9_i8)])
         amplitude = 0.7_dp/sqrt((3 - 2*w**2)**2 + (0.5_dp*w)**2)
         call assertEqual(0.0_dp, maxval(abs(result%values(1, :)/amplitude - 1)), 2e-4_dp, &
                          "but for samples and the rest of the transient, e^(-90/8)")

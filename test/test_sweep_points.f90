@@ -84,8 +84,8 @@ contains
             do k = 0, 3
                 associate (point => result%values(3*k + 1:3*k + 3, i))
                     call assertEqual([1.0_dp, 0.0_dp], point(:2), 1e-9_dp, "it stands still")
-                    call assertEqual(2*pi*k*sqrt(sweep%axes(1)%values(i)/1.3_dp), point(3), &
-                                     1e-13_dp*(k + 1), "at whole periods")
+                    call assertEqual(2*pi*k*sqrt(sweep%axes(1)%value(int(i, i8))/1.3_dp), &
+                                     point(3), 1e-13_dp*(k + 1), "at whole periods")
                 end associate
             end do
         end do

@@ -182,7 +182,8 @@ contains
                rows*(size(sweep%axes) + size(sweep%kept))*merge(8, field_width + 1, format == "npy")
         blocks = max(1.0_dp, total/block_size(sweep))
         memory = 12.0_dp*blocks + 16.0_dp*real(block_size(sweep), dp)*sweep%width()* &
-                 (min(blocks, real(threads, dp)) + 1.0_dp)
+                 (min(blocks, real(threads, dp)) + 1.0_dp) + &
+                 8.0_dp*sum(sweep%axes%count, sweep%axes%random)
         call check_memory(memory, "a sweep of "//to_text(sweep%trajectories())//" trajectories", &
                           error)
         if (allocated(error) .or. image_number() > 1 .or. line%has("resume")) return

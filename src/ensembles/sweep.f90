@@ -25,6 +25,8 @@ module lagrangia_sweep
     public :: sweep_t, sweep_box_t
     public :: exponent_method, fits_lanes, follows_displacements, new_sweep
 
+    integer(i8), parameter :: most_trajectories = 10_i8**18  !! numbers of them are counters
+
     type :: sweep_t
         !! A grid of trajectories. The first axis is the one that varies slowest.
         type(scene_t) :: scene                   !! what all have in common
@@ -102,6 +104,12 @@ contains
         if (size(over) == 2) then
             if (sweep%axes(1)%changes_the_same(sweep%axes(size(over)))) then
                 call fail(error, "both axes change "//trim(sweep%axes(1)%name), key="over")
+                return
+            end if
+            if (real(sweep%axes(1)%count, dp)*sweep%axes(2)%count > most_trajectories) then
+                call fail(error, to_text(sweep%axes(1)%count)//" times "// &
+                          to_text(sweep%axes(2)%count)//" trajectories are too many: at most "// &
+                          to_text(most_trajectories), key="over")
                 return
             end if
         end if
@@ -369,7 +377,7 @@ contains
 
         n = 1
         do i = 1, size(self%axes)
-            n = n*size(self%axes(i)%values)
+            n = n*self%axes(i)%count
         end do
     end function trajectories
 
@@ -377,16 +385,14 @@ contains
         !! Which value of each axis trajectory number `index` has.
         class(sweep_t), intent(in) :: self
         integer(i8), intent(in) :: index          !! from 1 to `trajectories`
-        integer :: which(size(self%axes))
+        integer(i8) :: which(size(self%axes))
         integer(i8) :: rest
         integer :: i
 
         rest = index - 1
         do i = size(self%axes), 1, -1
-            associate (n => size(self%axes(i)%values))
-                which(i) = int(mod(rest, int(n, i8))) + 1
-                rest = rest/n
-            end associate
+            which(i) = mod(rest, self%axes(i)%count) + 1
+            rest = rest/self%axes(i)%count
         end do
     end function places
 
@@ -395,11 +401,12 @@ contains
         class(sweep_t), intent(in) :: self
         integer(i8), intent(in) :: index          !! from 1 to `trajectories`
         real(dp) :: values(size(self%axes))
-        integer :: i, which(size(self%axes))
+        integer(i8) :: which(size(self%axes))
+        integer :: i
 
         which = self%places(index)
         do i = 1, size(values)
-            values(i) = self%axes(i)%values(which(i))
+            values(i) = self%axes(i)%value(which(i))
         end do
     end function coordinates_of
 
@@ -412,7 +419,8 @@ contains
         class(system_t), allocatable :: system
         type(description_t) :: d
         type(error_t), allocatable :: error
-        integer :: i, which(size(self%axes))
+        integer(i8) :: which(size(self%axes))
+        integer :: i
 
         which = self%places(index)
         if (allocated(self%scene%computed)) where (self%scene%computed) &

@@ -19,7 +19,8 @@ module lagrangia_sweep_axis
     public :: sweep_axis_t, sweep_axis_box_t, new_sweep_axis
 
     integer, parameter :: of_coordinate = 1, of_velocity = 2, of_parameter = 3
-    integer, parameter :: most_values = 100000000
+    integer(i8), parameter :: most_values = 10_i8**15  !! doubles between two ends
+    integer(i8), parameter :: most_drawn = 10_i8**8    !! these are kept in memory
     character(*), parameter :: example = "'theta = -pi:pi:400', 'm1 = 0.1:10:50:log'"
 
     type :: sweep_axis_t
@@ -28,10 +29,14 @@ module lagrangia_sweep_axis
         logical :: logarithmic = .false.         !! spaced by equal factors
         logical :: random = .false.              !! drawn, so in no order
         real(dp) :: ends(2) = 0.0_dp             !! as they were typed, in that unit
-        real(dp), allocatable :: values(:)       !! in that unit
+        integer(i8) :: count = 0                 !! values
+        real(dp), allocatable, private :: drawn(:)  !! all of them, in that unit, if `random`
         integer, private :: kind = 0
         integer, private :: element = 0          !! of q, v, or the parameters
     contains
+        procedure :: value
+        procedure :: lowest
+        procedure :: highest
         procedure :: set
         procedure :: is_parameter
         procedure :: is_velocity
@@ -62,8 +67,8 @@ contains
         type(random_t), intent(inout) :: random           !! gives the values that are drawn
         type(error_t), allocatable, intent(out) :: error  !! status 2: what cannot be read
         real(dp) :: ends(2)
-        integer(i8) :: count
-        integer :: bounds(4), equals, i
+        integer(i8) :: count, i, most
+        integer :: bounds(4), equals
         character(:), allocatable :: range, spacing, problem
 
         equals = index(text, "=")
@@ -90,16 +95,17 @@ contains
         end if
         if (bounds(3) == 0) bounds(3) = len(range) + 1
         call to_integer(trim(adjustl(range(bounds(2) + 1:bounds(3) - 1))), count, problem)
-        if (problem /= "" .or. count < 1 .or. count > most_values) then
-            call fail(error, "the axis "//trim(axis%name)//" needs a whole number of values, "// &
-                      "from 1 to "//to_text(most_values)//", not "// &
-                      quoted(trim(adjustl(range(bounds(2) + 1:bounds(3) - 1)))))
-            return
-        end if
         spacing = ""
         if (bounds(3) <= len(range)) spacing = trim(adjustl(range(bounds(3) + 1:)))
         axis%logarithmic = spacing == "log"
         axis%random = spacing == "random"
+        most = merge(most_drawn, most_values, axis%random)
+        if (problem /= "" .or. count < 1 .or. count > most) then
+            call fail(error, "the axis "//trim(axis%name)//" needs a whole number of values, "// &
+                      "from 1 to "//to_text(most)//", not "// &
+                      quoted(trim(adjustl(range(bounds(2) + 1:bounds(3) - 1)))))
+            return
+        end if
         if (bounds(3) <= len(range) .and. .not. (axis%logarithmic .or. axis%random)) then
             call fail(error, "the axis "//trim(axis%name)//": "//quoted(spacing)//" is neither "// &
                       "'log' nor 'random'")
@@ -115,13 +121,52 @@ contains
         end if
         if (allocated(error)) return
         axis%ends = ends
-        allocate (axis%values(count))
-        do i = 1, int(count)
-            axis%values(i) = place(ends, real(i - 1, dp)/max(1_i8, count - 1), axis%logarithmic)
-            if (axis%random) call random%uniform(ends(1), ends(2), axis%values(i))
+        axis%count = count
+        if (.not. axis%random) return
+        allocate (axis%drawn(count))
+        do i = 1, count
+            call random%uniform(ends(1), ends(2), axis%drawn(i))
         end do
-        axis%values(count) = merge(axis%values(count), ends(2), axis%random)
     end subroutine new_sweep_axis
+
+    elemental function value(self, which) result(x)
+        !! Of this number. Only those that are drawn are kept, so that an axis may be of any length.
+        class(sweep_axis_t), intent(in) :: self
+        integer(i8), intent(in) :: which  !! from 1 to `count`
+        real(dp) :: x                     !! in the axis' unit
+
+        if (self%random) then
+            x = self%drawn(which)
+        else if (which == self%count) then
+            x = self%ends(2)
+        else
+            x = place(self%ends, real(which - 1, dp)/(self%count - 1), self%logarithmic)
+        end if
+    end function value
+
+    pure function lowest(self) result(which)
+        !! The number of the smallest value.
+        class(sweep_axis_t), intent(in) :: self
+        integer(i8) :: which
+
+        if (self%random) then
+            which = minloc(self%drawn, 1, kind=i8)
+        else
+            which = merge(1_i8, self%count, self%ends(1) <= self%ends(2))
+        end if
+    end function lowest
+
+    pure function highest(self) result(which)
+        !! The number of the largest value.
+        class(sweep_axis_t), intent(in) :: self
+        integer(i8) :: which
+
+        if (self%random) then
+            which = maxloc(self%drawn, 1, kind=i8)
+        else
+            which = merge(self%count, 1_i8, self%ends(1) <= self%ends(2))
+        end if
+    end function highest
 
     pure function place(ends, part, logarithmic) result(value)
         !! A value at a part of the way from the first end to the last.
@@ -245,13 +290,13 @@ contains
     pure subroutine set(self, which, q, v, parameters)
         !! Put value number `which` in its place.
         class(sweep_axis_t), intent(in) :: self
-        integer, intent(in) :: which                            !! of `values`
+        integer(i8), intent(in) :: which                        !! from 1 to `count`
         real(dp), intent(inout) :: q(:), v(:), parameters(:)    !! of a scene
 
         select case (self%kind)
-        case (of_coordinate); q(self%element) = self%values(which)
-        case (of_velocity); v(self%element) = self%values(which)
-        case default; parameters(self%element) = self%values(which)
+        case (of_coordinate); q(self%element) = self%value(which)
+        case (of_velocity); v(self%element) = self%value(which)
+        case default; parameters(self%element) = self%value(which)
         end select
     end subroutine set
 

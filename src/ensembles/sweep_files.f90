@@ -98,7 +98,7 @@ contains
             if (allocated(error)) return
             do i = result%store%first_of(block), result%store%last_of(block)
                 if (format == "text" .and. n == 2 .and. i > 1) then
-                    if (mod(i - 1, int(size(sweep%axes(n)%values), i8)) == 0) then
+                    if (mod(i - 1, sweep%axes(n)%count) == 0) then
                         call table%file%write(new_line("a"))
                     end if
                 end if

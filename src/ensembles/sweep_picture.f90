@@ -53,8 +53,8 @@ contains
                         text_label(trim(sweep%scene%title)))
         call script%add("set tics out nomirror; unset key")
         do i = 1, n
-            call add_ticks(script, "x", minval(sweep%axes(1)%values), &
-                           maxval(sweep%axes(1)%values), long)
+            call add_ticks(script, "x", sweep%axes(1)%value(sweep%axes(1)%lowest()), &
+                           sweep%axes(1)%value(sweep%axes(1)%highest()), long)
             call script%add("set rmargin "//trim(merge("8 ", "-1", long)))
             if (sweep%keeps_points) then
                 call add_points(sweep, found, reading, script)
@@ -104,7 +104,7 @@ contains
             if (count <= sparse) size_of_all = "0.3"
             if (count <= few) size_of_all = "1"
             colour = "palette"
-            if (size(axis%values) == 1 .or. size(kept) == 1) colour = "lc rgb '#3b528b'"
+            if (axis%count == 1 .or. size(kept) == 1) colour = "lc rgb '#3b528b'"
             if (size(kept) > 1) then
                 call script%add("set xlabel "//kept_label(kept(1)))
                 call script%add("set ylabel "//kept_label(kept(2)))
@@ -200,9 +200,9 @@ contains
 
         associate (axis => sweep%axes(1))
             style = "lines lw 2"
-            if (size(axis%values) <= few) style = "linespoints lw 2 pt 7 ps 0.7"
+            if (axis%count <= few) style = "linespoints lw 2 pt 7 ps 0.7"
             if (axis%random) style = "points pt 7 ps "// &
-                                     trim(merge("1  ", "0.5", size(axis%values) <= few))
+                                     trim(merge("1  ", "0.5", axis%count <= few))
             call script%add("set grid lc rgb '#cccccc' lw 0.8 lt 1")
             call script%add(trim(merge("set logscale x  ", "unset logscale x", axis%logarithmic)))
             call script%add("set xlabel "//label(axis%name, axis%unit))
@@ -222,7 +222,7 @@ contains
                 high = max(high, largest)
             end do
             call add_ticks(script, "y", low, high, long)
-            call add_spread(script, "x", minval(axis%values), maxval(axis%values))
+            call add_spread(script, "x", axis%value(axis%lowest()), axis%value(axis%highest()))
             call add_spread(script, "y", low, high)
             line = "plot"
             do i = 1, size(which)
@@ -242,8 +242,7 @@ contains
         integer, intent(in) :: side             !! -1 or 1
         real(dp) :: edge
 
-        associate (first => axis%values(1), last => axis%values(size(axis%values)), &
-                   steps => size(axis%values) - 1)
+        associate (first => axis%ends(1), last => axis%ends(2), steps => axis%count - 1)
             if (axis%logarithmic) then
                 edge = value*exp(0.5_dp*side*abs(log(last/first))/steps)
             else
@@ -262,7 +261,7 @@ contains
         character(:), allocatable :: half, value
         real(dp) :: wider
 
-        wider = 1.0_dp + 2.0_dp*size(axis%values)/pixels
+        wider = 1.0_dp + 2.0_dp*axis%count/pixels
         value = "$"//to_text(column)
         if (axis%logarithmic) then
             half = to_text(beyond(axis, 1.0_dp, 1)**wider)
@@ -303,20 +302,20 @@ contains
                 call add_spread(script, "cb", least, largest)
                 if (long) call script%add("set rmargin at screen 0.77")
             end if
-            call add_ticks(script, "y", minval(y%values), maxval(y%values), long)
+            call add_ticks(script, "y", y%value(y%lowest()), y%value(y%highest()), long)
             call script%add("set object 1 rectangle from graph 0,0 to graph 1,1 behind "// &
                             "fc rgb '#c8c8c8' fs solid noborder")
             range = ""
             do i = 1, 2
                 associate (axis => sweep%axes(i))
-                    range = range//" ["//to_text(minval(axis%values))//":"// &
-                            to_text(maxval(axis%values))//"]"
-                    if ((x%logarithmic .or. y%logarithmic) .and. size(axis%values) > 1) then
+                    range = range//" ["//to_text(axis%value(axis%lowest()))//":"// &
+                            to_text(axis%value(axis%highest()))//"]"
+                    if ((x%logarithmic .or. y%logarithmic) .and. axis%count > 1) then
                         range = range(:index(range, "[", back=.true.))// &
-                                to_text(beyond(axis, minval(axis%values), -1))//":"// &
-                                to_text(beyond(axis, maxval(axis%values), 1))//"]"
+                                to_text(beyond(axis, axis%value(axis%lowest()), -1))//":"// &
+                                to_text(beyond(axis, axis%value(axis%highest()), 1))//"]"
                     end if
-                    if (size(axis%values) == 1) range = range(:index(range, "[", back=.true.))//"]"
+                    if (axis%count == 1) range = range(:index(range, "[", back=.true.))//"]"
                 end associate
             end do
             call script%add("unset logscale; unset grid; unset key")
@@ -328,9 +327,9 @@ contains
             call script%add("set xlabel "//label(x%name, x%unit))
             call script%add("set ylabel "//label(y%name, y%unit))
             call script%add("set cblabel "//label(kept%text, kept%unit)//apart)
-            call add_spread(script, "x", minval(x%values), maxval(x%values))
-            call add_spread(script, "y", minval(y%values), maxval(y%values))
-            if (size(x%values) == 1 .or. size(y%values) == 1) then
+            call add_spread(script, "x", x%value(x%lowest()), x%value(x%highest()))
+            call add_spread(script, "y", y%value(y%lowest()), y%value(y%highest()))
+            if (x%count == 1 .or. y%count == 1) then
                 call script%add("plot"//range//" data "//reading//"using 1:2:"// &
                                 to_text(which + 2)//" with points pt 5 ps 2 palette")
             else if (x%random .or. y%random) then

@@ -1,7 +1,7 @@
 module lagrangia_sweep_warning
     !! Steps of fixed length with which trajectories at the edge of a sweep would blow up.
     use lagrangia_errors, only: error_t
-    use lagrangia_kinds, only: dp
+    use lagrangia_kinds, only: dp, i8
     use lagrangia_scene, only: scene_t
     use lagrangia_step_warning, only: step_warning
     use lagrangia_sweep, only: sweep_t
@@ -21,7 +21,8 @@ contains
         class(system_t), allocatable :: system
         type(error_t), allocatable :: error
         type(scene_t) :: scene
-        integer :: corner, i, places(size(sweep%axes))
+        integer(i8) :: places(size(sweep%axes))
+        integer :: corner, i
 
         text = ""
         if (sweep%scene%tolerance > 0.0_dp) return
@@ -32,7 +33,8 @@ contains
         end if
         do corner = 0, 2**size(sweep%axes) - 1
             do i = 1, size(sweep%axes)
-                places(i) = place_of(sweep%axes(i)%values, btest(corner, i - 1))
+                places(i) = sweep%axes(i)%lowest()
+                if (btest(corner, i - 1)) places(i) = sweep%axes(i)%highest()
                 call sweep%axes(i)%set(places(i), scene%q, scene%v, scene%parameters)
             end do
             if (allocated(system)) deallocate (system)
@@ -44,22 +46,9 @@ contains
             do i = size(sweep%axes), 1, -1
                 if (.not. sweep%axes(i)%is_parameter()) cycle
                 text = trim(sweep%axes(i)%name)//" = "// &
-                       to_text(sweep%axes(i)%values(places(i)))//": "//text
+                       to_text(sweep%axes(i)%value(places(i)))//": "//text
             end do
             return
         end do
     end function corner_warning
-
-    pure function place_of(values, last) result(place)
-        !! Of the smallest value, or the largest.
-        real(dp), intent(in) :: values(:)
-        logical, intent(in) :: last
-        integer :: place
-
-        if (last) then
-            place = maxloc(values, 1)
-        else
-            place = minloc(values, 1)
-        end if
-    end function place_of
 end module lagrangia_sweep_warning
