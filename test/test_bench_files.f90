@@ -26,6 +26,7 @@ contains
         suite = TestSuite("bench_files")
         call suite%addTest(TestMethod("numbers_are_explained", numbers_are_explained))
         call suite%addTest(TestMethod("panels_lie_side_by_side", panels_lie_side_by_side))
+        call suite%addTest(TestMethod("names_keep_apart", names_keep_apart))
         call suite%addTest(TestMethod("methods_are_told_apart", methods_are_told_apart))
         call suite%addTest(TestMethod("errors_are_of_the_worst", errors_are_of_the_worst))
     end function bench_files_suite
@@ -177,6 +178,49 @@ contains
         call assertEqual(0, index(script, newline//"set label"), "too many: "//script)
         call follow(script, "set key")
     end subroutine panels_lie_side_by_side
+
+    subroutine names_keep_apart()
+        !! A name is 0.3 decades above the end of its curve, and 0.7 above every name below it that
+        !! is less than 1.2 decades aside; an error of 0 is drawn as 1.2e-16.
+        character(*), parameter :: names(4) = [character(11) :: "a, dt", "b, dt", "far, dt", &
+                                               "closed_form"]
+        real(dp), parameter :: x(4) = [2.0_dp, 2.0_dp, 100.0_dp, 1.0_dp]
+        real(dp), parameter :: y(4) = [-1.7_dp, -1.0_dp, log10(1.2e-16_dp) + 0.3_dp, -0.3_dp]
+        type(bench_problem_t), allocatable :: problems(:)
+        type(curve_t) :: curves(5)
+        type(error_t), allocatable :: error
+        character(:), allocatable :: script, axis
+        real(dp) :: at(2)
+        integer :: i, status
+
+        call read_problems(problem_names(:1), problems, error)
+        curves = [curve(1, "a", source_ours, set_by_step, 2), &
+                  curve(1, "b", source_ours, set_by_step, 2), &
+                  curve(1, "far", source_ours, set_by_step, 1), &
+                  curve(1, "closed_form", source_closed_form, set_by_nothing, 1), &
+                  curve(1, "none", source_ours, set_by_step, 0)]
+        curves(3)%points(1)%seconds = 1e-4_dp
+        curves(3)%points(1)%error = 0.0_dp
+        script = picture_of(problems, curves(:4))
+        do i = 1, 4
+            axis = trim(merge("second", "first ", i == 4))
+            associate (k => index(script, "set label """//trim(names(i))//""" noenhanced at "// &
+                                  axis//" "))
+                call assertTrue(k > 0, "named: "//trim(names(i)))
+                if (k == 0) return
+                axis = script(k + 27 + len_trim(names(i)) + len(axis):)
+            end associate
+            call assertEqual(1, index(axis(index(axis, ", first "):), ", first "))
+            read (axis(:index(axis, ",") - 1), *, iostat=status) at(1)
+            call assertEqual(0, status, axis)
+            axis = axis(index(axis, ", first ") + 8:)
+            read (axis(:index(axis, " left") - 1), *, iostat=status) at(2)
+            call assertEqual(0, status, axis)
+            call assertEqual([x(i), y(i)], [at(1), log10(at(2))], 1e-12_dp, trim(names(i)))
+        end do
+        script = picture_of(problems, curves)
+        call assertEqual(0, index(script, "set label ""none"), "no point, no name")
+    end subroutine names_keep_apart
 
     function margins(left, right, bottom, upper, height) result(line)
         !! Of a panel, pixels, in a picture 1300 wide and so high.

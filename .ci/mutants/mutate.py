@@ -437,6 +437,7 @@ def main():
         refuse(noticed_by_users(build.link("lagrangia", {}), root, work, GENEROUS, True))
         limits = Limits(10*(processor_time() - used))
     tally = {"died": 0, "died in use": 0, "survived": 0}
+    none = 0  # drawn, and no mutant
     with open(words.output, "a") as log:
         for source, k, kind, new in survivors(root, words.again) if words.again else drawn(root, words):
             start = time.monotonic()
@@ -446,6 +447,7 @@ def main():
             objects = build.mutant(source, "".join(lines))
             unit = objects and build.link("unit", objects)
             if not unit:
+                none += 1
                 continue
             by = noticed_by_tests(unit, build, source, times)
             fate = "died" if by else "survived"
@@ -462,7 +464,7 @@ def main():
             if sum(tally.values()) == words.count:
                 break
     shutil.rmtree(work, ignore_errors=True)
-    print(", ".join(f"{n} {fate}" for fate, n in tally.items()))
+    print(", ".join(f"{n} {fate}" for fate, n in tally.items()) + f", {none} drawn were no mutants")
 
 
 if __name__ == "__main__":

@@ -133,8 +133,8 @@ contains
                 if (.not. allocated(error) .and. samples%symbols%find(name) > 0) call fail( &
                     error, quoted(name)//" has a meaning here; call the constant another name")
                 if (allocated(error)) then
-                    call fail(error, trim(short_source(homework%source))//":"// &
-                              to_text(homework%constant_lines(i))//": constant: "//error%message)
+                    call error%add_context(trim(short_source(homework%source))//":"// &
+                                           to_text(homework%constant_lines(i))//": constant")
                     return
                 end if
                 samples%declared = [character(len(samples%declared)) :: samples%declared, name]
