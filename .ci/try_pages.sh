@@ -44,7 +44,8 @@ costless() { # without what a run costs, which folder it wrote to, and digits th
     grep -v -e "^lagrangia: .* takes about " -e "^lagrangia: this build is not optimised" |
         sed -E -e "s,$work/,,g" -e 's/^([#!] lagrangia) [0-9]+\.[0-9]+\.[0-9]+:/\1:/' -e 's/[0-9]+ steps, [0-9]+ evaluations (.*, )[0-9.]+ s$/~ steps, ~ evaluations \1~ s/' \
             -e 's/"(seconds|threads|steps|evaluations)": [0-9.E+-]+/"\1": ~/g' -e 's/(  [0-9]+ +[0-9]+ .*[^ ]) +[0-9.]+$/\1 ~/' \
-            -e 's/ in [0-9.E+-]+ s by [0-9]+ process(es)?/ in ~/' -e 's/^(  [^ ]+ +[0-9]+ +[0-9]+) +[0-9.e-]+$/\1 ~/' -e 's/([0-9]\.[0-9]{3})[0-9]{6,}(E[+-][0-9]+)/\1\2/g' | plain
+            -e 's/ in [0-9.E+-]+ s by [0-9]+ process(es)?/ in ~/' -e 's/^(  [^ ]+ +[0-9]+ +[0-9]+) +[0-9.e-]+$/\1 ~/' -e 's/([0-9]\.[0-9]{3})[0-9]{6,}(E[+-][0-9]+)/\1\2/g' \
+            -e 's/([0-9]\.[0-9]{9})[0-9]+/\1/g' | plain
 }
 
 files() { # files WORDS...: what the program prints for WORDS, and every file that it writes
@@ -109,6 +110,20 @@ for command in $("$program" completion bash | sed -n "s/^        '') words='\(.*
 for system in $systems spring_pendulum sphere dry_friction pendulum_in_x_and_y; do page plain derive "$system"; done
 for system in cart_pendulum double_pendulum rotating_hoop wedge; do page plain derive "$system" --latex; done
 page shapes derive cart_pendulum --numbers
+for system in skate pendulum_in_x_and_y; do page plain derive "$system" --fortran; done
+{ # whatever a module in Fortran may have
+    echo "&scene system = 'cart', dt = 0.1, duration = 1.0, q = 0.1, 0.2 /"
+    echo "&lagrangian coordinates = 'x [m] of the cart', 'theta [rad] from straight down',"
+    echo "parameters = 'm_c [kg] cart', 'm [kg] bob', 'I [kg m^2] wheel', 'R [m] its radius', 'l [m] rod', 'g [m/s^2]',"
+    echo "'b [kg/s] drag', 'e slope', domain = 'm_c > 0', 'm >= 0', 'I >= 0', 'R > 0', 'l > 0', 'b >= 0', 'e < 1.5', 'e >= -0.25',"
+    echo "definitions = 'X = x + l sin(theta)', 'h = -l cos(theta)',"
+    echo "T = 'm_c/2 x_dot^2 + m/2 (x_dot^2 + l^2 theta_dot^2 + 2 l x_dot theta_dot cos(theta)) + I/2 (x_dot/R)^2',"
+    echo "V = 'm g h + m_c g e x', Q_x = '-b x_dot', rotors = 'wheel, I: x/R', positions = 'cart, m_c: x, 0', 'bob, m: X, h',"
+    echo "quantities = 'p [kg m/s] momentum = (m_c + m) x_dot + m l theta_dot cos(theta)', equilibrium = '0', '0' /"
+    echo "&cart m_c = 1.0, m = 0.5, I = 0.1, R = 0.2, l = 1.0, g = 9.81, b = 0.1, e = 0.0 /"
+} >"$work/cart.nml"
+full=$(realpath "$program")
+keep derive a cart --fortran < <(cd "$work" && "$full" derive cart.nml --fortran 2>&1 | plain)
 for sheet in data/homework/*.txt; do page plain grade "$sheet"; done
 page plain describe pendulum --set pendulum%b=0.1
 for b in 0.3 2 6; do page plain describe oscillator --set oscillator%m=1 --set oscillator%k=1 --set oscillator%b=$b; done

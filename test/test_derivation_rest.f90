@@ -7,7 +7,8 @@ module test_derivation_rest
     use lagrangia_derivation_numbers, only: comparison_t, compare_lines
     use lagrangia_derivation_steps, only: derive, slip_in_formula_t
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: operator(*), whole
+    use lagrangia_expression, only: constant, expression_t, operator(*), operator(+), operator(-), &
+                                    symbol, whole
     use lagrangia_kinds, only: dp
     use lagrangia_random_draws, only: random_t
     use lagrangia_scene, only: scene_t
@@ -229,6 +230,8 @@ contains
         type(comparison_t), allocatable :: c(:)
         type(random_t) :: random
         type(error_t), allocatable :: error
+        type(expression_t) :: beside
+        real(dp) :: largest
         integer :: i, slips
 
         slips = 0
@@ -249,11 +252,19 @@ contains
         call make(two//"T = 'm/2 (x_dot^2 + y_dot^2)' V = 'k/2 (x^2 + y^2)' "// &
                   "Q_x = '-b (x_dot - y_dot)' Q_y = '-b (y_dot - x_dot)'", system, error)
         call derive(system, none, derivation, error)
-        associate (last => derivation%lines(derivation%count))
+        wrong = derivation
+        associate (last => wrong%lines(derivation%count))
             last%right = last%right*last%right
         end associate
-        call compare_lines(derivation, system, random, c, error)
+        call compare_lines(wrong, system, random, c, error)
         call assertFalse(c(derivation%count)%agrees(), message="the polynomial's square")
+        ! right at the first and the last place where it is compared: the worst one is shown
+        largest = sqrt(2.0_dp/1.3_dp)
+        beside = symbol(derivation%rate())
+        beside = (beside - constant(1.25_dp*largest))*(beside - constant(3.25_dp*largest))
+        derivation%lines(derivation%count)%right = derivation%lines(derivation%count)%right + beside
+        call compare_lines(derivation, system, random, c, error)
+        call assertFalse(c(derivation%count)%agrees(), message="wrong between two places")
         call make(one//"T = 'm/2 x_dot^2' V = 'k/2 (x - b)^2' equilibrium = 'b/2'", system, error)
         call derive(system, none, derivation, error)
         call compare_lines(derivation, system, random, c, error)

@@ -70,6 +70,10 @@ contains
                               "set lmargin at screen 0.1350;") > 0, "as usual")
         call assertTrue(index(curve([0.0_dp, 1.0_dp], [4.0e-10_dp, 4.03e-10_dp]), &
                               "set lmargin at screen 0.1630;") > 0, "4.005e-10")
+        call assertTrue(index(curve([0.0_dp, 1.0_dp], [1e5_dp, 1e5_dp + 4.0_dp]), &
+                              "set lmargin at screen 0.1510;") > 0, "100000.5")
+        call assertTrue(index(curve([0.0_dp, 1.0_dp], [1e5_dp, 1e5_dp + 7.0_dp]), &
+                              "set lmargin at screen 0.1350;") > 0, "100001")
     contains
         subroutine expect(low, high, pixels, step)
             real(dp), intent(in) :: low, high, step  !! 0: gnuplot's own

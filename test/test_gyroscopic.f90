@@ -1,5 +1,6 @@
 module test_gyroscopic
     !! Small oscillations that velocities bend: fast and slow modes keep the same digits.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertLessThan, &
                      assertTrue
     use lagrangia_errors, only: error_t
@@ -25,6 +26,7 @@ contains
         call suite%addTest(TestMethod("invariants_of_four_coordinates", &
                                       invariants_of_four_coordinates, setUp=restart_random))
         call suite%addTest(TestMethod("zero_modes_stay_zero", zero_modes_stay_zero))
+        call suite%addTest(TestMethod("what_is_no_g_is_refused", what_is_no_g_is_refused))
     end function gyroscopic_suite
 
     subroutine solve(stiffness, g, inertia, lambda, modes)
@@ -157,4 +159,34 @@ contains
         call solve([0.0_dp, 4.0_dp, 1.0_dp], g, [1.0_dp, 1.0_dp, 1.0_dp], lambda)
         call assertEqual([0.0_dp, 1.0_dp, sqrt(8.0_dp)], abs(lambda), 8.0_dp*epsilon(g), "a trough")
     end subroutine zero_modes_stay_zero
+
+    subroutine what_is_no_g_is_refused()
+        !! Of another size, not finite, not antisymmetric; one that is to rounding is solved.
+        real(dp), parameter :: one(2, 2) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp], [2, 2])
+        real(dp), parameter :: zero(3, 2) = 0.0_dp
+        real(dp) :: g(2, 2)
+
+        call refused(zero, "G is 3 by 2, K and M have 2 rows")
+        g = reshape([0.0_dp, 1.0_dp, -1.0_dp, 0.0_dp], [2, 2])
+        call refused(g, "")
+        g(1, 2) = -1.0_dp - 4.0_dp*epsilon(g)
+        call refused(g, "")
+        g(1, 2) = -1.0_dp - 16.0_dp*epsilon(g)
+        call refused(g, "G is not antisymmetric")
+        g(1, 2) = 1.0_dp
+        call refused(g, "G is not antisymmetric")
+        g(1, 2) = ieee_value(1.0_dp, ieee_quiet_nan)
+        call refused(g, "G is not finite")
+    contains
+        subroutine refused(matrix, expected)
+            real(dp), intent(in) :: matrix(:, :)
+            character(*), intent(in) :: expected
+            complex(dp), allocatable :: lambda(:), modes(:, :)
+            type(error_t), allocatable :: error
+
+            call gyroscopic_modes(one, matrix, one, lambda, modes, error)
+            call assertTrue(allocated(error) .neqv. expected == "", expected)
+            if (allocated(error)) call assertEqual(expected, error%message)
+        end subroutine refused
+    end subroutine what_is_no_g_is_refused
 end module test_gyroscopic

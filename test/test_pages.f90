@@ -182,8 +182,23 @@ contains
         call assertEqual(1e6_dp, film_speed(5e7_dp, 5e-7_dp), 1e-8_dp, "a planet, time lapse")
         call assertEqual(0.2_dp, film_speed(1.0_dp, 2.0_dp), 1e-15_dp, "over in a second")
         call assertEqual(5.0_dp, film_speed(300.0_dp, 0.0_dp), 1e-13_dp, "nothing moves")
+        ! where 1, 2 or 5 takes over: at sqrt(2), sqrt(10), sqrt(50) and their tenths
+        call assertEqual(1.0_dp, film_speed(84.8_dp, 0.0_dp), 1e-14_dp, "of 60 s: 1.413")
+        call assertEqual(2.0_dp, film_speed(84.9_dp, 0.0_dp), 1e-14_dp, "of 60 s: 1.415")
+        call assertEqual(0.5_dp, film_speed(3.53_dp, 3.0_dp), 1e-14_dp, "less than 4 s: 0.706")
+        call assertEqual(1.0_dp, film_speed(3.54_dp, 3.0_dp), 1e-14_dp, "less than 4 s: 0.708")
+        call assertEqual(1.0_dp, film_speed(4.01_dp, 3.0_dp), 0.0_dp, "more than 4 s")
+        call assertEqual(1.0_dp, film_speed(10.0_dp, 11.9_dp), 0.0_dp, "fast, but to be followed")
+        call assertEqual(0.5_dp, film_speed(10.0_dp, 12.1_dp), 1e-14_dp, "of 5 rad/s: 0.413")
+        call assertEqual(0.5_dp, film_speed(10.0_dp, 15.8_dp), 1e-14_dp, "of 5 rad/s: 0.3165")
+        call assertEqual(0.2_dp, film_speed(10.0_dp, 15.83_dp), 1e-14_dp, "of 5 rad/s: 0.3159")
+        call assertEqual(50.0_dp, film_speed(6000.0_dp, 0.758_dp), 1e-12_dp, "24 rad/s: 31.66")
+        call assertEqual(20.0_dp, film_speed(6000.0_dp, 0.76_dp), 1e-12_dp, "24 rad/s: 31.58")
         call assertEqual(20.0_dp, window_of(20.0_dp, 3.0_dp, 4000), 0.0_dp, "all of it")
         call assertEqual(200.0_dp, window_of(2000.0_dp, 5.0_dp, 4000), 1e-10_dp, "its beginning")
+        call assertEqual(1047.0_dp, window_of(1047.0_dp, 1.0_dp, 4000), 0.0_dp, "of 1047.2 s")
+        call assertEqual(1000.0_dp, window_of(1048.0_dp, 1.0_dp, 4000), 1e-10_dp, "of 1047.2 s")
+        call assertEqual(500.0_dp, window_of(2000.0_dp, 1.309_dp, 4000), 1e-10_dp, "not 1000 s")
     end subroutine speed_of_a_film
 
     subroutine frames_are_the_motion()

@@ -4,6 +4,7 @@ module test_pasted_characters
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t
+    use lagrangia_formula_characters, only: plain_letters
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_formula_text, only: formula_text
     use lagrangia_homework, only: homework_t, parse_homework
@@ -123,6 +124,8 @@ contains
         call means("2"//utf8(int(z"1D465"))//utf8(int(z"1D45A")), "2 x m")
         call means("m"//utf8(920)//"x", "m Theta x")
         call means("x"//utf8(775)//"m"//utf8(7819)//"m", "x_dot m x_dot m")
+        call assertEqual("x_1_dot + y_1_ddot m_2 - z2_dot x_a", plain_letters("x"//utf8(775)// &
+            "_1 + y"//utf8(776)//"_1 m_2 - z"//utf8(775)//utf8(8322)//" x_a"), "behind the index")
         call means(utf8(int(z"FF4D"))//utf8(int(z"FF12")), "m2")
     end subroutine letters_in_other_shapes
 

@@ -130,5 +130,8 @@ contains
                     "column 1: '\sqrt[n]' is not read")
         call judged("pendulum", "\dot{(m l)} = 1", is_unreadable, &
                     "column 1: dots stand on one letter")
+        call judged("pendulum", repeat("{", 99)//"\theta"//repeat("}", 99)//" = \theta", is_right)
+        call judged("pendulum", repeat("{", 100)//"\theta"//repeat("}", 100)//" = \theta", &
+                    is_unreadable, "more than 100 groups within each other; give parts of it")
     end subroutine statements_in_latex
 end module test_pasted_latex

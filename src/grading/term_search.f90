@@ -295,5 +295,6 @@ contains
         else
             text = to_text(anint(1000.0_dp*value)/1000.0_dp)
         end if
+        if (index(text, "1 pi") == 1) text = text(3:)
     end function number_text
 end module lagrangia_term_search
