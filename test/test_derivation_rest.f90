@@ -258,17 +258,25 @@ contains
         end associate
         call compare_lines(wrong, system, random, c, error)
         call assertFalse(c(derivation%count)%agrees(), message="the polynomial's square")
-        ! right at the first and the last place where it is compared: the worst one is shown
+        ! wrong between the first and the last place where it is compared: the worst one is shown
         largest = sqrt(2.0_dp/1.3_dp)
         beside = symbol(derivation%rate())
         beside = (beside - constant(1.25_dp*largest))*(beside - constant(3.25_dp*largest))
         derivation%lines(derivation%count)%right = derivation%lines(derivation%count)%right + beside
         call compare_lines(derivation, system, random, c, error)
         call assertFalse(c(derivation%count)%agrees(), message="wrong between two places")
+        call assertEqual(product_at(1.75_dp*largest)/product_at(1.25_dp*largest), &
+                         c(derivation%count)%program, 1e-13_dp, "the worst one")
         call make(one//"T = 'm/2 x_dot^2' V = 'k/2 (x - b)^2' equilibrium = 'b/2'", system, error)
         call derive(system, none, derivation, error)
         call compare_lines(derivation, system, random, c, error)
         call assertFalse(all(c%agrees()), message="b/2 is no equilibrium")
+    contains
+        pure real(dp) function product_at(x)
+            real(dp), intent(in) :: x
+
+            product_at = (x**2 + 2.0_dp/1.3_dp)*(x**2 + 0.6_dp/1.3_dp*x + 2.0_dp/1.3_dp)
+        end function product_at
     end subroutine a_slip_is_seen
 
     subroutine forces_of_places_count()
