@@ -5,6 +5,7 @@ module test_gauss_adaptive
                      assertGreaterThan, assertLessThan, assertLessThanOrEqual, assertTrue
     use lagrangia_errors, only: error_t, status_numbers
     use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
+    use lagrangia_hanging_chain, only: hanging_chain_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_pendulum, only: pendulum_t
@@ -30,6 +31,7 @@ contains
                                       stiff_forces_shorten_the_step))
         call suite%addTest(TestMethod("relative_above_one", relative_above_one))
         call suite%addTest(TestMethod("blocks_go_on", blocks_go_on))
+        call suite%addTest(TestMethod("a_loose_tolerance_is_cheaper", a_loose_tolerance_is_cheaper))
         call suite%addTest(TestMethod("free_motion_in_one_go", free_motion_in_one_go))
         call suite%addTest(TestMethod("backwards_is_refused", backwards_is_refused))
         call suite%addTest(TestMethod("tolerances_are_checked", tolerances_are_checked))
@@ -212,6 +214,28 @@ contains
         call assertEqual(whole, [q, v], 1e-8_dp, "in blocks")
         call assertLessThan(real(method%evaluations, dp), 1.6_dp*evaluations, message="cost")
     end subroutine blocks_go_on
+
+    subroutine a_loose_tolerance_is_cheaper()
+        !! Where the tolerance would allow long steps, the sweeps do not: a step grows no further
+        !! than they converge well, or a chain to 1e-3 costs more than one to 1e-5.
+        type(hanging_chain_t) :: system
+        type(gauss_adaptive_t) :: method
+        type(error_t), allocatable :: error
+        real(dp) :: q(10), v(10)
+        integer(i8) :: evaluations(2)
+        integer :: k
+
+        call system%configure([10.0_dp, 0.3_dp, 2.0_dp, 9.81_dp], error)
+        do k = 1, 2
+            call ready(system, merge(1e-3_dp, 1e-5_dp, k == 1), method)
+            q = 0.6_dp
+            v = 0.0_dp
+            call method%start(system, 0.0_dp, q, v)
+            call method%advance(system, 0.0_dp, 10.0_dp, 0_i8, 1_i8, q, v)
+            evaluations(k) = method%evaluations
+        end do
+        call assertLessThan(real(evaluations(1), dp), 0.85_dp*evaluations(2), message="cost")
+    end subroutine a_loose_tolerance_is_cheaper
 
     subroutine free_motion_in_one_go()
         !! Constant accelerations: steps double until the end.
