@@ -49,6 +49,8 @@ contains
         call suite%addTest(TestMethod("long_runs_stay_on_them", long_runs_stay_on_them))
         call suite%addTest(TestMethod("a_rod_without_mass", a_rod_without_mass))
         call suite%addTest(TestMethod("small_velocities_are_kept", small_velocities_are_kept))
+        call suite%addTest(TestMethod("within_rounding_nothing_moves", &
+                                      within_rounding_nothing_moves))
         call suite%addTest(TestMethod("refusals", refusals))
         call suite%addTest(TestMethod("nonsense_is_refused_in_one_line", &
                                       nonsense_is_refused_in_one_line))
@@ -371,6 +373,32 @@ contains
         end do
         call assertTrue(accepted > 5, "some are good")
     end subroutine nonsense_is_refused_in_one_line
+
+    subroutine within_rounding_nothing_moves()
+        !! A velocity along the rod of four units in the last place is no reason to change it,
+        !! forwards or backwards; one of 64 is taken away.
+        class(system_t), allocatable :: system
+        type(scene_t) :: scene
+        type(error_t), allocatable :: error
+        real(dp) :: q(2), v(2), before(2), off
+        integer :: i, k
+
+        call read_system("system = 'rod' q = 1.3, 0.0", rod, system, scene, error)
+        call assertFalse(allocated(error), "a scene")
+        if (allocated(error)) return
+        do i = -1, 1, 2
+            do k = 4, 64, 60
+                q = 1.3_dp*[0.6_dp, -0.8_dp]
+                v = i*[0.8_dp, 0.6_dp]
+                v(1) = v(1) + k*spacing(v(1))
+                before = v
+                call system%keep_constraints(0.0_dp, q, v)
+                off = abs(dot_product(q, v))
+                if (k == 4) call assertEqual(before, v, 0.0_dp, "as they were")
+                if (k == 64) call assertTrue(off < 1e-15_dp, "across the rod")
+            end do
+        end do
+    end subroutine within_rounding_nothing_moves
 
     subroutine refusals()
         call refused("", "t = 1", "contains no coordinate and no velocity")
