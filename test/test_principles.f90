@@ -378,7 +378,7 @@ contains
     end subroutine lines_are_quoted
 
     subroutine rows_are_judged()
-        !! NaN holds nothing, and is not what a control must give either.
+        !! NaN holds nothing, and is not what a control must give; a claim holds at its bound.
         type(report_t) :: report
         real(dp) :: nan, differences(3)
 
@@ -400,6 +400,8 @@ contains
         call assertEqual(5, report%broken())
         differences = report%rows(7:)%value
         call assertEqual([0.0_dp, 0.25_dp, 1.0_dp], differences, 1e-15_dp)
+        call report%equal("control at its bound", 1.0_dp, 1.5_dp, 0.5_dp, control=.true.)
+        call assertFalse(report%rows(10)%as_it_must(), "it holds just")
         call assertTrue(index(statement_line(report%rows(1)), " holds") > 0, &
                         "index(statement_line(report%rows(1)), ' holds') > 0")
         call assertTrue(index(statement_line(report%rows(6)), " differs") > 0, &
