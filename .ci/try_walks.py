@@ -16,7 +16,7 @@ import sys
 
 def plain(text):
     text = re.sub(r" \d+\.\d{4} s$", " TIME", text, flags=re.M)
-    text = re.sub(r" in \S+ s by \d+ process(es)?$", " in TIME", text, flags=re.M)
+    text = re.sub(r" in \S+ s by \d+ process(es)?", " in TIME", text, flags=re.M)
     return [re.sub(r"\d(\.\d+)?[Ee]-(0?9|1\d)", "~", line).rstrip() for line in text.splitlines()]
 
 
