@@ -153,7 +153,7 @@ install_packages() {
     if [ "$privilege" = none ]; then
         if [ "${missing_packages[*]}" != gnuplot-nox ]; then
             asked=true
-            complain "you are not root and there is no sudo: ask the administrator for" \
+            complain "you are not root and cannot use sudo: ask the administrator for" \
                 "'apt-get install --no-install-recommends ${missing_packages[*]}', then run this again"
         fi
         return

@@ -50,7 +50,7 @@ for row, first, end in zip(rows, starts, starts[1:] + [len(lines)]):
             assert not shown, below
         else:
             assert abs(float(shown[1]) - row[key]) <= max(0.5001e-10, 0.5001e-10*row[key]), below
-    for key, pattern in (("period_error", r"they differ by (\S+) of it"), ("small_period_error", r"swings: (\S+) of it"),
+    for key, pattern in (("period_error", r"they differ by (\S+) of it"), ("small_period_error", r"swings; off by (\S+) of it"),
                          ("omega_error", r"differ by at most (\S+)")):
         shown = re.search(pattern, below)
         assert near(shown and shown[1], row[key], 2), (key, below)

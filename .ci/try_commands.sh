@@ -354,7 +354,7 @@ for row in json.load(open(sys.argv[2])):
     near = lambda word, value: abs(float(word) - value) <= 0.06*abs(value)
     assert any(near(w[2], row["difference"]) and near(w[3], row["bound"]) for w in words if len(w) > 4), row' "$work/out" "$work/rows"
 run run cart_pendulum_small --output "$work/o"
-check "a period stands beside 2 pi/omega" grep -q "^            1.6379465859 s      2 pi/omega of small swings: 1.9e-7 of it$" "$work/out"
+check "a period stands beside 2 pi/omega" grep -q "^            1.6379465859 s      2 pi/omega of small swings; off by 1.9e-7 of it$" "$work/out"
 check "what no scene has stated is not explained" eval '! grep -q "give or take" "$work/out"'
 run run pendulum oscillator --error-estimate --output "$work/o"
 check "two scenes state their ends, and what brackets mean is said once" eval '[ "$(grep -c "^    at the end: " "$work/out")" -eq 2 ] && [ "$(grep -c "give or take" "$work/out")" -eq 1 ] && ! grep -q "^small:" "$work/out"'

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The walk-throughs in docs/walk_*.md, the notebook, docs/derive.md, docs/grading.md, docs/animation.md, docs/stress.md and the README: every
+# The walk-throughs in docs/walk_*.md, the notebook, docs/derive.md, docs/grading.md, docs/animation.md, docs/sweeps.md, docs/stress.md and the README: every
 # command and every piece of Python prints what the page says. Needs a python3 with NumPy, pandas and matplotlib (setup.sh --dev); without, the
 # pages that need it are not tried, and that is said.
 #
@@ -28,7 +28,7 @@ for found in python3 /usr/bin/python3; do
 done
 status=0
 for page in docs/walk_cart_pendulum.md docs/walk_verlet.md docs/walk_data.md docs/walk_sweeps.md \
-    docs/reading_data.ipynb docs/derive.md docs/grading.md docs/stress.md docs/animation.md README.md; do
+    docs/reading_data.ipynb docs/derive.md docs/grading.md docs/sweeps.md docs/stress.md docs/animation.md README.md; do
     runner=python3
     case $page in *data* | *sweeps*)
         runner=$python

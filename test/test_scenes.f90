@@ -139,6 +139,9 @@ contains
                      "q = 2: 2 values, but 1 is needed: theta; a decimal point, no comma: 1.2")
         call refused("&scene system='double_pendulum' dt=1e-2 duration=1 q=1 /", "s.nml:1:54: "// &
                      "&scene: q = 1: 1 value, but 2 are needed: theta1, theta2")
+        call refused("&scene system='hanging_chain' dt=1e-2 duration=1 q=1 / "// &
+                     "&hanging_chain n=12 /", "s.nml:1:52: &scene: q = 1: 1 value, but "// &
+                     "12 are needed: theta1, theta2, ..., theta12")
         call after("v=1,2", 2, "v = 1: v takes 1 value, not 2; a decimal point, no comma: 1.2")
         call refused("&scene system='rolling_disk' dt=1e-2 duration=1 q=4*0 v=1,2,3,4 /", &
                      "s.nml:1:57: &scene: v = 1: v does not roll")

@@ -195,7 +195,7 @@ contains
             "    10 steps, 40 evaluations of the accelerations, 0.2500 s"//lf// &
             "    period  2.5000000000 s      measured"//lf// &
             "            2.5000000000 s      exact; they differ by 2.0e-13 of it"//lf// &
-            "            2.0000000000 s      2 pi/omega of small swings: 0.25 of it"//lf// &
+            "            2.0000000000 s      2 pi/omega of small swings; off by 0.25 of it"//lf// &
             "    omega   3.1250000000 rad/s  the slowest small oscillation, by LAPACK"//lf// &
             "            omega^2 = g/l"//lf// &
             "            all frequencies: LAPACK and closed forms differ by at most 0.0"//lf, &

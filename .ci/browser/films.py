@@ -113,6 +113,9 @@ def examine(browser, path, title=None):
     check(f"{name}: the space bar stops", not value("films[0].playing"))
     check(f"{name}: numbers in the table", not value("/NaN|undefined|–/.test(document.querySelector('table').textContent)"),
           value("document.querySelector('table').textContent"))
+    if name == "cart_pendulum_modes.html":
+        check(f"{name}: an angle that a mode leaves alone is 0", "θ0rad" in value("document.querySelector('table').textContent"),
+              value("document.querySelector('table').textContent"))
     check(f"{name}: a zero has no power of ten", not value(r"/(^|[^0-9.])0(\.0*)?·/.test(document.querySelector('table').textContent)"),
           value("document.querySelector('table').textContent"))
     if name.endswith("_modes.html"):
@@ -148,9 +151,13 @@ def examine(browser, path, title=None):
     for complaint in page.complaints():
         check(f"{name}: quiet on a phone", False, complaint)
     page.close()
-    for width, height in ((390, 844), (1000, 700), (1280, 720)):  # 1000: the smallest with graphs beside the mechanism
+    # 1000: the smallest with graphs beside the mechanism; 1920: projected, of some pages
+    for width, height in ((390, 844), (1000, 700), (1280, 720)) + ((1920, 1080),) * (name[:-5] in DRAWN):
         page = browser.open(path, width, height)  # a phone widens its window to what is too wide: innerWidth says nothing
         page.value("films[0].play(false)")
+        sizes = page.value("['h1', '.facts', 'table'].map(one => parseFloat(getComputedStyle(document.querySelector(one)).fontSize))")
+        check(f"{name}: the title is larger than the table at {width} pixels, the facts are readable", sizes[0] > 1.15 * sizes[2] and
+              sizes[1] > 0.75 * sizes[2], str(sizes))
         for place in (0, 0.31, 0.6, 1):
             page.value(f"films[0].seek(films[0].film.time(Math.round({place} * (films[0].film.count - 1))))")
             right = page.value("Math.max(...[...document.querySelectorAll('canvas, td, button, select, label')].map(e => e.getBoundingClientRect().right))")

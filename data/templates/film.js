@@ -409,7 +409,7 @@
   // Curves with axes; each is { x, y, color, width, dash, label }.
   class Graph extends Canvas {
     axes(xs, ys, xLabel, yLabel, colors) {
-      const [w, h] = this.begin(), pen = this.context, size = Math.max(12, Math.min(17, w / 28));
+      const [w, h] = this.begin(), pen = this.context, size = Math.max(12, Math.min(22, w / 28, h / 11));
       Object.assign(this, { w, h, colors, left: 4.2 * size, right: w - 0.8 * size, top: 1.9 * size, bottom: h - 2.6 * size });
       pen.font = `${size}px system-ui, "DejaVu Sans", sans-serif`;
       this.x = x => this.left + (x - xs[0]) / (xs[1] - xs[0]) * (this.right - this.left);

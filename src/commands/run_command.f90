@@ -12,6 +12,7 @@ module lagrangia_run_command
     use lagrangia_errors, only: error_t, fail, is_signal, status_not_held
     use lagrangia_final_values, only: final_values_legend, final_values_line
     use lagrangia_gnuplot, only: panel_t, series_t
+    use lagrangia_kinds, only: i8
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_json, outcome_t
     use lagrangia_output_file, only: refuse_unwritable
@@ -52,7 +53,8 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         type(error_t), allocatable :: scene_error
         type(chosen_t), allocatable :: chosen(:)
-        type(progress_t), target :: progress
+        type(progress_t), target :: progress  !! of one scene
+        type(progress_t) :: whole             !! of all, between two of them
         class(observer_t), pointer :: observer
         type(outcome_t) :: outcome
         character(:), allocatable :: folder, format, kind
@@ -76,6 +78,7 @@ contains
             "'fpm run --profile release' is several times faster")
 
         observer => progress
+        call whole%restart("the run of "//counted(size(chosen), "scene"), quiet)
         missed = 0
         allocate (remarks(2*size(chosen)))
         stated = .false.
@@ -90,8 +93,10 @@ contains
             call put_line(scorecard_head())
         end if
         do i = 1, size(chosen)
+            if (i > 1) call whole%tick(int(i - 1, i8), size(chosen, kind=i8))
             call run_one(chosen(i)%plan, warnings(i)%text, scene_error)
             call progress%clear()
+            call whole%clear()
             if (allocated(scene_error)) then
                 if (is_signal(scene_error)) then
                     call move_alloc(scene_error, error)

@@ -106,9 +106,9 @@ contains
         n = frames_of_mode + 1
         frames%count = n
         allocate (frames%t(n), frames%q(size(u), n), frames%v(size(u), n), kinetic(n), potential(n))
-        even = modes%shapes(:, j)
+        even = without_rounding(modes%shapes(:, j))
         odd = 0.0_dp
-        if (allocated(modes%quadrature)) odd = modes%quadrature(:, j)
+        if (allocated(modes%quadrature)) odd = without_rounding(modes%quadrature(:, j))
         rate = sqrt(abs(modes%omega2(j)))
         duration = 1.0_dp
         if (modes%label(j) == is_oscillation) duration = 2.0_dp*pi/rate
@@ -138,5 +138,17 @@ contains
             kinetic(i) = 0.5_dp*dot_product(v, matmul(modes%mass, v))
             potential(i) = 0.5_dp*dot_product(u, matmul(modes%stiffness, u))
         end do
+    contains
+        pure function without_rounding(shape) result(kept)
+            !! A coordinate that the mode leaves alone is exactly 0: \(u\cdot Mu = 1\).
+            real(dp), intent(in) :: shape(:)
+            real(dp) :: kept(size(shape))
+            integer :: k
+
+            kept = shape
+            do k = 1, size(shape)
+                if (sqrt(modes%mass(k, k))*abs(shape(k)) < 16.0_dp*epsilon(1.0_dp)) kept(k) = 0.0_dp
+            end do
+        end function without_rounding
     end subroutine move_in_mode
 end module lagrangia_modes_film

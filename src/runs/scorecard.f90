@@ -104,7 +104,7 @@ contains
             if (self%exact_period > 0.0_dp) call add_number("", self%exact_period, "s", &
                 "exact; they differ by "//difference("period"))
             if (self%small_period > 0.0_dp) call add_number("", self%small_period, "s", &
-                "2 pi/omega of small swings: "//difference("small_period"))
+                "2 pi/omega of small swings; off by "//difference("small_period"))
         end if
         if (self%omega > 0.0_dp) then
             call add_number("omega", self%omega, "rad/s", "the slowest small oscillation"// &

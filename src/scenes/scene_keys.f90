@@ -12,7 +12,7 @@ module lagrangia_scene_keys
     use lagrangia_scene_figure, only: figure_t, new_figure
     use lagrangia_scene_tolerance, only: most_samples, read_tolerance, too_many
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: join, lower, shortened, to_text
+    use lagrangia_text, only: join, lower, to_text
     implicit none (type, external)
     private
     public :: keys, key_length, coordinates, drift_keys, expectation_keys, read_columns, &
@@ -292,13 +292,14 @@ contains
     end function of_the_run
 
     pure function coordinates(d) result(text)
-        !! Their names in order.
+        !! Their names in order; of many the first two and the last.
         type(description_t), intent(in) :: d  !! of a system
         character(:), allocatable :: text
         character(name_length) :: names(size(d%coordinates))
 
         names = d%coordinates%name
-        text = shortened(join(names, ", "), 90)
+        text = join(names, ", ")
+        if (size(names) > 10) text = join(names(:2), ", ")//", ..., "//trim(names(size(names)))
     end function coordinates
 
     pure function judged(system) result(names)

@@ -37,7 +37,8 @@ contains
         call script%add("if (exists('ARG0')) { do for [i=1:strlen(ARG0)] { "// &
                         "if (ARG0[i:i] eq '/') { folder = ARG0[1:i] } } }")
         call script%add("if (folder[1:1] ne '/') { folder = './'.folder }")
-        call script%add("set encoding utf8")
+        call script%add("set encoding utf8  # without a locale gnuplot warns of a degree sign: "// &
+                        "export LANG=C.UTF-8")
         call script%add("picture = folder."//gnuplot_string(file(:dot - 1)))
         call script%add("if (!exists('wanted')) { wanted = 'png' }")
         call script%add("png = picture.'.png'; svg = picture.'.svg'; pdf = picture.'.pdf'")
