@@ -33,6 +33,8 @@ contains
         call suite%addTest(TestMethod("printed_formulas_are_the_same_formulas", &
                                       printed_formulas_are_the_same_formulas, setUp=restart_random))
         call suite%addTest(TestMethod("many_registers_are_as_good", many_registers_are_as_good))
+        call suite%addTest(TestMethod("powers_of_two_and_signs_meet", &
+                                      powers_of_two_and_signs_meet, setUp=restart_random))
         call suite%addTest(TestMethod("nothing_given_is_zero", nothing_given_is_zero))
         call suite%addTest(TestMethod("operators_build_formulas", operators_build_formulas))
     end function formula_program_suite
@@ -173,6 +175,41 @@ contains
         call program%evaluate(many, all)
         call assertEqual(expected, all(lanes, 1), 1e-12_dp*abs(expected), "lanes")
     end subroutine many_registers_are_as_good
+
+    subroutine powers_of_two_and_signs_meet()
+        !! Fewer registers, and the same bits.
+        call compare("a/2 (2 x)", "a x", 0)
+        call compare("(2 a x) (y/4)", "0.5 ((a x) y)", 1)
+        call compare("2 (3 a) x", "(6 a) x", 1)
+        call compare("(4 a)/x", "4 (a/x)", 1)
+        call compare("a/(4 x)", "(a/x)/4", 1)
+        call compare("-(3 a) x", "((-3) a) x", 1)
+        call compare("x - (-(5 a))", "x + 5 a", 1)
+        call compare("a (3 x)", "a (3 x)", 1)
+    contains
+        subroutine compare(longer, shorter, numbers)
+            !! A formula of one register beside the symbols and so many numbers.
+            character(*), intent(in) :: longer, shorter
+            integer, intent(in) :: numbers
+            type(expression_t) :: e(1), f(1)
+            type(formula_program_t) :: of_longer, of_shorter
+            type(error_t), allocatable :: error
+            real(dp) :: values(n), results(2)
+            integer :: i, k
+
+            call parse_formula(longer, few_symbols(), e(1), error)
+            call parse_formula(shorter, few_symbols(), f(1), error)
+            call new_formula_program(of_longer, e, n)
+            call new_formula_program(of_shorter, f, n)
+            call assertEqual(n + numbers + 1, of_longer%registers, "registers of "//longer)
+            do i = 1, 20
+                values = [(uniform(-2.0_dp, 2.0_dp), k=1, n)]
+                call of_longer%evaluate(values, results(1:1))
+                call of_shorter%evaluate(values, results(2:2))
+                call assertEqual(results(2), results(1), 0.0_dp, longer)
+            end do
+        end subroutine compare
+    end subroutine powers_of_two_and_signs_meet
 
     subroutine nothing_given_is_zero()
         !! An empty formula; no formulas.

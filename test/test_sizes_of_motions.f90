@@ -30,6 +30,10 @@ module test_sizes_of_motions
         "&lagrangian coordinates = 'r', parameters = 'm', 'eps', 's', T = 'm/2 r_dot^2', "// &
         "V = '4 eps ((s/r)^12 - (s/r)^6)', equilibrium = '1.1 s' /"//line_feed// &
         "&own m = 3.3e-26, eps = 1.65e-21, s = 3.4e-10 /"
+    character(*), parameter :: yo_yo = "q = 0, 0, v = 0, 0 /"//line_feed// &
+        "&lagrangian coordinates = 'y', 'phi', parameters = 'm', 'I', 'a', 'g', "// &
+        "T = 'm/2 y_dot^2 + I/2 phi_dot^2', V = '-m g y', constraint = 'y = a phi' /"// &
+        line_feed//"&own m = 1, I = 0.02, a = 0.05, g = 9.81 /"
     character(*), parameter :: molecule = "q = 1.2e-10, 0.1, 0.2, v = 3*0 /"//line_feed// &
         "&lagrangian coordinates = 'r', 'theta1', 'theta2', "// &
         "parameters = 'm', 'k', 'l0', 'D', 'I', "// &
@@ -100,6 +104,10 @@ contains
         call system%configure([1.0_dp, 1.0_dp], error)
         call system%describe(d)
         call assertFalse(allocated(d%typical_places), "of other parameters")
+        call read_typed(yo_yo, system, error)
+        if (.not. allocated(error)) call system%describe(d)
+        call assertFalse(allocated(d%typical_places), "at rest at zero nothing tells a size")
+        call assertEqual(1.0_dp, d%typical_time, 0.0_dp, "nor a time")
     end subroutine sizes_are_found
 
     subroutine equilibria_to_their_last_digit()

@@ -225,6 +225,12 @@ contains
         call traced("oscillator", "wr", "omega_0^2 = 2 k/m; x_ddot = -omega_0^2 x")
         call traced("pendulum", "0rw", "omega = theta_dot; E = m/2 l^2 omega^2 - m g l "// &
                     "cos(theta); omega_dot = g/l sin(theta)")
+        call traced("charged_particle", "w", "v^2 = const", &
+                    remarks="1 it changes: its rate is not 0")
+        call traced("pendulum", "rrr", "v = l theta_dot; m l v_dot = -m g l sin(theta)"// &
+                    "; v^2 = l^2 theta_dot^2")
+        call traced("oscillator", "wr", "T = 2 pi m/k; T = 2 pi sqrt(m/k)", &
+                    remarks="1 a square root is missing behind '2 pi'")
         call traced("pendulum", "0", "F = -m g sin(theta) = m l theta_ddot")
         call traced("pendulum", "w", "F = -m g sin(theta) = -m l theta_ddot")
     end subroutine usual_names
@@ -247,6 +253,11 @@ contains
                     "sheet:2: constant: 'theta' has a meaning here; call the constant another name")
         call judged("pendulum", "set: g = 9.81"//line_feed//"constant: 2x"//line_feed// &
                     "theta_ddot = 0", 0, "sheet:3: constant: '2x' ")
+        call traced("atwood", "0rrwr", "constant: l; y = l - pi R - x; y_dot = -x_dot"// &
+                    "; V = -m1 g x - m2 g y; V = -m1 g x + m2 g y; V = -m1 g x - m2 g (l - x)", &
+                    remarks="3 but for a constant")
+        call traced("atwood", "u", "V = -m1 g x - m2 g (l - x)", &
+                    remarks="1 column 21: unknown name 'l'")
     end subroutine constants
 
     subroutine rounded_frequencies()

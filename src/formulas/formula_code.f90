@@ -31,10 +31,10 @@ module lagrangia_formula_code
     end type instruction_t
 
     type :: code_t
-        !! Registers hold the numbers, then the symbols, then what is computed.
+        !! Registers hold the symbols, then the numbers, then what is computed.
         integer :: inputs = 0                           !! symbols
         integer :: registers = 0                        !! all of them
-        real(dp), allocatable :: numbers(:)             !! the first registers
+        real(dp), allocatable :: numbers(:)             !! registers behind the symbols'
         type(instruction_t), allocatable :: steps(:)    !! in order
         integer, allocatable :: outputs(:)              !! register of each result
     end type code_t

@@ -183,22 +183,22 @@ contains
     end subroutine assign
 
     pure subroutine fill_registers(found, plan, code)
-        !! Numbers, then symbols.
+        !! Symbols, then numbers.
         type(values_t), intent(in) :: found
         type(plan_t), intent(inout) :: plan
         type(code_t), intent(inout) :: code
         integer :: i, k
 
         allocate (code%numbers(found%count))
+        plan%register(:code%inputs) = [(i, i=1, code%inputs)]
         k = 0
         do i = 1, found%count
             if (found%list(i)%op /= op_number .or. plan%uses(i) == 0) cycle
             k = k + 1
             code%numbers(k) = found%list(i)%number
-            plan%register(i) = k
+            plan%register(i) = code%inputs + k
         end do
         code%numbers = code%numbers(:k)
-        plan%register(:code%inputs) = [(k + i, i=1, code%inputs)]
         code%registers = k + code%inputs
     end subroutine fill_registers
 

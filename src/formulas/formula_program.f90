@@ -28,8 +28,11 @@ module lagrangia_formula_program
         type(code_t) :: code
         integer, public :: inputs = 0   !! symbols whose values it takes
         integer, public :: outputs = 0  !! results that it gives
+        integer, public :: registers = 0             !! that `run` takes
+        integer, allocatable, public :: places(:)    !! register of each result, behind `run`
     contains
         generic :: evaluate => evaluate_real, evaluate_hyperdual, evaluate_lanes
+        procedure :: run
         procedure, private :: evaluate_real
         procedure, private :: evaluate_hyperdual
         procedure, private :: evaluate_lanes
@@ -57,6 +60,8 @@ contains
         end if
         self%inputs = inputs
         self%outputs = size(expressions)
+        self%registers = self%code%registers
+        self%places = self%code%outputs
     end subroutine new_formula_program
 
     pure subroutine evaluate_real(self, values, results)
@@ -66,41 +71,48 @@ contains
         real(dp), intent(out) :: results(self%outputs)   !! of the formulas
         real(dp) :: r(room)
 
-        if (self%code%registers <= room) then
-            call work(self%code, values, r, results)
+        if (self%registers <= room) then
+            r(:self%inputs) = values
+            call self%run(r)
+            results = r(self%places)
         else
-            call evaluate_large(self%code, values, results)
+            call evaluate_large(self, values, results)
         end if
     end subroutine evaluate_real
 
-    pure subroutine evaluate_large(code, values, results)
+    pure subroutine evaluate_large(self, values, results)
         !! With registers on the heap.
-        type(code_t), intent(in) :: code
-        real(dp), intent(in) :: values(code%inputs)
-        real(dp), intent(out) :: results(:)
+        type(formula_program_t), intent(in) :: self
+        real(dp), intent(in) :: values(self%inputs)
+        real(dp), intent(out) :: results(self%outputs)
         real(dp), allocatable :: r(:)
 
-        allocate (r(code%registers))
-        call work(code, values, r, results)
+        allocate (r(self%registers))
+        r(:self%inputs) = values
+        call self%run(r)
+        results = r(self%places)
     end subroutine evaluate_large
 
-    pure subroutine work(code, values, r, results)
+    pure subroutine run(self, r)
+        !! The instructions on registers of the caller's, so that nothing is copied: its first ones
+        !! are the symbols, and result k is in register `places(k)`.
+        class(formula_program_t), intent(in) :: self
+        real(dp), intent(inout) :: r(self%registers)  !! overwritten but for the symbols
+
+        call work(self%code, r)
+    end subroutine run
+
+    pure subroutine work(code, r)
         !! The instructions, on doubles.
         type(code_t), intent(in) :: code
-        real(dp), intent(in) :: values(code%inputs)
         real(dp), intent(inout) :: r(code%registers)
-        real(dp), intent(out) :: results(size(code%outputs))
         real(dp) :: x
         integer :: i, n
 
-        n = size(code%numbers)
+        n = code%inputs
         !GCC$ novector
-        do i = 1, n  ! few: vector instructions would cost more than they save
-            r(i) = code%numbers(i)
-        end do
-        !GCC$ novector
-        do i = 1, code%inputs
-            r(n + i) = values(i)
+        do i = 1, size(code%numbers)  ! few: vector instructions would cost more than they save
+            r(n + i) = code%numbers(i)
         end do
         do i = 1, size(code%steps)
             associate (step => code%steps(i))
@@ -133,10 +145,6 @@ contains
                 case default; r(step%target) = tanh(r(step%a))
                 end select
             end associate
-        end do
-        !GCC$ novector
-        do i = 1, size(code%outputs)
-            results(i) = r(code%outputs(i))
         end do
     end subroutine work
 
@@ -174,9 +182,9 @@ contains
         type(hyperdual_t) :: x
         integer :: i, n
 
-        n = size(code%numbers)
-        r(:n) = code%numbers
-        r(n + 1:n + code%inputs) = values
+        n = code%inputs
+        r(:n) = values
+        r(n + 1:n + size(code%numbers)) = code%numbers
         do i = 1, size(code%steps)
             associate (step => code%steps(i))
                 select case (step%op)
@@ -248,11 +256,11 @@ contains
         real(dp) :: x(lanes), y(lanes)
         integer :: i, n
 
-        n = size(code%numbers)
-        do i = 1, n
-            r(:, i) = code%numbers(i)
+        n = code%inputs
+        r(:, :n) = values
+        do i = 1, size(code%numbers)
+            r(:, n + i) = code%numbers(i)
         end do
-        r(:, n + 1:n + code%inputs) = values
         do i = 1, size(code%steps)
             associate (step => code%steps(i))
                 select case (step%op)

@@ -306,6 +306,14 @@ contains
             nearest = "atan"
         case ("root")
             nearest = "sqrt"
+        case ("cot", "ctg", "cotan")
+            nearest = "1/tan"
+        case ("sec")
+            nearest = "1/cos"
+        case ("csc", "cosec")
+            nearest = "1/sin"
+        case ("asin", "arcsin", "acos", "arccos")
+            nearest = ""  ! there is only atan
         case default
             nearest = ""
             if (len(name) > 2) nearest = nearest_name(name, function_names)

@@ -3,6 +3,7 @@ module lagrangia_formula_values
     !! value, and one on numbers is a number.
     !!
     !! No rule here changes a result by more than the rounding of a power: \(x^3\) is \(x^2x\).
+    !! Powers of two and signs, which round nothing, are moved to where they meet other numbers.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_expression, only: f_log, f_sqrt, function_value
     use lagrangia_formula_code, only: op_add, op_divide, op_function, op_input, op_multiply, &
@@ -33,6 +34,8 @@ module lagrangia_formula_values
         procedure :: number
         procedure :: operation
         procedure, private :: fold
+        procedure, private :: move_number
+        procedure, private :: factor_of
         procedure, private :: look_up
         procedure, private :: multiply_out
     end type values_t
@@ -72,6 +75,7 @@ contains
             b = max(first, second)
         end if
         call self%fold(op, a, b, which)
+        if (which == 0) call self%move_number(op, a, b, which)
         if (which > 0) return
         select case (op)
         case (op_add)
@@ -122,6 +126,74 @@ contains
         end select
         call self%look_up(value_t(op, a, b), which)
     end subroutine operation
+
+    pure recursive subroutine move_number(self, op, a, b, which)
+        !! \(x(2y)\) as \(2(xy)\), \(3(2x)\) as \(6x\), \(2x/y\) as \(2(x/y)\), \(-(3x)y\) as
+        !! \((-3x)y\); 0 where nothing is to be moved.
+        class(values_t), intent(inout) :: self
+        integer, intent(in) :: op, a, b
+        integer, intent(out) :: which
+        integer :: i, k, inner, number, operands(2), other, rest
+
+        which = 0
+        if (all(op /= [op_multiply, op_divide, op_negate])) return
+        operands = [a, b]
+        if (op == op_negate) then
+            call self%factor_of(a, number, rest)
+            if (number > 0) then
+                call self%operation(op_negate, number, 0, k)
+                call self%operation(op_multiply, k, rest, which)
+                return
+            else if (self%list(a)%op /= op_multiply) then
+                return
+            end if
+            operands = [self%list(a)%a, self%list(a)%b]
+        end if
+        do i = 1, 2
+            call self%factor_of(operands(i), number, rest)
+            if (number == 0) cycle
+            other = operands(3 - i)
+            if (op == op_negate) then
+                call self%operation(op_negate, operands(i), 0, k)
+                call self%operation(op_multiply, k, other, which)
+            else if (op == op_multiply .and. self%list(other)%op == op_number) then
+                if (.not. (is_power_of_two(self%list(number)) .or. &
+                           is_power_of_two(self%list(other)))) cycle
+                call self%fold(op_multiply, number, other, k)
+                if (k > 0) call self%operation(op_multiply, k, rest, which)
+            else if (is_power_of_two(self%list(number))) then
+                k = number
+                if (op == op_multiply .or. i == 1) then
+                    call self%operation(op, rest, other, inner)
+                else
+                    call self%number(1.0_dp/self%list(number)%number, k)
+                    call self%operation(op, other, rest, inner)
+                end if
+                call self%operation(op_multiply, k, inner, which)
+            end if
+            if (which > 0) return
+        end do
+    end subroutine move_number
+
+    pure subroutine factor_of(self, which, number, rest)
+        !! The number that is a factor of a product, and the other one; 0 where there is none.
+        class(values_t), intent(in) :: self
+        integer, intent(in) :: which
+        integer, intent(out) :: number, rest
+
+        number = 0
+        rest = 0
+        associate (value => self%list(which))
+            if (value%op /= op_multiply) return
+            if (self%list(value%a)%op == op_number) then
+                number = value%a
+                rest = value%b
+            else if (self%list(value%b)%op == op_number) then
+                number = value%b
+                rest = value%a
+            end if
+        end associate
+    end subroutine factor_of
 
     pure recursive subroutine multiply_out(self, a, n, which)
         !! \(a^n\) by squares and products.

@@ -68,6 +68,7 @@ contains
         end if
         call parse_formula(text, samples%symbols, what, error)
         if (allocated(error)) return
+        if (index(remark, "does not belong there") > 0) remark = "it changes: its rate is not 0"
         if (what%count /= 1 .or. what%nodes(1)%kind /= kind_symbol) return
         name = trim(samples%symbols%names(what%nodes(1)%which))
         remark = rate

@@ -3,6 +3,7 @@ module lagrangia_grading
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_canonical_form, only: simplified
     use lagrangia_consequences, only: consequences_t
+    use lagrangia_declared_constants, only: add_constant
     use lagrangia_derivative, only: derivative, time_derivative
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
@@ -137,7 +138,7 @@ contains
                                            to_text(homework%constant_lines(i))//": constant")
                     return
                 end if
-                samples%declared = [character(len(samples%declared)) :: samples%declared, name]
+                call add_constant(name, samples)
             end associate
         end do
     end subroutine declare_constants

@@ -78,12 +78,19 @@ contains
     end subroutine judge_forms
 
     pure subroutine put_unreadable(error, judgement)
-        !! What the reader says.
+        !! What the reader says; a short name that nobody knows may be a constant.
         type(error_t), intent(in) :: error              !! column and remedy
         type(judgement_t), intent(inout) :: judgement   !! gets it
+        character(*), parameter :: unknown = "unknown name '"
+        integer :: first, length
 
         judgement%verdict = is_unreadable
         judgement%remark = error%message
+        first = index(error%message, unknown) + len(unknown)
+        length = index(error%message(first:), "'") - 1
+        if (first == len(unknown) .or. length > 3) return
+        judgement%remark = judgement%remark//"; if it is a constant, write a line 'constant: "// &
+            error%message(first:first + length - 1)//"'"
     end subroutine put_unreadable
 
     subroutine judge_pair(left, right, chained, samples, library, explain, judgement)
@@ -155,7 +162,8 @@ contains
                     judgement%residual, left%count + 1, samples, judgement%remark)
             end if
             if (index(judgement%remark, "no single") == 1 .or. &
-                index(judgement%remark, "a term with") == 1) call explain_further( &
+                index(judgement%remark, "a term with") == 1 .or. &
+                index(judgement%remark, "lacks the factor 'omega'") > 0) call explain_further( &
                 left, right, samples, values, library, judgement%remark)
         end if
     end subroutine judge_pair

@@ -1,6 +1,7 @@
 module lagrangia_own_names
     !! Names that a student gives: what they stand for, and whether that is what everybody means by
     !! them.
+    use lagrangia_declared_constants, only: with_constants
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: apply, expression_t, f_sqrt
     use lagrangia_formula_parser, only: parse_formula
@@ -35,7 +36,7 @@ contains
 
         judgement%verdict = is_definition
         judgement%defines = name
-        call parse_formula(formula, samples%symbols, meaning, error)
+        call parse_formula(formula, with_constants(samples), meaning, error)
         if (.not. allocated(error)) then
             call define_by_period(meaning, samples)
             if (squared) meaning = apply(f_sqrt, meaning)
@@ -57,6 +58,8 @@ contains
         end if
         call define_rates(name, meaning, samples)
         call compare_usual(name, meaning, samples, judgement)
+        if (name == "T" .or. name == "V") judgement%remark = "taken for a new name: of this "// &
+            "system only L is known"
         if (judgement%verdict == is_right .or. truth%count == 0) return
         attempt%defines = name
         attempt%contradicts = judgement%contradicts

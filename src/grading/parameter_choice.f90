@@ -35,7 +35,7 @@ contains
         allocate (given, source=default_values(d))
         allocate (fixed(size(given)), source=.false.)
         first = 0
-        if (occurs(whole, "gamma") .or. occurs(whole, "beta")) then
+        if (size(d%coordinates) == 1 .and. speaks_of_decay(whole)) then
             ! where they have no meaning of their own, the sheet speaks of drag
             if (.not. any([(any(["gamma", "beta "] == d%parameters(i)%name), &
                             i=1, size(d%parameters))]) .and. index(whole, "gamma =") == 0 .and. &
@@ -71,6 +71,27 @@ contains
             is_named = occurs(whole, trim(name))
         end function is_named
     end subroutine keep
+
+    pure function speaks_of_decay(text) result(yes)
+        !! Has it gamma or beta, and not as a phase, cos(omega t + beta)?
+        character(*), intent(in) :: text  !! formulas
+        logical :: yes
+        character(:), allocatable :: rest
+        integer :: at, opened
+
+        rest = text
+        do
+            at = max(index(rest, "+ beta)"), index(rest, "- beta)"), index(rest, "+beta)"), &
+                     index(rest, "-beta)"), index(rest, "+ gamma)"), index(rest, "- gamma)"), &
+                     index(rest, "+gamma)"), index(rest, "-gamma)"))
+            if (at == 0) exit
+            opened = index(rest(:at), "(", back=.true.)
+            if (opened == 0) exit
+            if (.not. occurs(rest(opened:at - 1), "t")) exit
+            rest = rest(:at - 1)//rest(at + index(rest(at:), ")") - 1:)
+        end do
+        yes = occurs(rest, "gamma") .or. occurs(rest, "beta")
+    end function speaks_of_decay
 
     subroutine spread_values(d, drawn_value, fixed, given, random, shrink)
         !! A parameter without bounds that is not zero keeps its sign: from a half to twice its

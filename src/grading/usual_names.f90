@@ -2,6 +2,7 @@ module lagrangia_usual_names
     !! Names that every course uses without saying so: H, U, p, v, the force S of a string. They
     !! stand for what they mostly mean, if the sheet does not define them; if it does, the
     !! definition is compared with that.
+    use lagrangia_constancy, only: read_constancy
     use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, operator(**), operator(+), operator(-)
@@ -165,8 +166,8 @@ contains
         type(homework_t), intent(in) :: homework
         type(samples_t), intent(in) :: samples
         character(name_length), allocatable, intent(out) :: said(:), given(:)
-        character(:), allocatable :: name, plain
-        logical :: squared
+        character(:), allocatable :: name, plain, rest
+        logical :: is_constant, squared
         integer :: first, i, last
 
         allocate (said(0), given(0))
@@ -183,7 +184,8 @@ contains
                     first = last + 1
                 end do
                 call read_new_name(plain(:max(0, index(plain, "=") - 1)), samples, name, squared)
-                if (name /= "") given = [character(name_length) :: given, &
+                call read_constancy(plain(index(plain, "=") + 1:), samples, rest, is_constant)
+                if (name /= "" .and. .not. is_constant) given = [character(name_length) :: given, &
                                          bare_name(name)]
             end associate
         end do

@@ -35,8 +35,9 @@ contains
         call system%accelerations(t, q, 0.0_dp*v, a)
         size_of = abs(q)
         if (all(size_of <= 0.0_dp)) then  ! a way that is gone in the time in which v changes
+            if (all(abs(v) <= 0.0_dp)) return  ! nothing tells a size
             call system%accelerations(t, q, v, a)
-            rate = norm2(sqrt(mass)*a)/max(norm2(sqrt(mass)*v), tiny(rate))
+            rate = norm2(sqrt(mass)*a)/norm2(sqrt(mass)*v)
             if (.not. (ieee_is_finite(rate) .and. rate > 0.0_dp)) rate = 1.0_dp
             size_of = abs(v)/rate
         else

@@ -39,6 +39,8 @@ module lagrangia_written_system
     integer, parameter :: of_magnitude = 11  !! of the energy, momenta, own quantities
     integer, parameter :: of_angle = 12      !! of each rotor, rad
 
+    integer, parameter :: room = 256  !! registers on the stack
+
     type, extends(lagrangian_system_t) :: written_system_t
         !! Made by `new_written_system`, with the parameters of the formulas.
         type(description_t) :: stated                !! all but what follows from the parameters
@@ -228,54 +230,56 @@ contains
     end subroutine generalised_forces
 
     pure subroutine accelerations(self, t, q, v, a)
-        !! See `system_t`; NaN where a pivot is not positive. Of up to two coordinates number by
-        !! number: a loop over so few, which becomes a call of memcpy, costs more than it does.
+        !! See `system_t`; NaN where a pivot is not positive. Where q and v are few they are given
+        !! number by number: a loop, which becomes a call of memcpy, costs more than it does.
         class(written_system_t), intent(in) :: self
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
         real(dp), intent(out) :: a(self%ndof)
-        real(dp) :: values(5), results(6)
+        real(dp) :: r(room)
         logical :: yes
+        integer :: i, n
 
-        values(1) = t
-        values(2) = q(1)
-        select case (self%ndof)
-        case (1)
-            values(3) = v(1)
-            call self%programs(of_motion)%evaluate(values, results)
-            a(1) = results(1)
-            yes = is_positive(results(2), results(3), 1)
-        case (2)
-            values(3) = q(2)
-            values(4) = v(1)
-            values(5) = v(2)
-            call self%programs(of_motion)%evaluate(values, results)
-            a(1) = results(1)
-            a(2) = results(2)
-            yes = is_positive(results(3), results(5), 2) .and. &
-                  is_positive(results(4), results(6), 2)
-        case default
-            call accelerations_of_many(self, t, q, v, a, yes)
-        end select
+        n = self%ndof
+        associate (program => self%programs(of_motion))
+            if (program%registers > room) then
+                call solve_by(program, n, t, q, v, a)
+                return
+            end if
+            r(1) = t
+            r(2) = q(1)
+            if (n == 1) then
+                r(3) = v(1)
+            else if (n == 2) then
+                r(3) = q(2)
+                r(4) = v(1)
+                r(5) = v(2)
+            else
+                r(2:1 + n) = q
+                r(2 + n:1 + 2*n) = v
+            end if
+            call program%run(r)
+            yes = .true.
+            do i = 1, n
+                a(i) = r(program%places(i))
+                yes = yes .and. is_positive(r(program%places(n + i)), r(program%places(2*n + i)), n)
+            end do
+        end associate
         if (.not. yes) call set_to_nan(a)
     end subroutine accelerations
 
-    pure subroutine accelerations_of_many(self, t, q, v, a, yes)
-        !! Of any number of coordinates; `yes`: all pivots are positive.
-        type(written_system_t), intent(in) :: self
-        real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
-        real(dp), intent(out) :: a(self%ndof)
-        logical, intent(out) :: yes
-        real(dp) :: values(1 + 2*self%ndof), results(3*self%ndof)
-        integer :: n
+    pure subroutine solve_by(program, n, t, q, v, a)
+        !! Accelerations, or velocities from momenta, by a program that gives pivots and diagonal,
+        !! too; NaN where a pivot is not positive.
+        type(formula_program_t), intent(in) :: program
+        integer, intent(in) :: n
+        real(dp), intent(in) :: t, q(n), v(n)
+        real(dp), intent(out) :: a(n)
+        real(dp) :: results(3*n)
 
-        n = self%ndof
-        values(1) = t
-        values(2:1 + n) = q
-        values(2 + n:) = v
-        call self%programs(of_motion)%evaluate(values, results)
+        call program%evaluate([t, q, v], results)
         a = results(:n)
-        yes = all(is_positive(results(n + 1:2*n), results(2*n + 1:), n))
-    end subroutine accelerations_of_many
+        if (.not. all(is_positive(results(n + 1:2*n), results(2*n + 1:), n))) call set_to_nan(a)
+    end subroutine solve_by
 
     elemental function is_positive(pivot, diagonal, n) result(yes)
         !! It is not only rounding beside the mass matrix's diagonal.
@@ -331,17 +335,12 @@ contains
         class(written_system_t), intent(in) :: self
         real(dp), intent(in) :: t, q(self%ndof), p(self%ndof)
         real(dp), intent(out) :: v(self%ndof)
-        real(dp) :: results(3*self%ndof)
-        integer :: n
 
-        n = self%ndof
-        if (.not. self%is_quadratic) then
+        if (self%is_quadratic) then
+            call solve_by(self%programs(of_inverse), self%ndof, t, q, p, v)
+        else
             call invert_by_newton(self, t, q, p, v)
-            return
         end if
-        call self%programs(of_inverse)%evaluate([t, q, p], results)
-        v = results(:n)
-        if (.not. all(is_positive(results(n + 1:2*n), results(2*n + 1:), n))) call set_to_nan(v)
     end subroutine velocities
 
     pure subroutine invert_by_newton(self, t, q, p, v)
