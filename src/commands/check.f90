@@ -10,6 +10,7 @@ module lagrangia_check
     use lagrangia_description, only: described_by, description_t, name_length
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_hyperdual, only: hyperdual_t
+    use lagrangia_json, only: json_line
     use lagrangia_kinds, only: dp, i8
     use lagrangia_ledger, only: ledger_t
     use lagrangia_ledger_text, only: residual_columns, residual_head, residual_json, &
@@ -75,8 +76,7 @@ contains
         end if
         if (json) then
             do i = 1, size(audit%rows)
-                call put_line(residual_json(audit%rows(i))// &
-                              trim(merge(",", " ", i < size(audit%rows))))
+                call put_line(json_line(residual_json(audit%rows(i)), i < size(audit%rows)))
             end do
             call put_line("]")
         else if (.not. quiet) then
