@@ -21,7 +21,7 @@ module lagrangia_check
                                   refuse_value
     use lagrangia_names, only: refuse_name
     use lagrangia_part, only: part_t
-    use lagrangia_progress, only: about, progress_t, stage
+    use lagrangia_progress, only: about, part_label, progress_t
     use lagrangia_scene_reader, only: names_scene, read_named_system
     use lagrangia_system, only: check_parameter, default_values, system_t
     use lagrangia_text, only: lower, to_text
@@ -104,7 +104,7 @@ contains
             integer, intent(in) :: number
             character(:), allocatable :: now
 
-            now = stage("check", name, number, size(audited) + merge(1, 0, methods))
+            now = part_label("check", name, number, size(audited) + merge(1, 0, methods))
             call progress%restart(now, quiet)
             if (.not. quiet) call progress%say(now)
         end subroutine begin_part
