@@ -666,6 +666,10 @@ if [ -e /dev/full ]; then
     "$program" list systems >/dev/full 2>"$work/err"
     status=$?
     check "status 5: stdout is full" eval '[ $status -eq 5 ] && one_line'
+    "$program" grade data/homework/atwood.txt >/dev/full 2>"$work/err"
+    status=$?
+    check "status 5: stdout is full, and a statement is wrong" eval '[ $status -eq 5 ] && one_line &&
+        grep -q "^lagrangia: wrong: 2 statements; cannot write standard output: No space left on device$" "$work/err"'
 fi
 "$program" list systems >&- 2>"$work/err"
 status=$?
