@@ -588,6 +588,7 @@ refuses 2 "alpha = 2: from 0.0 to pi/2 is needed" run wedge --set wedge%alpha=2 
 refuses 2 " of pendulum are one file: one would be lost" run pendulum pendulum_rotation --set scene%output=a --output "$work/none"
 refuses 2 "given twice, as 'a' and 'b'" run pendulum --output a --output=b
 refuses 2 "given twice, as '' and 'svg'" run pendulum --plot --plot=svg
+refuses 2 "&pendulum: l is given twice (first by another --set)" run pendulum --set pendulum%l=1 --set pendulum%l=2 --output "$work/none"
 refuses 2 "lacks the letter of its exponent" bench --tolerances 1-3
 refuses 2 "lacks the letter of its exponent" modes pendulum --at 1-3
 refuses 2 "lacks the letter of its exponent" run pendulum --set scene%dt=1-3 --output "$work/none"
@@ -667,6 +668,10 @@ if [ -e /dev/full ]; then
     "$program" list systems >/dev/full 2>"$work/err"
     status=$?
     check "status 5: stdout is full" eval '[ $status -eq 5 ] && one_line'
+    "$program" grade data/homework/atwood.txt >/dev/full 2>"$work/err"
+    status=$?
+    check "status 5: stdout is full, and a statement is wrong" eval '[ $status -eq 5 ] && one_line &&
+        grep -q "^lagrangia: wrong: 2 statements; cannot write standard output: No space left on device$" "$work/err"'
 fi
 "$program" list systems >&- 2>"$work/err"
 status=$?

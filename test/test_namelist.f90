@@ -251,12 +251,12 @@ contains
     end subroutine absent_keys_leave_defaults
 
     subroutine overrides_replace_and_add()
-        !! Whole entries, single elements, new keys, new groups; texts without quotes; the last
-        !! word prevails.
-        character(40), parameter :: overrides(11) = [character(40) :: &
-            "scene%dt=1e-4", "Scene % DT = 2e-4", "scene%q(2)=5", "scene%title=My own title", &
+        !! Whole entries, single elements, new keys, new groups; texts without quotes; once more
+        !! the same.
+        character(40), parameter :: overrides(12) = [character(40) :: &
+            "Scene % DT = 2e-4", "scene%q(2)=5", "Scene % DT = 2e-4", "scene%title=My own title", &
             "scene%columns=t, x,'y, z'", "hoop%r=3", "scene%v=7,8", "scene%flag=t", &
-            "scene%output=../a b/c", "scene%q(1)=4", "hoop%s=!"]
+            "scene%output=../a b/c", "scene%q(1)=4", "hoop%s=!", "scene%q(2)=5"]
         type(namelist_t) :: tree
         type(error_t), allocatable :: error
         real(dp), allocatable :: q(:)

@@ -1,6 +1,6 @@
 module test_namelist_refusals
     !! What a scene file must not say, and the line that tells the user so.
-    use funit, only: TestMethod, TestSuite, assertEqual, assertTrue
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
     use lagrangia_errors, only: error_t, status_usage
     use lagrangia_namelist, only: apply_override, namelist_t, parse_namelist
     implicit none (type, external)
@@ -30,6 +30,7 @@ contains
         call suite%addTest(TestMethod("stray_bytes", stray_bytes))
         call suite%addTest(TestMethod("numbers", numbers))
         call suite%addTest(TestMethod("overrides", overrides))
+        call suite%addTest(TestMethod("overrides_of_one_value", overrides_of_one_value))
     end function namelist_refusals_suite
 
     subroutine refused(text, expected)
@@ -269,4 +270,23 @@ contains
         call override("scene%a%b=1", "&scene: a: components (a%b) are not read here; "// &
                       "write key = value inside &group")
     end subroutine overrides
+
+    subroutine overrides_of_one_value()
+        !! Two that give one element, also by other words; but not the same once more.
+        character(*), parameter :: pairs(4) = [character(24) :: "scene%dt=2", "SCENE%dt=3", &
+                                               "scene%q=1,2", "scene%q(2)=2"]
+        type(namelist_t) :: tree
+        type(error_t), allocatable :: error
+        integer :: i
+
+        do i = 1, size(pairs), 2
+            call parse_namelist("&scene dt=1, q=5,6 /", "a.nml", tree, error)
+            call apply_override(tree, trim(pairs(i)), error)
+            call apply_override(tree, trim(pairs(i)), error)
+            call assertFalse(allocated(error), message="the same once more: "//pairs(i))
+            call apply_override(tree, trim(pairs(i + 1)), error)
+            call failed(error, "--set "//trim(pairs(i + 1))//": &scene: "// &
+                        trim(merge("dt", "q ", i == 1))//" is given twice (first by another --set)")
+        end do
+    end subroutine overrides_of_one_value
 end module test_namelist_refusals

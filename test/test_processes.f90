@@ -8,7 +8,7 @@ module test_processes
     use lagrangia_interrupt, only: catch_interrupts, interrupt_status
     use lagrangia_kinds, only: i8
     use lagrangia_output_file, only: output_file_t
-    use lagrangia_processes, only: await_program, bytes_read_by, run_program, start_program
+    use lagrangia_processes, only: await_program, bytes_read_by, start_program
     use lagrangia_program, only: give_up
     use lagrangia_text, only: word_t
     use test_scratch, only: c_dup2, c_raise, contents, exit_status, new_folder, remove_file, &
@@ -178,6 +178,22 @@ contains
         status = int(c_raise(sigint))
         status = interrupt_status()
     end function ignore_sigint
+
+    subroutine run_program(arguments, status, error)
+        !! Start it and wait for its end.
+        type(word_t), intent(in) :: arguments(:)
+        integer, intent(out) :: status
+        type(error_t), allocatable, intent(out) :: error
+        integer :: pid
+        logical :: ended
+
+        status = -1
+        call start_program(arguments, pid, error)
+        do while (.not. allocated(error))
+            call await_program(arguments(1)%text, pid, 1000, ended, status, error)
+            if (ended) exit
+        end do
+    end subroutine run_program
 
     subroutine run_shell(command, status, error)
         !! `sh -c command`, word by word: gfortran 12 leaks what an array constructor of them holds.

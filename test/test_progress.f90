@@ -5,7 +5,7 @@ module test_progress
     use lagrangia_kinds, only: dp, i8
     use lagrangia_observer, only: observer_t
     use lagrangia_part, only: part_t
-    use lagrangia_progress, only: about, pace, progress_line, stage
+    use lagrangia_progress, only: about, pace, part_label, progress_line
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -63,8 +63,8 @@ contains
 
     subroutine parts_have_numbers()
         !! Which part of how many; one alone has none.
-        call assertEqual("check pendulum, 2 of 14", stage("check", "pendulum  ", 2, 14))
-        call assertEqual("stress zeno", stage("stress", "zeno", 1, 1))
+        call assertEqual("check pendulum, 2 of 14", part_label("check", "pendulum  ", 2, 14))
+        call assertEqual("stress zeno", part_label("stress", "zeno", 1, 1))
     end subroutine parts_have_numbers
 
     subroutine a_part_counts_as_its_share()

@@ -238,12 +238,11 @@ contains
     end subroutine read
 
     subroutine overrides_override()
-        !! The last of two; keys that the file gives and keys that it does not; texts without
-        !! quotes; whole lists.
+        !! Keys that the file gives and keys that it does not; texts without quotes; whole lists.
         type(scene_t) :: scene
         type(word_t) :: words(6)
 
-        words(1)%text = "scene%dt=0.5"
+        words(1)%text = "scene%dt=0.02"
         words(2)%text = "pendulum%l=2.5"
         words(3)%text = "scene%dt=0.02"
         words(4)%text = "scene%method=verlet"

@@ -14,7 +14,7 @@ module lagrangia_method_orders
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: audit_methods, measure_order, method_run
+    public :: audit_methods, method_run
     public :: new_problem, problems, refuses
 
     integer, parameter :: problems = 3  !! the last has a magnetic field

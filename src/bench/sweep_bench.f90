@@ -31,24 +31,24 @@ module lagrangia_sweep_bench
         [1/2.0_dp, 1/3.0_dp, -1/3.0_dp, 1/4.0_dp]             !! as in `lagrangia_lyapunov`
     real(dp), parameter :: microseconds = 1e6_dp
 
-    type :: way_t
+    type :: row_t
         !! How they are computed.
         character(name_length) :: name = ""
         logical :: gsl = .false.
         character(8) :: method = ""
         real(dp) :: tolerance = 0.0_dp        !! 0: steps of fixed length
         character(8) :: keep = "theta1"       !! the angle at the end, or the exponent
-        integer :: beside = 0                 !! number of the way by GSL
-    end type way_t
+        integer :: beside = 0                 !! number of the row by GSL
+    end type row_t
 
-    type(way_t), parameter :: ways(*) = [ &  ! by tolerances that give 1e-9
-        way_t("rk4", .false., "rk4", beside=2), &
-        way_t("gsl_rk4", .true., "rk4", beside=2), &
-        way_t("gauss16", .false., "gauss16", 1e-9_dp, beside=5), &
-        way_t("dop853", .false., "dop853", 6e-10_dp, beside=5), &
-        way_t("gsl_rk8pd", .true., "rk8pd", 2e-9_dp, beside=5), &
-        way_t("lyapunov", .false., "gauss16", 1e-8_dp, "lyapunov", 7), &
-        way_t("gsl_lyapunov", .true., "rk8pd", 1e-12_dp, "lyapunov", 7)]
+    type(row_t), parameter :: rows(*) = [ &  ! by tolerances that give 1e-9
+        row_t("rk4", .false., "rk4", beside=2), &
+        row_t("gsl_rk4", .true., "rk4", beside=2), &
+        row_t("gauss16", .false., "gauss16", 1e-9_dp, beside=5), &
+        row_t("dop853", .false., "dop853", 6e-10_dp, beside=5), &
+        row_t("gsl_rk8pd", .true., "rk8pd", 2e-9_dp, beside=5), &
+        row_t("lyapunov", .false., "gauss16", 1e-8_dp, "lyapunov", 7), &
+        row_t("gsl_lyapunov", .true., "rk8pd", 1e-12_dp, "lyapunov", 7)]
 
 contains
 
@@ -61,17 +61,17 @@ contains
         type(printed_table_t), intent(out) :: table       !! the result
         type(error_t), allocatable, intent(out) :: error  !! allocated where it fails
         real(dp), allocatable :: numbers(:), reference(:, :)
-        real(dp) :: seconds(plan%rounds, size(ways)), gsl, worst(size(ways))
+        real(dp) :: seconds(plan%rounds, size(rows)), gsl, worst(size(rows))
         integer :: count, i, pass, passes, round, threads
 
         count = merge(256, 1024, plan%quick)
-        allocate (numbers(count), reference(count, size(ways)))
+        allocate (numbers(count), reference(count, size(rows)))
         call table%begin("sweep", to_text(count)//" double pendulums over 10 s, to 1e-9; rk4 "// &
                          "by 1000 steps, so us_each is ns a step; over_gsl: GSL's time by ours", &
                          [character(name_length) :: "method", "threads", "error", "us_each", &
                           "over_gsl"])
-        do i = 1, size(ways)
-            call take(way_t("", .false., "gauss16", 1e-13_dp, ways(i)%keep), 1, numbers, gsl, &
+        do i = 1, size(rows)
+            call take(row_t("", .false., "gauss16", 1e-13_dp, rows(i)%keep), 1, numbers, gsl, &
                       error)
             if (allocated(error)) return
             reference(:, i) = numbers
@@ -80,19 +80,19 @@ contains
         do pass = 1, passes
             threads = merge(1, thread_count(0), pass == 1)
             do round = 1, plan%rounds
-                do i = 1, size(ways)
+                do i = 1, size(rows)
                     if (.not. allocated(error)) call look_around(watcher, ((pass - 1)* &
-                        plan%rounds + round - 1)*size(ways) + i - 1, &
-                        passes*plan%rounds*size(ways), error)
+                        plan%rounds + round - 1)*size(rows) + i - 1, &
+                        passes*plan%rounds*size(rows), error)
                     if (allocated(error)) return
-                    call take(ways(i), threads, numbers, seconds(round, i), error)
+                    call take(rows(i), threads, numbers, seconds(round, i), error)
                     worst(i) = maxval(abs(numbers - reference(:, i)))
                 end do
             end do
             if (allocated(error)) return
-            do i = 1, size(ways)
-                gsl = median(seconds(:, ways(i)%beside))
-                call table%add([word_cell(ways(i)%name), count_cell(int(threads, i8)), &
+            do i = 1, size(rows)
+                gsl = median(seconds(:, rows(i)%beside))
+                call table%add([word_cell(rows(i)%name), count_cell(int(threads, i8)), &
                                 number_cell(worst(i), 2), &
                                 number_cell(median(seconds(:, i))/count*microseconds, 3), &
                                 number_cell(gsl/median(seconds(:, i)), 2)])
@@ -100,23 +100,23 @@ contains
         end do
     end subroutine measure_sweeps
 
-    subroutine take(way, threads, numbers, seconds, error)
-        !! All of them, one way.
-        type(way_t), intent(in) :: way
+    subroutine take(row, threads, numbers, seconds, error)
+        !! All of them, one row.
+        type(row_t), intent(in) :: row
         integer, intent(in) :: threads
         real(dp), intent(out) :: numbers(:), seconds
         type(error_t), allocatable, intent(out) :: error
 
-        if (way%gsl) then
-            call take_gsl(way, threads, numbers, seconds, error)
+        if (row%gsl) then
+            call take_gsl(row, threads, numbers, seconds, error)
         else
-            call take_sweep(way, threads, numbers, seconds, error)
+            call take_sweep(row, threads, numbers, seconds, error)
         end if
     end subroutine take
 
-    subroutine take_sweep(way, threads, numbers, seconds, error)
+    subroutine take_sweep(row, threads, numbers, seconds, error)
         !! As the command does it, in memory.
-        type(way_t), intent(in) :: way
+        type(row_t), intent(in) :: row
         integer, intent(in) :: threads
         real(dp), intent(out) :: numbers(:), seconds
         type(error_t), allocatable, intent(out) :: error
@@ -131,15 +131,15 @@ contains
         integer(i8) :: block
 
         nullify (nobody)
-        steps_of = "tolerance = "//to_text(way%tolerance)//", samples = 1"
-        if (way%tolerance <= 0.0_dp) steps_of = "dt = "//to_text(duration/steps)
-        call parse_scene("&scene system = 'double_pendulum', method = '"//trim(way%method)// &
+        steps_of = "tolerance = "//to_text(row%tolerance)//", samples = 1"
+        if (row%tolerance <= 0.0_dp) steps_of = "dt = "//to_text(duration/steps)
+        call parse_scene("&scene system = 'double_pendulum', method = '"//trim(row%method)// &
                          "', "//steps_of//", duration = "//to_text(duration)//", q = "// &
                          to_text(start(1))//", "//to_text(start(2))//" /", "bench", none, scene, &
                          system, error)
         if (.not. allocated(error)) call new_sweep(sweep, scene, system, &
             ["theta1 = "//to_text(from)//":"//to_text(to)//":"//to_text(size(numbers))], &
-            [way%keep], 1, 0.0_dp, error)
+            [row%keep], 1, 0.0_dp, error)
         if (.not. allocated(error)) call compute_grid(sweep, threads, nobody, result, error)
         if (allocated(error)) return
         seconds = result%seconds
@@ -150,9 +150,9 @@ contains
         end do
     end subroutine take_sweep
 
-    subroutine take_gsl(way, threads, numbers, seconds, error)
+    subroutine take_gsl(row, threads, numbers, seconds, error)
         !! One driver a thread.
-        type(way_t), intent(in) :: way
+        type(row_t), intent(in) :: row
         integer, intent(in) :: threads
         real(dp), intent(out) :: numbers(:), seconds
         type(error_t), allocatable, intent(out) :: error
@@ -162,15 +162,15 @@ contains
         call default_parameters(parameters, error)
         if (allocated(error)) return
         begun = ticks_now()
-        !$omp parallel num_threads(threads) default(none) shared(way, numbers, parameters, error)
-        call take_share(way, parameters, numbers, error)
+        !$omp parallel num_threads(threads) default(none) shared(row, numbers, parameters, error)
+        call take_share(row, parameters, numbers, error)
         !$omp end parallel
         seconds = seconds_since(begun)
     end subroutine take_gsl
 
-    subroutine take_share(way, parameters, numbers, error)
+    subroutine take_share(row, parameters, numbers, error)
         !! What falls to one thread, by a driver of its own.
-        type(way_t), intent(in) :: way
+        type(row_t), intent(in) :: row
         real(dp), intent(in) :: parameters(:)
         real(dp), intent(inout) :: numbers(:)
         type(error_t), allocatable, intent(inout) :: error
@@ -181,18 +181,18 @@ contains
         integer :: i
 
         context%parameters(:size(parameters)) = parameters
-        call driver%start(trim(way%method), 4, direct_rates("double_pendulum"), c_null_funptr, &
-                          c_loc(context), duration/steps, max(way%tolerance, 1e-12_dp), failure)
+        call driver%start(trim(row%method), 4, direct_rates("double_pendulum"), c_null_funptr, &
+                          c_loc(context), duration/steps, max(row%tolerance, 1e-12_dp), failure)
         !$omp do schedule(dynamic, 8)
         do i = 1, size(numbers)
             if (allocated(failure)) cycle
             y = start
             y(1) = from + (to - from)*(i - 1)/(size(numbers) - 1)
             beside = y + displacement
-            call go(driver, way, y, failure)
+            call go(driver, row, y, failure)
             numbers(i) = y(1)
-            if (way%keep /= "lyapunov") cycle
-            call go(driver, way, beside, failure)
+            if (row%keep /= "lyapunov") cycle
+            call go(driver, row, beside, failure)
             numbers(i) = log(norm2(beside - y)/norm2(displacement))/duration
         end do
         !$omp end do
@@ -202,10 +202,10 @@ contains
         !$omp end critical (lagrangia_sweep_bench)
     end subroutine take_share
 
-    subroutine go(driver, way, y, error)
+    subroutine go(driver, row, y, error)
         !! From a start to its end, by GSL.
         type(gsl_driver_t), intent(inout) :: driver
-        type(way_t), intent(in) :: way
+        type(row_t), intent(in) :: row
         real(dp), intent(inout) :: y(4)
         type(error_t), allocatable, intent(inout) :: error
         real(dp) :: t
@@ -213,7 +213,7 @@ contains
         t = 0.0_dp
         if (.not. allocated(error)) call driver%restart(duration/steps, error)
         if (allocated(error)) return
-        if (way%tolerance > 0.0_dp) then
+        if (row%tolerance > 0.0_dp) then
             call driver%integrate(t, duration, y, error)
         else
             call driver%fixed_steps(t, duration/steps, steps, y, error)

@@ -10,6 +10,7 @@ module lagrangia_check
     use lagrangia_description, only: described_by, description_t, name_length
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_hyperdual, only: hyperdual_t
+    use lagrangia_json, only: json_line
     use lagrangia_kinds, only: dp, i8
     use lagrangia_ledger, only: ledger_t
     use lagrangia_ledger_text, only: residual_columns, residual_head, residual_json, &
@@ -20,7 +21,7 @@ module lagrangia_check
                                   refuse_value
     use lagrangia_names, only: refuse_name
     use lagrangia_part, only: part_t
-    use lagrangia_progress, only: about, progress_t, stage
+    use lagrangia_progress, only: about, part_label, progress_t
     use lagrangia_scene_reader, only: names_scene, read_named_system
     use lagrangia_system, only: check_parameter, default_values, system_t
     use lagrangia_text, only: lower, to_text
@@ -75,8 +76,7 @@ contains
         end if
         if (json) then
             do i = 1, size(audit%rows)
-                call put_line(residual_json(audit%rows(i))// &
-                              trim(merge(",", " ", i < size(audit%rows))))
+                call put_line(json_line(residual_json(audit%rows(i)), i < size(audit%rows)))
             end do
             call put_line("]")
         else if (.not. quiet) then
@@ -104,7 +104,7 @@ contains
             integer, intent(in) :: number
             character(:), allocatable :: now
 
-            now = stage("check", name, number, size(audited) + merge(1, 0, methods))
+            now = part_label("check", name, number, size(audited) + merge(1, 0, methods))
             call progress%restart(now, quiet)
             if (.not. quiet) call progress%say(now)
         end subroutine begin_part

@@ -11,6 +11,7 @@ module lagrangia_compare
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail, is_signal
     use lagrangia_gnuplot, only: panel_t, series_t
+    use lagrangia_json, only: json_line
     use lagrangia_kinds, only: dp
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_json, outcome_t
@@ -299,7 +300,7 @@ contains
         if (line%has("json")) then
             call put_line("[")
             do i = 1, size(runs)
-                call put_line(outcome_json(outcomes(i))//trim(merge(",", " ", i < size(runs))))
+                call put_line(json_line(outcome_json(outcomes(i)), i < size(runs)))
             end do
             call put_line("]")
             return

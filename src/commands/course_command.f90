@@ -4,7 +4,8 @@ module lagrangia_course_command
     use lagrangia_console, only: put_line
     use lagrangia_course_table, only: course_of_the_notes, statement_t
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_json, only: json_item, json_object, json_pair, json_string
+    use lagrangia_json, only: json_array, json_element, json_item, json_line, json_object, &
+                              json_pair, json_string
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
     private
@@ -31,7 +32,7 @@ contains
         if (line%has("json")) then
             call put_line("[")
             do i = 1, size(course)
-                call put_line(object(course(i))//trim(merge(",", " ", i < size(course))))
+                call put_line(json_line(object(course(i)), i < size(course)))
             end do
             call put_line("]")
             return
@@ -111,15 +112,14 @@ contains
         rest = trim(statement%shows)
         do while (rest /= "")
             call next_command(rest, command)
-            if (commands /= "") commands = commands//", "
-            commands = commands//json_string("lagrangia "//command)
+            commands = commands//json_element(json_string("lagrangia "//command))
         end do
         json = json_object(json_pair("lecture", statement%scan)//json_pair("line", &
                                                                            statement%line)// &
                            json_pair("last", statement%last)//json_pair("quote", &
                                                                         statement%quote)// &
                            json_pair("says", statement%says)// &
-                           json_item("shows", "["//commands//"]")// &
+                           json_item("shows", json_array(commands))// &
                            json_pair("nothing", statement%nothing))
     end function object
 end module lagrangia_course_command

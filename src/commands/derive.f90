@@ -16,7 +16,7 @@ module lagrangia_derive
     use lagrangia_formula_text, only: formula_text
     use lagrangia_fortran_module, only: write_fortran_module
     use lagrangia_fortran_statements, only: fortran_lines_t
-    use lagrangia_json, only: json_item, json_object, json_pair
+    use lagrangia_json, only: json_array, json_element, json_item, json_object, json_pair
     use lagrangia_kinds, only: dp
     use lagrangia_number_text, only: scientific
     use lagrangia_random_draws, only: random_t
@@ -277,13 +277,13 @@ contains
                                            //json_pair("holds", c%agrees())
                     if (this%slipped) members = members//json_pair("slip", .true.)
                 end if
-                rows = rows//", "//json_object(members)
+                rows = rows//json_element(json_object(members))
             end associate
         end do
         cited = line_of_system(trim(derivation%d%name))
         if (cited /= "") cited = json_pair("notes", cited)
         call put_line(json_object(json_pair("system", trim(derivation%d%name))//cited// &
                                   json_pair("holds", all(comparisons%agrees()))// &
-                                  json_item("lines", "["//rows(3:)//"]")))
+                                  json_item("lines", json_array(rows))))
     end subroutine put_json
 end module lagrangia_derive

@@ -20,7 +20,7 @@ module lagrangia_describe
     use lagrangia_text, only: join, to_text, word_t
     implicit none (type, external)
     private
-    public :: best_break, describe_command, has_closed_form
+    public :: best_break, describe_command
 
 contains
 

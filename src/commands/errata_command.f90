@@ -7,7 +7,8 @@ module lagrangia_errata_command
     use lagrangia_errata_ledger, only: kind_lecture, kind_none, kind_scan, kind_terminology, &
                                        quote_t, slip_t, slips_of_the_notes
     use lagrangia_errors, only: error_t, fail, status_not_held
-    use lagrangia_json, only: json_item, json_object, json_pair
+    use lagrangia_json, only: json_array, json_element, json_item, json_line, json_object, &
+                              json_pair
     use lagrangia_principle, only: put_json, put_report
     use lagrangia_principles, only: principle_report
     use lagrangia_report, only: report_t
@@ -146,7 +147,6 @@ contains
         logical, intent(in) :: json
         type(error_t), allocatable, intent(out) :: error
         type(report_t) :: report
-        character(:), allocatable :: ending
         integer :: k, part, misses, left
 
         misses = 0
@@ -161,10 +161,8 @@ contains
                 if (allocated(error)) return
                 misses = misses + report%broken()
                 left = left - 1
-                ending = ","
-                if (left == 0) ending = ""
                 if (json) then
-                    call put_line(object(slips(k), verdict_on(report))//ending)
+                    call put_line(json_line(object(slips(k), verdict_on(report)), left > 0))
                 else
                     call put_line("  "//slips(k)%id//"  "//trim(slips(k)%subject)//" ("// &
                                   slips(k)%place()//"): "//verdict_on(report))
@@ -202,16 +200,16 @@ contains
         character(:), allocatable :: json, quotes, elsewhere
         integer :: k
 
-        quotes = quote(slip%quotes(1))
-        do k = 2, count(slip%quotes%scan /= "")
-            quotes = quotes//", "//quote(slip%quotes(k))
+        quotes = ""
+        do k = 1, count(slip%quotes%scan /= "")
+            quotes = quotes//json_element(quote(slip%quotes(k)))
         end do
         elsewhere = "null"
         if (slip%elsewhere%scan /= "") elsewhere = quote(slip%elsewhere)
         json = json_object(json_pair("id", slip%id)//json_pair("kind", slip%kind)// &
                            json_pair("subject", slip%subject)// &
                            json_pair("place", place_text(slip))// &
-                           json_item("quotes", "["//quotes//"]")// &
+                           json_item("quotes", json_array(quotes))// &
                            json_pair("reads", slip%reads)//json_pair("derived", slip%derived)// &
                            json_item("elsewhere", elsewhere)//json_pair("effect", slip%effect)// &
                            json_pair("numbers", verdict))

@@ -7,7 +7,8 @@ module lagrangia_grade
     use lagrangia_errors, only: error_t, fail, status_not_held, status_usage
     use lagrangia_grading, only: grade, grade_t
     use lagrangia_homework, only: homework_t, read_homework
-    use lagrangia_json, only: json_item, json_object, json_pair, json_string
+    use lagrangia_json, only: json_array, json_element, json_item, json_object, json_pair, &
+                              json_string
     use lagrangia_judgement, only: is_consequence, is_definition, is_right, is_unreadable, &
                                    is_wrong
     use lagrangia_printed_table, only: left
@@ -189,15 +190,14 @@ contains
         integer :: i
 
         call system%describe(d)
-        json = "["
+        json = ""
         do i = 1, size(result%of)
             associate (statement => homework%statements(i), judgement => result%of(i))
-                if (i > 1) json = json//", "
-                json = json//json_object(json_pair("line", statement%line)// &
+                json = json//json_element(json_object(json_pair("line", statement%line)// &
                     json_pair("statement", statement%text)// &
                     json_pair("verdict", trim(verdicts(judgement%verdict)))// &
                     json_item("follows_from", lines_json(homework, judgement%because))// &
-                    json_pair("remark", judgement%remark)//json_pair("example", judgement%example))
+                    json_pair("remark", judgement%remark)//json_pair("example", judgement%example)))
             end associate
         end do
         json = json_object(json_pair("file", homework%source)//json_pair("system", &
@@ -207,7 +207,7 @@ contains
             json_pair("unreadable", count(result%of%verdict == is_unreadable))// &
             json_pair("follows", count(result%of%verdict == is_consequence))// &
             json_pair("equations", result%equations)// &
-            json_pair("determined", all(result%determined))//json_item("statements", json//"]"))
+            json_pair("determined", all(result%determined))//json_item("statements", json_array(json)))
     end function sheet_json
 
     pure function lines_json(homework, because) result(json)
@@ -217,13 +217,12 @@ contains
         character(:), allocatable :: json
         integer :: i
 
-        json = "["
+        json = ""
         if (allocated(because)) then
             do i = 1, size(because)
-                if (i > 1) json = json//", "
-                json = json//to_text(homework%statements(because(i))%line)
+                json = json//json_element(to_text(homework%statements(because(i))%line))
             end do
         end if
-        json = json//"]"
+        json = json_array(json)
     end function lines_json
 end module lagrangia_grade

@@ -9,7 +9,8 @@ module lagrangia_modes_command
     use lagrangia_description, only: description_t, figure_length
     use lagrangia_errors, only: error_t, fail
     use lagrangia_interrupt, only: interrupt_status
-    use lagrangia_json, only: json_list, json_number, json_string
+    use lagrangia_json, only: json_array, json_element, json_item, json_list, json_object, &
+                              json_pair, json_string
     use lagrangia_kinds, only: dp, i8
     use lagrangia_mode_picture, only: has_positions, mode_picture_path, write_mode_picture
     use lagrangia_modes_files, only: prepare_modes, write_mode
@@ -339,47 +340,45 @@ contains
         type(modes_t), intent(in) :: modes
         complex(dp), allocatable :: lambda(:)
         type(error_t), allocatable :: error
+        character(:), allocatable :: text
         integer :: j
 
-        call put('{"system": '//json_string(name)//', "at": '//json_list(modes%at)//', "M": ')
-        call put_rows(modes%mass)
-        call put(', "K": ')
-        call put_rows(modes%stiffness)
-        call put(', "omega2": '//json_list(modes%omega2)//', "omega": '//json_list(modes%omega)// &
-                 ', "label": [')
+        text = json_object(json_pair("system", name)//json_item("at", json_list(modes%at)))
+        call put(text(:len(text) - 1))
+        call put_rows("M", modes%mass)
+        call put_rows("K", modes%stiffness)
+        text = ""
         do j = 1, size(modes%label)
-            if (j > 1) call put(", ")
-            call put(json_string(trim(labels(modes%label(j)))))
+            text = text//json_element(json_string(labels(modes%label(j))))
         end do
-        call put('], "shapes": ')
-        call put_rows(transpose(modes%shapes))
-        call put(', "closed_form": ')
-        if (allocated(modes%analytic%omega2)) then
-            call put(json_list(modes%analytic%omega2))
-        else
-            call put("null")
-        end if
-        if (allocated(modes%multipliers)) call put(', "multipliers": '// &
-                                                   json_list(modes%multipliers))
-        call put(', "residual_ratio": '//json_number(modes%ratio))
+        call put(json_item("omega2", json_list(modes%omega2))// &
+                 json_item("omega", json_list(modes%omega))//json_item("label", json_array(text)))
+        call put_rows("shapes", transpose(modes%shapes))
+        text = "null"
+        if (allocated(modes%analytic%omega2)) text = json_list(modes%analytic%omega2)
+        call put(json_item("closed_form", text))
+        if (allocated(modes%multipliers)) call put(json_item("multipliers", &
+                                                             json_list(modes%multipliers)))
+        call put(json_pair("residual_ratio", modes%ratio))
         if (system%nonconservative .and. size(modes%at) <= widest) then
             call damped_rates(system, modes, lambda, error)
-            if (.not. allocated(error)) call put(', "damped": {"decay_rate": '// &
-                json_list(-real(lambda))//', "omega": '//json_list(aimag(lambda))//"}")
+            if (.not. allocated(error)) call put(json_item("damped", json_object( &
+                json_item("decay_rate", json_list(-real(lambda)))// &
+                json_item("omega", json_list(aimag(lambda))))))
         end if
         if (.not. allocated(modes%quadrature)) return
-        call put(', "G": ')
-        call put_rows(modes%gyroscopic)
-        call put(', "shapes_imaginary": ')
-        call put_rows(transpose(modes%quadrature))
+        call put_rows("G", modes%gyroscopic)
+        call put_rows("shapes_imaginary", transpose(modes%quadrature))
     end subroutine put_json
 
-    subroutine put_rows(a)
-        !! A list of lists, row by row: all in one text would be as large as many matrices.
-        real(dp), intent(in) :: a(:, :)
+    subroutine put_rows(key, a)
+        !! A member that is a list of lists, row by row: all in one text would be as large as many
+        !! matrices.
+        character(*), intent(in) :: key  !! of the member
+        real(dp), intent(in) :: a(:, :)  !! a row of it is a list
         integer :: i
 
-        call put("[")
+        call put(json_item(key, "["))
         do i = 1, size(a, 1)
             if (i > 1) call put(", ")
             call put(json_list(a(i, :)))

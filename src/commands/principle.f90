@@ -7,7 +7,7 @@ module lagrangia_principle
     use lagrangia_errors, only: error_t, fail, status_not_held
     use lagrangia_gnuplot, only: gnuplot_script, new_panels, new_series, panel_t, &
                                  series_t
-    use lagrangia_json, only: json_object, json_pair
+    use lagrangia_json, only: json_line, json_object, json_pair
     use lagrangia_ledger, only: group_length
     use lagrangia_ledger_text, only: statement_columns, statement_head, statement_json, &
         statement_line, statement_name
@@ -82,11 +82,11 @@ contains
             associate (page => principles(i))
                 call find_first_line(page%name, scan, line)
                 if (as_json) then
-                    call put_line(json_object(json_pair("name", page%name)// &
-                                              json_pair("lecture", scan)// &
-                                              json_pair("line", line)// &
-                                              json_pair("meaning", page%meaning))// &
-                                  trim(merge(",", " ", i < size(principles))))
+                    call put_line(json_line(json_object(json_pair("name", page%name)// &
+                                                        json_pair("lecture", scan)// &
+                                                        json_pair("line", line)// &
+                                                        json_pair("meaning", page%meaning)), &
+                                            i < size(principles)))
                 else
                     place = trim(scan)//" "//to_text(line)
                     call put_line(page%name//place//"  "//trim(page%meaning))
@@ -138,8 +138,7 @@ contains
 
         call put_line("[")
         do i = 1, size(report%rows)
-            call put_line(statement_json(report%rows(i))// &
-                          trim(merge(",", " ", i < size(report%rows))))
+            call put_line(json_line(statement_json(report%rows(i)), i < size(report%rows)))
         end do
         call put_line("]")
     end subroutine put_json

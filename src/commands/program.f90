@@ -14,7 +14,8 @@ module lagrangia_program
     use lagrangia_derive, only: derive_command
     use lagrangia_describe, only: describe_command
     use lagrangia_errata_command, only: errata_command
-    use lagrangia_errors, only: error_t, fail, status_ok
+    use lagrangia_errors, only: error_t, fail, message_length, status_file, status_not_held, &
+                                status_ok
     use lagrangia_files, only: hold_standard_units
     use lagrangia_grade, only: grade_command
     use lagrangia_help, only: help_command, help_text
@@ -32,6 +33,7 @@ module lagrangia_program
     use lagrangia_show, only: show_command
     use lagrangia_stress, only: stress_command
     use lagrangia_sweep_command, only: sweep_command
+    use lagrangia_text, only: shortened
     use lagrangia_unfinished, only: is_creating, remove_unfinished
     use lagrangia_version, only: build_text, version
     use lagrangia_wrong_words, only: check_arguments
@@ -131,9 +133,22 @@ contains
         if (interrupt_status() /= 0) call note_interruption(error)
         call remove_unfinished()
         call finish_console(output_error)
-        if (allocated(error)) return
-        if (allocated(output_error)) call move_alloc(output_error, error)
+        if (allocated(output_error)) call note_lost_output(output_error, error)
     end subroutine dispatch
+
+    subroutine note_lost_output(lost, error)
+        !! It goes behind what else failed. A verdict that nobody could read is none: status 1,
+        !! "does not hold", gives way. A reader who has seen enough loses nothing.
+        type(error_t), allocatable, intent(inout) :: lost   !! of `finish_console`
+        type(error_t), allocatable, intent(inout) :: error  !! of the command; may be absent
+
+        if (.not. allocated(error)) then
+            call move_alloc(lost, error)
+        else if (lost%status == status_file) then
+            if (error%status == status_not_held) error%status = status_file
+            error%message = shortened(error%message//"; "//lost%message, message_length)
+        end if
+    end subroutine note_lost_output
 
     subroutine note_interruption(error)
         !! It goes before whatever else failed, unless that says it already.

@@ -9,7 +9,7 @@ module lagrangia_progress
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: about, pace, progress_line, progress_t, stage
+    public :: about, pace, part_label, progress_line, progress_t
 
     real(dp), parameter :: patience = 2.0_dp   !! s before anything is shown
     real(dp), parameter :: interval = 0.2_dp   !! s between two updates
@@ -102,7 +102,7 @@ contains
         text = text//to_text(int(seconds))//" s"//pace(counted, seconds, done, all, parts)
     end function progress_line
 
-    pure function stage(command, name, number, all) result(text)
+    pure function part_label(command, name, number, all) result(text)
         !! `check pendulum, 2 of 14`: of work in several parts.
         character(*), intent(in) :: command, name  !! what is done, and to what
         integer, intent(in) :: number, all         !! the part that is done now, of how many
@@ -110,7 +110,7 @@ contains
 
         text = command//" "//trim(name)
         if (all > 1) text = text//", "//to_text(number)//" of "//to_text(all)
-    end function stage
+    end function part_label
 
     pure function pace(counted, seconds, done, all, parts) result(text)
         !! `, 5.30E+03 trajectories/s, 12 s left`; without the first where nothing is counted.

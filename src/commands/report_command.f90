@@ -12,7 +12,7 @@ module lagrangia_report_command
     use lagrangia_output_file, only: refuse_unwritable
     use lagrangia_output_options, only: draw_picture, take_folder
     use lagrangia_part, only: part_t
-    use lagrangia_progress, only: progress_t, stage
+    use lagrangia_progress, only: part_label, progress_t
     use lagrangia_report_page, only: report_page_t
     use lagrangia_run_command, only: choose_scenes, chosen_t
     use lagrangia_run_plan, only: run_plan_t
@@ -53,7 +53,7 @@ contains
         missed = 0
         call progress%restart("report", line%has("quiet"))
         do i = 1, size(chosen)
-            progress%label = stage("report", chosen(i)%plan%scene%name, i, size(chosen))
+            progress%label = part_label("report", chosen(i)%plan%scene%name, i, size(chosen))
             part%from = (i - 1.0_dp)/size(chosen)
             part%to = real(i, dp)/size(chosen)
             call part%tick(0_i8, 1_i8)

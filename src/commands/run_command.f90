@@ -12,6 +12,7 @@ module lagrangia_run_command
     use lagrangia_errors, only: error_t, fail, is_signal, status_not_held
     use lagrangia_final_values, only: final_values_legend, final_values_line
     use lagrangia_gnuplot, only: panel_t, series_t
+    use lagrangia_json, only: json_line
     use lagrangia_kinds, only: i8
     use lagrangia_observer, only: observer_t
     use lagrangia_outcome, only: outcome_json, outcome_t
@@ -105,7 +106,7 @@ contains
                 call scene_error%add_context(chosen(i)%path%text)
             end if
             if (json) then
-                call put_line(outcome_json(outcome)//trim(merge(",", " ", i < size(chosen))))
+                call put_line(json_line(outcome_json(outcome), i < size(chosen)))
             else if (.not. quiet) then
                 call put_line(scorecard_row(outcome))
                 call scorecard_lines(outcome, line%command /= "", lines)

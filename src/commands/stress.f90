@@ -7,7 +7,7 @@ module lagrangia_stress
     use lagrangia_ledger_text, only: measured_json, measured_line
     use lagrangia_names, only: refuse_name
     use lagrangia_observer, only: observer_t
-    use lagrangia_progress, only: progress_t, stage
+    use lagrangia_progress, only: part_label, progress_t
     use lagrangia_stress_rows, only: measure_row, row_t, rows
     use lagrangia_text, only: to_text
     use lagrangia_version, only: build_text
@@ -45,7 +45,7 @@ contains
             if (.not. chosen(i)) cycle
             call flush_console()
             if (console_failed()) return  ! nobody would see the rest
-            now = stage("stress", rows(i)%name, count(chosen(:i)), count(chosen))
+            now = part_label("stress", rows(i)%name, count(chosen(:i)), count(chosen))
             call progress%restart(now, line%has("quiet"))
             if (.not. line%has("quiet")) call progress%say(now)
             call measure_row(trim(rows(i)%name), line%has("long"), watcher, verdicts, error)

@@ -6,7 +6,7 @@ module lagrangia_sweep_summary
     use lagrangia_data_files, only: script_path
     use lagrangia_description, only: description_t
     use lagrangia_images, only: image_count
-    use lagrangia_json, only: json_item, json_object, json_pair
+    use lagrangia_json, only: json_array, json_element, json_item, json_object, json_pair
     use lagrangia_kept, only: is_lyapunov
     use lagrangia_kinds, only: dp, i8
     use lagrangia_printed_table, only: in_digits => short
@@ -128,10 +128,10 @@ contains
         rows = ""
         do i = 1, size(sweep%kept)
             call result%range_of(i, found, least, largest)
-            rows = rows//", "//json_object(json_pair("keep", trim(sweep%kept(i)%text))// &
+            rows = rows//json_element(json_object(json_pair("keep", trim(sweep%kept(i)%text))// &
                 json_pair("unit", trim(sweep%kept(i)%unit))// &
                 json_pair("found", to_text(found))// &
-                json_pair("least", least)//json_pair("largest", largest))
+                json_pair("least", least)//json_pair("largest", largest)))
         end do
         call put_line(json_object(json_pair("scene", trim(sweep%scene%name))// &
             json_pair("file", path)// &
@@ -142,6 +142,6 @@ contains
             json_item("threads", to_text(result%processes))// &
             json_pair("in_lanes", result%in_lanes)// &
             json_pair("seconds", result%seconds)// &
-            json_item("kept", "["//rows(3:)//"]")))
+            json_item("kept", json_array(rows))))
     end subroutine put_json
 end module lagrangia_sweep_summary

@@ -1,7 +1,8 @@
 module lagrangia_json
     !! Pieces of JSON text (RFC 8259): strings, numbers, lists, objects.
     !!
-    !! An object is `json_object(json_pair(key, value)//json_pair(key, value)//...)`.
+    !! An object is `json_object(json_pair(key, value)//json_pair(key, value)//...)`, a list
+    !! `json_array(json_element(value)//json_element(value)//...)`.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use, intrinsic :: iso_fortran_env, only: real64
     use lagrangia_characters, only: decode, is_control, printable
@@ -11,7 +12,7 @@ module lagrangia_json
     implicit none (type, external)
     private
     public :: json_string, json_number, json_list
-    public :: json_item, json_object, json_pair
+    public :: json_array, json_element, json_item, json_line, json_object, json_pair
 
     interface json_number
         module procedure json_real
@@ -83,13 +84,38 @@ contains
         character(:), allocatable :: json
         integer :: i
 
-        json = "["
+        json = ""
         do i = 1, size(values)
-            if (i > 1) json = json//", "
-            json = json//json_real(values(i))
+            json = json//json_element(json_real(values(i)))
         end do
-        json = json//"]"
+        json = json_array(json)
     end function json_list
+
+    pure function json_array(elements) result(json)
+        !! A list of what `json_element` made.
+        character(*), intent(in) :: elements  !! one behind the other
+        character(:), allocatable :: json
+
+        json = "["//elements(3:)//"]"
+    end function json_array
+
+    pure function json_element(value) result(json)
+        !! An element of a list, with a comma before it.
+        character(*), intent(in) :: value  !! JSON itself
+        character(:), allocatable :: json
+
+        json = ", "//value
+    end function json_element
+
+    pure function json_line(value, more) result(json)
+        !! An element of a list that stands on a line of its own.
+        character(*), intent(in) :: value  !! JSON itself
+        logical, intent(in) :: more  !! another element follows
+        character(:), allocatable :: json
+
+        json = value
+        if (more) json = value//","
+    end function json_line
 
     pure function json_object(members) result(json)
         !! An object of what `json_pair` and `json_item` made.

@@ -4,7 +4,7 @@ module lagrangia_version
     use, intrinsic :: iso_fortran_env, only: compiler_options, compiler_version
     implicit none (type, external)
     private
-    public :: version, build_text, is_optimised, vector_unit
+    public :: version, build_text, is_optimised
 
     character(*), parameter :: version = "0.2.0"
 

@@ -7,7 +7,7 @@ module lagrangia_derivation_slips
     use lagrangia_text, only: lower, quoted
     implicit none (type, external)
     private
-    public :: derivable_slips, find_slip
+    public :: find_slip
 
     character(*), parameter :: derivable_slips = "E1, E2, E3, E21, E25"  !! those that there are
 

@@ -172,7 +172,7 @@ contains
         integer, intent(in) :: lane, coordinate
         real(dp), intent(out) :: time
         real(dp), dimension(system%ndof) :: a, a_old, q, q_old, v, v_old
-        real(dp) :: c5(0:5), h, high, low, s, way
+        real(dp) :: angle, c5(0:5), h, high, low, orientation, s
         logical :: flips(lanes)
         integer :: c, i, n
 
@@ -189,12 +189,13 @@ contains
         call system%accelerations(self%t_old(lane), q_old, v_old, a_old)
         call system%accelerations(self%t_old(lane) + h, q, v, a)
         c5 = quintic(h, [q_old(c), v_old(c), a_old(c)], [q(c), v(c), a(c)])
-        way = sign(1.0_dp, q(c))
+        orientation = sign(1.0_dp, q(c))
         low = 0.0_dp
         high = 1.0_dp
         do i = 1, 60
             s = 0.5_dp*(low + high)
-            if (way*(c5(0) + s*(c5(1) + s*(c5(2) + s*(c5(3) + s*(c5(4) + s*c5(5)))))) < pi) then
+            angle = c5(0) + s*(c5(1) + s*(c5(2) + s*(c5(3) + s*(c5(4) + s*c5(5)))))
+            if (orientation*angle < pi) then
                 low = s
             else
                 high = s

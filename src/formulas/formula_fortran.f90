@@ -11,7 +11,7 @@ module lagrangia_formula_fortran
     use lagrangia_text, only: to_text, word_t
     implicit none (type, external)
     private
-    public :: fortran_text, fortran_number
+    public :: fortran_text
 
 contains
 

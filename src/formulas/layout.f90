@@ -20,11 +20,11 @@ module lagrangia_layout
 
     real(dp), parameter :: pi = acos(-1.0_dp)
 
-    type :: page_t
+    type :: written_t
         !! What is written, and where each atom already stands.
         type(expression_t) :: e
         integer, allocatable :: node_of(:)
-    end type page_t
+    end type written_t
 
 contains
 
@@ -33,19 +33,19 @@ contains
         type(table_t), intent(in) :: table     !! of the atoms
         type(sum_t), intent(in) :: s           !! of them
         type(expression_t), intent(out) :: e   !! the same
-        type(page_t) :: page
+        type(written_t) :: written
         integer :: root
 
-        allocate (page%node_of(table%order%count), source=0)
-        call put_sum(table, s, page, root)
-        e = page%e%pruned(root)
+        allocate (written%node_of(table%order%count), source=0)
+        call put_sum(table, s, written, root)
+        e = written%e%pruned(root)
     end subroutine write_sum
 
-    pure recursive subroutine put_sum(table, s, page, root)
+    pure recursive subroutine put_sum(table, s, written, root)
         !! Over the denominator that all terms share, if there is one with a sum in it.
         type(table_t), intent(in) :: table
         type(sum_t), intent(in) :: s
-        type(page_t), intent(inout) :: page
+        type(written_t), intent(inout) :: written
         integer, intent(out) :: root
         type(sum_t) :: above
         type(term_t) :: denominator
@@ -59,19 +59,19 @@ contains
             if (denominator%count > 0) then
                 call multiplied(table, s, denominator, above, fits)
                 if (fits) then
-                    call put_groups(table, above, page, top)
-                    negative = negative .neqv. page%e%nodes(top)%kind == kind_negation
-                    if (page%e%nodes(top)%kind == kind_negation) top = page%e%nodes(top)%left
+                    call put_groups(table, above, written, top)
+                    negative = negative .neqv. written%e%nodes(top)%kind == kind_negation
+                    if (written%e%nodes(top)%kind == kind_negation) top = written%e%nodes(top)%left
                     bottom = 0
-                    call put_factors(table, denominator, page, bottom)
-                    call page%e%add_operation(kind_quotient, top, bottom, root)
+                    call put_factors(table, denominator, written, bottom)
+                    call written%e%add_operation(kind_quotient, top, bottom, root)
                     quotient = root
-                    if (negative) call page%e%add_operation(kind_negation, quotient, 0, root)
+                    if (negative) call written%e%add_operation(kind_negation, quotient, 0, root)
                     return
                 end if
             end if
         end if
-        call put_groups(table, s, page, root)
+        call put_groups(table, s, written, root)
     end subroutine put_sum
 
     pure subroutine shared_denominator(table, s, denominator)
@@ -115,16 +115,16 @@ contains
         end do
     end subroutine multiplied
 
-    pure recursive subroutine put_groups(table, s, page, root)
+    pure recursive subroutine put_groups(table, s, written, root)
         !! Terms, those collected that differ in parameters only.
         type(table_t), intent(in) :: table
         type(sum_t), intent(in) :: s
-        type(page_t), intent(inout) :: page
+        type(written_t), intent(inout) :: written
         integer, intent(out) :: root
         integer :: first, i, last
 
         root = 0
-        if (s%count == 0) call page%e%add_number(number_t(), root)
+        if (s%count == 0) call written%e%add_number(number_t(), root)
         first = 1
         do while (first <= s%count)
             last = first
@@ -133,10 +133,10 @@ contains
                 last = last + 1
             end do
             if (is_worth_a_bracket(table, s, first, last)) then
-                call put_bracket(table, s, first, last, page, root)
+                call put_bracket(table, s, first, last, written, root)
             else
                 do i = first, last
-                    call put_term(table, s%terms(i), 0, page, root)
+                    call put_term(table, s%terms(i), 0, written, root)
                 end do
             end if
             first = last + 1
@@ -172,12 +172,12 @@ contains
         end do
     end subroutine part
 
-    pure recursive subroutine put_bracket(table, s, first, last, page, root)
+    pure recursive subroutine put_bracket(table, s, first, last, written, root)
         !! The common factor of some terms, times what is left of them.
         type(table_t), intent(in) :: table
         type(sum_t), intent(in) :: s
         integer, intent(in) :: first, last
-        type(page_t), intent(inout) :: page
+        type(written_t), intent(inout) :: written
         integer, intent(inout) :: root
         type(sum_t) :: group, rest
         type(term_t) :: factor
@@ -193,11 +193,11 @@ contains
             call over(table, group, factor, rest, fits)
         end if
         if (fits) then
-            call put_sum(table, rest, page, bracket)
-            call put_term(table, factor, bracket, page, root)
+            call put_sum(table, rest, written, bracket)
+            call put_term(table, factor, bracket, written, root)
         else
             do i = 1, group%count
-                call put_term(table, group%terms(i), 0, page, root)
+                call put_term(table, group%terms(i), 0, written, root)
             end do
         end if
     end subroutine put_bracket
@@ -227,35 +227,35 @@ contains
         yes = number%is_whole() .or. scan(number_in_formula(number), "/") > 0
     end function is_plain
 
-    pure recursive subroutine put_term(table, term, bracket, page, root)
+    pure recursive subroutine put_term(table, term, bracket, written, root)
         !! One more summand: a monomial, perhaps times a bracket that stands at node `bracket`.
         type(table_t), intent(in) :: table
         type(term_t), intent(in) :: term
         integer, intent(in) :: bracket
-        type(page_t), intent(inout) :: page
+        type(written_t), intent(inout) :: written
         integer, intent(inout) :: root
         integer :: before, node
         logical :: negative
 
         negative = term%coefficient%value < 0.0_dp
-        call put_product(table, term, bracket, page, node)
+        call put_product(table, term, bracket, written, node)
         before = root
         if (before > 0) then
-            call page%e%add_operation(merge(kind_difference, kind_sum, negative), before, node, &
+            call written%e%add_operation(merge(kind_difference, kind_sum, negative), before, node, &
                                       root)
         else if (negative) then
-            call page%e%add_operation(kind_negation, node, 0, root)
+            call written%e%add_operation(kind_negation, node, 0, root)
         else
             root = node
         end if
     end subroutine put_term
 
-    pure recursive subroutine put_product(table, term, bracket, page, node)
+    pure recursive subroutine put_product(table, term, bracket, written, node)
         !! The modulus of the coefficient, the bracket, and all factors.
         type(table_t), intent(in) :: table
         type(term_t), intent(in) :: term
         integer, intent(in) :: bracket
-        type(page_t), intent(inout) :: page
+        type(written_t), intent(inout) :: written
         integer, intent(out) :: node
         type(term_t) :: below, parameters, state
         type(number_t) :: c, over, under
@@ -291,17 +291,17 @@ contains
             over = c  ! 3/2 m x^2
             below%coefficient = number_of(1.0_dp)
         end if
-        if (abs(over%value - 1.0_dp) > 0.0_dp) call page%e%add_number(over, node)
-        if (bracket > 0) call join(page, kind_product, bracket, node)
+        if (abs(over%value - 1.0_dp) > 0.0_dp) call written%e%add_number(over, node)
+        if (bracket > 0) call join(written, kind_product, bracket, node)
         if (below%count == 0 .and. below%coefficient%value > 1.0_dp) then
-            call put_halved(table, parameters, below%coefficient, bracket > 0, page, node)
+            call put_halved(table, parameters, below%coefficient, bracket > 0, written, node)
         else
-            call put_factors(table, parameters, page, node)
+            call put_factors(table, parameters, written, node)
         end if
-        if (.not. at_the_end) call put_denominator(table, below, page, node)
-        call put_factors(table, state, page, node)
-        if (at_the_end) call put_denominator(table, below, page, node)
-        if (node == 0) call page%e%add_number(over, node)
+        if (.not. at_the_end) call put_denominator(table, below, written, node)
+        call put_factors(table, state, written, node)
+        if (at_the_end) call put_denominator(table, below, written, node)
+        if (node == 0) call written%e%add_number(over, node)
     end subroutine put_product
 
     pure subroutine keep(term, k, sign_of, list)
@@ -315,9 +315,9 @@ contains
         list%power(list%count) = sign_of*term%power(k)
     end subroutine keep
 
-    pure subroutine join(page, kind, new, node)
+    pure subroutine join(written, kind, new, node)
         !! A factor or a divisor behind what is there.
-        type(page_t), intent(inout) :: page
+        type(written_t), intent(inout) :: written
         integer, intent(in) :: kind, new
         integer, intent(inout) :: node
         integer :: before
@@ -326,105 +326,105 @@ contains
             node = new
             return
         end if
-        if (node == 0) call page%e%add_number(number_of(1.0_dp), node)
+        if (node == 0) call written%e%add_number(number_of(1.0_dp), node)
         before = node
-        call page%e%add_operation(kind, before, new, node)
+        call written%e%add_operation(kind, before, new, node)
     end subroutine join
 
-    pure recursive subroutine put_factors(table, term, page, node)
+    pure recursive subroutine put_factors(table, term, written, node)
         !! Powers of atoms, all positive.
         type(table_t), intent(in) :: table
         type(term_t), intent(in) :: term
-        type(page_t), intent(inout) :: page
+        type(written_t), intent(inout) :: written
         integer, intent(inout) :: node
         integer :: k, new
 
         do k = 1, term%count
-            call put_power(table, term%atom(k), term%power(k), page, new)
-            call join(page, kind_product, new, node)
+            call put_power(table, term%atom(k), term%power(k), written, new)
+            call join(written, kind_product, new, node)
         end do
     end subroutine put_factors
 
-    pure recursive subroutine put_halved(table, term, divisor, has_bracket, page, node)
+    pure recursive subroutine put_halved(table, term, divisor, has_bracket, written, node)
         !! `m/2 l^2`, `(m1 + m2)/2 l^2`: the divisor stands behind the first factor.
         type(table_t), intent(in) :: table
         type(term_t), intent(in) :: term
         type(number_t), intent(in) :: divisor
         logical, intent(in) :: has_bracket
-        type(page_t), intent(inout) :: page
+        type(written_t), intent(inout) :: written
         integer, intent(inout) :: node
         type(term_t) :: rest
         integer :: k, new
 
         k = 1
         if (.not. has_bracket) then
-            call put_power(table, term%atom(1), term%power(1), page, new)
-            call join(page, kind_product, new, node)
+            call put_power(table, term%atom(1), term%power(1), written, new)
+            call join(written, kind_product, new, node)
             k = 2
         end if
-        call page%e%add_number(divisor, new)
-        call join(page, kind_quotient, new, node)
+        call written%e%add_number(divisor, new)
+        call join(written, kind_quotient, new, node)
         do k = k, term%count
             call keep(term, k, 1, rest)
         end do
-        call put_factors(table, rest, page, node)
+        call put_factors(table, rest, written, node)
     end subroutine put_halved
 
-    pure recursive subroutine put_denominator(table, below, page, node)
+    pure recursive subroutine put_denominator(table, below, written, node)
         !! One bracket for all that a term is divided by.
         type(table_t), intent(in) :: table
         type(term_t), intent(in) :: below
-        type(page_t), intent(inout) :: page
+        type(written_t), intent(inout) :: written
         integer, intent(inout) :: node
         integer :: bottom
 
         if (below%count == 0) return
         bottom = 0
-        if (below%coefficient%value > 1.0_dp) call page%e%add_number(below%coefficient, bottom)
-        call put_factors(table, below, page, bottom)
-        call join(page, kind_quotient, bottom, node)
+        if (below%coefficient%value > 1.0_dp) call written%e%add_number(below%coefficient, bottom)
+        call put_factors(table, below, written, bottom)
+        call join(written, kind_quotient, bottom, node)
     end subroutine put_denominator
 
-    pure recursive subroutine put_power(table, atom, power, page, node)
+    pure recursive subroutine put_power(table, atom, power, written, node)
         !! An atom, perhaps to a power.
         type(table_t), intent(in) :: table
         integer, intent(in) :: atom, power
-        type(page_t), intent(inout) :: page
+        type(written_t), intent(inout) :: written
         integer, intent(out) :: node
         integer :: base, exponent
 
-        if (page%node_of(atom) == 0) call put_atom(table, atom, page)
-        node = page%node_of(atom)
+        if (written%node_of(atom) == 0) call put_atom(table, atom, written)
+        node = written%node_of(atom)
         if (power == 1) return
         base = node
-        call page%e%add_number(number_of(real(power, dp)), exponent)
-        call page%e%add_operation(kind_power, base, exponent, node)
+        call written%e%add_number(number_of(real(power, dp)), exponent)
+        call written%e%add_operation(kind_power, base, exponent, node)
     end subroutine put_power
 
-    pure recursive subroutine put_atom(table, atom, page)
+    pure recursive subroutine put_atom(table, atom, written)
         !! A symbol, a function, a sum, a general power, or pi.
         type(table_t), intent(in) :: table
         integer, intent(in) :: atom
-        type(page_t), intent(inout) :: page
+        type(written_t), intent(inout) :: written
         integer :: argument, exponent, node
 
         associate (a => table%order%atoms(atom))
             select case (a%kind)
             case (atom_number_pi)
-                call page%e%add_number(number_of(pi), node)
+                call written%e%add_number(number_of(pi), node)
             case (atom_symbol)
-                call page%e%add_symbol(a%which, node)
+                call written%e%add_symbol(a%which, node)
             case (atom_sum)
-                call put_sum(table, table%sums(a%argument), page, node)
+                call put_sum(table, table%sums(a%argument), written, node)
             case (atom_function)
-                call put_sum(table, table%sums(a%argument), page, argument)
-                call page%e%add_operation(kind_function, argument, 0, node, a%which)
+                call put_sum(table, table%sums(a%argument), written, argument)
+                call written%e%add_operation(kind_function, argument, 0, node, a%which)
             case default
-                call put_sum(table, table%sums(a%argument), page, argument)
-                call put_sum(table, table%sums(a%exponent), page, exponent)
-                call page%e%add_operation(kind_power, argument, exponent, node)
+                call put_sum(table, table%sums(a%argument), written, argument)
+                call put_sum(table, table%sums(a%exponent), written, exponent)
+                call written%e%add_operation(kind_power, argument, exponent, node)
             end select
         end associate
-        page%node_of(atom) = node
+        written%node_of(atom) = node
     end subroutine put_atom
 end module lagrangia_layout

@@ -24,7 +24,6 @@ module lagrangia_homework
     private
     public :: homework_t, statement_t
     public :: parse_homework, read_homework
-    public :: statement_length
 
     integer, parameter :: statement_length = 10000  !! bytes of one statement at most
     integer, parameter :: most_statements = 1000    !! of one file

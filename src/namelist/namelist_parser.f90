@@ -58,13 +58,19 @@ contains
         !! Let `GROUP%KEY=VALUE` replace or add an entry, and add the group if need be.
         !!
         !! `GROUP%KEY(2)=VALUE` replaces one element. Texts need no quotes here: one runs to the
-        !! next comma. After a failure the tree is good for nothing but the message.
+        !! next comma. The same override once more changes nothing. After a failure the tree is good
+        !! for nothing but the message.
         type(namelist_t), intent(inout) :: tree  !! of a file, perhaps with earlier overrides
         character(*), intent(in) :: text         !! the override, in any case
         type(error_t), allocatable, intent(out) :: error  !! status 2: what it is not
         character(name_length) :: name
-        integer :: first, group
+        integer :: first, group, i, last
 
+        last = len(tree%text)
+        do i = size(tree%starts), 2, -1
+            if (tree%text(tree%starts(i):last) == text) return
+            last = tree%starts(i) - 1
+        end do
         first = len(tree%text) + 1
         tree%starts = [tree%starts, first]
         tree%text = tree%text//text

@@ -95,8 +95,8 @@ contains
             part = count(tree%starts <= position)
             last = len(tree%text)
             if (part < size(tree%starts)) last = tree%starts(part + 1) - 1
-            place = "--set "//escaped(tree%text(tree%starts(part):last), 90)
-            place = trim(short_source(trim(place)))
+            place = trim("--set "//escaped(tree%text(tree%starts(part):last), 90))
+            place = trim(short_source(place))
         else if (position > 0) then
             place = place//":"//to_text(line_of(tree, position))//":"// &
                     to_text(position - index(tree%text(:position - 1), achar(10), back=.true.))
@@ -151,8 +151,7 @@ contains
         !! The line of the file that holds this byte, from 1.
         type(namelist_t), intent(in) :: tree  !! of a file
         integer, intent(in) :: position       !! in the tree's text
-        integer :: line
-        integer :: i
+        integer :: i, line
 
         line = 1
         do i = 1, position - 1
@@ -254,24 +253,26 @@ contains
     end subroutine add_value
 
     pure subroutine settle_twins(tree, error)
-        !! See that the last entry gives no element that an earlier one gives. An override may:
-        !! its values come last, and without an index it replaces the whole of earlier entries.
+        !! See that the last entry gives no element that an earlier one gives. An override may what
+        !! the file gives: without an index it replaces the whole of those entries.
         type(namelist_t), intent(inout) :: tree           !! its last entry is complete
         type(error_t), allocatable, intent(out) :: error  !! status 2: given twice
+        character(:), allocatable :: first
         integer :: i
 
         associate (new => tree%entries(tree%entry_count))
             do i = 1, tree%entry_count - 1
                 associate (old => tree%entries(i))
                     if (old%group /= new%group .or. old%key /= new%key) cycle
-                    if (in_override(tree, new%at)) then
+                    if (in_override(tree, new%at) .and. .not. in_override(tree, old%at)) then
                         if (new%index == 0) old%replaced = .true.
                     else if (max(1, old%index) < max(1, new%index) + new%count .and. &
                              max(1, new%index) < max(1, old%index) + old%count) then
+                        first = "on line "//to_text(line_of(tree, old%at))
+                        if (in_override(tree, old%at)) first = "by another --set"
                         call fail_at(tree, new%at, "&"// &
-                                     escaped(trim(tree%groups(new%group)%name), 30)//": "// &
-                                     escaped(trim(new%key))//" is given twice (first on line "// &
-                                     to_text(line_of(tree, old%at))//")", error)
+                            escaped(trim(tree%groups(new%group)%name), 30)//": "// &
+                            escaped(trim(new%key))//" is given twice (first "//first//")", error)
                         return
                     end if
                 end associate

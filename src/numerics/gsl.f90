@@ -12,7 +12,7 @@ module lagrangia_gsl
     use lagrangia_roots, only: scalar_function_t
     implicit none (type, external)
     private
-    public :: brent_root, gsl_reason, jacobi_sn_cn_dn, silence_gsl
+    public :: brent_root, gsl_reason, silence_gsl
 
     type, bind(c) :: gsl_function_t
         !! GSL's own notion of a function: an address, and what to hand it beside `x`.
@@ -88,14 +88,6 @@ module lagrangia_gsl
             type(c_ptr) :: old_handler
         end function gsl_set_error_handler_off
 
-        function gsl_sf_elljac_e(u, m, sn, cn, dn) bind(c) result(status)
-            import :: c_double, c_int
-            implicit none (type, external)
-            real(c_double), value :: u, m
-            real(c_double), intent(out) :: sn, cn, dn
-            integer(c_int) :: status
-        end function gsl_sf_elljac_e
-
         function gsl_strerror(status) bind(c) result(message)
             import :: c_int, c_ptr
             implicit none (type, external)
@@ -108,36 +100,6 @@ module lagrangia_gsl
     integer, parameter :: most_iterations = 200
 
 contains
-
-    subroutine jacobi_sn_cn_dn(u, k, sn, cn, dn, error)
-        !! Jacobi's functions by GSL's `elljac`, of the modulus \(k\), not the parameter \(k^2\).
-        !!
-        !! \(1 - m\) is all GSL sees of \(k'^2\): errors grow as \(\epsilon/k'^2\), and within
-        !! \(2\epsilon\) of \(m = 1\) they reach 2, which is refused. `lagrangia_elliptic` has
-        !! neither limit.
-        real(dp), intent(in) :: u                         !! argument
-        real(dp), intent(in) :: k                         !! modulus, -1 to 1
-        real(dp), intent(out) :: sn, cn, dn               !! zero after an error
-        type(error_t), allocatable, intent(out) :: error  !! status 3: arguments; 4: GSL refuses
-        real(dp) :: m
-        integer(c_int) :: status
-
-        sn = 0.0_dp
-        cn = 0.0_dp
-        dn = 0.0_dp
-        m = k**2
-        if (.not. (ieee_is_finite(u) .and. ieee_is_finite(m))) then
-            call fail(error, "elljac: argument and modulus must be finite", status_numbers)
-            return
-        end if
-        if (abs(m - 1.0_dp) < 2.0_dp*epsilon(m)) then
-            call fail(error, "elljac: no digit is right this close to modulus 1", status_library)
-            return
-        end if
-        call silence_gsl()
-        status = gsl_sf_elljac_e(u, m, sn, cn, dn)
-        if (status /= 0) call fail(error, "elljac: GSL says: "//gsl_reason(status), status_library)
-    end subroutine jacobi_sn_cn_dn
 
     subroutine brent_root(f, lower, upper, root, error)
         !! Where `f` vanishes between `lower` and `upper`, by Brent's method, as far as the rounding

@@ -8,7 +8,8 @@ module lagrangia_animation
     use lagrangia_frames, only: add_reference, film_speed, find_pace, finer_run, finer_words, &
                                 frames_t, record_frames, window_of
     use lagrangia_html, only: html_text, script_json, write_template
-    use lagrangia_json, only: json_item, json_object, json_pair, json_string
+    use lagrangia_json, only: json_array, json_element, json_item, json_object, json_pair, &
+                              json_string
     use lagrangia_kinds, only: dp
     use lagrangia_plot_words, only: unicode_text
     use lagrangia_run_files, only: method_text
@@ -51,7 +52,8 @@ contains
         if (allocated(error)) return
         title = heading(one%scene)
         call write_page(path, title, page_of_films(one%system, title, &
-            method_text(one%settled)//"; beside it: "//method_text(other%settled), film), error)
+            method_text(one%settled)//"; beside it: "//method_text(other%settled), &
+            json_element(film)), error)
     end subroutine animate_both
 
     subroutine scene_film(plan, film, error, beside)
@@ -121,21 +123,22 @@ contains
         character(*), intent(in) :: film      !! of `scene_film`
         character(:), allocatable :: json
 
-        json = page_of_films(plan%system, heading(plan%scene), method_text(plan%settled), film)
+        json = page_of_films(plan%system, heading(plan%scene), method_text(plan%settled), &
+                             json_element(film))
     end function page_of_film
 
     function page_of_films(system, title, method, films) result(json)
         !! The data of a page.
         class(system_t), intent(in) :: system         !! whose films they are
         character(*), intent(in) :: title, method     !! of the page; how they were computed
-        character(*), intent(in) :: films             !! objects with commas between them
+        character(*), intent(in) :: films             !! each a `json_element`
         character(:), allocatable :: json, facts
         type(description_t) :: d
         character(:), allocatable :: name, values
         integer :: i, k
 
         call system%describe(d)
-        facts = json_string(method)
+        facts = json_element(json_string(method))
         do i = 1, size(d%parameters)
             associate (p => d%parameters(i))
                 if (all(abs(p%value(:p%count)) <= 0.0_dp)) cycle
@@ -145,15 +148,16 @@ contains
                 end do
                 if (p%whole) values = " "//to_text(nint(p%value(1)))
                 if (p%unit /= "1") values = values//" "//trim(p%unit)
-                facts = facts//", "//json_string(said(trim(p%name))//" ="//unicode_text(values))
+                facts = facts//json_element(json_string(said(trim(p%name))//" ="// &
+                                                        unicode_text(values)))
             end associate
         end do
         name = in_words(d%name)
         if (d%title /= "" .and. d%title /= title) name = name//": "//d%title
         json = json_object(json_pair("title", unicode_text(title))// &
                            json_pair("system", unicode_text(name))// &
-                           json_item("facts", "["//facts//"]")// &
-                           json_item("films", "["//films//"]"))
+                           json_item("facts", json_array(facts))// &
+                           json_item("films", json_array(films)))
     end function page_of_films
 
     pure function said(name) result(text)

@@ -1,8 +1,8 @@
 module lagrangia_channels
     !! Many numbers in little text: each series between its bounds in 2^18 steps, three characters
     !! a number. A picture shows no more, and a page with a film stays small.
-    use lagrangia_json, only: json_number
-    use lagrangia_kinds, only: dp, i8
+    use lagrangia_json, only: json_item, json_number, json_object, json_pair
+    use lagrangia_kinds, only: dp
     implicit none (type, external)
     private
     public :: channels_t
@@ -33,8 +33,9 @@ contains
 
         if (.not. allocated(self%json)) self%json = ""
         if (self%count > 0) self%json = self%json//","//new_line("a")
-        self%json = self%json//'{"lo": '//json_number(minval(values))//', "hi": '// &
-                    json_number(maxval(values))//', "d": '//'"'//packed(values)//'"}'
+        self%json = self%json//json_object(json_pair("lo", minval(values))// &
+                                           json_pair("hi", maxval(values))// &
+                                           json_item("d", '"'//packed(values)//'"'))
         which = self%count
         self%count = self%count + 1
     end subroutine add
@@ -51,7 +52,7 @@ contains
             return
         end if
         call self%add(values, which)
-        json = '{"c": '//json_number(int(which, i8))//"}"
+        json = json_object(json_pair("c", which))
     end subroutine number
 
     pure function packed(values) result(text)

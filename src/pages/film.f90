@@ -6,7 +6,7 @@ module lagrangia_film
     use lagrangia_errors, only: error_t
     use lagrangia_frames, only: frames_t
     use lagrangia_hyperdual, only: hyperdual_t
-    use lagrangia_json, only: json_item, json_object, json_pair, json_string
+    use lagrangia_json, only: json_array, json_element, json_item, json_object, json_pair
     use lagrangia_kinds, only: dp
     use lagrangia_mode_picture, only: widest_angle
     use lagrangia_scene_figure, only: figure_t, new_figure
@@ -144,45 +144,41 @@ contains
     function parts_json(figure) result(json)
         !! `[{"kind": "rod", "at": [0, 1]}, ...]`.
         type(figure_t), intent(in) :: figure
-        character(:), allocatable :: json
+        character(:), allocatable :: at, json, members
         integer :: i, k
 
-        json = "["
+        json = ""
         do i = 1, size(figure%parts)
             associate (part => figure%parts(i))
-                if (i > 1) json = json//", "
-                json = json//'{"kind": '//json_string(part%kind)
-                if (part%label /= "") json = json//json_pair("label", part%label)
-                json = json//', "at": ['
+                members = json_pair("kind", part%kind)
+                if (part%label /= "") members = members//json_pair("label", part%label)
+                at = ""
                 do k = 1, part%count
-                    if (k > 1) json = json//", "
-                    json = json//to_text(part%at(k) - 1)
+                    at = at//json_element(to_text(part%at(k) - 1))
                 end do
-                json = json//"]}"
+                json = json//json_element(json_object(members//json_item("at", json_array(at))))
             end associate
         end do
-        json = json//"]"
+        json = json_array(json)
     end function parts_json
 
     function places_json(r, channels) result(json)
         !! Three numbers or series a place.
         real(dp), intent(in) :: r(:, :, :)
         type(channels_t), intent(inout) :: channels
-        character(:), allocatable :: json, item
+        character(:), allocatable :: json, item, place
         integer :: i, k
 
-        json = "["
+        json = ""
         do i = 1, size(r, 2)
-            if (i > 1) json = json//", "
-            json = json//"["
+            place = ""
             do k = 1, 3
-                if (k > 1) json = json//", "
                 call channels%number(r(k, i, :), item)
-                json = json//item
+                place = place//json_element(item)
             end do
-            json = json//"]"
+            json = json//json_element(json_array(place))
         end do
-        json = json//"]"
+        json = json_array(json)
     end function places_json
 
     subroutine add_states(system, frames, n, film, channels)
@@ -199,12 +195,12 @@ contains
         call system%describe(d)
         json = ""
         do i = 1, min(system%ndof, most_coordinates)
-            if (i > 1) json = json//", "
-            json = json//json_object(json_pair("name", d%coordinates(i)%name)// &
-                                     json_pair("unit", d%coordinates(i)%unit)// &
-                                     json_pair("meaning", d%coordinates(i)%meaning))
+            json = json//json_element(json_object( &
+                json_pair("name", d%coordinates(i)%name)// &
+                json_pair("unit", d%coordinates(i)%unit)// &
+                json_pair("meaning", d%coordinates(i)%meaning)))
         end do
-        film = film//json_item("coordinates", "["//json//"]")// &
+        film = film//json_item("coordinates", json_array(json))// &
                json_item("states", states_json(system, frames, n, channels))
     end subroutine add_states
 
@@ -260,18 +256,16 @@ contains
         type(frames_t), intent(in) :: frames
         integer, intent(in) :: n
         type(channels_t), intent(inout) :: channels
-        character(:), allocatable :: json, item
+        character(:), allocatable :: json, position, velocity
         integer :: i
 
-        json = "["
+        json = ""
         do i = 1, min(system%ndof, most_coordinates)
-            if (i > 1) json = json//", "
-            call channels%number(frames%q(i, :n), item)
-            json = json//"["//item//", "
-            call channels%number(frames%v(i, :n), item)
-            json = json//item//"]"
+            call channels%number(frames%q(i, :n), position)
+            call channels%number(frames%v(i, :n), velocity)
+            json = json//json_element(json_array(json_element(position)//json_element(velocity)))
         end do
-        json = json//"]"
+        json = json_array(json)
     end function states_json
 
     function kinetic_energy(system, t, q, v) result(kinetic)

@@ -6,7 +6,7 @@ module lagrangia_modes_film
     use lagrangia_errors, only: error_t, fail
     use lagrangia_film, only: count_channels, film_json, furthest
     use lagrangia_frames, only: film_speed, frames_t
-    use lagrangia_json, only: json_object, json_pair
+    use lagrangia_json, only: json_element, json_object, json_pair
     use lagrangia_kinds, only: dp
     use lagrangia_small_oscillations, only: is_oscillation, is_unstable, is_zero_mode, &
                                             modes_t, stays
@@ -68,12 +68,11 @@ contains
                     name = name//": uniform motion"
                 end if
             end if
-            if (j > 1) films = films//", "
             members = json_pair("factor", speed(frames, rate))// &
                       json_pair("loop", modes%label(j) == is_oscillation)//members
             if (modes%label(j) == is_oscillation) members = json_pair("omega", rate)//members
             if (modes%label(j) == is_unstable) members = json_pair("growth", rate)//members
-            films = films//json_object(json_pair("name", name)//members)
+            films = films//json_element(json_object(json_pair("name", name)//members))
         end do
         title = in_words(d%name)//": small oscillations"
         if (lge(title(:1), "a") .and. lle(title(:1), "z")) title(:1) = achar(iachar(title(:1)) - 32)

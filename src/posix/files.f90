@@ -12,7 +12,7 @@ module lagrangia_files
     public :: facts_t, folder_of, fortran_text, hold_standard_units, last_error, look_at, &
               make_folders, plain_path, read_whole_file, reason, resolved, same_file
     public :: most_bytes
-    public :: e_bad_unit, e_broken_pipe, e_exists, e_input_output, e_invalid, e_missing
+    public :: e_bad_unit, e_broken_pipe, e_exists, e_invalid, e_missing
 
     integer, parameter :: most_bytes = 1048576  !! of a file that `read_whole_file` reads
 

@@ -11,28 +11,11 @@ module lagrangia_processes
     use lagrangia_text, only: to_text, word_t
     implicit none (type, external)
     private
-    public :: await_program, bytes_read_by, run_program, start_program
+    public :: await_program, bytes_read_by, start_program
 
     integer(c_int), parameter :: not_found = 127  !! what shells say when there is no such program
 
 contains
-
-    subroutine run_program(arguments, status, error)
-        !! Run the program `arguments(1)`, looked for along PATH, and wait for its end. Its output
-        !! goes where ours goes.
-        type(word_t), intent(in) :: arguments(:)         !! each reaches it byte for byte
-        integer, intent(out) :: status                   !! its own, or 128 + the signal it died of
-        type(error_t), allocatable, intent(out) :: error !! there is no such program
-        integer :: pid
-        logical :: ended
-
-        status = not_found
-        call start_program(arguments, pid, error)
-        do while (.not. allocated(error))
-            call await_program(arguments(1)%text, pid, 1000, ended, status, error)
-            if (ended) exit
-        end do
-    end subroutine run_program
 
     subroutine start_program(arguments, pid, error)
         !! The same without waiting: `await_program` does.

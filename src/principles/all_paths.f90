@@ -189,15 +189,15 @@ contains
         !! Zeros of \(\partial\theta/\partial\dot\theta_0\) on the way.
         real(dp), intent(in) :: rate
         integer :: number, j
-        integer, parameter :: looks = 2000
+        integer, parameter :: samples = 2000
         real(dp) :: up, down, speed, before, now, d
 
         number = 0
         before = 1.0_dp
         d = 1e-6_dp*(2.0_dp*w0 - abs(rate))
-        do j = 1, looks
-            call swing(rate + d, j*time/looks, up, speed)
-            call swing(rate - d, j*time/looks, down, speed)
+        do j = 1, samples
+            call swing(rate + d, j*time/samples, up, speed)
+            call swing(rate - d, j*time/samples, down, speed)
             now = up - down
             if (now*before < 0.0_dp) number = number + 1
             before = now

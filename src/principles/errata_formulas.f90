@@ -14,7 +14,7 @@ module lagrangia_errata_formulas
     use lagrangia_term_sizes, only: neighbours, term_size
     implicit none (type, external)
     private
-    public :: add_both_sides, sides_at_random
+    public :: add_both_sides
 
     real(dp), parameter :: rounding = 1e-12_dp
     !! of the terms: some ten operations, and accelerations from a mass matrix of condition 100

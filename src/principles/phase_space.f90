@@ -268,7 +268,7 @@ contains
         type(report_t), intent(inout) :: report
         type(error_t), allocatable, intent(out) :: error
         integer, parameter :: points = 120, times = 4
-        real(dp), parameter :: way = 0.35_dp  !! s, from one to the next
+        real(dp), parameter :: interval = 0.35_dp  !! s, from one to the next
         type(pendulum_t) :: free
         real(dp) :: rim(2, points), q(1, steps + 1), v(1, steps + 1)
         integer :: i, k, row
@@ -283,7 +283,7 @@ contains
         allocate (report%picture%values(2, times*(points + 1) + (times - 1)*steps))
         row = 0
         do i = 1, times
-            call follow_rim(free, points, max((i - 1)*way, 1e-9_dp), rim, error)
+            call follow_rim(free, points, max((i - 1)*interval, 1e-9_dp), rim, error)
             if (allocated(error)) return
             do k = 0, points
                 row = row + 1
@@ -292,7 +292,7 @@ contains
             end do
             if (i == times) exit
             ! the point at angle 0 goes on to the next moment
-            call compute_path("gauss16", free, 0.0_dp, way/steps, &
+            call compute_path("gauss16", free, 0.0_dp, interval/steps, &
                               rim(1:1, points), rim(2:2, points)/inertia, q, v, error)
             if (allocated(error)) return
             do k = 2, steps + 1

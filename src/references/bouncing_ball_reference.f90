@@ -17,7 +17,6 @@ submodule (lagrangia_bouncing_ball) lagrangia_bouncing_ball_reference
         logical :: impacts = .false.       !! there is a first impact
     contains
         procedure :: state_at
-        procedure :: impact_time
         procedure :: rest_time
     end type bouncing_ball_reference_t
 
@@ -60,16 +59,6 @@ contains
             self%t1 = (self%v0 + self%v1)/self%g
         end if
     end subroutine set_motion
-
-    elemental function impact_time(self, n) result(t)
-        !! Time of impact `n`, s.
-        class(bouncing_ball_reference_t), intent(in) :: self
-        integer, intent(in) :: n
-        real(dp) :: t
-
-        t = self%t0 + self%t1
-        if (n > 1) t = t + 2.0_dp*self%e*self%v1/self%g*series(self%e, real(n - 1, dp))
-    end function impact_time
 
     pure function rest_time(self) result(t)
         !! \(t_\infty\), s; huge where the ball never rests.

@@ -15,7 +15,7 @@ module lagrangia_drawing
     private
     public :: bytes_to_read, draw, ends_well
 
-    integer, parameter :: blink = 100  !! ms between two looks at gnuplot
+    integer, parameter :: interval = 100  !! ms between two looks at gnuplot
 
 contains
 
@@ -47,7 +47,7 @@ contains
         status = 0
         call start_program(words, pid, error)
         do while (.not. allocated(error))
-            call await_program(words(1)%text, pid, blink, ended, status, error)
+            call await_program(words(1)%text, pid, interval, ended, status, error)
             if (ended) exit
             if (present(watcher)) call watcher%tick(bytes_read_by(pid), bytes)
         end do

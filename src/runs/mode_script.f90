@@ -174,7 +174,7 @@ contains
         integer, intent(in) :: mode, axes(2)
         real(dp), intent(inout) :: half(2)
         real(dp), intent(out) :: apart(2)
-        real(dp) :: way(2)
+        real(dp) :: extent(2)
         integer :: across, i
 
         apart = 0.0_dp
@@ -182,10 +182,10 @@ contains
         across = minloc(half, 1)
         if (half(across) > flat*maxval(half)) return
         do i = 1, 2
-            way(i) = sum(abs(rows(6 + axes(i), :)), nint(rows(1, :)) == mode .and. &
+            extent(i) = sum(abs(rows(6 + axes(i), :)), nint(rows(1, :)) == mode .and. &
                          nint(rows(3, :)) == is_way)
         end do
-        if (way(across) > flat*maxval(way)) return
+        if (extent(across) > flat*maxval(extent)) return
         apart(across) = 2.5_dp*max(half(across), 0.05_dp*maxval(half))
         half(across) = half(across) + apart(across)
     end subroutine part_sides

@@ -8,7 +8,7 @@ module lagrangia_constrained_system
     use lagrangia_description, only: conserved, constraint_length, description_t, &
                                      formula_length, quantity, quantity_t
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: expression_t, operator(*), operator(+), symbol
+    use lagrangia_expression, only: expression_t
     use lagrangia_formula_program, only: formula_program_t, new_formula_program
     use lagrangia_formula_text, only: formula_text
     use lagrangia_hyperdual, only: hyperdual_t
@@ -16,7 +16,8 @@ module lagrangia_constrained_system
     use lagrangia_lagrange, only: accelerations_from_lagrangian
     use lagrangia_system, only: each_lane
     use lagrangia_text, only: to_text
-    use lagrangia_written_constraints, only: constraint_drift, constraint_row, is_in_velocities
+    use lagrangia_written_constraints, only: constraint_drift, constraint_row, is_in_velocities, &
+                                             velocity_constraint
     use lagrangia_written_expressions, only: written_expressions_t
     use lagrangia_written_formulas, only: written_formulas_t
     use lagrangia_written_system, only: new_written_system, of_momentum, written_system_t
@@ -70,7 +71,6 @@ contains
         logical, intent(in) :: holonomic(:)
         integer, intent(in) :: n
         type(description_t), intent(inout) :: d
-        type(expression_t) :: row, along
         character(:), allocatable :: text
         integer :: i, k
 
@@ -81,11 +81,8 @@ contains
                              any([(e%constraints(k)%depends_on(1), k=1, size(holonomic))]))
         allocate (d%constraint_equations(size(holonomic)), d%notes(size(holonomic)))
         do k = 1, size(holonomic)
-            along = constraint_drift(e%constraints(k), n, e%symbols)
             do i = 1, n
-                row = constraint_row(e%constraints(k), i, n, e%symbols)
-                along = along + row*symbol(1 + n + i)
-                text = formula_text(row, e%symbols)
+                text = formula_text(constraint_row(e%constraints(k), i, n, e%symbols), e%symbols)
                 if (text == "0" .or. .not. allocated(d%equations)) cycle
                 text = "lambda"//to_text(k)//" ("//text//")"
                 text = with_term(trim(d%equations(i)), text)
@@ -97,7 +94,8 @@ contains
             if (len(text) > constraint_length) text = "constraint "//to_text(k)// &
                 " is too long to be printed, multiplier lambda"//to_text(k)
             d%notes(k) = text
-            text = formula_text(simplified(along, e%symbols), e%symbols)//" = 0"
+            text = formula_text(simplified(velocity_constraint(e%constraints(k), n, e%symbols), &
+                                           e%symbols), e%symbols)//" = 0"
             if (len(text) > constraint_length) deallocate (d%constraint_equations)
             if (allocated(d%constraint_equations)) d%constraint_equations(k) = text
         end do

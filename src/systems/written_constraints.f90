@@ -14,7 +14,7 @@ module lagrangia_written_constraints
     implicit none (type, external)
     private
     public :: constraint_drift, constraint_row, is_in_velocities, is_zero, read_constraints
-    public :: with_multipliers
+    public :: velocity_constraint, with_multipliers
 
 contains
 
@@ -117,6 +117,20 @@ contains
         drift = simplified(drift, symbols)
     end function constraint_drift
 
+    pure function velocity_constraint(constraint, n, symbols) result(left)
+        !! \(A\dot q + b\), which is zero.
+        type(expression_t), intent(in) :: constraint  !! of t, q, q_dot and parameters
+        integer, intent(in) :: n                      !! coordinates
+        type(symbols_t), intent(in) :: symbols        !! their names
+        type(expression_t) :: left
+        integer :: i
+
+        left = constraint_drift(constraint, n, symbols)
+        do i = 1, n
+            left = left + constraint_row(constraint, i, n, symbols)*symbol(1 + n + i)
+        end do
+    end function velocity_constraint
+
     pure subroutine with_multipliers(motion, constraints, symbols, bound)
         !! One symmetric linear system for \(\ddot q\) and the multipliers,
         !! \(M\ddot q - A^\top\lambda = f\) and \(-A\,\ddot q = \dot A\,\dot q + \dot b\).
@@ -124,7 +138,7 @@ contains
         type(expression_t), intent(in) :: constraints(:)  !! of t, q, q_dot, parameters, (m)
         type(symbols_t), intent(in) :: symbols            !! their names
         type(written_motion_t), intent(out) :: bound      !! `mass` and `right` only, of n + m
-        type(expression_t) :: along, row
+        type(expression_t) :: row
         integer :: i, j, k, n, rates(size(symbols%names))
 
         n = size(motion%right)
@@ -139,14 +153,13 @@ contains
             bound%right(i) = motion%right(i)
         end do
         do k = 1, size(constraints)
-            along = constraint_drift(constraints(k), n, symbols)
             do i = 1, n
                 row = constraint_row(constraints(k), i, n, symbols)
-                along = along + row*symbol(1 + n + i)
                 bound%mass(i, n + k) = simplified(whole(0) - row, symbols)
                 bound%mass(n + k, i) = bound%mass(i, n + k)
             end do
-            bound%right(n + k) = simplified(time_derivative(along, rates, 1), symbols)
+            bound%right(n + k) = simplified(time_derivative( &
+                velocity_constraint(constraints(k), n, symbols), rates, 1), symbols)
             do i = 1, size(constraints)
                 bound%mass(n + i, n + k) = whole(0)
             end do
