@@ -5,7 +5,7 @@ module test_sine_cosine
     use, intrinsic :: iso_fortran_env, only: real128
     use funit, only: TestMethod, TestSuite, assertEqual, assertLessThan, assertTrue
     use lagrangia_kinds, only: dp, lanes
-    use lagrangia_sine_cosine, only: largest_angle, sine_cosine
+    use lagrangia_sine_cosine, only: largest_angle, sine_cosine, two_sines_cosines
     implicit none (type, external)
     private
     public :: sine_cosine_suite
@@ -22,6 +22,7 @@ contains
         call suite%addTest(TestMethod("below_one_unit", below_one_unit))
         call suite%addTest(TestMethod("next_to_multiples_of_half_pi", next_to_multiples_of_half_pi))
         call suite%addTest(TestMethod("beyond_its_range", beyond_its_range))
+        call suite%addTest(TestMethod("two_are_as_in_lanes", two_are_as_in_lanes))
     end function sine_cosine_suite
 
     subroutine below_one_unit()
@@ -83,6 +84,28 @@ contains
         call assertEqual(c(4), c(8))
         call assertEqual(real(sin(0.5_qp), dp), s(4), epsilon(x))
     end subroutine beyond_its_range
+
+    subroutine two_are_as_in_lanes()
+        !! Bit for bit, wherever they are, and if one of them is beyond the range, or none.
+        real(dp) :: x(lanes), s(lanes), c(lanes), sine(2), cosine(2), nan
+        integer :: i, k
+
+        do k = 1, 400
+            do i = 1, lanes
+                x(i) = sin(real(lanes*k + i, dp))*10.0_dp**modulo(lanes*k + i, 7)
+            end do
+            call sine_cosine(x, s, c)
+            do i = 1, lanes - 1
+                call two_sines_cosines(x(i), x(i + 1), sine, cosine)
+                call assertTrue(all(sine == s(i:i + 1)), "sines as in lanes")
+                call assertTrue(all(cosine == c(i:i + 1)), "cosines as in lanes")
+            end do
+        end do
+        nan = ieee_value(nan, ieee_quiet_nan)
+        call two_sines_cosines(nan, 0.5_dp, sine, cosine)
+        call assertTrue(ieee_is_nan(sine(1)) .and. ieee_is_nan(cosine(1)), "NaN of NaN")
+        call assertEqual(real(sin(0.5_qp), dp), sine(2), epsilon(x), "not beside it")
+    end subroutine two_are_as_in_lanes
 
     subroutine compare(x, worst)
         real(dp), intent(in) :: x(lanes)

@@ -1,5 +1,6 @@
 module lagrangia_sine_cosine
-    !! Sine and cosine of eight angles at once, the same to the last bit on every processor.
+    !! Sine and cosine of eight angles at once, or of two, the same to the last bit on every
+    !! processor.
     !!
     !! With \(n\) the integer nearest to \(2x/\pi\), \(r = x - n\pi/2\) is formed in two parts
     !! (Cody and Waite): \(\pi/2\) is the sum of 37 bits, 36 bits and a rest, so that for
@@ -19,7 +20,7 @@ module lagrangia_sine_cosine
     use lagrangia_kinds, only: dp, lanes
     implicit none (type, external)
     private
-    public :: largest_angle, sine_cosine, sines_cosines
+    public :: largest_angle, sine_cosine, sines_cosines, two_sines_cosines
 
     real(dp), parameter :: largest_angle = 5.1e4_dp      !! rad; n < 2^15. Beyond: libm
     real(dp), parameter :: two_over_pi = 2.0_dp/acos(-1.0_dp)
@@ -40,44 +41,13 @@ contains
         real(dp), intent(in) :: x(lanes)        !! any, rad
         real(dp), intent(out) :: sine(lanes)    !! NaN where `x` is not finite; 0 of -0
         real(dp), intent(out) :: cosine(lanes)  !! likewise
-        real(dp) :: turns, n, a, b, r, low, z, z3, half, p, q
-        integer(int64) :: k, bits_p, bits_q, exchange, beyond
+        integer(int64) :: beyond
         integer :: i
 
-        if (digits(x) > 53) then  ! -DREAL128
-            sine = sin(x)
-            cosine = cos(x)
-            return
-        end if
         beyond = 0
         !GCC$ vector
         do i = 1, lanes
-            ! Doubles without their sign, NaN and infinity too, are in the order of their bits.
-            beyond = ior(beyond, transfer(largest_angle, k) - iand(transfer(x(i), k), huge(k)))
-            turns = x(i)*two_over_pi + shift
-            n = turns - shift
-            a = x(i) - n*half_pi(1)
-            b = n*half_pi(2)
-            r = a - b
-            low = ((a - r) - b) - n*half_pi(3)
-            z = r*r
-            z3 = z*z*z
-            half = 0.5_dp*z
-            p = r + (r*z*((s(1) + z*(s(2) + z*s(3))) + z3*(s(4) + z*(s(5) + z*s(6)))) &
-                     + low*(1.0_dp - half))
-            a = 1.0_dp - half
-            q = a + (((1.0_dp - a) - half) &
-                     + (z*z*((c(1) + z*(c(2) + z*c(3))) + z3*(c(4) + z*(c(5) + z*c(6)))) - r*low))
-            ! The last two bits of n are the quadrant: an odd one exchanges sine and cosine, the
-            ! other bit, of n and of n + 1, is their sign.
-            k = transfer(turns, k)
-            bits_p = transfer(p, k)
-            bits_q = transfer(q, k)
-            exchange = iand(ieor(bits_p, bits_q), -iand(k, 1_int64))
-            bits_p = ieor(ieor(bits_p, exchange), ishft(iand(k, 2_int64), 62))
-            bits_q = ieor(ieor(bits_q, exchange), ishft(iand(k + 1_int64, 2_int64), 62))
-            sine(i) = transfer(bits_p, p)
-            cosine(i) = transfer(bits_q, q)
+            call within(x(i), sine(i), cosine(i), beyond)
         end do
         if (beyond >= 0) return
         do i = 1, lanes
@@ -86,6 +56,70 @@ contains
             cosine(i) = cos(x(i))
         end do
     end subroutine sine_cosine
+
+    pure subroutine two_sines_cosines(x1, x2, sine, cosine)
+        !! The same of two angles, bit for bit: in one vector they take less than by libm in turn.
+        real(dp), intent(in) :: x1, x2                   !! any, rad
+        real(dp), intent(out) :: sine(2), cosine(2)      !! as above
+        real(dp) :: x(2)
+        integer(int64) :: beyond
+        integer :: i
+
+        x(1) = x1
+        x(2) = x2
+        beyond = 0
+        !GCC$ vector
+        do i = 1, 2
+            call within(x(i), sine(i), cosine(i), beyond)
+        end do
+        if (beyond >= 0) return
+        do i = 1, 2
+            if (abs(x(i)) <= largest_angle) cycle
+            sine(i) = sin(x(i))
+            cosine(i) = cos(x(i))
+        end do
+    end subroutine two_sines_cosines
+
+    pure subroutine within(x, sine, cosine, beyond)
+        !! Both, for an angle up to `largest_angle`; else `beyond` becomes negative.
+        real(dp), intent(in) :: x
+        real(dp), intent(out) :: sine, cosine
+        integer(int64), intent(inout) :: beyond
+        real(dp) :: turns, n, a, b, r, low, z, z3, half, p, q
+        integer(int64) :: k, bits_p, bits_q, exchange
+
+        if (digits(x) > 53) then  ! -DREAL128
+            sine = sin(x)
+            cosine = cos(x)
+            return
+        end if
+        ! Doubles without their sign, NaN and infinity too, are in the order of their bits.
+        beyond = ior(beyond, transfer(largest_angle, k) - iand(transfer(x, k), huge(k)))
+        turns = x*two_over_pi + shift
+        n = turns - shift
+        a = x - n*half_pi(1)
+        b = n*half_pi(2)
+        r = a - b
+        low = ((a - r) - b) - n*half_pi(3)
+        z = r*r
+        z3 = z*z*z
+        half = 0.5_dp*z
+        p = r + (r*z*((s(1) + z*(s(2) + z*s(3))) + z3*(s(4) + z*(s(5) + z*s(6)))) &
+                 + low*(1.0_dp - half))
+        a = 1.0_dp - half
+        q = a + (((1.0_dp - a) - half) &
+                 + (z*z*((c(1) + z*(c(2) + z*c(3))) + z3*(c(4) + z*(c(5) + z*c(6)))) - r*low))
+        ! The last two bits of n are the quadrant: an odd one exchanges sine and cosine, the
+        ! other bit, of n and of n + 1, is their sign.
+        k = transfer(turns, k)
+        bits_p = transfer(p, k)
+        bits_q = transfer(q, k)
+        exchange = iand(ieor(bits_p, bits_q), -iand(k, 1_int64))
+        bits_p = ieor(ieor(bits_p, exchange), ishft(iand(k, 2_int64), 62))
+        bits_q = ieor(ieor(bits_q, exchange), ishft(iand(k + 1_int64, 2_int64), 62))
+        sine = transfer(bits_p, p)
+        cosine = transfer(bits_q, q)
+    end subroutine within
 
     pure subroutine sines_cosines(n, x, sine, cosine)
         !! The same of any number of angles.

@@ -11,7 +11,7 @@ module lagrangia_double_pendulum
                                    operator(+), operator(-), sin
     use lagrangia_kinds, only: dp
     use lagrangia_linearised, only: linearised_t
-    use lagrangia_sine_cosine, only: sine_cosine
+    use lagrangia_sine_cosine, only: sine_cosine, two_sines_cosines
     use lagrangia_system, only: check_parameters, lanes, system_t
     implicit none (type, external)
     private
@@ -131,14 +131,12 @@ contains
         class(double_pendulum_t), intent(in) :: self
         real(dp), intent(in) :: t, q(self%ndof), v(self%ndof)
         real(dp), intent(out) :: a(self%ndof)
-        real(dp) :: s, c, s1, c1, d
+        real(dp) :: sine(2), cosine(2), d  ! of Delta and theta1
 
+        call two_sines_cosines(q(1) - q(2), q(1), sine, cosine)
         associate (m1 => self%m1, m2 => self%m2, m => self%m1 + self%m2, &
-                   l1 => self%l1, l2 => self%l2, g => self%g)
-            s = sin(q(1) - q(2))
-            c = cos(q(1) - q(2))
-            s1 = sin(q(1))
-            c1 = cos(q(1))
+                   l1 => self%l1, l2 => self%l2, g => self%g, &
+                   s => sine(1), c => cosine(1), s1 => sine(2), c1 => cosine(2))
             d = m1 + m2*s**2
             ! cos(theta2) = c1*c + s1*s
             a(1) = (-m1*g*s1 - m2*s*(l1*v(1)**2*c + l2*v(2)**2 + g*(c1*c + s1*s)))/(l1*d)
