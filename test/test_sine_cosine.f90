@@ -97,8 +97,8 @@ contains
             call sine_cosine(x, s, c)
             do i = 1, lanes - 1
                 call two_sines_cosines(x(i), x(i + 1), sine, cosine)
-                call assertTrue(all(sine == s(i:i + 1)), "sines as in lanes")
-                call assertTrue(all(cosine == c(i:i + 1)), "cosines as in lanes")
+                call assertEqual(s(i:i + 1), sine, message="sines as in lanes")
+                call assertEqual(c(i:i + 1), cosine, message="cosines as in lanes")
             end do
         end do
         nan = ieee_value(nan, ieee_quiet_nan)
