@@ -207,7 +207,8 @@ contains
             json_pair("unreadable", count(result%of%verdict == is_unreadable))// &
             json_pair("follows", count(result%of%verdict == is_consequence))// &
             json_pair("equations", result%equations)// &
-            json_pair("determined", all(result%determined))//json_item("statements", json_array(json)))
+            json_pair("determined", all(result%determined))// &
+            json_item("statements", json_array(json)))
     end function sheet_json
 
     pure function lines_json(homework, because) result(json)
