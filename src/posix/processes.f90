@@ -18,7 +18,8 @@ module lagrangia_processes
 contains
 
     subroutine start_program(arguments, pid, error)
-        !! The same without waiting: `await_program` does.
+        !! Run the program `arguments(1)`, looked for along PATH, and do not wait for its end:
+        !! `await_program` does. Its output goes where ours goes.
         type(word_t), intent(in) :: arguments(:)         !! each reaches it byte for byte
         integer, intent(out) :: pid                      !! its number
         type(error_t), allocatable, intent(out) :: error !! there can be no other process
