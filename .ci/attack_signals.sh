@@ -154,7 +154,7 @@ for signal in $endings; do
     folder=$work/many${signal%:*}
     begin_command modes hanging_chain --set hanging_chain%n=200 --output "$folder"
     for _ in $(seq 400); do
-        [ -e "$folder/hanging_chain_mode_2.dat" ] && break
+        [ -e "$folder/hanging_chain_n_200_mode_2.dat" ] && break
         sleep 0.02
     done
     ended "${signal%:*}"

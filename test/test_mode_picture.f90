@@ -49,9 +49,10 @@ contains
         call assertFalse(allocated(error), name)
         if (anyExceptions()) return
         folder = new_folder("mode_picture")
-        path = mode_picture_path(system, folder)
+        path = mode_picture_path(folder//"/"//name)
         call assertEqual(folder//"/"//name//"_modes.dat", path)
-        call write_mode_picture(system, [character(1) ::], modes, folder, error)
+        call write_mode_picture(system, [character(1) ::], modes, folder//"/"//name, name, &
+                                error)
         call assertFalse(allocated(error), "written: "//name)
         if (anyExceptions()) return
         text = contents(path)

@@ -135,8 +135,8 @@ contains
         if (anyExceptions()) return
         call assertEqual(label, modes%label(j), "label")
         folder = new_folder("modes_files")
-        call prepare_modes(system, folder, warning, error)
-        call write_mode(system, modes, j, folder, error)
+        call prepare_modes(system, folder//"/"//name, warning, error)
+        call write_mode(system, modes, j, folder//"/"//name, name, error)
         call assertFalse(allocated(error), "written")
         stem = name//"_mode_"//to_text(j)
         text = contents(folder//"/"//stem//".gp")
@@ -216,7 +216,8 @@ contains
         call new_system("pendulum", system, error)
         call find_modes(system, [0.0_dp], .true., modes, error)
         call limit_file_size(room)
-        call write_mode(system, modes, 1, new_folder("modes_full"), error)
+        call write_mode(system, modes, 1, new_folder("modes_full")//"/pendulum", "pendulum", &
+                        error)
         status = 0
         if (allocated(error)) status = error%status
     end function write_in

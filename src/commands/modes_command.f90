@@ -1,6 +1,7 @@
 module lagrangia_modes_command
     !! `lagrangia modes SYSTEM`: small oscillations, LAPACK's answer beside the page's. A scene's
     !! name or path stands for its system.
+    use lagrangia_changed_scene, only: make_own_name
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: note, put, put_line
     use lagrangia_damped_rates, only: damped_rates
@@ -48,7 +49,7 @@ contains
         type(modes_t) :: modes, others
         type(progress_t) :: progress
         real(dp), allocatable :: at(:)
-        character(:), allocatable :: advice, folder, kind, page, warning
+        character(:), allocatable :: advice, folder, kind, name, page, stem, title, warning
         character(figure_length), allocatable :: figure(:)
         logical :: elsewhere
         integer :: j
@@ -71,12 +72,17 @@ contains
         if (line%has("plot") .and. .not. has_positions(system)) call fail(error, "no picture "// &
             "of the modes of "//trim(d%name)//": it does not say where its masses are (positions)")
         if (allocated(error)) return
+        name = trim(d%name)
+        call make_own_name(name, line%values_of("set"), d%parameters%name, &
+                           line%value_of("at", ""), title)
+        stem = data_path(folder, name//"_modes.html", "text")
+        page = stem
+        stem = stem(:len(stem) - len("_modes.html"))
         if (line%has("output") .or. line%has("plot")) then
-            call prepare_modes(system, folder, warning, error)
+            call prepare_modes(system, stem, warning, error)
             if (allocated(error)) return
             if (warning /= "" .and. .not. line%has("quiet")) call note(warning)
         end if
-        page = data_path(folder, trim(d%name)//"_modes.html", "text")
         if (line%has("animate")) call refuse_unwritable(page, error)
         if (allocated(error)) return
         if (system%ndof > many .and. .not. line%has("quiet")) call progress%say(trim(d%name)// &
@@ -107,14 +113,15 @@ contains
             if (elsewhere) call put_line("")
             if (elsewhere) call print_modes(system, others)
         end if
-        if (line%has("animate")) call animate_modes(system, figure, modes, page, error)
+        if (line%has("animate")) call animate_modes(system, figure, modes, page, &
+                                                     title(len_trim(d%name) + 1:), error)
         if (line%has("animate") .and. is_told(line) .and. .not. allocated(error)) then
             call put_line("film: "//page)
         end if
         if (allocated(error) .or. .not. (line%has("output") .or. line%has("plot"))) return
         call progress%restart(line%arguments(1)%text, line%has("quiet"))
         do j = 1, size(modes%omega2)
-            call write_mode(system, modes, j, folder, error)
+            call write_mode(system, modes, j, stem, title, error)
             if (allocated(error) .or. interrupt_status() /= 0) exit
             call progress%tick(int(j, i8), size(modes%omega2, kind=i8))
         end do
@@ -122,9 +129,9 @@ contains
         if (allocated(error) .or. interrupt_status() /= 0) return
         if (is_told(line)) call put_line("data files and gnuplot scripts: "//folder)
         if (.not. has_positions(system)) return
-        call write_mode_picture(system, figure, modes, folder, error)
+        call write_mode_picture(system, figure, modes, stem, title, error)
         if (allocated(error) .or. .not. line%has("plot")) return
-        call show_picture(mode_picture_path(system, folder), kind, line, error)
+        call show_picture(mode_picture_path(stem), kind, line, error)
     end subroutine modes_command
 
     subroutine print_modes(system, modes)

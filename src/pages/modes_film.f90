@@ -23,7 +23,7 @@ module lagrangia_modes_film
 
 contains
 
-    subroutine animate_modes(system, own, modes, path, error)
+    subroutine animate_modes(system, own, modes, path, changes, error)
         !! Write the page of all modes, or of the first that fit into it. The amplitude is such
         !! that it can be seen; the motion is that of the linear equations, a period of it, or two
         !! growth times of \(\cosh\), or a second of a zero mode.
@@ -31,6 +31,7 @@ contains
         character(*), intent(in) :: own(:)      !! parts of a scene's figure; none: the system's
         type(modes_t), intent(in) :: modes      !! of this system
         character(*), intent(in) :: path        !! of the page
+        character(*), intent(in) :: changes     !! ` (m1=2)` behind the system's name, or nothing
         type(error_t), allocatable, intent(out) :: error  !! 2: too many parts; 5: of the file
         type(description_t) :: d
         type(frames_t) :: frames, nothing
@@ -74,7 +75,7 @@ contains
             if (modes%label(j) == is_unstable) members = json_pair("growth", rate)//members
             films = films//json_element(json_object(json_pair("name", name)//members))
         end do
-        title = in_words(d%name)//": small oscillations"
+        title = in_words(d%name)//changes//": small oscillations"
         if (lge(title(:1), "a") .and. lle(title(:1), "z")) title(:1) = achar(iachar(title(:1)) - 32)
         call write_page(path, title, page_of_films(system, title, "linear equations of motion", &
                                                    films), error)

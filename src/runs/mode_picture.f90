@@ -3,7 +3,7 @@ module lagrangia_mode_picture
     !! has them, displaced to either side, and the way between; the rods, springs, carts and bodies
     !! of its figure, or where that has none, rods where two points, or a point and the origin, keep
     !! their distance whatever the coordinates are.
-    use lagrangia_data_files, only: data_path, script_path
+    use lagrangia_data_files, only: script_path
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_figure_edges, only: find_edges, has_edges
@@ -46,23 +46,21 @@ contains
         if (allocated(d%points)) yes = size(d%points) > 0
     end function has_positions
 
-    pure function mode_picture_path(system, folder) result(path)
-        !! `folder/SYSTEM_modes.dat`.
-        class(system_t), intent(in) :: system  !! with its parameters
-        character(*), intent(in) :: folder     !! of the files
+    pure function mode_picture_path(stem) result(path)
+        !! `STEM_modes.dat`.
+        character(*), intent(in) :: stem  !! folder, and how the names of all files begin
         character(:), allocatable :: path
-        type(description_t) :: d
 
-        call system%describe(d)
-        path = data_path(folder, trim(d%name)//"_modes", "text")
+        path = stem//"_modes.dat"
     end function mode_picture_path
 
-    subroutine write_mode_picture(system, own, modes, folder, error)
-        !! `SYSTEM_modes.dat` and its script, of a system that has positions.
+    subroutine write_mode_picture(system, own, modes, stem, title, error)
+        !! `STEM_modes.dat` and its script, of a system that has positions.
         class(system_t), intent(in) :: system  !! with its parameters
         character(*), intent(in) :: own(:)     !! parts of a scene's figure; none: the system's
         type(modes_t), intent(in) :: modes     !! of this system
-        character(*), intent(in) :: folder     !! of the files
+        character(*), intent(in) :: stem       !! folder, and how the names of all files begin
+        character(*), intent(in) :: title      !! the system's name, and what is changed
         type(error_t), allocatable, intent(out) :: error  !! of a file; then there is none
         type(description_t) :: d
         type(text_table_t) :: table
@@ -73,11 +71,11 @@ contains
 
         call system%describe(d)
         call fill(system, own, modes, size(d%points), picture)
-        header(1) = trim(d%name)//": small oscillations as the mechanism, the shapes enlarged"
+        header(1) = title//": small oscillations as the mechanism, the shapes enlarged"
         header(2) = "side: 0 at rest, 1 and -1 displaced; kind: 0 a mass, 1 a rod or "// &
                     "an edge, 2 the way of a mass"
         header(3) = "from (x, y, z) to (x + dx, y + dy, z + dz)"
-        call table%file%open(mode_picture_path(system, folder), error)
+        call table%file%open(mode_picture_path(stem), error)
         if (allocated(error)) return
         call table%begin(header, ["mode", "side", "kind", "x   ", "y   ", "z   ", "dx  ", "dy  ", &
                                   "dz  "], ["1", "1", "1", "m", "m", "m", "m", "m", "m"], error)
@@ -90,7 +88,8 @@ contains
         call script%open(script_path(table%file%name()), error)
         if (allocated(error)) call table%file%abandon()
         if (allocated(error)) return
-        call script%write(mode_script(d, modes, picture%rows(:, :picture%count)))
+        call script%write(mode_script(d, modes, picture%rows(:, :picture%count), &
+                                      mode_picture_path(stem), title))
         call commit_both(table%file, script, error)
     end subroutine write_mode_picture
 

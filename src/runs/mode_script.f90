@@ -22,12 +22,14 @@ module lagrangia_mode_script
 
 contains
 
-    function mode_script(d, modes, rows) result(text)
+    function mode_script(d, modes, rows, path, title) result(text)
         !! A panel a mode, all to one scale.
         type(description_t), intent(in) :: d  !! of the system
         type(modes_t), intent(in) :: modes    !! of the system
         real(dp), intent(in) :: rows(:, :)  !! of the data file: mode, side, kind, x, y, z, dx, ...
-        character(:), allocatable :: text
+        character(*), intent(in) :: path    !! of the data file
+        character(*), intent(in) :: title   !! the system's name, and what is changed
+        character(:), allocatable :: file, text
         type(lines_t) :: script
         real(dp) :: apart(2, most_panels), centre(2), drawn(2), half(2, most_panels)
         real(dp) :: shown(2), wide
@@ -52,10 +54,12 @@ contains
         width = nint(beside*(wide*shown(1)/maxval(shown) + gap) + gap)
         width = max(width, 800)
         height = nint(top + down*(wide*shown(2)/maxval(shown) + label + gap))
-        call begin_script(script, trim(d%name)//"_modes.dat", width, height, 30*down)
-        call script%add("data = folder."//gnuplot_string(trim(d%name)//"_modes.dat"))
+        file = path(index(path, "/", back=.true.) + 1:)
+        call begin_script(script, file, width, height, 30*down)
+        call script%add("data = folder."//gnuplot_string(file))
         call script%add("set multiplot")
-        call script%add("set label 1 "//text_label(in_words(d%name)//": "//shown_modes())// &
+        call script%add("set label 1 "//text_label(in_words(d%name)// &
+                        title(len_trim(d%name) + 1:)//": "//shown_modes())// &
                         " at screen 0.5, screen "//fixed(1.0_dp - 24.0_dp/height, 4)// &
                         " center font ',16'")
         call script%add("set label 2 ""grey: at rest, and the way of each mass; blue, orange: "// &

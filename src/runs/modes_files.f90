@@ -1,9 +1,10 @@
 module lagrangia_modes_files
     !! One period of a mode as a data file with its gnuplot script, ready to animate.
-    use lagrangia_data_files, only: data_path, script_path
+    use lagrangia_data_files, only: script_path
     use lagrangia_description, only: description_t, name_length
     use lagrangia_disk_space, only: space_warning
     use lagrangia_errors, only: error_t
+    use lagrangia_files, only: folder_of
     use lagrangia_gnuplot, only: gnuplot_script, new_panels, new_series, panel_t, &
                                  series_t
     use lagrangia_kinds, only: dp
@@ -26,26 +27,26 @@ module lagrangia_modes_files
 
 contains
 
-    subroutine prepare_modes(system, folder, warning, error)
+    subroutine prepare_modes(system, stem, warning, error)
         !! Fails where two of the files are one, or the first could not be written now; says how
         !! much all will hold, if that is very much. To be called before modes are looked for.
         class(system_t), intent(in) :: system  !! with its parameters
-        character(*), intent(in) :: folder  !! of the files; is made if need be
+        character(*), intent(in) :: stem  !! folder, made if need be, and how all names begin
         character(:), allocatable, intent(out) :: warning  !! a line for the user, or nothing
         type(error_t), allocatable, intent(out) :: error  !! of a file
         type(places_t) :: places
         integer :: j
 
-        warning = space_warning(size_of_modes(system), folder)
+        warning = space_warning(size_of_modes(system), folder_of(stem))
         do j = 1, system%ndof
-            call claim_table(mode_path(system, j, folder), "data", "", places, error)
+            call claim_table(mode_path(stem, j), "data", "", places, error)
             if (allocated(error)) return
         end do
         if (has_positions(system)) then
-            call claim_table(mode_picture_path(system, folder), "data", "", places, error)
+            call claim_table(mode_picture_path(stem), "data", "", places, error)
             if (allocated(error)) return
         end if
-        call refuse_unwritable(mode_path(system, 1, folder), error)
+        call refuse_unwritable(mode_path(stem, 1), error)
     end subroutine prepare_modes
 
     pure function size_of_modes(system) result(bytes)
@@ -56,26 +57,24 @@ contains
         bytes = real(system%ndof, dp)*(samples + 1)*(1 + system%ndof)*(field_width + 1)
     end function size_of_modes
 
-    pure function mode_path(system, j, folder) result(path)
-        !! `folder/SYSTEM_mode_J.dat`.
-        class(system_t), intent(in) :: system
+    pure function mode_path(stem, j) result(path)
+        !! `STEM_mode_J.dat`.
+        character(*), intent(in) :: stem
         integer, intent(in) :: j
-        character(*), intent(in) :: folder
         character(:), allocatable :: path
-        type(description_t) :: d
 
-        call system%describe(d)
-        path = data_path(folder, trim(d%name)//"_mode_"//to_text(j), "text")
+        path = stem//"_mode_"//to_text(j)//".dat"
     end function mode_path
 
-    subroutine write_mode(system, modes, j, folder, error)
-        !! `SYSTEM_mode_J.dat`: the equilibrium plus a tenth of the shape times \(\cos\omega t\)
+    subroutine write_mode(system, modes, j, stem, title, error)
+        !! `STEM_mode_J.dat`: the equilibrium plus a tenth of the shape times \(\cos\omega t\)
         !! over a period (with \(G\), of a shape that turns), \(\cosh\) over two growth times, or
         !! \(t\) over one second of a zero mode.
         class(system_t), intent(in) :: system  !! with its parameters
         type(modes_t), intent(in) :: modes  !! of this system
         integer, intent(in) :: j  !! number of the mode, from 1
-        character(*), intent(in) :: folder  !! that of `prepare_modes`
+        character(*), intent(in) :: stem  !! that of `prepare_modes`
+        character(*), intent(in) :: title  !! the system's name, and what is changed
         type(error_t), allocatable, intent(out) :: error
         !! of a file; then none of this mode is left
         type(description_t) :: d
@@ -99,8 +98,8 @@ contains
         names(2:) = d%coordinates%name
         units(1) = "s"
         units(2:) = d%coordinates%unit
-        path = mode_path(system, j, folder)
-        header(1) = trim(d%name)//", mode "//to_text(j)//": omega^2 = "// &
+        path = mode_path(stem, j)
+        header(1) = title//", mode "//to_text(j)//": omega^2 = "// &
                     to_text(modes%omega2(j) + 0.0_dp)  ! no sign of a zero
         call table%file%open(path, error)
         if (allocated(error)) return
@@ -134,7 +133,7 @@ contains
         if (allocated(error)) call table%file%abandon()
         if (allocated(error)) return
         allocate (series(1))
-        call new_series(series(1), trim(d%name)//"_mode_"//to_text(j)//".dat", "", names, units, &
+        call new_series(series(1), path(index(path, "/", back=.true.) + 1:), "", names, units, &
                         ranges)
         call script%write(gnuplot_script(series(1)%file, series, trim(header(1)), "", panels))
         call commit_both(table%file, script, error)

@@ -6,7 +6,7 @@ module lagrangia_changed_scene
     use lagrangia_text, only: join, lower, to_text, word_t
     implicit none (type, external)
     private
-    public :: ending_start, make_own_scene, make_own_sweep
+    public :: ending_start, make_own_name, make_own_scene, make_own_sweep
 
     character(*), parameter :: same_sweep(*) = [character(14) :: "title", "output", "columns", &
         "plot", "event_columns", "event_plot", "error_estimate", "modes", "figure"]
@@ -37,6 +37,30 @@ contains
         if (index(given, " title ") == 0) scene%title = trim(scene%title)//" ("//changes//")"
         if (index(given, " output ") == 0) call rename_output(scene, changes)
     end subroutine make_own_scene
+
+    pure subroutine make_own_name(name, overrides, names, at, title)
+        !! What is computed of a system with other parameters, or elsewhere than at its equilibrium,
+        !! has a name for its files and a title of its own.
+        character(:), allocatable, intent(inout) :: name  !! the system's; gets the changes
+        type(word_t), intent(in) :: overrides(:)          !! `GROUP%KEY=VALUE`, as typed
+        character(*), intent(in) :: names(:)              !! of the system's parameters
+        character(*), intent(in) :: at                    !! where else, or nothing
+        character(:), allocatable, intent(out) :: title   !! `pendulum (l=2)`
+        character(:), allocatable :: changes, group, key, value
+        integer :: i
+
+        changes = ""
+        do i = 1, size(overrides)
+            call split(overrides(i)%text, group, key, value)
+            if (group == "scene" .or. group == "sweep") cycle
+            call add(changes, as_described(key, names)//"="//value)
+        end do
+        if (at /= "") call add(changes, "at="//at)
+        title = name
+        if (changes == "") return
+        title = name//" ("//changes//")"
+        name = name//"_"//name_of(changes)
+    end subroutine make_own_name
 
     pure subroutine make_own_sweep(scene, file, overrides, names)
         !! Give a sweep that the command line changes a title that is true of it: other axes or
