@@ -118,6 +118,10 @@ check "sweep: where the table cannot be written, all trajectories are kept" eval
 run "${diagram[@]}" --output "$work/sweep" --resume
 check "sweep: and --resume writes it" eval '[ $status -eq 0 ] && diff -r "$work/whole" "$work/sweep"'
 
+(ulimit -n 4; exec "$program" run pendulum --output "$work/few") >"$work/out" 2>"$work/err" </dev/null
+status=$?
+check "ulimit -n 4: status 5, and why" eval '[ $status -eq 5 ] && grep -q "cannot write .*: Too many open files" "$work/out" "$work/err" && ! grep -q "Bad file" "$work/out" "$work/err"'
+
 # In lanes, by dop853, each trajectory with its own mass and to its own end
 diagram=(sweep double_pendulum --set scene%output=double_pendulum --set "scene%method='dop853'" --set scene%tolerance=1e-9 --set scene%samples=1 --set scene%duration=60 --over m1=0.5:2:100 --over theta1=1:3:60 --keep theta2)
 rm -r "$work/whole" "$work/sweep"

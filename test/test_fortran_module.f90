@@ -60,7 +60,7 @@ contains
         character(*), intent(in) :: line
         integer :: i
 
-        do i = 1, lines%count
+        do i = 1, size(lines%list)
             if (adjustl(lines%list(i)%text) == line) return
         end do
         call assertTrue(.false., "a line: "//line)
@@ -180,7 +180,7 @@ contains
         call lines%assign(0, "x", repeat("a(b + c) - ", 900)//"d")
         call assertEqual("x = a(b + c) - a(b + c)", lines%list(5)%text(:23))
         all_of_them = ""
-        do i = 5, lines%count
+        do i = 5, size(lines%list)
             line = trim(adjustl(lines%list(i)%text))
             if (line(len(line):) == "&") line = line(:len(line) - 1)
             all_of_them = all_of_them//trim(line)//" "

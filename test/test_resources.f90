@@ -29,7 +29,7 @@ contains
         call check_memory(1e18_dp, "a test", error)
         call assertTrue(allocated(error), message="1e18 bytes")
         if (.not. allocated(error)) return
-        call assertEqual("not enough memory: a test needs 1000000000000 MB", error%message)
+        call assertEqual("not enough memory: a test needs 1000000000000 MB more", error%message)
         call assertEqual(status_library, error%status)
         call check_memory(1e300_dp, "a test", error)
         call assertTrue(allocated(error), message="1e300 bytes")

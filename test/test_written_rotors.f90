@@ -155,7 +155,7 @@ contains
             character(*), intent(in) :: line
             integer :: k
 
-            do k = 1, lines%count
+            do k = 1, size(lines%list)
                 if (adjustl(lines%list(k)%text) == line) return
             end do
             call assertTrue(.false., "a line: "//line)

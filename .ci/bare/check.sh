@@ -4,10 +4,9 @@
 #
 #   check.sh [STEPS]        STEPS of the instruction count, 100000 unless given
 set -u
-cd "$(dirname "$0")" || exit 2
+cd "$(dirname "$0")/.." || exit 2
 steps=${1:-100000}
-fpm build --profile release >/dev/null || exit 1
-bare=$(ls -t build/gfortran_*/app/bare | head -n 1)
+bare=$(bash program.sh bare) || exit 1
 bad=0
 
 allocations() { # allocations METHOD STEPS [SYSTEM]

@@ -8,8 +8,7 @@ cd "$(dirname "$0")/../.."
 drawn=$(mktemp)
 trap 'rm -f "$drawn"' EXIT
 
-fpm build -C .ci/digits --profile release >/dev/null
-digits=$(ls -t .ci/digits/build/gfortran_*/app/digits | head -n 1)
+digits=$(bash .ci/program.sh digits)
 quad=$(bash .ci/quad/build.sh)
 OPENBLAS_NUM_THREADS=1 "$digits" "${1:-600}" "${2:-1}" >"$drawn"
 "$quad" judge "$drawn"

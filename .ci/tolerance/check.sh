@@ -3,16 +3,15 @@
 # force has a kink or a jump. Prints the tables and fails where a bound does not hold, or where the
 # README says another number of the smooth runs.
 set -eu
-cd "$(dirname "$0")"
-fpm build --profile release >/dev/null
-program=$(ls -t build/gfortran_*/app/tolerance | head -n 1)
+cd "$(dirname "$0")/.."
+program=$(bash program.sh tolerance)
 bad=0
 smooth=$("$program" smooth)
 echo "$smooth"
 # another processor's last bits may carry a run or two over the ten
 for method in gauss16 dop853; do
     read -r runs within < <(awk -v m=$method '$1 == m { print $2, $3 }' <<<"$smooth")
-    said=$(tr '\n' ' ' <../../README.md | sed -nE "s/.*\`$method\` in ([0-9]+) of $runs.*/\1/p")
+    said=$(tr '\n' ' ' <../README.md | sed -nE "s/.*\`$method\` in ([0-9]+) of $runs.*/\1/p")
     if [ -z "$said" ] || [ $((said - within)) -gt 2 ] || [ $((within - said)) -gt 2 ]; then
         echo "the README says of $method '$said', not $within of $runs"
         bad=1

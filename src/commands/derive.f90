@@ -96,7 +96,7 @@ contains
                       "with formulas, such as spring_pendulum")
         end select
         if (allocated(error)) return
-        do i = 1, lines%count
+        do i = 1, size(lines%list)
             call put_line(lines%list(i)%text)
         end do
     end subroutine put_fortran

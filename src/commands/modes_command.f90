@@ -25,7 +25,7 @@ module lagrangia_modes_command
     use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, &
                                             likely_equilibrium, modes_t, twin_of
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: to_text
+    use lagrangia_text, only: in_words, to_text
     implicit none (type, external)
     private
     public :: modes_command
@@ -49,7 +49,8 @@ contains
         type(modes_t) :: modes, others
         type(progress_t) :: progress
         real(dp), allocatable :: at(:)
-        character(:), allocatable :: advice, folder, kind, name, page, stem, title, warning
+        character(:), allocatable :: advice, folder, kind, label, name, page, stem
+        character(:), allocatable :: title, warning
         character(figure_length), allocatable :: figure(:)
         logical :: elsewhere
         integer :: j
@@ -63,7 +64,7 @@ contains
         call take_picture(line, kind, error)
         if (allocated(error)) return
         call read_named_system(line%arguments(1)%text, line%values_of("set"), system, error, &
-                               figure)
+                               figure, label)
         if (allocated(error)) return
         call system%describe(d)
         allocate (at, source=likely_equilibrium(system))
@@ -72,7 +73,7 @@ contains
         if (line%has("plot") .and. .not. has_positions(system)) call fail(error, "no picture "// &
             "of the modes of "//trim(d%name)//": it does not say where its masses are (positions)")
         if (allocated(error)) return
-        name = trim(d%name)
+        name = label
         call make_own_name(name, line%values_of("set"), d%parameters%name, &
                            line%value_of("at", ""), title)
         stem = data_path(folder, name//"_modes.html", "text")
@@ -114,7 +115,7 @@ contains
             if (elsewhere) call print_modes(system, others)
         end if
         if (line%has("animate")) call animate_modes(system, figure, modes, page, &
-                                                     title(len_trim(d%name) + 1:), error)
+                                 in_words(label)//title(len(label) + 1:), error)
         if (line%has("animate") .and. is_told(line) .and. .not. allocated(error)) then
             call put_line("film: "//page)
         end if

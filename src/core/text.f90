@@ -6,8 +6,8 @@ module lagrangia_text
     implicit none (type, external)
     private
     public :: word_t
-    public :: escaped, in_words, join, listed, lower, quoted, replaced, short_source, shortened
-    public :: source_length, to_text
+    public :: append_word, escaped, in_words, join, listed, lower, quoted, replaced, short_source
+    public :: shortened, source_length, to_text
 
     integer, parameter :: source_length = 100  !! of what `short_source` gives
 
@@ -24,6 +24,23 @@ module lagrangia_text
     end interface to_text
 
 contains
+
+    pure subroutine append_word(list, text)
+        !! One more text at the end of a list.
+        type(word_t), allocatable, intent(inout) :: list(:)  !! none yet if not allocated
+        character(*), intent(in) :: text                     !! any bytes
+        type(word_t), allocatable :: longer(:)
+        integer :: i, n
+
+        n = 0
+        if (allocated(list)) n = size(list)
+        allocate (longer(n + 1))
+        do i = 1, n
+            call move_alloc(list(i)%text, longer(i)%text)
+        end do
+        longer(n + 1)%text = text
+        call move_alloc(longer, list)
+    end subroutine append_word
 
     pure function lower(text) result(small)
         !! `text` with the letters A to Z in lower case; other bytes stay.

@@ -203,7 +203,7 @@ contains
                                                            body%angles(i)%text//")")
             end if
         end do
-        do i = 1, body%count
+        do i = 1, size(body%list)
             call lines%add(12, body%list(i)%text)
         end do
         do i = 1, size(d%coordinates)

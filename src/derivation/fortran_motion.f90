@@ -5,7 +5,7 @@ module lagrangia_fortran_motion
     use lagrangia_expression, only: expression_t
     use lagrangia_formula_fortran, only: fortran_text
     use lagrangia_symbols, only: symbols_t
-    use lagrangia_text, only: to_text, word_t
+    use lagrangia_text, only: append_word, to_text, word_t
     use lagrangia_written_constraints, only: is_zero
     use lagrangia_written_motion, only: written_motion_t
     implicit none (type, external)
@@ -17,8 +17,7 @@ module lagrangia_fortran_motion
         !! `sineI` and `cosineI` of each angle come first, then these statements; they give `a1`,
         !! `a2`, ...
         type(word_t), allocatable :: angles(:)
-        type(word_t), allocatable :: list(:)     !! the first `count` of them count
-        integer :: count = 0
+        type(word_t), allocatable :: list(:)
         logical, allocatable :: mass(:, :)       !! is there this element of M, \(i \le j\)?
     contains
         procedure :: locals
@@ -38,7 +37,7 @@ contains
         integer :: i, j, k, n
 
         n = size(motion%right)
-        allocate (body%angles(0), body%list(64), body%mass(n, n))
+        allocate (body%angles(0), body%list(0), body%mass(n, n))
         do i = 1, n
             do j = i, n
                 body%mass(i, j) = .not. is_zero(motion%mass(i, j))
@@ -106,18 +105,8 @@ contains
         !! A statement at the end.
         class(motion_statements_t), intent(inout) :: self
         character(*), intent(in) :: statement
-        type(word_t), allocatable :: larger(:)
-        integer :: i
 
-        if (self%count == size(self%list)) then
-            allocate (larger(2*self%count))
-            do i = 1, self%count
-                call move_alloc(self%list(i)%text, larger(i)%text)
-            end do
-            call move_alloc(larger, self%list)
-        end if
-        self%count = self%count + 1
-        self%list(self%count)%text = statement
+        call append_word(self%list, statement)
     end subroutine add
 
     pure function mentions(self, name) result(yes)
@@ -128,7 +117,7 @@ contains
         integer :: i
 
         yes = .false.
-        do i = 1, self%count
+        do i = 1, size(self%list)
             yes = yes .or. has_name(self%list(i)%text, name)
         end do
         do i = 1, size(self%angles)
@@ -178,7 +167,7 @@ contains
             if (lanes .or. self%mentions("sine"//to_text(i))) text = text//", sine"//to_text(i)
             if (lanes .or. self%mentions("cosine"//to_text(i))) text = text//", cosine"//to_text(i)
         end do
-        if (self%count > 3*n) text = text//", factor"  ! something was eliminated
+        if (size(self%list) > 3*n) text = text//", factor"  ! something was eliminated
         text = text(3:)
     end function locals
 end module lagrangia_fortran_motion

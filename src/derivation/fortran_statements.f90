@@ -1,6 +1,6 @@
 module lagrangia_fortran_statements
     !! Statements of Fortran as lines of at most 100 columns, texts as literals.
-    use lagrangia_text, only: word_t
+    use lagrangia_text, only: append_word, word_t
     implicit none (type, external)
     private
     public :: fortran_lines_t
@@ -12,9 +12,8 @@ module lagrangia_fortran_statements
 
     type :: fortran_lines_t
         !! None at first.
-        type(word_t), allocatable :: list(:)  !! the first `count` of them count
-        integer :: count = 0
-        integer :: longest = 0                !! lines of the longest statement
+        type(word_t), allocatable :: list(:)
+        integer :: longest = 0  !! lines of the longest statement
     contains
         procedure :: add
         procedure :: assign
@@ -79,19 +78,8 @@ contains
         !! A line at the end.
         class(fortran_lines_t), intent(inout) :: self
         character(*), intent(in) :: line
-        type(word_t), allocatable :: larger(:)
-        integer :: i
 
-        if (.not. allocated(self%list)) allocate (self%list(64))
-        if (self%count == size(self%list)) then
-            allocate (larger(2*self%count))
-            do i = 1, self%count
-                call move_alloc(self%list(i)%text, larger(i)%text)
-            end do
-            call move_alloc(larger, self%list)
-        end if
-        self%count = self%count + 1
-        self%list(self%count)%text = trim(line)
+        call append_word(self%list, trim(line))
     end subroutine append
 
     pure function break_before(text, room) result(at)

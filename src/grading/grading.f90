@@ -22,7 +22,7 @@ module lagrangia_grading
     use lagrangia_symbols, only: check_name
     use lagrangia_system, only: system_t
     use lagrangia_term_search, only: library_t
-    use lagrangia_text, only: quoted, short_source, to_text, word_t
+    use lagrangia_text, only: append_word, quoted, short_source, to_text, word_t
     implicit none (type, external)
     private
     public :: grade_t
@@ -69,7 +69,7 @@ contains
         call judge_sheet(homework, d, insisted, samples, library, result%of)
         do i = 1, size(homework%statements)
             if (.not. result%of(i)%contradicts) cycle
-            call insist_on(result%of(i)%defines, insisted)
+            call append_word(insisted, result%of(i)%defines)
             call judge_sheet(homework, d, insisted, samples, library, attempt)
             if (is_better(attempt, result%of, i)) then
                 do k = 1, size(result%of)
@@ -83,22 +83,6 @@ contains
         call explain_rates(samples, said, result%meaning)
         call find_determined(samples, result)
     end subroutine grade
-
-    pure subroutine insist_on(name, insisted)
-        !! One more name with its usual meaning.
-        character(*), intent(in) :: name
-        type(word_t), allocatable, intent(inout) :: insisted(:)
-        type(word_t), allocatable :: longer(:)
-        integer :: i, n
-
-        n = size(insisted)
-        allocate (longer(n + 1))
-        do i = 1, n
-            longer(i)%text = insisted(i)%text
-        end do
-        longer(n + 1)%text = name
-        call move_alloc(longer, insisted)
-    end subroutine insist_on
 
     pure function is_better(attempt, result, i) result(yes)
         !! Are more statements right if line `i` is no definition, and none of them less?

@@ -19,7 +19,7 @@ module lagrangia_homework
     use lagrangia_names, only: name_length, nearest_name
     use lagrangia_sheet_lines, only: is_remark, read_statements
     use lagrangia_shipped_files, only: read_file_or_shipped, shipped_files
-    use lagrangia_text, only: quoted, short_source, to_text, word_t
+    use lagrangia_text, only: append_word, quoted, short_source, to_text, word_t
     implicit none (type, external)
     private
     public :: homework_t, statement_t
@@ -302,8 +302,7 @@ contains
         subroutine add_names(list)
             !! Names between commas or blanks.
             character(*), intent(in) :: list
-            type(word_t), allocatable :: longer(:)
-            integer :: first, i, last, n
+            integer :: first, last
 
             if (verify(list, " ,") == 0) call refuse("'constant:' needs names, say "// &
                                                      "'constant: C, h'")
@@ -313,13 +312,7 @@ contains
                 if (last == 0) return
                 first = first + last - 1
                 last = first + scan(list(first:)//" ", " ,") - 2
-                n = size(homework%constants)
-                allocate (longer(n + 1))
-                do i = 1, n
-                    call move_alloc(homework%constants(i)%text, longer(i)%text)
-                end do
-                longer(n + 1)%text = list(first:last)
-                call move_alloc(longer, homework%constants)
+                call append_word(homework%constants, list(first:last))
                 homework%constant_lines = [homework%constant_lines, number]
                 first = last + 1
             end do
@@ -328,18 +321,11 @@ contains
         subroutine add_setting(setting)
             !! Blanks stay between several values only, `electric = 0 0 1`.
             character(*), intent(in) :: setting
-            type(word_t), allocatable :: longer(:)
-            integer :: equals, i, n
+            integer :: equals
 
             equals = index(setting, "=")
-            n = size(homework%settings)
-            allocate (longer(n + 1))
-            do i = 1, n
-                call move_alloc(homework%settings(i)%text, longer(i)%text)
-            end do
-            longer(n + 1)%text = trim(adjustl(setting(:equals - 1)))//"="// &
-                                 trim(adjustl(setting(equals + 1:)))
-            call move_alloc(longer, homework%settings)
+            call append_word(homework%settings, trim(adjustl(setting(:equals - 1)))//"="// &
+                             trim(adjustl(setting(equals + 1:))))
             homework%setting_lines = [homework%setting_lines, number]
         end subroutine add_setting
 

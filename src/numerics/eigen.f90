@@ -8,7 +8,7 @@ module lagrangia_eigen
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: normal_modes, modes_from_factors, residual_ratio
+    public :: norm1, normal_modes, modes_from_factors, residual_ratio
 
     integer, parameter :: small = 32  !! up to here dsygv is the faster one
     real(dp), parameter :: graded = 1.0_dp/16.0_dp
@@ -237,8 +237,8 @@ contains
 
     pure function norm1(a) result(norm)
         !! The largest sum of magnitudes in a column.
-        real(dp), intent(in) :: a(:, :)
-        real(dp) :: norm
+        real(dp), intent(in) :: a(:, :)  !! at least one column
+        real(dp) :: norm                 !! in the unit of `a`
 
         norm = maxval(sum(abs(a), 1))
     end function norm1

@@ -1,7 +1,7 @@
 module lagrangia_gyroscopic
     !! Small oscillations with gyroscopic forces: \(M\ddot u + G\dot u + Ku = 0\), \(G^\top = -G\).
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-    use lagrangia_eigen, only: normal_modes
+    use lagrangia_eigen, only: norm1, normal_modes
     use lagrangia_errors, only: error_t, fail, status_library
     use lagrangia_kinds, only: dp
     use lagrangia_lapack_eigen, only: dgeev
@@ -274,12 +274,4 @@ contains
             ratio = max(ratio, sum(abs(residual))/(scale*sum(abs(modes(:, j)))))
         end do
     end function gyroscopic_ratio
-
-    pure function norm1(a) result(norm)
-        !! The largest sum of magnitudes in a column.
-        real(dp), intent(in) :: a(:, :)
-        real(dp) :: norm
-
-        norm = maxval(sum(abs(a), 1))
-    end function norm1
 end module lagrangia_gyroscopic

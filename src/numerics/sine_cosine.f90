@@ -49,12 +49,7 @@ contains
         do i = 1, lanes
             call within(x(i), sine(i), cosine(i), beyond)
         end do
-        if (beyond >= 0) return
-        do i = 1, lanes
-            if (abs(x(i)) <= largest_angle) cycle
-            sine(i) = sin(x(i))
-            cosine(i) = cos(x(i))
-        end do
+        if (beyond < 0) call by_libm(lanes, x, sine, cosine)
     end subroutine sine_cosine
 
     pure subroutine two_sines_cosines(x1, x2, sine, cosine)
@@ -72,13 +67,22 @@ contains
         do i = 1, 2
             call within(x(i), sine(i), cosine(i), beyond)
         end do
-        if (beyond >= 0) return
-        do i = 1, 2
+        if (beyond < 0) call by_libm(2, x, sine, cosine)
+    end subroutine two_sines_cosines
+
+    pure subroutine by_libm(n, x, sine, cosine)
+        !! Both, where an angle is beyond `largest_angle`, or not finite.
+        integer, intent(in) :: n                         !! how many
+        real(dp), intent(in) :: x(n)                     !! rad
+        real(dp), intent(inout) :: sine(n), cosine(n)    !! of the others they stay
+        integer :: i
+
+        do i = 1, n
             if (abs(x(i)) <= largest_angle) cycle
             sine(i) = sin(x(i))
             cosine(i) = cos(x(i))
         end do
-    end subroutine two_sines_cosines
+    end subroutine by_libm
 
     pure subroutine within(x, sine, cosine, beyond)
         !! Both, for an angle up to `largest_angle`; else `beyond` becomes negative.

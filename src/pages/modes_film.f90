@@ -2,7 +2,6 @@ module lagrangia_modes_film
     !! Small oscillations as films: each mode drawn as the mechanism, on one page.
     use lagrangia_animation, only: page_of_films, write_page
     use lagrangia_channels, only: bytes_beside, bytes_of_number
-    use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_film, only: count_channels, film_json, furthest
     use lagrangia_frames, only: film_speed, frames_t
@@ -11,7 +10,7 @@ module lagrangia_modes_film
     use lagrangia_small_oscillations, only: is_oscillation, is_unstable, is_zero_mode, &
                                             modes_t, stays
     use lagrangia_system, only: system_t
-    use lagrangia_text, only: in_words, to_text
+    use lagrangia_text, only: to_text
     implicit none (type, external)
     private
     public :: animate_modes
@@ -23,7 +22,7 @@ module lagrangia_modes_film
 
 contains
 
-    subroutine animate_modes(system, own, modes, path, changes, error)
+    subroutine animate_modes(system, own, modes, path, subject, error)
         !! Write the page of all modes, or of the first that fit into it. The amplitude is such
         !! that it can be seen; the motion is that of the linear equations, a period of it, or two
         !! growth times of \(\cosh\), or a second of a zero mode.
@@ -31,16 +30,14 @@ contains
         character(*), intent(in) :: own(:)      !! parts of a scene's figure; none: the system's
         type(modes_t), intent(in) :: modes      !! of this system
         character(*), intent(in) :: path        !! of the page
-        character(*), intent(in) :: changes     !! ` (m1=2)` behind the system's name, or nothing
+        character(*), intent(in) :: subject     !! the scene's or system's name, what was set
         type(error_t), allocatable, intent(out) :: error  !! 2: too many parts; 5: of the file
-        type(description_t) :: d
         type(frames_t) :: frames, nothing
         real(dp), allocatable :: kinetic(:), potential(:)
         character(:), allocatable :: films, members, name, title
         real(dp) :: rate
         integer :: channels, j, shown
 
-        call system%describe(d)
         films = ""
         name = ""
         shown = size(modes%omega2)
@@ -75,7 +72,7 @@ contains
             if (modes%label(j) == is_unstable) members = json_pair("growth", rate)//members
             films = films//json_element(json_object(json_pair("name", name)//members))
         end do
-        title = in_words(d%name)//changes//": small oscillations"
+        title = subject//": small oscillations"
         if (lge(title(:1), "a") .and. lle(title(:1), "z")) title(:1) = achar(iachar(title(:1)) - 32)
         call write_page(path, title, page_of_films(system, title, "linear equations of motion", &
                                                    films), error)

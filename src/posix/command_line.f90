@@ -2,7 +2,7 @@ module lagrangia_command_line
     !! The words of a command line: a command, its arguments, its options.
     use lagrangia_characters, only: plainly, unlike
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_text, only: quoted, to_text, word_t
+    use lagrangia_text, only: append_word, quoted, to_text, word_t
     implicit none (type, external)
     private
     public :: word_t, option_t, command_line_t
@@ -88,7 +88,7 @@ contains
                                                   "; 'lagrangia --help' shows them")
                         if (allocated(error)) return
                     else
-                        call append(line%arguments, text)
+                        call append_word(line%arguments, text)
                     end if
                 else if (text == "--") then
                     literal = .true.
@@ -153,8 +153,8 @@ contains
         end if
         call check_value(options(k), name, value, line, error)
         if (allocated(error)) return
-        call append(line%names, trim(options(k)%name))
-        call append(line%values, value)
+        call append_word(line%names, trim(options(k)%name))
+        call append_word(line%values, value)
     contains
         pure function has_word(position) result(yes)
             !! Is there a word that can be a value, and is no option by itself?
@@ -204,21 +204,6 @@ contains
         yes = len_trim(adjustl(text)) < len(text)
     end function has_outer_blanks
 
-    pure subroutine append(list, text)
-        !! Add a word at the end.
-        type(word_t), allocatable, intent(inout) :: list(:)
-        character(*), intent(in) :: text
-        type(word_t), allocatable :: longer(:)
-        integer :: i
-
-        allocate (longer(size(list) + 1))
-        do i = 1, size(list)
-            call move_alloc(list(i)%text, longer(i)%text)
-        end do
-        longer(size(longer))%text = text
-        call move_alloc(longer, list)
-    end subroutine append
-
     pure function has(self, name) result(found)
         !! Whether option `--name` was given.
         class(command_line_t), intent(in) :: self
@@ -241,7 +226,7 @@ contains
 
         allocate (words(0))
         do i = 1, size(self%names)
-            if (self%names(i)%text == name) call append(words, self%values(i)%text)
+            if (self%names(i)%text == name) call append_word(words, self%values(i)%text)
         end do
     end function values_of
 

@@ -249,7 +249,8 @@ contains
         self%partial = .false.
         call self%flush()
         ! what only a close reports (NFS, quotas); a copy's, as our own would end the lock
-        status = int(c_close(c_dup(c_fileno(self%stream))))
+        status = int(c_dup(c_fileno(self%stream)))
+        if (status >= 0) status = int(c_close(int(status, c_int)))
         if (status /= 0 .and. self%failure == 0) self%failure = last_error()
         call self%report(error)
         if (allocated(error)) call self%abandon()

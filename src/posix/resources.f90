@@ -41,6 +41,6 @@ contains
             end if
         end if
         call fail(error, "not enough memory: "//purpose//" needs "// &
-                  to_text(ceiling(min(bytes/1e6_dp, 1e15_dp), i8))//" MB", status_library)
+                  to_text(ceiling(min(bytes/1e6_dp, 1e15_dp), i8))//" MB more", status_library)
     end subroutine check_memory
 end module lagrangia_resources

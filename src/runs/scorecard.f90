@@ -8,7 +8,7 @@ module lagrangia_scorecard
     use lagrangia_number_text, only: fixed, scientific
     use lagrangia_outcome, only: outcome_t, within
     use lagrangia_printed_table, only: left, short, two_digits
-    use lagrangia_text, only: to_text, word_t
+    use lagrangia_text, only: append_word, to_text, word_t
     use lagrangia_wrapping, only: wrapped
     implicit none (type, external)
     private
@@ -143,7 +143,8 @@ contains
             character(*), intent(in) :: name, unit, meaning
             real(dp), intent(in) :: value
 
-            call add_line(left("    "//name, 12)//left(number(value)//" "//unit, 20)//meaning)
+            call append_word(lines, left("    "//name, 12)//left(number(value)//" "//unit, 20)// &
+                             meaning)
         end subroutine add_number
 
         function difference(name) result(text)
@@ -167,22 +168,10 @@ contains
             if (present(indentation)) blanks = indentation
             call wrapped(text, scorecard_width - blanks - 4, more)
             do k = 1, size(more)
-                call add_line(repeat(" ", merge(blanks, blanks + 4, k == 1))//more(k)%text)
+                call append_word(lines, repeat(" ", merge(blanks, blanks + 4, k == 1))// &
+                                 more(k)%text)
             end do
         end subroutine add
-
-        subroutine add_line(text)
-            character(*), intent(in) :: text
-            type(word_t), allocatable :: longer(:)
-            integer :: k
-
-            allocate (longer(size(lines) + 1))
-            do k = 1, size(lines)
-                longer(k)%text = lines(k)%text
-            end do
-            longer(size(longer))%text = text
-            call move_alloc(longer, lines)
-        end subroutine add_line
     end subroutine scorecard_lines
 
     pure function quantity_of(measure) result(name)

@@ -27,7 +27,7 @@ contains
         character(:), allocatable :: changes, given
         integer :: i
 
-        call read_changes(overrides, names, same_motion, changes, given)
+        call read_changes(overrides, names, changes, given, same_motion)
         if (changes == "") return
         scene%changes = changes
         do i = 1, size(scene%expectations)
@@ -41,20 +41,14 @@ contains
     pure subroutine make_own_name(name, overrides, names, at, title)
         !! What is computed of a system with other parameters, or elsewhere than at its equilibrium,
         !! has a name for its files and a title of its own.
-        character(:), allocatable, intent(inout) :: name  !! the system's; gets the changes
+        character(:), allocatable, intent(inout) :: name  !! scene's or system's; gets the changes
         type(word_t), intent(in) :: overrides(:)          !! `GROUP%KEY=VALUE`, as typed
         character(*), intent(in) :: names(:)              !! of the system's parameters
         character(*), intent(in) :: at                    !! where else, or nothing
         character(:), allocatable, intent(out) :: title   !! `pendulum (l=2)`
-        character(:), allocatable :: changes, group, key, value
-        integer :: i
+        character(:), allocatable :: changes, given
 
-        changes = ""
-        do i = 1, size(overrides)
-            call split(overrides(i)%text, group, key, value)
-            if (group == "scene" .or. group == "sweep") cycle
-            call add(changes, as_described(key, names)//"="//value)
-        end do
+        call read_changes(overrides, names, changes, given)
         if (at /= "") call add(changes, "at="//at)
         title = name
         if (changes == "") return
@@ -73,7 +67,7 @@ contains
         character(*), intent(in) :: names(:)      !! of the system's parameters
         character(:), allocatable :: axes, changes, given
 
-        call read_changes(overrides, names, same_sweep, changes, given)
+        call read_changes(overrides, names, changes, given, same_sweep)
         axes = ""
         if (size(file%sweep%over) > 0 .and. size(file%sweep%keep) > 0) then
             call add_sweep_changes(scene%sweep, file%sweep, axes, changes)
@@ -134,13 +128,13 @@ contains
         changes = changes//change
     end subroutine add
 
-    pure subroutine read_changes(overrides, names, same, changes, given)
+    pure subroutine read_changes(overrides, names, changes, given, same)
         !! What overrides change, and which keys of `&scene` they give.
         type(word_t), intent(in) :: overrides(:)  !! `GROUP%KEY=VALUE`, as typed
         character(*), intent(in) :: names(:)      !! of the system's parameters
-        character(*), intent(in) :: same(:)       !! keys of `&scene` that change nothing
         character(:), allocatable, intent(out) :: changes  !! `l=2, q_1=0.5`
         character(:), allocatable, intent(out) :: given    !! ` title output `, or a blank
+        character(*), intent(in), optional :: same(:)  !! keys of `&scene` that change nothing: all
         character(:), allocatable :: group, key, value
         integer :: i
 
@@ -151,6 +145,7 @@ contains
             if (group == "sweep") cycle
             if (group == "scene") then
                 given = given//key//" "
+                if (.not. present(same)) cycle
                 if (any(same == key) .or. index(key, "expect_") == 1) cycle
             else
                 key = as_described(key, names)

@@ -51,7 +51,7 @@ contains
         call parse_scene(text, path, overrides, scene, system, error)
     end subroutine read_scene
 
-    subroutine read_named_system(name, overrides, system, error, figure)
+    subroutine read_named_system(name, overrides, system, error, figure, label)
         !! The system called `name`, its parameters set by the words behind `--set`; or that of the
         !! scene `name`, with the scene's parameters.
         character(*), intent(in) :: name  !! as 'list' shows it, or a path
@@ -60,6 +60,7 @@ contains
         type(error_t), allocatable, intent(out) :: error  !! unknown, or a parameter is not allowed
         character(figure_length), allocatable, intent(out), optional :: figure(:)
         !! parts that the scene draws it by; none: the system's own
+        character(:), allocatable, intent(out), optional :: label  !! the scene's name, or `name`
         character(:), allocatable :: path, text
         type(description_t) :: d
         type(namelist_t) :: tree
@@ -67,10 +68,13 @@ contains
         integer :: i
 
         if (present(figure)) allocate (figure(0))
+        if (present(label)) label = name
         if (names_scene(name)) then
             call find_scene(name, path, error)
             if (.not. allocated(error)) call read_scene(path, overrides, scene, system, error)
-            if (present(figure) .and. .not. allocated(error)) figure = scene%figure
+            if (allocated(error)) return
+            if (present(figure)) figure = scene%figure
+            if (present(label)) label = trim(scene%name)
             return
         end if
         call new_system(name, system, error)

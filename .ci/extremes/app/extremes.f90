@@ -1,1 +1,0 @@
-../../../test/extremes.f90

@@ -1,1 +1,0 @@
-../../../test/mutants.f90

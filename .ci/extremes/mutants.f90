@@ -1,0 +1,1 @@
+../../test/mutants.f90
