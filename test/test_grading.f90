@@ -32,6 +32,8 @@ contains
         call suite%addTest(TestMethod("which_accelerations_follow", which_accelerations_follow))
         call suite%addTest(TestMethod("examples_have_four_digits", examples_have_four_digits))
         call suite%addTest(TestMethod("lines_that_follow", lines_that_follow))
+        call suite%addTest(TestMethod("a_second_slip_does_not_follow", &
+                                      a_second_slip_does_not_follow))
         call suite%addTest(TestMethod("drag_has_a_decay_rate", drag_has_a_decay_rate))
         call suite%addTest(TestMethod("small_oscillations", small_oscillations))
         call suite%addTest(TestMethod("the_lines_of_the_notes", the_lines_of_the_notes))
@@ -275,6 +277,30 @@ contains
         call traced("pendulum", "wfwf", "T = m l^2 theta_dot^2; L = m l^2 theta_dot^2 - V"// &
             "; V = m g l sin(theta); l theta_ddot = -g cos(theta)/2")
     end subroutine lines_that_follow
+
+    subroutine a_second_slip_does_not_follow()
+        !! Neither where what is supposed is in the line but by rounding, nor in a term that was
+        !! wrong before, beside the true equation of the same coordinate.
+        call traced("driven_pendulum", "wwf", "7 (p_theta^2/(2 m l^2) - g l cos(theta) + "// &
+            "m/4 (a W sin(theta))^2) = (slow_energy)*7"// &
+            "; slow_energy = p_theta^2/(2 m l^2) - 2 m g l cos(theta) + m/4 (a W sin(theta))^2"// &
+            "; slow_energy - p_theta^2/(2 m l^2) + g l cos(theta) = m/4 (a W sin(theta))^2")
+        call traced("cart_pendulum", "wffwff", &
+            "L = (m1 + m2)/2 x_dot^2 + m2/4 l^2 theta_dot^2 + m2 l x_dot theta_dot cos(theta)"// &
+            " + m2 g l cos(theta); p_theta = m2 l^2 theta_dot/2 + m2 l x_dot cos(theta)"// &
+            "; g sin(theta) + x_ddot cos(theta) = -l theta_ddot/2"// &
+            "; g sin(theta) + x_ddot cos(theta) = 0; g tan(theta) = -x_ddot"// &
+            "; l theta_ddot = -2 g sin(theta) - 2 x_ddot cos(theta)")
+        call traced("cart_pendulum", "wfwf", "(m1 + m2) x_ddot + 2 m2 l theta_ddot cos(theta)"// &
+            " - m2 l theta_dot^2 sin(theta) = 0"// &
+            "; x_ddot = m2 l (theta_dot^2 sin(theta) - 2 theta_ddot cos(theta))/(m1 + m2)"// &
+            "; (m1 + m2) x_ddot + 3 m2 l theta_ddot cos(theta) = m2 l theta_dot^2 sin(theta)"// &
+            "; x_ddot (m1 + m2 - 3 m2 cos(theta)^2) = m2 sin(theta) (l theta_dot^2 + "// &
+            "3 g cos(theta))")
+        call traced("wedge", "wfw", "(M + m) q2_ddot + 2 m q1_ddot cos(alpha) = 0"// &
+            "; q2_ddot = -2 m q1_ddot cos(alpha)/(M + m)"// &
+            "; (M + m) q2_ddot - m q1_ddot cos(alpha) = 0")
+    end subroutine a_second_slip_does_not_follow
 
     subroutine drag_has_a_decay_rate()
         !! q goes as exp(-gamma t) cos(omega t), and omega_0 is without the drag.

@@ -8,7 +8,8 @@ module lagrangia_consequences
     use lagrangia_homework, only: statement_t
     use lagrangia_judgement, only: is_right, judge, judgement_t
     use lagrangia_kinds, only: dp
-    use lagrangia_sample_names, only: role_acceleration, role_frequency, role_known, samples_t
+    use lagrangia_sample_names, only: draws, role_acceleration, role_frequency, role_known, &
+                                      samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_supposed_lagrangian, only: suppose_lagrangian
     use lagrangia_supposed_statement, only: no_equation, no_momentum, no_rate, no_value, &
@@ -113,6 +114,7 @@ contains
         type(samples_t), intent(in) :: truth         !! the true motion
         type(expression_t) :: rate, right
         type(supposition_t) :: one(1), two(2)  ! gfortran 12 does not free what a constructor makes
+        logical :: said(truth%ndof)
         integer :: i, k, left, n
 
         if (residual%count == 0) return
@@ -150,8 +152,10 @@ contains
                 return
             end do
         end if
+        said = equations_said(residual, truth)
         do i = 1, truth%ndof
             do k = no_equation, no_momentum
+                if (k /= no_momentum .and. .not. said(i)) cycle
                 one(1) = supposition_t(residual, k, i)
                 call self%suppose_everywhere(number, one, truth)
             end do
@@ -176,17 +180,57 @@ contains
         type(expression_t), intent(in) :: residual   !! left less right side
         type(samples_t), intent(in) :: truth         !! the true motion
         type(supposition_t) :: one(1)
+        logical :: moves, said(truth%ndof)
         integer :: i
-        logical :: moves
 
         if (.not. allocated(truth%mass)) return
         moves = any([(residual%depends_on(truth%first_acceleration + i - 1), i=1, truth%ndof)])
         if (.not. moves) return
+        said = equations_said(residual, truth)
         do i = 1, truth%ndof
+            if (.not. said(i)) cycle
             one(1) = supposition_t(residual, no_equation, i)
             call self%try_world(because, truth, one)
         end do
     end subroutine add_consequence
+
+    function equations_said(residual, truth) result(said)
+        !! The equations of motion that a wrong line may say: those of the most accelerations with
+        !! the true factor, but for one that no state changes, or even for a number. Beside the true
+        !! one of the same coordinate it would be a contradiction, from which anything follows.
+        type(expression_t), intent(in) :: residual   !! left less right side
+        type(samples_t), intent(in) :: truth         !! with the mass matrix
+        logical :: said(truth%ndof)
+        real(dp), dimension(size(truth%values, 1), residual%count) :: here, moved
+        real(dp) :: values(size(truth%values, 1), size(truth%values, 2))
+        real(dp) :: ratio(states, draws)
+        integer :: like(truth%ndof), i, j, k, n
+
+        n = residual%count
+        like = 0
+        call evaluate_nodes(residual, truth%values, here)
+        do k = 1, truth%ndof
+            values = truth%values
+            associate (a => values(:, truth%first_acceleration + k - 1))
+                a = a + 1.0_dp
+            end associate
+            call evaluate_nodes(residual, values, moved)
+            do i = 1, truth%ndof
+                ratio = reshape((moved(:, n) - here(:, n))/truth%mass(i, k, :), [states, draws])
+                if (.not. all(ieee_is_finite(ratio)) .or. all(abs(ratio) <= 0.0_dp)) cycle
+                if (.not. all([(is_one(ratio(:, j)), j=1, draws)])) cycle
+                like(i) = like(i) + truth%ndof + 1
+                if (is_one(reshape(ratio, [states*draws]))) like(i) = like(i) + 1
+            end do
+        end do
+        said = like == maxval(like)
+    contains
+        pure logical function is_one(numbers)
+            real(dp), intent(in) :: numbers(:)
+
+            is_one = maxval(numbers) - minval(numbers) <= equal*maxval(abs(numbers))
+        end function is_one
+    end function equations_said
 
     subroutine suppose_everywhere(self, number, suppositions, truth)
         !! Beside the truth, and beside each mistake so far.

@@ -27,7 +27,8 @@ module lagrangia_supposed_statement
     integer, parameter :: no_value = 5     !! of a name
 
     integer, parameter :: steps = 12            !! of Newton, one for what is linear
-    real(dp), parameter :: equal = 1e-11_dp     !! of the first residual
+    real(dp), parameter :: equal = 1e-11_dp     !! of the sizes of what a residual adds up
+    real(dp), parameter :: rounding = 1e-13_dp  !! of these sizes
 
     type :: supposition_t
         !! One statement, and what it takes the place of.
@@ -131,7 +132,7 @@ contains
         integer, intent(in) :: row
         logical, intent(out) :: ok
         real(dp) :: base(size(samples%role)), along(size(samples%role), size(suppositions))
-        real(dp), dimension(size(suppositions)) :: f, moved, s, step, scale
+        real(dp), dimension(size(suppositions)) :: f, moved, s, step, scale, scale_there
         real(dp) :: slopes(size(suppositions), size(suppositions))
         type(error_t), allocatable :: error
         integer :: i, k, m
@@ -143,41 +144,43 @@ contains
             if (.not. ok) return
         end do
         s = 0.0_dp
-        call residuals(s, f)
-        scale = abs(f)
+        call residuals(s, f, scale)
         ok = .false.
         do i = 1, steps
             if (.not. all(ieee_is_finite(f))) exit
-            ok = i > 1 .and. all(abs(f) <= equal*maxval(scale))
+            ok = i > 1 .and. all(abs(f) <= equal*scale)
             if (ok) exit
             do k = 1, m
                 step = s
                 step(k) = step(k) + 1.0_dp
-                call residuals(step, moved)
+                call residuals(step, moved, scale_there)
                 slopes(:, k) = moved - f
+                where (abs(slopes(:, k)) <= rounding*scale_there) slopes(:, k) = 0.0_dp
             end do
             if (.not. all(ieee_is_finite(slopes))) exit
             call solve_linear(slopes, -f, step, error)
             if (allocated(error)) exit
             s = s + step
-            call residuals(s, f)
-            scale = max(scale, abs(f))
+            call residuals(s, f, scale)
         end do
         if (.not. ok) samples%values(row, :) = ieee_value(1.0_dp, ieee_quiet_nan)
     contains
-        subroutine residuals(x, result)
+        subroutine residuals(x, result, sizes)
             real(dp), intent(in) :: x(:)
-            real(dp), intent(out) :: result(:)
-            real(dp), allocatable :: nodes(:, :)
+            real(dp), intent(out) :: result(:), sizes(:)
+            real(dp), allocatable, dimension(:, :) :: nodes, sizes_of_nodes
             integer :: n
 
             samples%values(row, :) = base + matmul(along, x)
             call follow_letters(samples, row)
             do n = 1, m
-                if (allocated(nodes)) deallocate (nodes)
+                if (allocated(nodes)) deallocate (nodes, sizes_of_nodes)
                 allocate (nodes(1, suppositions(n)%residual%count))
-                call evaluate_nodes(suppositions(n)%residual, samples%values(row:row, :), nodes)
+                allocate (sizes_of_nodes, mold=nodes)
+                call evaluate_nodes(suppositions(n)%residual, samples%values(row:row, :), nodes, &
+                                    sizes=sizes_of_nodes)
                 result(n) = nodes(1, size(nodes, 2))
+                sizes(n) = sizes_of_nodes(1, size(nodes, 2))
             end do
         end subroutine residuals
     end subroutine solve_row
