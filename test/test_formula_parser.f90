@@ -301,6 +301,11 @@ contains
         call is_refused("2e", "column 1: a blank is missing in '2e'; write '2 e'")
         call is_refused("x^2^3", &
                         "column 4: a second '^' has two meanings; write x^(2^3) or (x^2)^3")
+        call is_refused("(x/m)^1/2", "column 8: '^1/' divides the power 1; write x^(1/2), or "// &
+                        "sqrt(x)")
+        call is_refused("e^-m x", "column 6: is this in the exponent? Write e^(-m ...), or "// &
+                        "e^(-m) ...")
+        call is_refused("e^m/x", "column 4: is this in the exponent? Write e^(m ...), or e^(m) ...")
         call is_refused("x*-m", "column 3: '-' follows '*'; write brackets, a*(-b)")
         call is_refused("x - -m", "column 5: '-' follows '-'; write brackets, a*(-b)")
         call is_refused("--x", "column 2: '-' follows '-'; write brackets, a*(-b)")

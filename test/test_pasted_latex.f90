@@ -35,6 +35,10 @@ contains
                     " \dot{\theta}}\right) - \frac{\partial L}{\partial \theta} = 0", is_right)
         call judged("pendulum", &
                     "\frac{d^2\theta}{dt^2} = -\frac gl \sin\theta", is_right)
+        call judged("pendulum", "\frac{d \cos\theta}{dt} = -\dot\theta\sin\theta", is_right)
+        call judged("pendulum", "\frac{d m l^2 \dot\theta}{dt} = -m g l \sin\theta", is_right)
+        call judged("pendulum", "\frac{d m l^2 \dot\theta}{dt} = -m g \sin\theta", is_wrong)
+        call judged("pendulum", "\omega^2 = g l^-1", is_right)
         call judged("pendulum", &
                     "\frac{\mathrm{d}^2 \theta}{\mathrm{d}t^2} + \frac{g}{l} \sin"// &
                     " \theta = 0", is_right)

@@ -1,7 +1,7 @@
 module lagrangia_differentials
     !! Quotients of differentials, `d theta/dt`, `dV/dtheta`, `d^2V/(dx dy)`, `d/dt`: what is
     !! differentiated, how often, and by what.
-    use lagrangia_expression, only: kind_symbol
+    use lagrangia_expression, only: function_names, kind_symbol
     use lagrangia_formula_reader, only: reader_t
     use lagrangia_formula_tokens, only: is_end, is_name
     use lagrangia_names, only: name_length
@@ -16,6 +16,8 @@ module lagrangia_differentials
         integer :: order = 0                     !! 0: there is none
         character(:), allocatable :: operand     !! a name; empty: a bracket, or what follows
         integer :: bracket = 0                   !! token where that begins
+        integer :: product = 0                   !! token where factors begin, up to the slash
+        integer :: slash = 0                     !! of `d sin(theta)/dt`, its token
         character(name_length) :: by(2) = ""     !! `t`, `theta`, `theta_dot`
         integer :: behind = 0                    !! the token that is next then
     end type quotient_t
@@ -28,8 +30,8 @@ contains
         type(symbols_t), intent(in) :: symbols          !! of a sheet, with rates
         type(quotient_t), intent(out) :: quotient       !! order 0: none stands here
         character(:), allocatable :: name
-        integer :: at, number, order
-        logical :: closed
+        integer :: at, begun, number, order
+        logical :: bare, closed
 
         quotient%operand = ""
         at = reader%at
@@ -48,6 +50,8 @@ contains
                 name = name(2:)
             end if
         end if
+        begun = at
+        bare = name == "" .and. word(at) /= "/"
         if (name == "" .and. sort_at(at) == is_name) then
             name = word(at)
             at = at + 1
@@ -56,7 +60,18 @@ contains
             at = behind_bracket(at)
         end if
         quotient%operand = name
-        if (name /= "" .and. word(at) == "(") at = behind_arguments(at)
+        if (any(function_names == name)) then  ! d sin(theta)/dt
+            at = begun
+        else if (name /= "" .and. word(at) == "(") then
+            at = behind_arguments(at)
+        end if
+        if (word(at) /= "/" .and. bare) then
+            quotient%operand = ""
+            quotient%bracket = 0
+            quotient%product = begun
+            at = slash_of_time(begun)
+            quotient%slash = at
+        end if
         if (word(at) /= "/") return
         at = at + 1
         closed = word(at) == "("
@@ -112,6 +127,25 @@ contains
             end do
             next = merge(next + 1, k, word(next) == ")")
         end function behind_arguments
+
+        pure function slash_of_time(k) result(next)
+            !! The `/` of `/dt` behind factors; or where these end.
+            integer, intent(in) :: k
+            integer :: next, depth
+
+            depth = 0
+            do next = k, size(reader%tokens%token)
+                if (word(next) == "(") depth = depth + 1
+                if (word(next) == ")") depth = depth - 1
+                if (depth < 0 .or. word(next) == "=") exit
+                if (depth > 0) cycle
+                if (scan(word(next), "+-") == 1 .and. word(next - 1) /= "^") exit
+                if (word(next) /= "/") cycle
+                if (word(next + 1) == "dt" .or. (word(next + 1) == "(" .and. &
+                                                 word(next + 2) == "dt")) exit
+                if (order == 2 .and. (word(next + 1) == "dt2" .or. word(next + 2) == "dt2")) exit
+            end do
+        end function slash_of_time
 
         pure subroutine take_by(k, count, all)
             !! `dt`, `d theta`, `dx^2`, `dt2`; 0: none of these.

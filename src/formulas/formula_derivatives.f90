@@ -50,6 +50,10 @@ contains
             reader%at = quotient%bracket
             call read_bracket(reader, symbols, node, error)
             if (allocated(error)) return
+        else if (quotient%product > 0) then
+            reader%at = quotient%product
+            call read_factors(reader, symbols, quotient%slash, node, error)
+            if (allocated(error)) return
         else
             reader%at = quotient%behind
             named = .false.
@@ -86,6 +90,27 @@ contains
         end do
         reader%at = quotient%behind
     end subroutine read_rate
+
+    pure recursive subroutine read_factors(reader, symbols, behind, node, error)
+        !! Those of `d m l^2 theta_dot/dt`, up to its last slash.
+        type(reader_t), intent(inout) :: reader
+        type(symbols_t), intent(in) :: symbols
+        integer, intent(in) :: behind    !! token of this slash
+        integer, intent(out) :: node
+        type(error_t), allocatable, intent(out) :: error
+        integer :: kind, left, right
+
+        call read_power(reader, symbols, node, error)
+        do while (.not. allocated(error) .and. reader%at < behind)
+            kind = merge(kind_quotient, kind_product, next_is(reader, "/"))
+            if (next_is(reader, "/") .or. next_is(reader, "*")) call skip_sign(reader, error)
+            if (allocated(error)) return
+            call read_power(reader, symbols, right, error)
+            if (allocated(error)) return
+            left = node
+            call reader%expression%add_operation(kind, left, right, node)
+        end do
+    end subroutine read_factors
 
     pure recursive subroutine refuse_unfinished(reader, symbols, error)
         !! `d`, and no derivative.

@@ -98,15 +98,25 @@ contains
         type(symbols_t), intent(in) :: symbols
         integer, intent(out) :: node
         type(error_t), allocatable, intent(out) :: error
+        character(:), allocatable :: raised
         integer :: argument, exponent
-        logical :: negative
+        logical :: alone, negative
 
         node = 0
         reader%at = reader%at + 2
         negative = next_is(reader, "-")
         if (negative) reader%at = reader%at + 1
+        alone = reader%tokens%token(reader%at)%kind == is_name .or. (negative .and. &
+                                                                     .not. next_is(reader, "("))
+        raised = reader%tokens%word(reader%at)
+        if (negative) raised = "-"//raised
         call read_factor(reader, symbols, exponent, error)
         if (allocated(error)) return
+        if (alone .and. (begins_factor(reader) .or. next_is(reader, "/"))) then
+            call refuse(reader, "is this in the exponent? Write e^("//raised//" ...), or e^("// &
+                        raised//") ...", error)
+            return
+        end if
         argument = exponent
         if (negative) call reader%expression%add_operation(kind_negation, exponent, 0, argument)
         call reader%expression%add_operation(kind_function, argument, 0, node, f_exp)

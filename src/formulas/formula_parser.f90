@@ -22,7 +22,7 @@ module lagrangia_formula_parser
     private
     public :: parse_equation, parse_formula
     ! gfortran 12 hides others from submodules:
-    public :: add_named, read_bracket, read_factor, read_sum
+    public :: add_named, read_bracket, read_factor, read_power, read_sum
 
     real(dp), parameter :: pi = acos(-1.0_dp)
 
@@ -209,12 +209,12 @@ contains
 
     pure recursive subroutine read_power(reader, symbols, node, error)
         !! A factor, perhaps to a power.
-        type(reader_t), intent(inout) :: reader
-        type(symbols_t), intent(in) :: symbols
-        integer, intent(out) :: node
-        type(error_t), allocatable, intent(out) :: error
+        type(reader_t), intent(inout) :: reader           !! at its first token
+        type(symbols_t), intent(in) :: symbols            !! the names that it may use
+        integer, intent(out) :: node                      !! its place
+        type(error_t), allocatable, intent(out) :: error  !! column and remedy
         integer :: exponent, left
-        logical :: negative
+        logical :: negative, one
 
         call read_factor(reader, symbols, node, error)
         if (allocated(error)) return
@@ -231,7 +231,10 @@ contains
                         reader%tokens%word(reader%at)//"(...))", error)
         end if
         if (allocated(error)) return
+        one = reader%tokens%word(reader%at) == "1" .and. .not. negative
         call read_factor(reader, symbols, exponent, error)
+        if (.not. allocated(error) .and. one .and. next_is(reader, "/")) call refuse(reader, &
+            "'^1/' divides the power 1; write x^(1/2), or sqrt(x)", error)
         if (allocated(error)) return
         if (negative) then
             left = exponent

@@ -97,6 +97,7 @@ contains
             associate (node => expression%nodes(k))
                 if (node%kind == kind_function) text = "("//text//")"
                 if (node%kind == kind_number .and. node%number%is_whole()) text = texts(k)%text
+                if (text == "1") text = "(1)"  ! x^1/2 is refused
                 if (node%kind /= kind_negation) return
             end associate
             associate (node => expression%nodes(expression%nodes(k)%left))

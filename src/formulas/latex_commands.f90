@@ -43,8 +43,10 @@ contains
                        begins_with_d(source%text(middle:last))
         call put_name(source, "", at)
         if (.not. differential) call put(source, "((", at)
+        begun = len(source%plain)
         call take_argument(source, last, behind, differential, error)
         if (allocated(error)) return
+        if (differential) call put_brackets(source, begun)
         if (.not. differential) call put(source, ")", at)
         call put(source, "/(", at)
         begun = len(source%plain)
@@ -60,6 +62,26 @@ contains
         end if
     end subroutine take_fraction
 
+    pure subroutine put_brackets(source, begun)
+        !! `d cos(theta)` and `d m l^2 theta_dot` as d(cos(theta)); a name stays alone.
+        type(source_t), intent(inout) :: source
+        integer, intent(in) :: begun   !! before the differential
+        character(:), allocatable :: what
+        integer :: first, n
+
+        first = begun + scan(source%plain(begun + 1:), "d") + 1
+        if (first > len(source%plain)) return
+        if (source%plain(first:first) == "^") first = first + 2
+        what = trim(adjustl(source%plain(first:)))
+        n = verify(what//" ", inside) - 1
+        if (n == len(what) .or. index(what, "(") == 1) return
+        if (what(n + 1:n + 1) == "(" .and. .not. any(functions == what(:n))) return  ! L(x, t)
+        n = len(source%plain)
+        source%plain = source%plain(:first - 1)//"("//source%plain(first:)//")"
+        source%plain_columns = [source%plain_columns(:first - 1), source%plain_columns(first), &
+                                source%plain_columns(first:), source%plain_columns(n)]
+    end subroutine put_brackets
+
     pure function begins_with_d(text) result(yes)
         !! A differential: `{d}`, `{dx}`, `{\partial x}`, `{\mathrm{d} x}`, `{d^2 x}`.
         character(*), intent(in) :: text
@@ -70,7 +92,8 @@ contains
         rest = text(verify(text//"x", " {"):)
         behind = verify(rest//" ", letters)
         yes = index(rest, "\partial") == 1 .or. index(rest, "\mathrm{d}") == 1 .or. &
-              index(rest, "\text{d}") == 1 .or. index(rest, "\rm d") == 1
+              index(rest, "\text{d}") == 1 .or. index(rest, "\rm d") == 1 .or. &
+              index(rest, "\mathrm d") == 1
         if (index(rest, "d") /= 1) return
         ! d alone, dx, dtheta, and not d l of a distance
         yes = .true.

@@ -9,8 +9,8 @@ module lagrangia_latex_source
     private
     public :: plain_latex
     ! gfortran 12 hides others from submodules:
-    public :: find_group, greek, inside, put, put_name, source_t, take_argument, take_exponent, &
-              take_index
+    public :: find_group, functions, greek, inside, put, put_name, source_t, take_argument, &
+              take_exponent, take_index
 
     character(*), parameter :: digits = "0123456789"
     character(*), parameter :: letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
@@ -327,7 +327,7 @@ contains
         integer :: begun
 
         behind = at + 1
-        if (source%text(behind:min(behind, last)) == "(") then
+        if (scan(source%text(behind:min(behind, last)), "(-") == 1) then
             call put(source, "^", at)
             return
         end if
