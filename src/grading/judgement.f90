@@ -20,6 +20,7 @@ module lagrangia_judgement
     use lagrangia_sample_names, only: samples_t
     use lagrangia_small_energies, only: is_energy
     use lagrangia_small_judgement, only: judge_small
+    use lagrangia_solved_constraints, only: solve_constraint
     use lagrangia_statement_forms, only: drop_root_of_name, is_slope, read_as_period, read_new_name
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: to_text
@@ -114,7 +115,7 @@ contains
         call parse_formula(repeat(" ", characters(text(:begun - 1)))// &
                            as_in(text, begun, next - 1), samples%symbols, left, error)
         if (allocated(error)) then
-            call put_unreadable(error, judgement)
+            call solve_or_refuse()
             return
         end if
         chained = is_slope(side) .or. begun > 1
@@ -135,7 +136,7 @@ contains
                 right = whole(0)
             end if
             if (allocated(error)) then
-                call put_unreadable(error, judgement)
+                call solve_or_refuse()
                 return
             end if
             call drop_root_of_name(side, left, right, samples)
@@ -172,6 +173,22 @@ contains
             call judge_with_constants(one, other, samples, is_one, judgement)
         end subroutine judge_unknown
 
+        subroutine solve_or_refuse()
+            !! A constraint defines the place that it brings in.
+            call put_unreadable(error, judgement)
+            call solve_here()
+        end subroutine solve_or_refuse
+
+        subroutine solve_here()
+            character(:), allocatable :: formula
+
+            if (statement%small) return
+            call solve_constraint(text, samples, name, formula)
+            if (name == "") return
+            judgement%remark = ""
+            call define(name, .false., formula, text, statement%used, samples, library, judgement)
+        end subroutine solve_here
+
         subroutine define_here()
             !! By the second of all sides; `next` is 0 if that is all, or else the sign behind it.
             integer :: sign
@@ -183,6 +200,7 @@ contains
             call define(name, squared, repeat(" ", characters(text(:sign)))// &
                         as_in(text, sign + 1, last), text(:last), statement%used, samples, &
                         library, judgement)
+            if (judgement%verdict == is_unreadable) call solve_here()
             if (judgement%verdict == is_unreadable .or. judgement%verdict == is_wrong) next = 0
             begun = sign + 1
             if (next > 0) judgement%verdict = is_right

@@ -1,0 +1,70 @@
+module lagrangia_solved_constraints
+    !! A constraint that brings in a place which the system does not name: of `x + y + pi R = l`,
+    !! the length of a string, y.
+    use lagrangia_declared_constants, only: with_constants
+    use lagrangia_derivative, only: derivative
+    use lagrangia_errors, only: error_t
+    use lagrangia_expression, only: expression_t, operator(-), whole
+    use lagrangia_formula_parser, only: parse_equation
+    use lagrangia_formula_text, only: formula_text
+    use lagrangia_kinds, only: dp
+    use lagrangia_sample_names, only: role_coordinate, role_parameter, role_velocity, samples_t
+    use lagrangia_sampled_formula, only: evaluate_nodes
+    use lagrangia_substitution, only: substituted
+    use lagrangia_symbols, only: symbols_t
+    implicit none (type, external)
+    private
+    public :: solve_constraint
+
+contains
+
+    subroutine solve_constraint(text, samples, name, formula)
+        !! The one unknown name, which stands with the factor 1 or -1 beside coordinates and
+        !! parameters, and what it is.
+        character(*), intent(in) :: text                    !! a statement with one `=`
+        type(samples_t), intent(in) :: samples              !! know the other names
+        character(:), allocatable, intent(out) :: name      !! empty: there is none of this kind
+        character(:), allocatable, intent(out) :: formula   !! that it stands for
+        character(*), parameter :: unknown = "unknown name '"
+        type(symbols_t) :: symbols
+        type(expression_t) :: left, right, slope, rest, zero(1)
+        type(error_t), allocatable :: error
+        character(:), allocatable :: new
+        real(dp), allocatable :: values(:, :), nodes(:, :)
+        logical :: moves
+        integer :: i, place
+
+        name = ""
+        formula = ""
+        symbols = with_constants(samples)
+        call parse_equation(text, symbols, left, right, error)
+        if (.not. allocated(error)) return
+        i = index(error%message, unknown) + len(unknown)
+        if (i == len(unknown)) return
+        new = error%message(i:i + index(error%message(i:), "'") - 2)
+        call symbols%add(new, error)
+        if (allocated(error)) return
+        call parse_equation(text, symbols, left, right, error)
+        if (allocated(error)) return
+        rest = left - right
+        place = symbols%find(new)
+        moves = .false.
+        do i = 1, size(samples%role)
+            if (.not. rest%depends_on(i)) cycle
+            if (samples%role(i) > role_parameter) return
+            if (samples%role(i) >= role_velocity .and. samples%role(i) < role_parameter) return
+            moves = moves .or. samples%role(i) == role_coordinate
+        end do
+        slope = derivative(rest, place)
+        if (.not. moves .or. any([(slope%depends_on(i), i=1, place)])) return
+        allocate (values(1, place), nodes(1, slope%count))
+        values = 0.0_dp
+        call evaluate_nodes(slope, values, nodes)
+        if (abs(abs(nodes(1, slope%count)) - 1.0_dp) > 0.0_dp) return
+        zero(1) = whole(0)
+        rest = substituted(rest, [place], zero)
+        if (nodes(1, slope%count) > 0.0_dp) rest = zero(1) - rest
+        name = new
+        formula = formula_text(rest, symbols)
+    end subroutine solve_constraint
+end module lagrangia_solved_constraints
