@@ -11,6 +11,7 @@ module test_changed_scene
     use lagrangia_shipped, only: shipped_scenes
     use lagrangia_system, only: system_t
     use lagrangia_text, only: join, to_text, word_t
+    use test_own_names, only: own_names_suite
     implicit none (type, external)
     private
     public :: changed_scene_suite
@@ -41,6 +42,7 @@ contains
                                       a_changed_sweep_has_its_own_title))
         call suite%addTest(TestMethod("a_changed_sweep_has_its_own_files", &
                                       a_changed_sweep_has_its_own_files))
+        call suite%addTest(own_names_suite())
     end function changed_scene_suite
 
     subroutine change(settings, scene)
@@ -107,6 +109,8 @@ contains
         call assertTrue(all(scene%expectations%judged), "and is judged")
         call assertEqual("Mine", trim(scene%title))
         call assertEqual("pendulum", trim(scene%output))
+        call change("scene%expect_error=1", scene)
+        call assertFalse(allocated(scene%changes), "a tolerance changes no motion")
     end subroutine the_same_motion_is_the_same_scene
 
     subroutine what_is_given_is_kept()
