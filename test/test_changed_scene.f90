@@ -141,6 +141,12 @@ contains
         call assertEqual(10, ending_start("a.b/c_2.5"), message="a number is no ending")
         call assertEqual(6, ending_start("a.b/c.dat"), message="an ending")
         call assertEqual(4, ending_start("c_2"), message="none")
+        call assertEqual(6, ending_start("a.b/c"), message="none, below a folder that has one")
+        call assertEqual(8, ending_start("a/b.c/d"), message="none, below a folder below one")
+        call change("scene%dt="//repeat("0", 116)//"1", scene)
+        call assertEqual("pendulum_dt_"//repeat("0", 116)//"1", trim(scene%output), "120 letters")
+        call change("scene%dt="//repeat("0", 117)//"1", scene)
+        call assertEqual("pendulum_changed_", scene%output(:17), "more")
     end subroutine names_are_those_of_files
 
     subroutine every_parameter_can_be_changed()

@@ -5,7 +5,7 @@ module test_sine_cosine
     use, intrinsic :: iso_fortran_env, only: real128
     use funit, only: TestMethod, TestSuite, assertEqual, assertLessThan, assertTrue
     use lagrangia_kinds, only: dp, lanes
-    use lagrangia_sine_cosine, only: largest_angle, sine_cosine, two_sines_cosines
+    use lagrangia_sine_cosine, only: largest_angle, sine_cosine, sines_cosines, two_sines_cosines
     implicit none (type, external)
     private
     public :: sine_cosine_suite
@@ -23,6 +23,7 @@ contains
         call suite%addTest(TestMethod("next_to_multiples_of_half_pi", next_to_multiples_of_half_pi))
         call suite%addTest(TestMethod("beyond_its_range", beyond_its_range))
         call suite%addTest(TestMethod("two_are_as_in_lanes", two_are_as_in_lanes))
+        call suite%addTest(TestMethod("any_number_is_as_in_lanes", any_number_is_as_in_lanes))
     end function sine_cosine_suite
 
     subroutine below_one_unit()
@@ -106,6 +107,27 @@ contains
         call assertTrue(ieee_is_nan(sine(1)) .and. ieee_is_nan(cosine(1)), "NaN of NaN")
         call assertEqual(real(sin(0.5_qp), dp), sine(2), epsilon(x), "not beside it")
     end subroutine two_are_as_in_lanes
+
+    subroutine any_number_is_as_in_lanes()
+        !! None, fewer than a vector has, as many, and more; nothing behind them is touched.
+        integer, parameter :: most = 3*lanes
+        real(dp) :: x(most), s(most), c(most), sine(most + 1), cosine(most + 1)
+        integer :: i, n
+
+        x = [(0.37_dp*i - 3.0_dp, i=1, most)]
+        do i = 1, most, lanes
+            call sine_cosine(x(i:i + lanes - 1), s(i:i + lanes - 1), c(i:i + lanes - 1))
+        end do
+        do n = 0, most
+            sine = 2.0_dp
+            cosine = 3.0_dp
+            call sines_cosines(n, x(:n), sine(:n), cosine(:n))
+            call assertEqual(s(:n), sine(:n), message="sines as in lanes")
+            call assertEqual(c(:n), cosine(:n), message="cosines as in lanes")
+            call assertTrue(all(sine(n + 1:) >= 2.0_dp) .and. all(cosine(n + 1:) >= 3.0_dp), &
+                            "no more than so many")
+        end do
+    end subroutine any_number_is_as_in_lanes
 
     subroutine compare(x, worst)
         real(dp), intent(in) :: x(lanes)

@@ -8,6 +8,7 @@ module test_written_refusals
     use lagrangia_scene_reader, only: parse_scene
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
+    use test_rare_refusals, only: rare_refusals_suite
     implicit none (type, external)
     private
     public :: written_refusals_suite
@@ -33,6 +34,7 @@ contains
         call suite%addTest(TestMethod("values_of_parameters", values_of_parameters))
         call suite%addTest(TestMethod("long_formulas", long_formulas))
         call suite%addTest(TestMethod("unused_parameters_are_said", unused_parameters_are_said))
+        call suite%addTest(rare_refusals_suite())
     end function written_refusals_suite
 
     subroutine read_own(group, scene, error, parameters, start)
