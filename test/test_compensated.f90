@@ -4,11 +4,11 @@ module test_compensated
                      assertLessThan, assertTrue
     use lagrangia_atwood, only: atwood_t
     use lagrangia_command_line, only: word_t
-    use lagrangia_description, only: description_t
+    use lagrangia_description, only: description_t, name_length
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
-    use lagrangia_methods, only: new_integrator
+    use lagrangia_methods, only: method_names, new_integrator
     use lagrangia_oscillator, only: oscillator_t
     use lagrangia_scene, only: scene_lines, scene_t
     use lagrangia_summation, only: add
@@ -31,6 +31,8 @@ contains
                                       verlet_keeps_its_own_energy_longer))
         call suite%addTest(TestMethod("constant_accelerations_lose_nothing", &
                                       constant_accelerations_lose_nothing))
+        call suite%addTest(TestMethod("as_many_evaluations_as_without", &
+                                      as_many_evaluations_as_without))
         call suite%addTest(TestMethod("low_parts_belong_to_their_state", &
                                       low_parts_belong_to_their_state))
         call suite%addTest(TestMethod("a_scene_may_ask_for_it", a_scene_may_ask_for_it))
@@ -142,6 +144,41 @@ contains
             call assertGreaterThan(way(1), 2.0_dp*way(2), message=trim(names(i))//": plain")
         end do
     end subroutine constant_accelerations_lose_nothing
+
+    subroutine as_many_evaluations_as_without()
+        !! Sums that keep more cost additions only, and each is counted: of every method that has
+        !! such sums, in one go or in two.
+        class(integrator_t), allocatable :: method
+        character(name_length), allocatable :: names(:)
+        type(oscillator_t) :: system
+        type(error_t), allocatable :: error
+        real(dp) :: q(1), v(1)
+        integer(i8) :: counts(2)
+        integer :: i, k, tried
+
+        call system%configure([1.3_dp, 0.7_dp], error)
+        allocate (names, source=method_names())
+        tried = 0
+        do i = 1, size(names)
+            counts = 0
+            do k = 1, 2
+                call new_integrator(trim(names(i)), method, error, compensated=k == 2)
+                if (.not. allocated(error)) call method%prepare(system, error)
+                if (allocated(error)) exit
+                q = 1.0_dp
+                v = 0.3_dp
+                call method%start(system, 0.0_dp, q, v)
+                call method%advance(system, 0.0_dp, 0.1_dp, 0_i8, 3_i8, q, v)
+                call method%advance(system, 0.0_dp, 0.1_dp, 3_i8, 7_i8, q, v)
+                counts(k) = method%evaluations
+            end do
+            if (allocated(error)) cycle
+            tried = tried + 1
+            call assertGreaterThan(counts(1), 9_i8, message=trim(names(i))//": counted")
+            call assertEqual(counts(1), counts(2), message=trim(names(i))//": no more")
+        end do
+        call assertGreaterThan(tried, 4, message="methods with such sums")
+    end subroutine as_many_evaluations_as_without
 
     subroutine low_parts_belong_to_their_state()
         !! A state from elsewhere, as after a bounce, is taken as it is.

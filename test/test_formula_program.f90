@@ -76,6 +76,8 @@ contains
             lane = draw_number(lanes)
             many(lane, :) = values
             call new_formula_program(program, e, n)
+            call assertTrue(minval(program%places) >= 1 .and. maxval(program%places) <= &
+                            program%registers, "each result has a register")
             call new_formula_program(bound_program, e, n, [.true., .false., .true., .false.], &
                                      values)
             call program%evaluate(values, results)
@@ -146,8 +148,22 @@ contains
     end subroutine printed_formulas_are_the_same_formulas
 
     subroutine many_registers_are_as_good()
-        !! 400 sines that are all needed at the end: more registers than the stack has room for.
-        integer, parameter :: terms = 400
+        !! Sines that are all needed at the end: 400, more than the stack has room for, and about as
+        !! many as it has, where formulas of doubles or of hyper-dual numbers begin to need more.
+        integer :: terms
+
+        do terms = 15, 45
+            call sum_and_product(terms)
+        end do
+        do terms = 75, 145
+            call sum_and_product(terms)
+        end do
+        call sum_and_product(400)
+    end subroutine many_registers_are_as_good
+
+    subroutine sum_and_product(terms)
+        !! Of so many sines.
+        integer, intent(in) :: terms
         type(expression_t) :: e(1), x
         type(formula_program_t) :: program
         type(hyperdual_t) :: found(1)
@@ -174,7 +190,7 @@ contains
         many = 0.5_dp
         call program%evaluate(many, all)
         call assertEqual(expected, all(lanes, 1), 1e-12_dp*abs(expected), "lanes")
-    end subroutine many_registers_are_as_good
+    end subroutine sum_and_product
 
     subroutine powers_of_two_and_signs_meet()
         !! Fewer registers, and the same bits.

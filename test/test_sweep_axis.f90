@@ -1,7 +1,9 @@
 module test_sweep_axis
     !! Axes of a sweep: their values, their names, and what cannot be one.
     use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_catalogue, only: nth_system
     use lagrangia_command_line, only: word_t
+    use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_random_draws, only: random_t
@@ -10,6 +12,7 @@ module test_sweep_axis
     use lagrangia_sweep, only: sweep_t
     use lagrangia_sweep_axis, only: new_sweep_axis, sweep_axis_t
     use lagrangia_system, only: system_t
+    use lagrangia_text, only: to_text
     use sweep_numbers, only: make => make_sweep
     implicit none (type, external)
     private
@@ -26,6 +29,8 @@ contains
 
         suite = TestSuite("sweep_axis")
         call suite%addTest(TestMethod("axes_have_their_ends", axes_have_their_ends))
+        call suite%addTest(TestMethod("parameters_of_several_numbers", &
+                                      parameters_of_several_numbers))
         call suite%addTest(TestMethod("an_axis_of_any_length", an_axis_of_any_length))
         call suite%addTest(TestMethod("an_axis_is_drawn_by_its_seed", an_axis_is_drawn_by_its_seed))
         call suite%addTest(TestMethod("bad_axes_are_refused", bad_axes_are_refused))
@@ -87,13 +92,66 @@ contains
         call axis%set(3_i8, q, v, p)
         call assertEqual([0.0_dp, 3.0_dp], v, 0.0_dp, "a velocity")
         call assertEqual("rad/s", trim(axis%unit), "a velocity's unit")
+        call assertFalse(axis%is_parameter(), "a velocity is no parameter")
+        call read_axis("v(1)=1:5:3", axis, error)
+        call axis%set(3_i8, q, v, p)
+        call assertEqual([5.0_dp, 3.0_dp], v, 0.0_dp, "a velocity by its number")
+        call assertEqual([0.0_dp, 0.0_dp], q, 0.0_dp, "nothing else")
+        call assertEqual("rad/s", trim(axis%unit), "its unit")
         call read_axis("q(2)=1:3:3", axis, error)
         call axis%set(2_i8, q, v, p)
         call assertEqual([0.0_dp, 2.0_dp], q, 0.0_dp, "a coordinate by its number")
+        call assertFalse(axis%is_parameter(), "a coordinate is no parameter")
         call read_axis("theta1=-1.D-1:pi/2d0+.5d0:2", axis, error)
         call assertFalse(allocated(error), "exponents of doubles")
         call assertEqual([-0.1_dp, acos(0.0_dp) + 0.5_dp], all_of(axis), 1e-15_dp, "doubles")
     end subroutine axes_have_their_ends
+
+    subroutine parameters_of_several_numbers()
+        !! Each by its number, and those behind them, in every system of the catalogue: the axis
+        !! changes the number of its name alone.
+        class(system_t), allocatable :: system
+        type(description_t) :: d
+        integer :: i, j, k, place
+
+        do i = 1, 99
+            call nth_system(i, system)
+            if (.not. allocated(system)) exit
+            call system%describe(d)
+            place = 0
+            do j = 1, size(d%parameters)
+                do k = 1, d%parameters(j)%count
+                    place = place + 1
+                    if (d%parameters(j)%count == 1) call set_by(trim(d%parameters(j)%name))
+                    if (d%parameters(j)%count > 1) call set_by(trim(d%parameters(j)%name)//"("// &
+                                                               to_text(k)//")")
+                end do
+            end do
+        end do
+        call assertTrue(i > 10, "the catalogue")
+    contains
+        subroutine set_by(name)
+            !! To 2.5, by this name.
+            character(*), intent(in) :: name
+            type(sweep_axis_t) :: axis
+            type(random_t) :: random
+            type(error_t), allocatable :: error
+            real(dp) :: q(system%ndof), v(system%ndof), p(sum(d%parameters%count))
+            real(dp) :: expected(size(p))
+
+            call new_sweep_axis(axis, name//"=2.5:2.5:1", system, random, error)
+            call assertFalse(allocated(error), trim(d%name)//": "//name)
+            if (allocated(error)) return
+            q = 0.0_dp
+            v = 0.0_dp
+            p = 0.0_dp
+            expected = 0.0_dp
+            expected(place) = 2.5_dp
+            call axis%set(1_i8, q, v, p)
+            call assertEqual(expected, p, 0.0_dp, trim(d%name)//": "//name)
+            call assertTrue(axis%is_parameter(), trim(d%name)//": "//name)
+        end subroutine set_by
+    end subroutine parameters_of_several_numbers
 
     subroutine an_axis_of_any_length()
         !! Its values are computed, not kept: 1e15 of them would take 8 PB.
@@ -143,7 +201,7 @@ contains
 
     subroutine bad_axes_are_refused()
         !! In one line that says what is wrong.
-        character(*), parameter :: bad(2, 19) = reshape([character(40) :: &
+        character(*), parameter :: bad(2, 21) = reshape([character(40) :: &
             "theta1", "has no '='", &
             "theta=0:1:5", "did you mean 'theta1'?", &
             "theta1=0:1", "needs FROM:TO:COUNT", &
@@ -153,6 +211,8 @@ contains
             "theta1=0:1:5:lin", "neither 'log' nor 'random'", &
             "theta1=0:1:5:log", "both ends must be above 0", &
             "theta1=0:1:1", "one value but two ends", &
+            "theta1=1:0:1", "one value but two ends", &
+            "theta1=0:1:3:log:x:y", "'log:x:y' is neither 'log' nor 'random'", &
             "theta1=1e-320:1:3:log", "too far apart", &
             "theta1=1e300:1e-10:3:log", "too far apart", &
             "theta1=-1e308:1e308:3:random", "too far apart", &
@@ -162,7 +222,7 @@ contains
             "theta1=0:1d+:5", "a blank is missing", &
             "theta1=0:1/0:5", "axis theta1: '1/0' is no number", &
             "theta1=0:1:1000000000000001", "from 1 to 1000000000000000, not", &
-            "theta1=0:1:100000001:random", "from 1 to 100000000, not"], [2, 19])
+            "theta1=0:1:100000001:random", "from 1 to 100000000, not"], [2, 21])
         type(sweep_axis_t) :: axis
         type(error_t), allocatable :: error
         integer :: i
