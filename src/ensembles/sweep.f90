@@ -4,6 +4,7 @@ module lagrangia_sweep
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
     use lagrangia_attractor, only: signature_size
     use lagrangia_columns, only: columns_t
+    use lagrangia_composition_table, only: find_row, row_t
     use lagrangia_description, only: default_values, description_t, name_length, velocity_names
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_events, only: column_event_t, new_column_event
@@ -319,13 +320,15 @@ contains
     end subroutine adapt_scene
 
     function fits_lanes(sweep) result(yes)
-        !! Can the trajectories be computed in lanes? They go by steps of `rk4` or by `dop853` and a
-        !! tolerance, what is kept is seen in the steps themselves, and they have one system, or one
-        !! whose motion is known as formulas of its parameters. For a compiled system these pay by
-        !! `dop853` and up to two coordinates; else its own equations alone take less time.
+        !! Can the trajectories be computed in lanes? They go by steps of `rk4` or of a splitting
+        !! method, or by `dop853` and a tolerance, what is kept is seen in the steps themselves, and
+        !! they have one system, or one whose motion is known as formulas of its parameters. For a
+        !! compiled system these pay by `dop853` and up to two coordinates; else its own equations
+        !! alone take less time.
         type(sweep_t), intent(in) :: sweep  !! as `new_sweep` made it
         logical :: yes
         class(reduced_t), allocatable :: reduced
+        type(row_t) :: splitting
 
         yes = follows_displacements(sweep)
         if (yes) return
@@ -339,6 +342,11 @@ contains
             if (any(sweep%axes%is_parameter())) yes = yes .and. sweep%variational%known .and. &
                 (sweep%variational%is_code .or. scene%tolerance > 0.0_dp .and. system%ndof <= 2)
             if (scene%method == "rk4" .and. scene%tolerance <= 0.0_dp) return
+            call find_row(scene%method, splitting)
+            if (splitting%order > 0) then
+                yes = yes .and. scene%tolerance <= 0.0_dp .and. .not. system%velocity_forces
+                return
+            end if
             yes = yes .and. scene%method == "dop853" .and. scene%tolerance > 0.0_dp
             if (.not. yes) return
             call system%reduce(reduced)  ! a single trajectory leaves the cyclic coordinate out

@@ -1,11 +1,12 @@
 module lagrangia_sweep_lanes
-    !! Trajectories in the lanes of vector registers, where a sweep goes by steps of `rk4` or by
-    !! `dop853` and a tolerance, and keeps what the steps themselves show: columns at the end and
+    !! Trajectories in the lanes of vector registers, where a sweep goes by steps of `rk4` or of a
+    !! splitting method, or by `dop853` and a tolerance, and keeps what the steps themselves show: columns at the end and
     !! their extremes, when an angle goes over the top, points of a stroboscope. A lane whose
     !! trajectory has ended takes the next.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_attractor, only: strobed_t
     use lagrangia_columns, only: columns_t
+    use lagrangia_composition_lanes, only: composition_lanes_t, new_composition_lanes
     use lagrangia_dop853_lanes, only: dop853_lanes_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_integrator, only: dense_integrator_t
@@ -56,6 +57,7 @@ contains
         integer(i8), intent(out) :: first_failed    !! number of the first of these, or huge
         type(scene_t) :: scene  ! of the trajectory that is begun
         class(lane_method_t), allocatable :: method
+        type(composition_lanes_t) :: composition
         class(dense_integrator_t), allocatable :: adaptive  ! says what tolerances it can keep
         type(lane_t), target :: lane(lanes)
         type(lane_systems_t), target :: all_own   ! the lanes' own systems together
@@ -65,16 +67,22 @@ contains
         integer :: angles(count(sweep%kept%kind == keeps_flip))  ! coordinates whose flip is kept
         integer :: i, rounds
         logical :: extremes, flips_only, own_systems, samples
+        logical :: splits  ! by a method that no velocity may push
 
         scene = sweep%scene
+        splits = .false.
         if (scene%tolerance > 0.0_dp) then
             allocate (dop853_lanes_t :: method)
             call new_adaptive("dop853", adaptive)
             select type (method)
             class is (dop853_lanes_t); method%most_steps = sweep%most_steps
             end select
-        else
+        else if (scene%method == "rk4") then
             allocate (rk4_lanes_t :: method)
+        else
+            splits = .true.
+            call new_composition_lanes(composition, scene%method)
+            allocate (method, source=composition)
         end if
         own_systems = any(sweep%axes%is_parameter())
         all_systems => sweep%system
@@ -185,6 +193,7 @@ contains
                     call lane(i)%own%reduce(reduced)
                     fits = .not. allocated(reduced)
                 end if
+                if (splits) fits = fits .and. .not. lane(i)%own%velocity_forces
                 if (.not. fits) return
             end if
             system => system_of(i)

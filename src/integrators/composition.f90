@@ -6,10 +6,10 @@ module lagrangia_composition
     !! and kick, drift, kick in the velocity form. Source: Hairer, Lubich & Wanner, *Geometric
     !! Numerical Integration*, 2nd ed., secs. I.1.4, V.3; compensated sums: sec. VIII.5.
     use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-    use lagrangia_composition_table, only: nth_row, row_t
+    use lagrangia_composition_table, only: nth_row, round_row, row_t
     use lagrangia_errors, only: error_t, fail
     use lagrangia_integrator, only: integrator_t, not_started
-    use lagrangia_kinds, only: dp, i8, qp
+    use lagrangia_kinds, only: dp, i8
     use lagrangia_summation, only: add, add_pair
     use lagrangia_system, only: system_t
     implicit none (type, external)
@@ -102,8 +102,6 @@ contains
         class(composition_t), intent(inout) :: self
         integer, intent(in) :: i
         type(row_t) :: row
-        real(qp), allocatable :: node(:)
-        integer :: s
 
         call nth_row(i, row)
         self%row = i
@@ -114,13 +112,7 @@ contains
         self%step_limit = row%step_limit
         self%symplectic = .true.
         self%reversible = .true.
-        self%drift = real(row%drift, dp)
-        self%kick = real(row%kick, dp)
-        allocate (node, source=row%drift)
-        do s = 2, size(node)
-            node(s) = node(s - 1) + row%drift(s)
-        end do
-        self%node = real(node, dp)
+        call round_row(row, self%drift, self%kick, self%node)
     end subroutine set_row
 
     pure subroutine prepare(self, system, error)

@@ -13,7 +13,7 @@ module lagrangia_composition_table
     use lagrangia_kinds, only: dp, qp
     implicit none (type, external)
     private
-    public :: row_t, nth_row
+    public :: find_row, nth_row, round_row, row_t
 
     type :: row_t
         character(name_length) :: name = ""
@@ -102,6 +102,38 @@ contains
             row%kick = [blanes_moan6_kick, blanes_moan6_kick(7:1:-1)]
         end select
     end subroutine nth_row
+
+    pure subroutine find_row(name, row)
+        !! The method of this name.
+        character(*), intent(in) :: name
+        type(row_t), intent(out) :: row  !! of order 0 where there is none
+        integer :: i
+
+        i = 0
+        do
+            i = i + 1
+            call nth_row(i, row)
+            if (row%order == 0 .or. row%name == name) return
+        end do
+    end subroutine find_row
+
+    pure subroutine round_row(row, drift, kick, node)
+        !! As the steps use it.
+        type(row_t), intent(in) :: row
+        real(dp), allocatable, intent(out) :: drift(:), kick(:)  !! fractions of the step
+        real(dp), allocatable, intent(out) :: node(:)            !! where accelerations are needed
+        real(qp) :: reached
+        integer :: s
+
+        drift = real(row%drift, dp)
+        kick = real(row%kick, dp)
+        node = drift
+        reached = 0.0_qp
+        do s = 1, size(node)
+            reached = reached + row%drift(s)
+            node(s) = real(reached, dp)
+        end do
+    end subroutine round_row
 
     pure subroutine fill(row, name, order, step_limit, half, title, kick_first)
         !! A composition of Verlet steps: mirror the half that the table gives, and merge.
