@@ -134,6 +134,9 @@ for dt in 0.2 0.3; do run compare pendulum --methods rk4,verlet --animate --set 
 check "compare --animate: two methods in one film, files of each change" eval '[ $status -eq 0 ] && grep -q "\"reference\": \"verlet\"" "$work/cmp/pendulum_dt_0.2_methods.html" && [ "$(wc -c <"$work/cmp/pendulum_dt_0.3_methods.html")" -lt 300000 ] && grep -q "^film: .*pendulum_dt_0.3_methods.html" "$work/out"'
 refuses 2 "--animate: a film shows two methods, not 3" compare pendulum --methods rk4,verlet,dop853 --animate --output "$work/none"
 refuses 2 "--animate: a film shows two methods of one motion" compare pendulum --starts "1 2" --animate --output "$work/none"
+mkdir -p "$work/named/pendulum_methods.html"
+run compare pendulum --methods rk4,verlet --output "$work/named"
+check "compare without --animate: what its film would be called does not matter" [ $status -eq 0 ]
 run run pendulum cart_pendulum --overlay --quiet --output "$work/cmp"
 check "run --overlay: the columns that both have" eval '[ $status -eq 0 ] && [ "$(grep -c "^plot " "$work/cmp/overlay.gp")" -eq 2 ] && grep -q "data2 = folder.\"cart_pendulum.dat\"" "$work/cmp/overlay.gp"'
 refuses 2 "compare what?" compare

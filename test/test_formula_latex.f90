@@ -34,6 +34,8 @@ contains
         call is("(x + l)^2/(2 m)", "\frac{\left(x + \ell\right)^{2}}{2 m}")
         call is("(g/l)^2 x", "\left(\frac{g}{\ell}\right)^{2} x")
         call is("exp(x)^2 |x|^2", "\left(\mathrm{e}^{x}\right)^{2} \left(\left|x\right|\right)^{2}")
+        call is("exp(x)^2 m", "\left(\mathrm{e}^{x}\right)^{2} m")
+        call is("sqrt(x)^2 m", "\left(\sqrt{x}\right)^{2} m")
         call is("x*2 - (x - (m - g))", "x \cdot 2 - \left(x - \left(m - g\right)\right)")
         call is("-(x + m) + 1e-30 x + pi", "-\left(x + m\right) + 1 \cdot 10^{-30} x + \pi")
         call is("x^(m + 1)", "x^{m + 1}")

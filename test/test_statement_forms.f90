@@ -6,6 +6,7 @@ module test_statement_forms
     use lagrangia_kinds, only: dp
     use lagrangia_random_draws, only: random_t
     use lagrangia_text, only: to_text
+    use test_consequences, only: consequences_suite
     use traced_sheets, only: traced
     use traced_sheets, only: traced
     use tried_responses, only: graded
@@ -35,6 +36,7 @@ contains
         call suite%addTest(TestMethod("about_another_equilibrium", about_another_equilibrium))
         call suite%addTest(TestMethod("remedies", remedies))
         call suite%addTest(TestMethod("typos_have_a_place", typos_have_a_place))
+        call suite%addTest(consequences_suite())
     end function statement_forms_suite
 
     subroutine derivatives_by_the_time()

@@ -25,9 +25,9 @@ module lagrangia_fixed_lanes
     contains
         procedure(advance_i), deferred :: advance
         procedure :: prepare
-        procedure, non_overridden :: prepare_states => prepare
+        procedure, non_overridable :: prepare_states => prepare
         procedure :: begin
-        procedure, non_overridden :: begin_steps => begin
+        procedure, non_overridable :: begin_steps => begin
         procedure :: step
         procedure :: state_at
         procedure :: may_flip

@@ -1,8 +1,8 @@
 module lagrangia_sweep_lanes
     !! Trajectories in the lanes of vector registers, where a sweep goes by steps of `rk4` or of a
-    !! splitting method, or by `dop853` and a tolerance, and keeps what the steps themselves show: columns at the end and
-    !! their extremes, when an angle goes over the top, points of a stroboscope. A lane whose
-    !! trajectory has ended takes the next.
+    !! splitting method, or by `dop853` and a tolerance, and keeps what the steps themselves show:
+    !! columns at the end and their extremes, when an angle goes over the top, points of a
+    !! stroboscope. A lane whose trajectory has ended takes the next.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_attractor, only: strobed_t
     use lagrangia_columns, only: columns_t
