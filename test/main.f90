@@ -177,7 +177,6 @@ module suites
     use test_small_energies, only: small_energies_suite
     use test_small_oscillations, only: small_oscillations_suite
     use test_solve, only: solve_suite
-    use test_splitting_lanes, only: splitting_lanes_suite
     use test_statement, only: statement_suite
     use test_statement_forms, only: statement_forms_suite
     use test_step_warning, only: step_warning_suite
@@ -404,7 +403,6 @@ contains
         call suite%addTest(stress_systems_suite())
         call suite%addTest(stress_texts_suite())
         call suite%addTest(solve_suite())
-        call suite%addTest(splitting_lanes_suite())
         call suite%addTest(statement_suite())
         call suite%addTest(statement_forms_suite())
         call suite%addTest(sweep_suite())

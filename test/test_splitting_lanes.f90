@@ -40,8 +40,8 @@ contains
         character(*), intent(in) :: duration
         character(:), allocatable :: text
 
-        text = "&scene system = 'springs', method = '"//trim(method)//"', dt = 0.07, every = 4, "// &
-               "duration = "//duration//", q = 1, 0.5 / &lagrangian coordinates = 'x', 'y', "// &
+        text = "&scene system = 'springs', method = '"//trim(method)//"', dt = 0.07, every = 4,"// &
+               " duration = "//duration//", q = 1, 0.5 / &lagrangian coordinates = 'x', 'y', "// &
                "parameters = 'k', L = '(x_dot^2 + y_dot^2)/2 - k (x^2 + y^2)/2 - x^2 y^2/4 "// &
                "+ x t/10' / &springs k = 1 /"
     end function spring
@@ -103,8 +103,8 @@ contains
         integer :: found, i
 
         do i = 1, size(methods)
-            call make("&scene system = 'pendulum', method = '"//trim(methods(i))//"', dt = 0.01, "// &
-                      "duration = 3, q = 1 /", ["theta_dot=4:8:11"], &
+            call make("&scene system = 'pendulum', method = '"//trim(methods(i))//"', dt = 0.01,"// &
+                      " duration = 3, q = 1 /", ["theta_dot=4:8:11"], &
                       [character(12) :: "theta", "energy_drift", "flip theta"], sweep)
             call compare(sweep, 1e-11_dp, found)
             call assertTrue(found > 22 .and. found < 33, "some go over: "//to_text(found))
@@ -118,8 +118,8 @@ contains
 
         do i = 1, 2
             call make("&scene system = 'shaken', method = '"//trim(methods(i))//"', dt = 0.01, "// &
-                      "duration = 6, q = 0.3 / &lagrangian coordinates = 'x', parameters = 'W', "// &
-                      "L = 'x_dot^2/2 - x^2/2 - x^4/4 + x cos(W t)' / &shaken W = 2 / "// &
+                      "duration = 6, q = 0.3 / &lagrangian coordinates = 'x', parameters = 'W',"// &
+                      " L = 'x_dot^2/2 - x^2/2 - x^4/4 + x cos(W t)' / &shaken W = 2 / "// &
                       "&sweep strobe = '2 pi/W', points = 9 /", ["W=2:9:13"], &
                       [character(5) :: "x", "x_dot", "t"], sweep)
             call compare(sweep, 1e-11_dp, found)
@@ -136,8 +136,8 @@ contains
         integer :: k
 
         do k = 1, size(methods)
-            call make("&scene system = 'runaway', method = '"//trim(methods(k))//"', dt = 0.01, "// &
-                      "duration = 2.5, q = 0.3 / &lagrangian coordinates = 'x', "// &
+            call make("&scene system = 'runaway', method = '"//trim(methods(k))//"', dt = 0.01,"// &
+                      " duration = 2.5, q = 0.3 / &lagrangian coordinates = 'x', "// &
                       "L = 'x_dot^2/2 + x^4/4' /", ["x=-2:2:9"], ["x"], sweep)
             call assertTrue(fits_lanes(sweep), "in lanes")
             call compute_lanes(sweep, 1_i8, 9_i8, together, failures, first)

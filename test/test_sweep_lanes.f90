@@ -15,6 +15,7 @@ module test_sweep_lanes
     use lagrangia_sweep_trajectory, only: compute_one
     use lagrangia_text, only: to_text
     use sweep_numbers, only: compute_numbers, make => make_sweep, sweep_numbers_t
+    use test_splitting_lanes, only: splitting_lanes_suite
     implicit none (type, external)
     private
     public :: sweep_lanes_suite
@@ -37,6 +38,7 @@ contains
         type(TestSuite) :: suite
 
         suite = TestSuite("sweep_lanes")
+        call suite%addTest(splitting_lanes_suite())
         call suite%addTest(TestMethod("there_and_back", there_and_back))
         call suite%addTest(TestMethod("a_lane_is_a_single_trajectory", &
                                       a_lane_is_a_single_trajectory))

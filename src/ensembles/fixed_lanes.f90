@@ -51,7 +51,7 @@ contains
     pure subroutine prepare(self, system)
         !! See `lane_method_t`.
         class(fixed_lanes_t), intent(inout) :: self
-        class(system_t), intent(in) :: system
+        class(system_t), intent(in) :: system  !! of all lanes
         real(dp) :: both(lanes, 2*system%ndof)
 
         both = 0.0_dp
@@ -62,9 +62,9 @@ contains
     pure subroutine begin(self, system, lane, scene)
         !! See `lane_method_t`.
         class(fixed_lanes_t), intent(inout) :: self
-        class(system_t), intent(in) :: system
-        integer, intent(in) :: lane
-        type(scene_t), intent(in) :: scene
+        class(system_t), intent(in) :: system  !! of all lanes
+        integer, intent(in) :: lane            !! its number
+        type(scene_t), intent(in) :: scene     !! start, step and duration of its trajectory
 
         self%y(lane, :system%ndof) = scene%q
         self%y(lane, system%ndof + 1:) = scene%v

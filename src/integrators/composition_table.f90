@@ -105,8 +105,8 @@ contains
 
     pure subroutine find_row(name, row)
         !! The method of this name.
-        character(*), intent(in) :: name
-        type(row_t), intent(out) :: row  !! of order 0 where there is none
+        character(*), intent(in) :: name  !! as in a scene
+        type(row_t), intent(out) :: row   !! of order 0 where there is none
         integer :: i
 
         i = 0
@@ -119,7 +119,7 @@ contains
 
     pure subroutine round_row(row, drift, kick, node)
         !! As the steps use it.
-        type(row_t), intent(in) :: row
+        type(row_t), intent(in) :: row                           !! of the table
         real(dp), allocatable, intent(out) :: drift(:), kick(:)  !! fractions of the step
         real(dp), allocatable, intent(out) :: node(:)            !! where accelerations are needed
         real(qp) :: reached
