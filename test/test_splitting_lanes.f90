@@ -103,7 +103,7 @@ contains
         integer :: found, i
 
         do i = 1, size(methods)
-            call make("&scene system = 'pendulum', method = '"//trim(methods(i))//"', dt = 0.01,"// &
+            call make("&scene system = 'pendulum', method = '"//trim(methods(i))//"', dt=0.01,"// &
                       " duration = 3, q = 1 /", ["theta_dot=4:8:11"], &
                       [character(12) :: "theta", "energy_drift", "flip theta"], sweep)
             call compare(sweep, 1e-11_dp, found)
