@@ -144,8 +144,11 @@ contains
         real(dp) :: amplitude(9), w(9)
         integer(i8) :: i
 
-        call compute(text, ["drive_frequency=0.4:2:9"], ["max x"], 1, result, error, sweep)
+        call compute(text, ["drive_frequency=0.4:2:9"], [character(11) :: "max x", "exact max x", &
+            "min x", "exact min x"], 1, result, error, sweep)
         call assertFalse(allocated(error), "all can be computed")
+        call assertEqual(result%values(2, :), result%values(1, :), 1e-9_dp, "largest")
+        call assertEqual(result%values(4, :), result%values(3, :), 1e-9_dp, "smallest")
         w = sweep%axes(1)%value([(i, i=1_i8, 9_i8)])
         amplitude = 0.7_dp/sqrt((3 - 2*w**2)**2 + (0.5_dp*w)**2)
         call assertEqual(0.0_dp, maxval(abs(result%values(1, :)/amplitude - 1)), 2e-4_dp, &

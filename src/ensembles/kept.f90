@@ -8,6 +8,7 @@ module lagrangia_kept
     !! | `max theta`, `min theta` | its largest, its smallest value among the samples |
     !! | `period`, `period x` | of the first coordinate, or that one, from its turning points |
     !! | `exact period` | by the closed form of the start |
+    !! | `exact max x`, `exact min x` | of the closed form's coordinate, at the same samples |
     !! | `first theta = 0.5 rising` | the time of the first event |
     !! | `flip theta2` | the time at which the angle first goes over the top: plus or minus pi |
     !! | `lyapunov` | the largest Lyapunov exponent, from the time `after` to the end |
@@ -31,13 +32,15 @@ module lagrangia_kept
     private
     public :: is_lyapunov, keeper_t, kept_t, read_kept, wrapped
     public :: keeps_attractor, keeps_wrapped
-    public :: keeps_end, keeps_event, keeps_exact_period, keeps_flip, keeps_largest
+    public :: keeps_end, keeps_event, keeps_flip, keeps_largest
+    public :: keeps_exact_largest, keeps_exact_period, keeps_exact_smallest
     public :: keeps_lyapunov, keeps_lyapunov_error, keeps_period, keeps_smallest
 
     integer, parameter :: keeps_end = 1, keeps_largest = 2, keeps_smallest = 3, keeps_period = 4
     integer, parameter :: keeps_exact_period = 5, keeps_event = 6, keeps_flip = 7
     integer, parameter :: keeps_lyapunov = 8, keeps_lyapunov_error = 9
     integer, parameter :: keeps_wrapped = 10, keeps_attractor = 11
+    integer, parameter :: keeps_exact_largest = 12, keeps_exact_smallest = 13
 
     type :: kept_t
         !! One number of a trajectory.
@@ -46,7 +49,7 @@ module lagrangia_kept
         character(16) :: unit = "1"
         integer :: kind = 0
         integer :: column = 0      !! of the columns that are evaluated
-        integer :: coordinate = 0  !! whose period or flip it is
+        integer :: coordinate = 0  !! whose period, flip or exact extreme it is
         integer :: events(2) = 0   !! the first of these is the time; 0: no event
     end type kept_t
 
@@ -128,13 +131,18 @@ contains
                           " characters is needed")
             else if (text == "") then
                 call fail(error, "what is to be kept? a column, 'max COLUMN', 'min COLUMN', "// &
-                          "'wrapped ANGLE', 'period', 'exact period', 'first EVENT', "// &
-                          "'flip ANGLE', 'lyapunov', 'attractor'")
+                          "'wrapped ANGLE', 'period', 'exact period', 'exact max "// &
+                          "COORDINATE', 'first EVENT', 'flip ANGLE', 'lyapunov', 'attractor'")
             else if (any(text == ["first", "max  ", "min  "])) then
                 call fail(error, "what is wanted of what? 'first theta = 0.5 rising', 'max COLUMN'")
             else if (text == "exact period") then
                 this%kind = keeps_exact_period
                 this%unit = "s"
+            else if (index(text, "exact max ") == 1 .or. index(text, "exact min ") == 1) then
+                this%kind = merge(keeps_exact_largest, keeps_exact_smallest, &
+                                  index(text, "exact max ") == 1)
+                call take_coordinate(trim(adjustl(rest(4:))), this%coordinate)
+                if (.not. allocated(error)) this%unit = d%coordinates(this%coordinate)%unit
             else if (text == "lyapunov" .or. text == "lyapunov error") then
                 this%kind = merge(keeps_lyapunov, keeps_lyapunov_error, text == "lyapunov")
                 this%unit = "1/s"

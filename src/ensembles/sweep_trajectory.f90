@@ -5,9 +5,9 @@ module lagrangia_sweep_trajectory
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kept, only: is_lyapunov, keeper_t, keeps_attractor, keeps_end, keeps_event, &
-                              keeps_exact_period, keeps_flip, keeps_largest, keeps_lyapunov, &
-                              keeps_lyapunov_error, keeps_period, keeps_smallest, keeps_wrapped, &
-                              wrapped
+                              keeps_exact_largest, keeps_exact_period, keeps_exact_smallest, &
+                              keeps_flip, keeps_largest, keeps_lyapunov, keeps_lyapunov_error, &
+                              keeps_period, keeps_smallest, keeps_wrapped, kept_t, wrapped
     use lagrangia_kinds, only: dp, i8
     use lagrangia_lyapunov, only: lyapunov_exponent
     use lagrangia_methods, only: exact, new_adaptive
@@ -19,6 +19,7 @@ module lagrangia_sweep_trajectory
     use lagrangia_sweep, only: exponent_method, sweep_t
     use lagrangia_system, only: check_state, system_t
     use lagrangia_text, only: to_text
+    use lagrangia_time_grid, only: time_grid_t
     use lagrangia_tolerance_floor, only: sensible_tolerance
     use lagrangia_trajectory_plan, only: plan_events, plan_steps, trajectory_plan_t
     implicit none (type, external)
@@ -61,7 +62,9 @@ contains
         call sweep%match_energy(system, scene%q, scene%v, error)
         if (.not. allocated(error)) call sweep%set_strobe(scene, after, error)
         if (allocated(error)) return
-        if (scene%method == exact .or. any(sweep%kept%kind == keeps_exact_period)) then
+        if (scene%method == exact .or. any(sweep%kept%kind == keeps_exact_period .or. &
+                                           sweep%kept%kind == keeps_exact_largest .or. &
+                                           sweep%kept%kind == keeps_exact_smallest)) then
             call system%closed_form(scene%t0, scene%q, scene%v, closed_form)
         end if
         if (scene%method == exact) then
@@ -144,11 +147,43 @@ contains
                     if (periods(n)%period() > 0.0_dp) values(i) = periods(n)%period()
                 case default
                     if (.not. allocated(closed_form)) cycle
-                    if (closed_form%period > 0.0_dp) values(i) = closed_form%period
+                    if (kept%kind /= keeps_exact_period) then
+                        values(i) = exact_extreme(closed_form, plan%times, after, t_end, &
+                                                  system%ndof, kept)
+                    else if (closed_form%period > 0.0_dp) then
+                        values(i) = closed_form%period
+                    end if
                 end select
             end associate
         end do
     end subroutine follow
+
+    pure function exact_extreme(closed_form, times, after, t_end, n, kept) result(extreme)
+        !! The largest or smallest value of a coordinate by the closed form, at the samples from
+        !! `after` to the end.
+        class(reference_t), intent(in) :: closed_form
+        type(time_grid_t), intent(in) :: times
+        real(dp), intent(in) :: after, t_end
+        integer, intent(in) :: n          !! degrees of freedom
+        type(kept_t), intent(in) :: kept  !! which coordinate, and which extreme
+        real(dp) :: extreme
+        real(dp) :: q(n), v(n), t
+        integer(i8) :: k
+
+        extreme = ieee_value(extreme, ieee_quiet_nan)
+        if (.not. closed_form%has_state) return
+        do k = 0, times%last_sample()
+            t = times%sample_time(k)
+            if (t < after) cycle
+            if (t > t_end) exit
+            call closed_form%state_at(t, q, v)
+            associate (x => q(kept%coordinate))
+                if (ieee_is_nan(extreme)) extreme = x
+                if (kept%kind == keeps_exact_largest) extreme = max(extreme, x)
+                if (kept%kind == keeps_exact_smallest) extreme = min(extreme, x)
+            end associate
+        end do
+    end function exact_extreme
 
     pure subroutine take_points(sweep, keeper, values)
         !! All numbers of the first point, then of the second; NaN where there are fewer points.

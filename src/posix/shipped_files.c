@@ -1604,7 +1604,7 @@ static const char *const files[][2] = {
         "&oscillator m = 1.0, k = 1.0, b = 0.2, drive_force = 1.0 /\n"
         "&sweep\n"
         "  over = 'drive_frequency = 0.2:3:141'\n"
-        "  keep = 'max x'\n"
+        "  keep = 'max x', 'exact max x'\n"
         "  after = 150.0\n"
         "/\n"
     },

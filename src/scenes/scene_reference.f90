@@ -126,7 +126,8 @@ module lagrangia_scene_reference
                 "parameter", "over = 'theta = -pi:pi:100', 'm = 0.1:10:50:log'"), &
         entry_t("sweep", "keep", "", absent, "of each trajectory: a column at the end, 'max "// &
                 "COLUMN', 'min COLUMN', 'wrapped ANGLE', 'period', 'exact period', "// &
-                "'first EVENT', 'flip ANGLE', 'lyapunov', 'lyapunov error', 'attractor'", &
+                "'exact max COORDINATE', 'exact min COORDINATE', 'first EVENT', 'flip "// &
+                "ANGLE', 'lyapunov', 'lyapunov error', 'attractor'", &
                 "keep = 'period', 'max theta_dot'"), &
         entry_t("sweep", "after", "s", "t0", "samples before this time don't count for max, "// &
                 "min and lyapunov", "after = 0.5"), &
@@ -156,7 +157,7 @@ contains
         character(12) :: before
         integer :: i, n
 
-        allocate (lines(5*size(entries) + 10))
+        allocate (lines(6*size(entries) + 10))
         n = 0
         before = ""
         call add("A scene is a text of groups '&group key = value, ... /'. Texts stand between "// &
@@ -190,15 +191,15 @@ contains
         subroutine add_wrapped(text)
             !! At most 100 columns.
             character(*), intent(in) :: text
-            integer :: last
+            integer :: first, last
 
-            if (len(text) <= 96) then
-                call add("    "//text)
-                return
-            end if
-            last = index(text(:96), " ", back=.true.)
-            call add("    "//text(:last - 1))
-            call add("    "//text(last + 1:))
+            first = 1
+            do while (len(text) - first + 1 > 96)
+                last = first - 1 + index(text(first:first + 95), " ", back=.true.)
+                call add("    "//text(first:last - 1))
+                first = last + 1
+            end do
+            call add("    "//text(first:))
         end subroutine add_wrapped
 
         subroutine add(text)
