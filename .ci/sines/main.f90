@@ -11,7 +11,7 @@ program sines
     implicit none (type, external)
 
     real(dp), parameter :: pi = acos(-1.0_dp)
-    character(*), parameter :: kinds(0:3) = [character(24) :: "in one turn", &
+    character(*), parameter :: kinds(0:3) = [character(25) :: "in one turn", &
         "up to the largest angle", "of all sizes", "next to multiples of pi/2"]
     character(20) :: word
     real(dp), dimension(lanes) :: x, sine, cosine

@@ -11,7 +11,7 @@ module lagrangia_sine_cosine
     !! relative errors of \(2^{-57.8}\) (sine) and \(2^{-63.9}\) (cosine). In
     !! \(\sin r = r + (r^3P + r_{low}(1 - r^2/2))\) the correction is at most 0.11 of the sum and
     !! has five roundings: all in all below one unit in the last place, as for the cosine.
-    !! (Measured against quadruple precision: 0.78.) There is no fused multiplication and
+    !! (Measured on 10^7 angles, `.ci/sines`: 0.80.) There is no fused multiplication and
     !! addition here, and must not be: see `fpm.toml`.
     !!
     !! Source: W. J. Cody and W. Waite, *Software Manual for the Elementary Functions* (1980),
