@@ -335,8 +335,7 @@ contains
         if (what == 1) return
         of_time = what > 1 .and. what <= 1 + 3*n
         moves = .true.
-        if (what > size(symbols%rates)) moves = .false.  ! a constant that the student has named
-        if (what > 1 + 3*n .and. moves) moves = symbols%rates(what) /= 0
+        if (what > 1 + 3*n) moves = symbols%rates(what) /= 0
         if (what == 0) moves = any([(meaning%depends_on(k), k=1, 1 + 3*n)])
         if (.not. moves) return
         at = reader%at + 1

@@ -41,7 +41,8 @@ module lagrangia_symbols
 contains
 
     pure subroutine add(self, name, error)
-        !! A symbol behind those that are there. Without `error` the caller vouches for the name.
+        !! A symbol behind those that are there, without a rate. Without `error` the caller vouches
+        !! for the name.
         class(symbols_t), intent(inout) :: self
         character(*), intent(in) :: name                            !! as in a formula
         type(error_t), allocatable, intent(out), optional :: error  !! no name, or one that is taken
@@ -53,6 +54,7 @@ contains
         end if
         if (.not. allocated(self%names)) allocate (self%names(0))
         self%names = [character(name_length) :: self%names, name]
+        if (allocated(self%rates)) self%rates = [self%rates, 0]
     end subroutine add
 
     pure subroutine define(self, name, meaning, error)

@@ -22,7 +22,6 @@ contains
 
         n = size(samples%role)
         call samples%symbols%add(trim(name)//hidden)
-        samples%symbols%rates = [samples%symbols%rates, 0]
         samples%role = [samples%role, role_parameter]
         samples%rate = [samples%rate, 0]
         allocate (values(draws*states, n + 1))

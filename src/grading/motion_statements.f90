@@ -177,7 +177,6 @@ contains
             else
                 call symbols%add(trim(samples%constants(i)))
             end if
-            symbols%rates = [symbols%rates, 0]
         end do
     end subroutine add_constants
 

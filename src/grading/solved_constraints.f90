@@ -8,10 +8,12 @@ module lagrangia_solved_constraints
     use lagrangia_formula_parser, only: parse_equation
     use lagrangia_formula_text, only: formula_text
     use lagrangia_kinds, only: dp
+    use lagrangia_names, only: name_length
     use lagrangia_sample_names, only: role_coordinate, role_parameter, role_velocity, samples_t
     use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_substitution, only: substituted
     use lagrangia_symbols, only: symbols_t
+    use lagrangia_unknown_names, only: unknown_names
     implicit none (type, external)
     private
     public :: solve_constraint
@@ -25,11 +27,10 @@ contains
         type(samples_t), intent(in) :: samples              !! know the other names
         character(:), allocatable, intent(out) :: name      !! empty: there is none of this kind
         character(:), allocatable, intent(out) :: formula   !! that it stands for
-        character(*), parameter :: unknown = "unknown name '"
         type(symbols_t) :: symbols
         type(expression_t) :: left, right, slope, rest, zero(1)
         type(error_t), allocatable :: error
-        character(:), allocatable :: new
+        character(name_length), allocatable :: new(:)
         real(dp), allocatable :: values(:, :), nodes(:, :)
         logical :: moves
         integer :: i, place
@@ -37,17 +38,14 @@ contains
         name = ""
         formula = ""
         symbols = with_constants(samples)
-        call parse_equation(text, symbols, left, right, error)
-        if (.not. allocated(error)) return
-        i = index(error%message, unknown) + len(unknown)
-        if (i == len(unknown)) return
-        new = error%message(i:i + index(error%message(i:), "'") - 2)
-        call symbols%add(new, error)
+        call unknown_names(text, symbols, new)
+        if (size(new) /= 1) return
+        call symbols%add(trim(new(1)), error)
         if (allocated(error)) return
         call parse_equation(text, symbols, left, right, error)
         if (allocated(error)) return
         rest = left - right
-        place = symbols%find(new)
+        place = symbols%find(trim(new(1)))
         moves = .false.
         do i = 1, size(samples%role)
             if (.not. rest%depends_on(i)) cycle
@@ -64,7 +62,7 @@ contains
         zero(1) = whole(0)
         rest = substituted(rest, [place], zero)
         if (nodes(1, slope%count) > 0.0_dp) rest = zero(1) - rest
-        name = new
+        name = trim(new(1))
         formula = formula_text(rest, symbols)
     end subroutine solve_constraint
 end module lagrangia_solved_constraints

@@ -46,7 +46,6 @@ contains
 
         do i = 1, size(names)
             call symbols%add(trim(names(i)))
-            symbols%rates = [symbols%rates, 0]
         end do
     end subroutine add_unknown
 end module lagrangia_unknown_names
