@@ -30,10 +30,10 @@ module lagrangia_kept
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
     private
-    public :: is_lyapunov, keeper_t, kept_t, read_kept, wrapped
+    public :: is_exact_extreme, is_lyapunov, keeper_t, kept_t, read_kept, wrapped
     public :: keeps_attractor, keeps_wrapped
     public :: keeps_end, keeps_event, keeps_flip, keeps_largest
-    public :: keeps_exact_largest, keeps_exact_period, keeps_exact_smallest
+    public :: keeps_exact_largest, keeps_exact_period
     public :: keeps_lyapunov, keeps_lyapunov_error, keeps_period, keeps_smallest
 
     integer, parameter :: keeps_end = 1, keeps_largest = 2, keeps_smallest = 3, keeps_period = 4
@@ -83,6 +83,14 @@ contains
 
         yes = kind == keeps_lyapunov .or. kind == keeps_lyapunov_error
     end function is_lyapunov
+
+    elemental function is_exact_extreme(kind) result(yes)
+        !! It is that of the closed form at the samples.
+        integer, intent(in) :: kind  !! of a `kept_t`
+        logical :: yes
+
+        yes = kind == keeps_exact_largest .or. kind == keeps_exact_smallest
+    end function is_exact_extreme
 
     subroutine read_kept(texts, system, kept, columns, events, error)
         !! What is to be kept; the columns and the events, as a scene has them, that it takes.

@@ -8,9 +8,9 @@ module lagrangia_sweep
     use lagrangia_description, only: default_values, description_t, name_length, velocity_names
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_events, only: column_event_t, new_column_event
-    use lagrangia_kept, only: is_lyapunov, keeps_attractor, keeps_end, keeps_event, &
-                              keeps_exact_largest, keeps_exact_smallest, keeps_flip, &
-                              keeps_largest, keeps_smallest, keeps_wrapped, kept_t, read_kept
+    use lagrangia_kept, only: is_exact_extreme, is_lyapunov, keeps_attractor, keeps_end, &
+                              keeps_event, keeps_flip, keeps_largest, keeps_smallest, &
+                              keeps_wrapped, kept_t, read_kept
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: auto, exact, workhorse
     use lagrangia_names, only: advice
@@ -313,7 +313,7 @@ contains
             end if
             scene%error_estimate = .false.
             if (any(kept%kind == keeps_largest .or. kept%kind == keeps_smallest .or. &
-                    kept%kind == keeps_exact_largest .or. kept%kind == keeps_exact_smallest)) return
+                    is_exact_extreme(kept%kind))) return
             scene%samples = min(scene%samples, 1_i8)
             if (scene%tolerance > 0.0_dp) return
             steps = nint(scene%duration/scene%dt, i8)

@@ -4,8 +4,8 @@ module lagrangia_sweep_trajectory
     use lagrangia_dense_run, only: drive
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_integrator, only: dense_integrator_t
-    use lagrangia_kept, only: is_lyapunov, keeper_t, keeps_attractor, keeps_end, keeps_event, &
-                              keeps_exact_largest, keeps_exact_period, keeps_exact_smallest, &
+    use lagrangia_kept, only: is_exact_extreme, is_lyapunov, keeper_t, keeps_attractor, &
+                              keeps_end, keeps_event, keeps_exact_largest, keeps_exact_period, &
                               keeps_flip, keeps_largest, keeps_lyapunov, keeps_lyapunov_error, &
                               keeps_period, keeps_smallest, keeps_wrapped, kept_t, wrapped
     use lagrangia_kinds, only: dp, i8
@@ -63,8 +63,7 @@ contains
         if (.not. allocated(error)) call sweep%set_strobe(scene, after, error)
         if (allocated(error)) return
         if (scene%method == exact .or. any(sweep%kept%kind == keeps_exact_period .or. &
-                                           sweep%kept%kind == keeps_exact_largest .or. &
-                                           sweep%kept%kind == keeps_exact_smallest)) then
+                                           is_exact_extreme(sweep%kept%kind))) then
             call system%closed_form(scene%t0, scene%q, scene%v, closed_form)
         end if
         if (scene%method == exact) then
@@ -147,7 +146,7 @@ contains
                     if (periods(n)%period() > 0.0_dp) values(i) = periods(n)%period()
                 case default
                     if (.not. allocated(closed_form)) cycle
-                    if (kept%kind /= keeps_exact_period) then
+                    if (is_exact_extreme(kept%kind)) then
                         values(i) = exact_extreme(closed_form, plan%times, after, t_end, &
                                                   system%ndof, kept)
                     else if (closed_form%period > 0.0_dp) then
@@ -179,8 +178,7 @@ contains
             call closed_form%state_at(t, q, v)
             associate (x => q(kept%coordinate))
                 if (ieee_is_nan(extreme)) extreme = x
-                if (kept%kind == keeps_exact_largest) extreme = max(extreme, x)
-                if (kept%kind == keeps_exact_smallest) extreme = min(extreme, x)
+                extreme = merge(max(extreme, x), min(extreme, x), kept%kind == keeps_exact_largest)
             end associate
         end do
     end function exact_extreme

@@ -1,7 +1,8 @@
 module lagrangia_scene_reference
     !! Every key of a scene file: what it means, what it takes, its default, an example.
     use lagrangia_description, only: name_length
-    use lagrangia_text, only: word_t
+    use lagrangia_text, only: append_word, word_t
+    use lagrangia_wrapping, only: wrapped
     implicit none (type, external)
     private
     public :: entry_t, entries, reference_lines
@@ -155,10 +156,9 @@ contains
         type(entry_t) :: item
         character(:), allocatable :: head
         character(12) :: before
-        integer :: i, n
+        integer :: i
 
-        allocate (lines(6*size(entries) + 10))
-        n = 0
+        allocate (lines(0))
         before = ""
         call add("A scene is a text of groups '&group key = value, ... /'. Texts stand between "// &
                  "apostrophes, numbers have a")
@@ -186,27 +186,23 @@ contains
             call add("      "//trim(item%example))
             before = item%group
         end do
-        lines = lines(:n)
     contains
         subroutine add_wrapped(text)
-            !! At most 100 columns.
+            !! At most 99 columns.
             character(*), intent(in) :: text
-            integer :: first, last
+            type(word_t), allocatable :: more(:)
+            integer :: k
 
-            first = 1
-            do while (len(text) - first + 1 > 96)
-                last = first - 1 + index(text(first:first + 95), " ", back=.true.)
-                call add("    "//text(first:last - 1))
-                first = last + 1
+            call wrapped(text, 95, more)
+            do k = 1, size(more)
+                call add("    "//more(k)%text)
             end do
-            call add("    "//text(first:))
         end subroutine add_wrapped
 
         subroutine add(text)
             character(*), intent(in) :: text
 
-            n = n + 1
-            lines(n)%text = text
+            call append_word(lines, text)
         end subroutine add
     end subroutine reference_lines
 end module lagrangia_scene_reference
