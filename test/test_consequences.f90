@@ -99,6 +99,12 @@ contains
         call sheet("cart_pendulum", [character(50) :: "p_x^2 = const", "E = p_x + C", &
                                      "E = p_x - C", "p_x + t = const", "C = 2", "p_x = C"], &
                    [character(90) :: "", "", "", "the left side is 1.0", "", "*"])
+        ! its name is shown as it was typed
+        call sheet("atwood", [character(50) :: "constant: l", "y = l - pi R - x", &
+                              "V = m1 g x - m2 g y"], &
+                   [character(110) :: "", &
+                    "two changes: 'V' lacks the factor '(-1) m1/(m1 - m2)'; "// &
+                    "'m2 g (l - pi R - x)' does not belong there"])
     end subroutine sums_that_end_in_a_constant
 
     subroutine sheet(name, lines, remarks)

@@ -6,7 +6,7 @@ module lagrangia_declared_constants
     use lagrangia_symbols, only: symbols_t
     implicit none (type, external)
     private
-    public :: add_constant, with_constants
+    public :: add_constant, show_constants, with_constants
 
     character, parameter :: hidden = "!"  !! behind a name, so that no formula has it
 
@@ -50,4 +50,21 @@ contains
             if (k > 0) symbols%names(k) = samples%declared(i)
         end do
     end function with_constants
+
+    pure subroutine show_constants(samples, text)
+        !! Take the marks off the names behind `constant:`: what a student reads has the name.
+        type(samples_t), intent(in) :: samples             !! of a sheet
+        character(:), allocatable, intent(inout) :: text   !! a remark, or a state
+        integer :: at, i, n
+
+        if (.not. allocated(text)) return
+        do i = 1, size(samples%declared)
+            n = len_trim(samples%declared(i))
+            do
+                at = index(text, trim(samples%declared(i))//hidden)
+                if (at == 0) exit
+                text = text(:at + n - 1)//text(at + n + 1:)
+            end do
+        end do
+    end subroutine show_constants
 end module lagrangia_declared_constants

@@ -2,6 +2,7 @@ module lagrangia_judged_sheet
     !! The statements of a sheet, one after the other: what each defines, and what follows from
     !! what is wrong.
     use lagrangia_consequences, only: consequences_t
+    use lagrangia_declared_constants, only: show_constants
     use lagrangia_description, only: description_t
     use lagrangia_formula_characters, only: plain_letters
     use lagrangia_homework, only: homework_t
@@ -62,6 +63,10 @@ contains
             end do
         end do
         call compare_siblings(result)
+        do i = 1, n
+            call show_constants(samples, result(i)%remark)
+            call show_constants(samples, result(i)%example)
+        end do
     contains
         subroutine judge_one(at)
             integer, intent(in) :: at
