@@ -34,6 +34,7 @@ contains
         call suite%addTest(TestMethod("as many steps are taken as the duration has", whole_steps))
         call suite%addTest(TestMethod("the motion is followed to every event and the end", &
                                       every_step_is_followed))
+        call suite%addTest(TestMethod("a run that no computer ends is refused", endless_run))
         call suite%addTest(TestMethod("between fixed steps the error is of order 6", &
                                       interpolation_order))
     end function dense_run_suite
@@ -193,6 +194,42 @@ contains
             call assertEqual(0.1_dp + duration, method%t_new, message="the end")
         end do
     end subroutine whole_steps
+
+    subroutine endless_run()
+        !! A tenth of a period or so is a step: 100 s at omega = 10^17/s are 10^20 steps, which the
+        !! first 10^4 show; at 10^12/s they are 10^14, and only a limit ends them.
+        type(oscillator_t) :: system
+        type(dop853_t) :: method
+        type(event_box_t) :: events(0)
+        type(observer_box_t) :: observers(0)
+        type(time_grid_t) :: plan
+        type(error_t), allocatable :: error
+        real(dp), parameter :: omegas(2) = [1e17_dp, 1e12_dp]
+        real(dp) :: q(1), v(1), ended
+        integer :: i
+
+        do i = 1, 2
+            call system%configure([1.0_dp, omegas(i)**2], error)
+            q = 1.0_dp
+            v = 0.0_dp
+            call new_dop853(method)
+            method%most_steps = 10001
+            call new_sample_times(plan, 0.0_dp, 100.0_dp, 2_i8, error)
+            call run_dense(system, method, plan, events, observers, q, v, ended, error)
+            call assertTrue(allocated(error), "an error")
+            if (anyExceptions()) return
+            call assertEqual(3, error%status, message="status")
+            if (i == 1) then
+                call assertEqual(1, index(error%message, "10000 steps went from t = 0.0 s to "), &
+                                 message=error%message)
+                call assertTrue(index(error%message, ", more than 10^15 are needed to 100.0 s: "// &
+                                      "shorten the duration") > 0, error%message)
+            else
+                call assertEqual(1, index(error%message, "more than 10001 steps, at t = "), &
+                                 message=error%message)
+            end if
+        end do
+    end subroutine endless_run
 
     subroutine interpolation_order()
         !! Two steps of `dop853`, which is as good as exact here, and the quintic in the second.

@@ -5,6 +5,7 @@ module lagrangia_integrator
     use lagrangia_description, only: line_length, name_length
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_number_text, only: scientific
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -169,15 +170,26 @@ contains
         if (present(t_end)) self%t_end = t_end
     end subroutine stand
 
-    pure subroutine refuse_more(self, steps, error)
-        !! Fail (status 3) where there were more than `most_steps`.
+    pure subroutine refuse_more(self, steps, t0, t_end, error)
+        !! Fail (status 3) where there were more than `most_steps`, or where the first show that no
+        !! computer will come to the end: `few` steps that went less than few/endless of the way.
         class(dense_integrator_t), intent(in) :: self
-        integer(i8), intent(in) :: steps                     !! so far
-        type(error_t), allocatable, intent(inout) :: error   !! as it was, or status 3
+        integer(i8), intent(in) :: steps                    !! so far
+        real(dp), intent(in) :: t0, t_end                   !! of the whole run, s
+        type(error_t), allocatable, intent(inout) :: error  !! as it was, or status 3
+        integer(i8), parameter :: few = 10000
+        real(dp), parameter :: endless = 1e15_dp            ! steps: three years at 100 ns each
 
-        if (steps <= self%most_steps .or. allocated(error)) return
-        call fail(error, "more than "//to_text(self%most_steps)//" steps, at t = "// &
-                  to_text(self%t_new)//" s", status_numbers)
+        if (allocated(error)) return
+        if (steps > self%most_steps) then
+            call fail(error, "more than "//to_text(self%most_steps)//" steps, at t = "// &
+                      to_text(self%t_new)//" s", status_numbers)
+        else if (steps == few .and. (self%t_new - t0)*(endless/few) < t_end - t0) then
+            call fail(error, to_text(few)//" steps went from t = "//to_text(t0)//" s to "// &
+                      scientific(self%t_new, 2)//" s, more than 10^15 are needed to "// &
+                      to_text(t_end)//" s: shorten the duration; very large forces need very "// &
+                      "short steps", status_numbers)
+        end if
     end subroutine refuse_more
 
     subroutine no_compensated(self, variant)

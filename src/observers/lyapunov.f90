@@ -100,7 +100,7 @@ contains
         subroutine go_on()
             !! From `start` to `finish`, in steps of the method's own. The displacement has length 1
             !! again at the end, and on the way wherever it is not between `shortest` and `longest`.
-            integer(i8), parameter :: fine = 1000000  ! parts of the time
+            integer(i8), parameter :: fine = 10_i8**15  ! parts of the time
             real(dp) :: length
             integer :: n
 
@@ -117,7 +117,7 @@ contains
                     return
                 end if
                 steps = steps + 1
-                call method%refuse_more(steps, error)
+                call method%refuse_more(steps, t0, t_end, error)
                 if (interrupt_status() /= 0) call fail(error, "interrupted", interrupt_status())
                 if (allocated(error)) return
                 if (present(watcher)) call watcher%tick( &

@@ -8,7 +8,7 @@ module lagrangia_part
     private
     public :: part_t
 
-    integer(i8), parameter :: fine = 100000  !! steps of the whole
+    integer(i8), parameter :: fine = 10_i8**15  !! steps of the whole
 
     type, extends(observer_t) :: part_t
         class(observer_t), pointer :: whole => null()  !! is told; may be null

@@ -18,7 +18,7 @@ module lagrangia_dense_run
     public :: drive, run_dense
 
     integer, parameter :: most_at_once = 100  !! impacts at one time
-    integer(i8), parameter :: fine = 1000000  !! parts of the time, as whose number it is told
+    integer(i8), parameter :: fine = 10_i8**15  !! parts of the time, as whose number it is told
 
 contains
 
@@ -107,7 +107,7 @@ contains
                 if (.not. allocated(error)) call follow(method%t_new)
             end if
             steps = steps + 1
-            call method%refuse_more(steps, error)
+            call method%refuse_more(steps, grid%t0, t_end, error)
             if (.not. allocated(error)) call look_around()
         end do
         if (allocated(error)) return
