@@ -83,8 +83,8 @@ contains
         if (placed) call add_points(self, t, error)
         if (allocated(error)) return
         if (.not. placed) then
-            self%next_heading = "the Lagrangian"
             if (.not. allocated(self%d%kinetic_energy)) then
+                self%next_heading = "the Lagrangian"
                 if (.not. allocated(self%d%lagrangian)) then
                     call fail(error, trim(self%d%name)//" has no formula for L to derive from"// &
                               chain_hint(self%d))
@@ -94,6 +94,7 @@ contains
                 if (.not. allocated(error)) call self%add(line_lagrangian, "L", "L", l)
                 return
             end if
+            self%next_heading = "kinetic energy"
             call self%read(self%d%kinetic_energy, t, error)
             if (allocated(error)) return
             call self%add(line_kinetic, "T", "T", t)

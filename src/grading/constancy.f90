@@ -1,6 +1,7 @@
 module lagrangia_constancy
     !! Statements that something does not change: `p_x = const`, `theta_dot^2/2 = a + C`.
     use lagrangia_errors, only: error_t
+    use lagrangia_explanation, only: explanation_t
     use lagrangia_expression, only: expression_t, kind_symbol, operator(*), operator(+), &
                                     operator(-), symbol
     use lagrangia_formula_parser, only: parse_formula
@@ -43,12 +44,12 @@ contains
                        samples%symbols%find(trim(word)) == 0
     end function is_constant_word
 
-    subroutine explain_change(text, samples, remark)
+    subroutine explain_change(text, samples, explanation, remark)
         !! Why E or p_x changes: a force beside L acts, L contains t, or x is not cyclic.
         character(*), intent(in) :: text                     !! what would be constant
         type(samples_t), intent(in) :: samples               !! on the motion
-        character(:), allocatable, intent(inout) :: remark   !! what its rate lacks; changes
-        character(*), parameter :: missing = "on the left is missing "
+        type(explanation_t), intent(in) :: explanation       !! of `rate = 0`
+        character(:), allocatable, intent(inout) :: remark   !! changes
         type(expression_t) :: what, power
         type(error_t), allocatable :: error
         character(:), allocatable :: forces, name, q, rate
@@ -56,19 +57,16 @@ contains
         integer :: i, k
 
         rate = "it changes"
-        if (index(remark, missing) == 1) then
-            rate = remark(len(missing) + 1:)
-            if (rate(1:1) == "-") then
-                rate = "its rate is "//rate(2:)
-            else if (index(rate, " + ") + index(rate, " - ") == 0) then
-                rate = "its rate is -"//rate
-            else
-                rate = "it changes"
+        if (allocated(explanation%lacks)) then
+            if (explanation%lacks(1:1) == "-") then
+                rate = "its rate is "//explanation%lacks(2:)
+            else if (index(explanation%lacks, " + ") + index(explanation%lacks, " - ") == 0) then
+                rate = "its rate is -"//explanation%lacks
             end if
         end if
         call parse_formula(text, samples%symbols, what, error)
         if (allocated(error)) return
-        if (index(remark, "does not belong there") > 0) remark = "it changes: its rate is not 0"
+        if (explanation%is_surplus) remark = "it changes: its rate is not 0"
         if (what%count /= 1 .or. what%nodes(1)%kind /= kind_symbol) return
         name = trim(samples%symbols%names(what%nodes(1)%which))
         remark = rate

@@ -144,14 +144,14 @@ contains
             !! Newton for one constant at each state; NaN where it has no solution.
             integer, intent(in) :: place
             type(expression_t) :: slope
-            real(dp), allocatable :: f(:), slopes(:), best(:), step(:)
+            real(dp), dimension(size(samples%values, 1)) :: f, slopes, best, step
             real(dp) :: start
             integer :: begun, k
 
             if (allocated(values)) deallocate (values)
             allocate (values(size(samples%values, 1), n + size(names)))
             slope = derivative(residual, place)
-            allocate (best(size(values, 1)), source=ieee_value(1.0_dp, ieee_quiet_nan))
+            best = ieee_value(1.0_dp, ieee_quiet_nan)
             do begun = 1, 4
                 call draw_constants()
                 start = real(begun, dp)*0.7_dp - 1.4_dp

@@ -3,6 +3,7 @@ module lagrangia_further_slips
     !! letters alone, or what the formula of L, T, V or a momentum lacks.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_canonical_form, only: simplified
+    use lagrangia_explanation, only: explanation_t
     use lagrangia_expression, only: expression_t, kind_function, kind_number, kind_symbol, &
                                     operator(-), symbol
     use lagrangia_formula_text, only: formula_text
@@ -23,13 +24,13 @@ module lagrangia_further_slips
 
 contains
 
-    subroutine explain_further(left, right, samples, values, library, remark)
+    subroutine explain_further(left, right, samples, values, library, explanation)
         !! Say it, if it is one of these.
         type(expression_t), intent(in) :: left, right        !! both sides, which differ
         type(samples_t), intent(in) :: samples               !! know the names
         real(dp), intent(in) :: values(:, :)                 !! on the motion, omega in its place
         type(library_t), intent(in) :: library(:)            !! right terms
-        character(:), allocatable, intent(inout) :: remark   !! changes if it is
+        type(explanation_t), intent(inout) :: explanation    !! changes if it is
         character(:), allocatable :: text
 
         call try_arguments(left - right, samples, values, library, text)
@@ -37,7 +38,7 @@ contains
         if (text == "") call try_letters(left - right, samples, values, library, text)
         if (text == "") call try_parts(left - right, left%count, samples, values, library, text)
         if (text == "") call try_difference(left, right, samples, text)
-        if (text /= "") remark = text
+        if (text /= "") explanation%text = text
     end subroutine explain_further
 
     subroutine try_arguments(expression, samples, values, library, text)

@@ -52,8 +52,8 @@ contains
             attempt%verdict = is_right
             call judge_pair(one, other, chained, samples, library, explain .and. i == 1, attempt)
             if (attempt%verdict == is_right .or. (i == 1 .and. (judgement%verdict == &
-                is_unreadable .or. (.not. has_velocities(one - other, samples) .and. &
-                                    index(attempt%remark, "no single") /= 1)))) judgement = attempt
+                is_unreadable .or. .not. (has_velocities(one - other, samples) .or. &
+                                          attempt%is_unexplained)))) judgement = attempt
             if (attempt%verdict == is_right) exit
         end do
         if (judgement%verdict /= is_wrong) return
@@ -68,7 +68,8 @@ contains
             return
         else
             if (explain) then
-                call true_number(left, right, samples, judgement%remark)
+                call true_number(left, right, samples, judgement%explanation)
+                call judgement%say_why()
                 call add_small(left, right, samples, judgement%remark)
             end if
             return
@@ -149,23 +150,30 @@ contains
         else
             judgement%verdict = is_wrong
             if (.not. explain) return
-            call explain_slip(judgement%residual, merge(left%count + 1, 1, chained), samples, &
-                              values, library, judgement%remark)
             call put_example(left, right, samples, values, judgement%example)
-            if (index(judgement%remark, "no single") == 1) call explain_squares( &
-                left, right, samples, library, judgement%remark)
-            if (index(judgement%remark, "no single") == 1 .and. is_energy(left, samples)) then
-                call put_same_constant(left, judgement%residual, samples, values)
-                call explain_slip(judgement%residual, merge(left%count + 1, 1, chained), samples, &
-                                  values, library, judgement%remark)
-                if (index(judgement%remark, "no single") == 1) call explain_but_constant( &
-                    judgement%residual, left%count + 1, samples, judgement%remark)
-            end if
-            if (index(judgement%remark, "no single") == 1 .or. &
-                index(judgement%remark, "a term with") == 1 .or. &
-                index(judgement%remark, "lacks the factor 'omega'") > 0) call explain_further( &
-                left, right, samples, values, library, judgement%remark)
+            call explain_it()
         end if
+    contains
+        subroutine explain_it()
+            !! From the narrowest change to the widest.
+            integer :: first
+
+            first = merge(left%count + 1, 1, chained)
+            associate (residual => judgement%residual, explanation => judgement%explanation)
+                call explain_slip(residual, first, samples, values, library, explanation)
+                if (explanation%is_empty()) call explain_squares(left, right, samples, library, &
+                                                                 explanation)
+                if (explanation%is_empty() .and. is_energy(left, samples)) then
+                    call put_same_constant(left, residual, samples, values)
+                    call explain_slip(residual, first, samples, values, library, explanation)
+                    if (explanation%is_empty()) call explain_but_constant( &
+                        residual, left%count + 1, samples, explanation%text)
+                end if
+                if (explanation%is_empty() .or. explanation%is_vague) call explain_further( &
+                    left, right, samples, values, library, explanation)
+            end associate
+            call judgement%say_why()
+        end subroutine explain_it
     end subroutine judge_pair
 
     subroutine explain_but_constant(residual, first, samples, remark)

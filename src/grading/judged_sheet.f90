@@ -15,6 +15,7 @@ module lagrangia_judged_sheet
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: to_text, word_t
     use lagrangia_usual_names, only: add_usual_names, mark_used
+    use lagrangia_verdict, only: as_new_name
     implicit none (type, external)
     private
     public :: judge_sheet
@@ -120,13 +121,13 @@ contains
 
         do i = 1, size(result)
             if (result(i)%verdict /= is_definition) cycle
-            if (index(result(i)%remark, "taken for a new name: no small") /= 1) cycle
+            if (.not. result(i)%of_none) cycle
             do k = 1, size(result)
                 if (.not. result(k)%of_oscillation) cycle
                 if (without_number(result(k)%defines) /= &
                     without_number(result(i)%defines)) cycle
                 result(i)%verdict = is_wrong
-                result(i)%remark = result(i)%remark(len("taken for a new name: ") + 1:)
+                result(i)%remark = result(i)%remark(len(as_new_name) + 1:)
                 exit
             end do
         end do

@@ -147,8 +147,10 @@ contains
             else
                 call judge_forms(left, right, text(begun:next - 1), chained, small, samples, &
                                  library, explain, judgement)
-                if (constancy .and. judgement%verdict == is_wrong) call explain_change( &
-                    text(begun:first - 2), samples, judgement%remark)
+                if (constancy .and. explain .and. judgement%verdict == is_wrong) then
+                    call explain_change(text(begun:first - 2), samples, judgement%explanation, &
+                                        judgement%remark)
+                end if
             end if
             if (judgement%verdict /= is_right) return
             if (next > len(text)) then

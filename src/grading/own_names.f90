@@ -12,7 +12,7 @@ module lagrangia_own_names
                                          means_frequency
     use lagrangia_term_search, only: library_t
     use lagrangia_usual_names, only: find_usual
-    use lagrangia_verdict, only: is_definition, is_right, is_wrong, judgement_t
+    use lagrangia_verdict, only: as_new_name, is_definition, is_right, is_wrong, judgement_t
     implicit none (type, external)
     private
     public :: define
@@ -58,8 +58,8 @@ contains
         end if
         call define_rates(name, meaning, samples)
         call compare_usual(name, meaning, samples, judgement)
-        if (name == "T" .or. name == "V") judgement%remark = "taken for a new name: of this "// &
-            "system only L is known"
+        if (name == "T" .or. name == "V") judgement%remark = as_new_name// &
+            "of this system only L is known"
         if (judgement%verdict == is_right .or. truth%count == 0) return
         attempt%defines = name
         attempt%contradicts = judgement%contradicts
@@ -71,10 +71,11 @@ contains
         if (attempt%verdict /= is_wrong) return
         if (means_frequency(name, samples) .and. (.not. used .or. meaning%count == 1)) then
             judgement = attempt
-            if (index(attempt%remark, "no single") == 1) judgement%remark = "no small "// &
-                "oscillation has this frequency; see 'lagrangia modes'"
+            if (attempt%is_unexplained) judgement%remark = "no small oscillation has this "// &
+                "frequency; see 'lagrangia modes'"
         else if (samples%decay == 0 .and. scan(name, "0") == 0 .and. scan(name, "wt") /= 1) then
-            judgement%remark = "taken for a new name: no small oscillation has this "// &
+            judgement%of_none = .true.
+            judgement%remark = as_new_name//"no small oscillation has this "// &
                 trim(merge("period   ", "frequency", name(1:1) == "T"))
         end if
     end subroutine define
@@ -92,8 +93,8 @@ contains
         if (.not. known) return
         if (agrees) judgement%verdict = is_right
         judgement%contradicts = .not. agrees
-        judgement%remark = trim(merge("as                          ", &
-                                      "taken for a new name: not   ", agrees))//" "//label
+        judgement%remark = as_new_name//"not "//label
+        if (agrees) judgement%remark = "as "//label
     end subroutine compare_usual
 
 end module lagrangia_own_names

@@ -1,6 +1,7 @@
 module lagrangia_rounded_numbers
     !! Statements with numbers that somebody has rounded: `omega = 3.13` for 3.1321.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_explanation, only: explanation_t
     use lagrangia_expression, only: constant, expression_t, kind_number, kind_symbol, &
                                     operator(-)
     use lagrangia_kinds, only: dp
@@ -229,12 +230,12 @@ contains
         end do
     end subroutine choose
 
-    subroutine true_number(left, right, samples, remark)
+    subroutine true_number(left, right, samples, explanation)
         !! `the left side is 1.962`, where the right one is a number and the left one has always the
         !! same value; or one for each mode.
         type(expression_t), intent(in) :: left, right          !! both sides, which differ
         type(samples_t), intent(in) :: samples                 !! on the motion
-        character(:), allocatable, intent(inout) :: remark     !! changes where it is so
+        type(explanation_t), intent(inout) :: explanation      !! changes where it is so
         real(dp), allocatable :: values(:, :), results(:, :)
         character(:), allocatable :: text
         integer :: mode
@@ -253,6 +254,6 @@ contains
                 text = text//brief(r(1))
             end associate
         end do
-        if (text /= "") remark = "the left side is "//text
+        if (text /= "") explanation = explanation_t(text="the left side is "//text)
     end subroutine true_number
 end module lagrangia_rounded_numbers

@@ -2,6 +2,7 @@ module lagrangia_slip_search
     !! The one change of a wrong statement that makes it right: a sign, a factor, a letter, a dot, a
     !! function, an exponent, a term too many or one that is missing.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_explanation, only: explanation_t
     use lagrangia_expression, only: apply, expression_t, f_abs, f_cos, f_cosh, f_sin, f_sinh, &
                                     f_sqrt, &
                                     function_names, kind_function, kind_number, &
@@ -57,14 +58,15 @@ contains
         call holds(expression, samples%elsewhere, yes, judged, change)
     end function is_trivial
 
-    subroutine explain_slip(expression, first, samples, values, library, remark)
-        !! Say which change makes it right, or that no single one does.
+    subroutine explain_slip(expression, first, samples, values, library, explanation)
+        !! Find the change that makes it right.
         type(expression_t), intent(in) :: expression        !! left side less right side, wrong
         integer, intent(in) :: first                        !! nodes before it are right
         type(samples_t), intent(in) :: samples              !! on the motion and elsewhere
         real(dp), intent(in) :: values(:, :)                !! on the motion, omega in its place
         type(library_t), intent(in) :: library(:)           !! right terms
-        character(:), allocatable, intent(out) :: remark    !! for the student
+        type(explanation_t), intent(out) :: explanation     !! empty if there is none
+        character(:), allocatable :: remark
         logical :: could_be_trivial
         integer :: i
 
@@ -78,17 +80,18 @@ contains
         if (remark == "") call try_symbols(remark)
         if (remark == "") call try_dots(remark)
         if (remark == "") call try_exponents(remark)
-        if (remark == "") call try_factors(expression, first, samples, values, library, remark)
+        if (remark == "") call try_factors(expression, first, samples, values, library, remark, &
+                                           explanation%is_surplus, explanation%is_vague)
         if (remark == "") call try_numbers(remark)
         if (remark == "") call try_squares(remark)
         if (remark == "") call try_products(expression, first, samples, values, library, remark)
-        if (remark == "") call try_missing_terms(expression, samples, values, library, remark)
+        if (remark == "") call try_missing_terms(expression, samples, values, library, remark, &
+                                                 explanation%lacks, explanation%is_vague)
         if (remark == "") call try_inner_factors(remark)
         if (remark == "") call try_throughout(remark)
         if (remark == "") call two_factors(expression, samples, values, library, &
                                            could_be_trivial, remark)
-        if (remark == "") remark = "no single change of a sign, letter, dot, factor, function, "// &
-                                   "exponent or term makes it right"
+        explanation%text = remark
     contains
         logical function mends(change)
             type(change_t), intent(in) :: change

@@ -73,11 +73,11 @@ contains
             judgement%verdict = is_wrong
             if (.not. explain) return
             ! a change that makes it linear is better than one that makes a term negligible
-            judgement%remark = "no single"
             if (.not. given) call explain_slip(judgement%residual, first, samples, shown, &
-                                               library, judgement%remark)
-            if (index(judgement%remark, "no single") == 1) call explain_slip( &
-                judgement%residual, first, samples, values, library, judgement%remark)
+                                               library, judgement%explanation)
+            if (judgement%explanation%is_empty()) call explain_slip( &
+                judgement%residual, first, samples, values, library, judgement%explanation)
+            call judgement%say_why()
             call put_example(left, right, samples, shown, judgement%example)
         end if
     contains
@@ -133,24 +133,25 @@ contains
         end if
         judgement%verdict = is_wrong
         if (.not. explain) return
-        call explain_slip(judgement%residual, first, samples, shown, &
-                          without_accelerations(library, samples), judgement%remark)
         call put_example(left, right, samples, shown, judgement%example)
-        if (index(judgement%remark, "no single") /= 1) return
-        call compare(about_other, .true.)
-        if (agreement%judged) call explain_slip(judgement%residual, &
-            first, samples, shown, &
-            without_accelerations(library, samples), judgement%remark)
-        if (index(judgement%remark, "no single") /= 1) then
-            judgement%remark = judgement%remark//", if the coordinates are counted from the "// &
-                               "equilibrium"
-            return
-        end if
-        shown = samples%values
-        if (is_energy(left, samples)) call put_same_constant(left, judgement%residual, samples, &
-                                                             shown)
-        call explain_slip(judgement%residual, first, samples, shown, &
-                          library, judgement%remark)
+        associate (explanation => judgement%explanation)
+            call explain_slip(judgement%residual, first, samples, shown, &
+                              without_accelerations(library, samples), explanation)
+            if (explanation%is_empty()) then
+                call compare(about_other, .true.)
+                if (agreement%judged) call explain_slip(judgement%residual, first, samples, &
+                    shown, without_accelerations(library, samples), explanation)
+                if (.not. explanation%is_empty()) explanation%text = explanation%text// &
+                    ", if the coordinates are counted from the equilibrium"
+            end if
+            if (explanation%is_empty()) then
+                shown = samples%values
+                if (is_energy(left, samples)) call put_same_constant(left, judgement%residual, &
+                                                                     samples, shown)
+                call explain_slip(judgement%residual, first, samples, shown, library, explanation)
+            end if
+        end associate
+        call judgement%say_why()
     contains
         subroutine compare(other, counted_from_it)
             !! Near one equilibrium.

@@ -1,5 +1,6 @@
 module lagrangia_squared_statements
     !! Statements about omega with roots in them, by their squares.
+    use lagrangia_explanation, only: explanation_t
     use lagrangia_expression, only: expression_t, kind_function, kind_symbol, operator(**), &
                                     operator(-), symbol
     use lagrangia_frequency_squares, only: square
@@ -61,15 +62,15 @@ contains
         found = .true.
     end subroutine compare_sizes
 
-    subroutine explain_squares(left, right, samples, library, remark)
+    subroutine explain_squares(left, right, samples, library, explanation)
         !! Of a wrong `omega = sqrt(...)`: which change makes its square right.
         type(expression_t), intent(in) :: left, right           !! both sides
         type(samples_t), intent(in) :: samples                  !! know the modes
         type(library_t), intent(in) :: library(:)               !! right terms
-        character(:), allocatable, intent(inout) :: remark  !! changes if there is one
+        type(explanation_t), intent(inout) :: explanation  !! changes if there is one
         type(expression_t) :: squares
         real(dp), allocatable :: values(:, :)
-        character(:), allocatable :: text
+        type(explanation_t) :: of_squares
         logical :: known, yes
         integer :: first
 
@@ -79,11 +80,12 @@ contains
         values = samples%values
         call choose_modes(squares, samples, values, yes, known)
         if (.not. known) return
-        call explain_slip(squares, first, samples, values, library, text)
-        if (index(text, "no single") == 1) call explain_further( &
+        call explain_slip(squares, first, samples, values, library, of_squares)
+        if (of_squares%is_empty()) call explain_further( &
             squares%pruned(squares%nodes(squares%count)%left), &
-            squares%pruned(squares%nodes(squares%count)%right), samples, values, library, text)
-        if (index(text, "no single") /= 1) remark = "squared: "//text
+            squares%pruned(squares%nodes(squares%count)%right), samples, values, library, &
+            of_squares)
+        if (.not. of_squares%is_empty()) explanation%text = "squared: "//of_squares%text
     end subroutine explain_squares
 
     pure subroutine subtract_squares(left, right, samples, squares, first)

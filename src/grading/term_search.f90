@@ -39,7 +39,8 @@ contains
         text = "'"//formula_text(part, samples%symbols)//"'"
     end function part_text
 
-    subroutine try_factors(expression, first, samples, values, library, remark)
+    subroutine try_factors(expression, first, samples, values, library, remark, is_surplus, &
+                           is_vague)
         !! A summand that must be counted another number of times, or has a letter, a dot or a
         !! function too few or too many, or does not belong there.
         type(expression_t), intent(in) :: expression      !! left side less right side, wrong
@@ -48,12 +49,16 @@ contains
         real(dp), intent(in) :: values(:, :)              !! on the motion, (samples, symbols)
         type(library_t), intent(in) :: library(:)         !! right terms
         character(:), allocatable, intent(out) :: remark  !! "" if it is not that
+        logical, intent(out) :: is_surplus                !! it does not belong there
+        logical, intent(out) :: is_vague                  !! a factor that stands for a formula
         real(dp), allocatable :: results(:, :), signs(:), needed(:), term(:, :)
         integer, allocatable :: nodes(:)
         character(:), allocatable :: text
         integer :: i, k, m, pass
 
         remark = ""
+        is_surplus = .false.
+        is_vague = .false.
         allocate (results(size(values, 1), expression%count), needed(size(values, 1)))
         call evaluate_nodes(expression, values, results)
         call summands(expression, nodes, signs)
@@ -66,7 +71,8 @@ contains
             text = part_text(expression, nodes(k), samples)
             if (count(ieee_is_finite(needed)) < enough) cycle
             if (is_constant(needed)) then
-                if (abs(needed(1)) < equal) remark = text//" does not belong there"
+                is_surplus = abs(needed(1)) < equal
+                if (is_surplus) remark = text//" does not belong there"
                 if (is_simple(needed(1))) remark = text//" must be counted "// &
                                                    number_text(needed(1))//" times"
                 if (remark /= "") return
@@ -76,7 +82,12 @@ contains
                     if (samples%role(i) > role_parameter) cycle
                     if (expression%depends_on(i) .neqv. pass == 1) cycle
                     call try_letter(values(:, i), "'"//trim(samples%symbols%names(i))//"'")
-                    if (remark /= "") return
+                    if (remark == "") cycle
+                    do m = 1, size(samples%compiled)
+                        is_vague = is_vague .or. (samples%compiled(m)%symbol == i .and. &
+                                                  samples%compiled(m)%formula%count > 1)
+                    end do
+                    return
                 end do
             end do
             do i = 1, size(library)
@@ -152,13 +163,15 @@ contains
         if (yes) yes = samples%role(expression%nodes(i)%which) >= role_known
     end function is_subject
 
-    subroutine try_missing_terms(expression, samples, values, library, remark)
+    subroutine try_missing_terms(expression, samples, values, library, remark, lacks, is_vague)
         !! A right term which, some times, perhaps with letters, makes the sum zero.
         type(expression_t), intent(in) :: expression      !! left side less right side, wrong
         type(samples_t), intent(in) :: samples            !! know the names
         real(dp), intent(in) :: values(:, :)              !! on the motion, (samples, symbols)
         type(library_t), intent(in) :: library(:)         !! right terms
         character(:), allocatable, intent(out) :: remark  !! "" if it is not that
+        character(:), allocatable, intent(out) :: lacks   !! what the left side lacks, if known
+        logical, intent(out) :: is_vague                  !! it lacks something with a right term
         real(dp), allocatable :: results(:, :), term(:, :), needed(:)
         type(letter_t), allocatable :: letters(:)
         type(expression_t) :: product
@@ -166,6 +179,7 @@ contains
         integer :: k
 
         remark = ""
+        is_vague = .false.
         call prepare(expression, samples, values, library, results, letters)
         do k = 1, size(library)
             if (allocated(term)) deallocate (term)
@@ -174,18 +188,19 @@ contains
             needed = -results(:, expression%count)/term(:, library(k)%term%count)
             if (.not. is_steady(needed) .or. any(abs(needed) < equal)) cycle
             if (is_constant(needed) .and. is_simple(needed(1))) then
-                remark = "on the left is missing "//times(needed(1))// &
-                         formula_text(library(k)%term, samples%symbols)
-                return
+                lacks = times(needed(1))//formula_text(library(k)%term, samples%symbols)
+                exit
             end if
             if (remark == "" .and. .not. is_constant(needed)) remark = "a term with "// &
                 formula_text(library(k)%term, samples%symbols)//" is missing"
             call find_product(needed(1::states), letters, product, found)
             if (.not. found) cycle
-            remark = "on the left is missing "//formula_text(simplified(product* &
-                     library(k)%term, samples%symbols), samples%symbols)
-            return
+            lacks = formula_text(simplified(product*library(k)%term, samples%symbols), &
+                                 samples%symbols)
+            exit
         end do
+        is_vague = remark /= "" .and. .not. allocated(lacks)
+        if (allocated(lacks)) remark = "on the left is missing "//lacks
     end subroutine try_missing_terms
 
     subroutine prepare(expression, samples, values, library, results, letters)

@@ -1,6 +1,7 @@
 module lagrangia_verdict
     !! What is said about a statement: its verdict, and of a wrong one a state with both sides.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_explanation, only: explanation_t, explanation_text
     use lagrangia_expression, only: expression_t
     use lagrangia_kinds, only: dp
     use lagrangia_number_text, only: scientific
@@ -9,11 +10,12 @@ module lagrangia_verdict
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: judgement_t
+    public :: as_new_name, judgement_t
     public :: brief, put_example
     public :: is_right, is_definition, is_wrong, is_unreadable, is_consequence
 
     integer, parameter :: is_right = 1, is_definition = 2, is_wrong = 3, is_unreadable = 4
+    character(*), parameter :: as_new_name = "taken for a new name: "  !! and why that is said
     integer, parameter :: is_consequence = 5  !! false, and follows from lines before that are wrong
 
     type :: judgement_t
@@ -21,6 +23,8 @@ module lagrangia_verdict
         integer :: verdict = is_right
         character(:), allocatable :: remark
         !! which change makes it right, or what else is to be said
+        type(explanation_t) :: explanation    !! of a wrong one, where it was asked for
+        logical :: is_unexplained = .false.   !! and none was found
         character(:), allocatable :: example  !! of a wrong one: a state with both sides as numbers
         type(expression_t) :: residual
         !! left less right of the first pair, or of the wrong one
@@ -28,10 +32,21 @@ module lagrangia_verdict
         character(:), allocatable :: defines  !! the new name, where it is a definition
         logical :: contradicts = .false.      !! which mostly means something else
         logical :: of_oscillation = .false.   !! or is a frequency or a period of one
+        logical :: of_none = .false.          !! or looks like one, and is of no oscillation
         integer, allocatable :: because(:)    !! wrong statements that it follows from, or none
+    contains
+        procedure :: say_why
     end type judgement_t
 
 contains
+
+    pure subroutine say_why(self)
+        !! Its remark is what explains it, or that nothing does.
+        class(judgement_t), intent(inout) :: self  !! a wrong one
+
+        self%is_unexplained = self%explanation%is_empty()
+        self%remark = explanation_text(self%explanation)
+    end subroutine say_why
 
     subroutine put_example(left, right, samples, values, text)
         !! `at theta = 0.123, g = 2.4: left 1.23, right 4.56`, where they differ most.
