@@ -39,8 +39,8 @@ contains
 
         suite = TestSuite("auto")
         call suite%addTest(TestMethod("closed_forms_take_no_steps", closed_forms_take_no_steps))
-        call suite%addTest(TestMethod("a_closed_form_is_not_its_own_witness", &
-                                      a_closed_form_is_not_its_own_witness))
+        call suite%addTest(TestMethod("a_closed_form_is_not_its_own_judge", &
+                                      a_closed_form_is_not_its_own_judge))
         call suite%addTest(TestMethod("steps_where_no_closed_form_is", &
                                       steps_where_no_closed_form_is))
         call suite%addTest(TestMethod("a_closed_form_may_not_reach_the_end", &
@@ -110,7 +110,7 @@ contains
                                message="json")
     end subroutine check_exact
 
-    subroutine a_closed_form_is_not_its_own_witness()
+    subroutine a_closed_form_is_not_its_own_judge()
         !! Steps are, and they differ from it by rounding: by something, and little. A method that
         !! was named is compared with the closed form.
         character(*), parameter :: more = ", columns = 't', 'error' /"
@@ -129,7 +129,7 @@ contains
         call assertEqual("holds", outcome%verdict())
         call perform(swing//", event = 'theta = 0'"//more, outcome, error)
         call assertEqual(from_closed_form, outcome%error_from)
-    end subroutine a_closed_form_is_not_its_own_witness
+    end subroutine a_closed_form_is_not_its_own_judge
 
     subroutine steps_where_no_closed_form_is()
         !! Near the top of the cart-pendulum the series gives up; the double pendulum has none.

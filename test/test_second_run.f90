@@ -69,7 +69,7 @@ contains
         type(pendulum_t) :: system
         class(integrator_t), allocatable :: method
         class(reference_t), allocatable :: reference
-        type(second_run_t) :: shadow
+        type(second_run_t) :: second
         type(error_t), allocatable :: error
         real(dp) :: q(1), v(1), truth(1), ignored(1), estimate, actual, t, largest
         integer :: k, counted
@@ -79,17 +79,17 @@ contains
         v = 0.5_dp
         call system%closed_form(0.3_dp, q, v, reference)
         call new_integrator(name, method, error)
-        call shadow%start(method, system, 0.3_dp, dt, q, v, error)
+        call second%start(method, system, 0.3_dp, dt, q, v, error)
         call method%prepare(system, error)
         call method%start(system, 0.3_dp, q, v)
-        call shadow%estimate(system, 0.3_dp, q, estimate, error)
+        call second%estimate(system, 0.3_dp, q, estimate, error)
         call assertEqual(0.0_dp, estimate, message="no error at the start")
         largest = 0.0_dp
         counted = 0
         do k = 1, samples
             call method%advance(system, 0.3_dp, dt, int((k - 1)*stride, i8), int(stride, i8), q, v)
             t = 0.3_dp + k*stride*dt
-            call shadow%estimate(system, t, q, estimate, error)
+            call second%estimate(system, t, q, estimate, error)
             call reference%state_at(t, truth, ignored)
             actual = distance(q, truth)
             largest = max(largest, actual)
@@ -101,7 +101,7 @@ contains
         call assertLessThan(largest, 1e-2_dp, message="small errors")
         call method%advance(system, t, 0.4_dp*dt, 0_i8, 1_i8, q, v)
         t = t + 0.4_dp*dt
-        call shadow%estimate(system, t, q, estimate, error)
+        call second%estimate(system, t, q, estimate, error)
         call reference%state_at(t, truth, ignored)
         actual = distance(q, truth)
         call assertEqual(1.0_dp, estimate/actual, 0.1_dp, name//": after a shortened step")
@@ -114,7 +114,7 @@ contains
         type(gauss_adaptive_t) :: method
         class(reference_t), allocatable :: reference
         type(random_t) :: random
-        type(second_run_t), allocatable :: shadow
+        type(second_run_t), allocatable :: second
         type(error_t), allocatable :: error
         real(dp), allocatable :: parameters(:), q(:), v(:)
         real(dp) :: truth(4), ignored(4), t, duration, estimate, actual
@@ -128,16 +128,16 @@ contains
             call random%uniform(-10.0_dp, -3.0_dp, method%tolerance)
             method%tolerance = 10.0_dp**method%tolerance
             call system%closed_form(t, q, v, reference)
-            if (allocated(shadow)) deallocate (shadow)
-            allocate (shadow)
-            call shadow%start_adaptive(method, system, t, t + duration, q, v, error)
+            if (allocated(second)) deallocate (second)
+            allocate (second)
+            call second%start_adaptive(method, system, t, t + duration, q, v, error)
             call method%prepare(system, error)
             call method%start(system, t, q, v, t + duration)
             do while (method%t_new < t + duration)
                 call method%step(system, error)
             end do
             call method%state_at(t + duration, q, v)
-            call shadow%estimate(system, t + duration, q, estimate, error)
+            call second%estimate(system, t + duration, q, estimate, error)
             call reference%state_at(t + duration, truth, ignored)
             actual = distance(q, truth)
             call assertGreaterThan(estimate, 0.5_dp*actual - 1e-12_dp, message="estimate")
@@ -153,7 +153,7 @@ contains
         type(dop853_t) :: other
         class(reference_t), allocatable :: reference
         type(random_t) :: random
-        type(second_run_t), allocatable :: shadow
+        type(second_run_t), allocatable :: second
         type(error_t), allocatable :: error
         real(dp), allocatable :: parameters(:), q(:), v(:)
         real(dp) :: truth(2), ignored(2), t, dt, estimate, actual, worst, own
@@ -169,14 +169,14 @@ contains
             call random%uniform(5e-4_dp, 1.5e-3_dp, dt)
             call system%closed_form(t, q, v, reference)
             call new_integrator("velocity_verlet", method, error)
-            if (allocated(shadow)) deallocate (shadow)
-            allocate (shadow)
-            call shadow%start(method, system, t, dt, q, v, error)
-            call shadow%start_other(other, system, t, t + steps*dt, q, v)
+            if (allocated(second)) deallocate (second)
+            allocate (second)
+            call second%start(method, system, t, dt, q, v, error)
+            call second%start_other(other, system, t, t + steps*dt, q, v)
             call method%prepare(system, error)
             call method%start(system, t, q, v)
             call method%advance(system, t, dt, 0_i8, int(steps, i8), q, v)
-            call shadow%estimate(system, t + steps*dt, q, estimate, error)
+            call second%estimate(system, t + steps*dt, q, estimate, error)
             call reference%state_at(t + steps*dt, truth, ignored)
             actual = distance(q, truth)
             own = 16.0_dp*epsilon(own)*(1.0_dp + maxval(abs(v)))

@@ -551,7 +551,7 @@ static const char *const files[][2] = {
         "&cart_pendulum m1 = 2.0, m2 = 1.0, l = 1.0 /\n"
     },
     {"data/scenes/cart_pendulum_auto.nml",
-        "! No step, no tolerance: the closed form fills the table, and steps of gauss16 witness it.\n"
+        "! No step, no tolerance: the closed form fills the table, and steps of gauss16 check it.\n"
         "&scene\n"
         "  title = 'Cart-pendulum that turns over, by its closed form'\n"
         "  system = 'cart_pendulum'\n"
