@@ -26,6 +26,7 @@ contains
         call suite%addTest(TestMethod("rows_say_where_an_error_is_from", &
                                       rows_say_where_an_error_is_from))
         call suite%addTest(TestMethod("rows_have_no_asterisks", rows_have_no_asterisks))
+        call suite%addTest(TestMethod("a_start_has_no_drift", a_start_has_no_drift))
         call suite%addTest(TestMethod("a_row_is_one_line", a_row_is_one_line))
         call suite%addTest(TestMethod("lines_say_what_was_measured", lines_say_what_was_measured))
         call suite%addTest(TestMethod("what_is_not_there_is_not_said", &
@@ -162,6 +163,23 @@ contains
         outcome%omega = 1.25e-7_dp
         call contains_once(below(outcome), " 1.2500000000E-07 rad/s")
     end subroutine rows_have_no_asterisks
+
+    subroutine a_start_has_no_drift()
+        !! A run that failed behind its first row has no drift and no error; behind a second it has.
+        type(outcome_t) :: outcome
+        integer(i8) :: rows
+
+        call set_up(outcome)
+        outcome%drifts = [measure("energy_drift", 0.0_dp)]
+        outcome%others = [measure("error", 0.0_dp)]
+        outcome%error_from = from_half_step
+        outcome%failure = "the state is not finite"
+        do rows = 1, 2
+            outcome%rows = rows
+            call assertTrue(index(scorecard_row(outcome), "0 energy") > 0 .eqv. rows > 1, "drift")
+            call assertTrue(index(scorecard_row(outcome), "0 estimate") > 0 .eqv. rows > 1, "error")
+        end do
+    end subroutine a_start_has_no_drift
 
     subroutine a_row_is_one_line()
         !! Whatever the scene is called.

@@ -55,15 +55,19 @@ contains
         type(outcome_t), intent(in) :: self  !! of a run that has ended
         character(:), allocatable :: line
         character(:), allocatable :: drift, error, verdict
+        logical :: moved  ! beyond the start, where nothing has changed yet
         integer :: k
 
+        moved = self%rows > 1 .or. .not. allocated(self%failure)
         drift = "-"
-        if (size(self%drifts) > 0) then
+        if (size(self%drifts) > 0 .and. moved) then
             k = maxloc(self%drifts%value, 1)
             drift = two_digits(self%drifts(k)%value)//" "//quantity_of(self%drifts(k))
         end if
         error = "-"
-        if (.not. self%error() < 0.0_dp) error = two_digits(self%error())//" "//self%error_source()
+        if (moved .and. .not. self%error() < 0.0_dp) then
+            error = two_digits(self%error())//" "//self%error_source()
+        end if
         verdict = self%verdict()
         if (index(verdict, "NOT ") == 1) verdict = "NOT"
         if (verdict == "not judged") verdict = "-"
