@@ -1,18 +1,21 @@
 module test_second_run
     !! The run at half the step, which estimates the error where no closed form is known.
-    use funit, only: TestMethod, TestSuite, assertEqual, assertGreaterThan, assertLessThan
+    use funit, only: TestMethod, TestSuite, anyExceptions, assertEqual, assertGreaterThan, &
+                     assertLessThan, assertTrue
     use lagrangia_dop853, only: dop853_t, new_dop853
     use lagrangia_errors, only: error_t
     use lagrangia_gauss_adaptive, only: gauss_adaptive_t, new_gauss16_adaptive
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
     use lagrangia_methods, only: new_integrator
+    use lagrangia_oscillator, only: oscillator_t
     use lagrangia_pendulum, only: pendulum_t
     use lagrangia_random_draws, only: random_t
     use lagrangia_reference, only: reference_t
     use lagrangia_rolling_disk, only: rolling_disk_t
     use lagrangia_second_run, only: distance, second_run_t
     use lagrangia_wedge, only: wedge_t
+    use run_doubles, only: watcher_t
     implicit none (type, external)
     private
     public :: second_run_suite
@@ -33,6 +36,7 @@ contains
                                       steps_that_no_tolerance_shortens_are_estimated))
         call suite%addTest(TestMethod("rounding_that_both_runs_share_is_in_it", &
                                       rounding_that_both_runs_share_is_in_it))
+        call suite%addTest(TestMethod("a_watcher_hears_all_its_runs", a_watcher_hears_all_its_runs))
     end function second_run_suite
 
     subroutine distance_is_absolute_below_1_and_relative_above()
@@ -143,6 +147,45 @@ contains
             call assertGreaterThan(estimate, 0.5_dp*actual - 1e-12_dp, message="estimate")
         end do
     end subroutine steps_that_no_tolerance_shortens_are_estimated
+
+    subroutine a_watcher_hears_all_its_runs()
+        !! The steps that are only counted, before anything else, the finer ones and the other
+        !! method's, to the time that is asked for; what would not end is refused.
+        type(oscillator_t) :: system
+        type(dop853_t) :: method
+        type(second_run_t), allocatable :: second
+        type(watcher_t), target :: watcher
+        type(error_t), allocatable :: error
+        integer(i8), parameter :: all = 10_i8**15
+        real(dp), parameter :: times(3) = [0.0_dp, 3.0_dp, 10.0_dp]
+        real(dp) :: estimate
+        integer :: i, k
+
+        call new_dop853(method)
+        do k = 1, 2
+            call system%configure([1.0_dp, merge(1.0_dp, 1e36_dp, k == 1)], error)
+            if (allocated(second)) deallocate (second)
+            allocate (second)
+            second%watcher => watcher
+            call second%start_adaptive(method, system, 0.0_dp, 10.0_dp, [1.0_dp], [0.0_dp], error)
+            call second%start_other(method, system, 0.0_dp, 10.0_dp, [1.0_dp], [0.0_dp])
+            do i = 1, merge(3, 1, k == 1)
+                watcher%done = -1
+                call second%estimate(system, times(i), [cos(times(i))], estimate, error)
+                if (k == 2) exit
+                call assertTrue(.not. allocated(error), "no error")
+                if (i == 1) call assertEqual(all, watcher%done, message="the steps are counted")
+                if (i == 2) call assertGreaterThan(watcher%done, 3*all/10 - 1, message="to 3 s")
+                if (i == 2) call assertLessThan(watcher%done, 9*all/10, message="not to the end")
+                if (i == 3) call assertEqual(all, watcher%done, message="to the end")
+                if (anyExceptions()) return
+            end do
+        end do
+        call assertTrue(allocated(error), "endless")
+        if (anyExceptions()) return
+        call assertEqual(1, index(error%message, "the run that estimates the error: 10000 steps"), &
+                         message=error%message)
+    end subroutine a_watcher_hears_all_its_runs
 
     subroutine rounding_that_both_runs_share_is_in_it()
         !! Under constant forces no method errs but by rounding, and each step may round the same

@@ -6,6 +6,7 @@ module lagrangia_second_run
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_observer, only: observer_t
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -21,11 +22,13 @@ module lagrangia_second_run
         real(dp) :: h = 0.0_dp        !! half the step of the run
         integer(i8) :: done = 0       !! half steps taken
         real(dp), allocatable :: q(:), v(:)
+        class(observer_t), pointer, public :: watcher => null()  !! hears it go on; may be null
     contains
         procedure :: start
         procedure :: start_adaptive
         procedure :: start_other
         procedure, private :: go_finer
+        procedure, private :: tell
         procedure :: estimate
     end type second_run_t
 
@@ -76,6 +79,7 @@ contains
         call self%adaptive%prepare(system, error)
         if (allocated(error)) return
         call self%adaptive%start(system, t0, q, v, t_end)
+        self%t0 = t0
         self%q = q
         self%v = v
     end subroutine start_adaptive
@@ -114,6 +118,7 @@ contains
         if (allocated(error) .or. .not. allocated(self%other)) return
         do while (self%other%t_new < t .and. .not. allocated(unknown))
             call self%other%step(system, unknown)
+            call self%tell(self%other%t_new, self%other%t_end)
         end do
         if (allocated(unknown)) then
             deallocate (self%other)
@@ -135,12 +140,15 @@ contains
 
         deviation = 0.0_dp
         if (allocated(self%adaptive)) then
-            if (allocated(self%probe)) call bound_steps(self, system)
-            do while (self%adaptive%t_new < t)
+            if (allocated(self%probe)) call bound_steps(self, system, error)
+            do while (self%adaptive%t_new < t .and. .not. allocated(error))
                 call self%adaptive%step(system, error)
-                if (allocated(error)) call error%add_context("the run that estimates the error")
-                if (allocated(error)) return
+                call self%tell(self%adaptive%t_new, self%adaptive%t_end)
             end do
+            if (allocated(error)) then
+                call error%add_context("the run that estimates the error")
+                return
+            end if
             call self%adaptive%state_at(t, self%q, self%v)
             deviation = distance(q, self%q)
             return
@@ -157,21 +165,37 @@ contains
                     /(2.0_dp**self%integrator%order - 1.0_dp)
     end subroutine go_finer
 
-    pure subroutine bound_steps(self, system)
+    subroutine bound_steps(self, system, error)
         !! No step longer than half the run's mean one: a method may find no reason in the tighter
         !! tolerance to take shorter ones, and would repeat the run. One that fails will say so.
         type(second_run_t), intent(inout) :: self
         class(system_t), intent(in) :: system
-        type(error_t), allocatable :: error
-        real(dp) :: t0
+        type(error_t), allocatable, intent(out) :: error  !! they would not end
+        type(error_t), allocatable :: unknown
+        integer(i8) :: steps
 
-        t0 = self%probe%t_new
-        do while (self%probe%t_new < self%probe%t_end .and. .not. allocated(error))
-            call self%probe%step(system, error)
+        steps = 0
+        do while (self%probe%t_new < self%probe%t_end)
+            call self%probe%step(system, unknown)
+            if (allocated(unknown)) exit
+            steps = steps + 1
+            call self%probe%refuse_more(steps, self%t0, self%probe%t_end, error)
+            if (allocated(error)) return
+            call self%tell(self%probe%t_new, self%probe%t_end)
         end do
         if (self%probe%accepted > 0) then
-            self%adaptive%longest = 0.5_dp*(self%probe%t_new - t0)/self%probe%accepted
+            self%adaptive%longest = 0.5_dp*(self%probe%t_new - self%t0)/self%probe%accepted
         end if
         deallocate (self%probe)
     end subroutine bound_steps
+
+    subroutine tell(self, t, t_end)
+        !! Whoever watches that one of these runs has come to time `t`.
+        class(second_run_t), intent(in) :: self
+        real(dp), intent(in) :: t, t_end              !! s
+        integer(i8), parameter :: fine = 10_i8**15  ! parts of the time
+
+        if (.not. associated(self%watcher)) return
+        call self%watcher%tick(int(fine*min(1.0_dp, (t - self%t0)/(t_end - self%t0)), i8), fine)
+    end subroutine tell
 end module lagrangia_second_run

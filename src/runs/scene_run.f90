@@ -67,6 +67,7 @@ contains
             end if
             n = 0
             call join(seen)
+            if (allocated(plan%record%second_run)) plan%record%second_run%watcher => progress
             if (size(plan%record%columns%items) > 0) call join(plan%record)
             if (scene%period_of /= "") call join(plan%period)
             if (size(plan%trajectory%events) > 0) call join(plan%event_record)
