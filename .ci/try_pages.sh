@@ -177,7 +177,7 @@ files sweep period_of_amplitude --over theta=0.5:3:6
 files sweep resonance --over drive_frequency=0.2:3:5 --format csv
 files sweep ueda --over f=5.5:13.5:3
 command -v gnuplot >/dev/null && files report pendulum_rotation hanging_chain
-for principle in action constraints least-time; do written '*' principle $principle; done
+for principle in $("$program" principle | awk '{ print $1 }'); do written '*' principle "$principle"; done
 if [ -n "$accept" ]; then
     echo "$count pages kept in $pages"
 else
