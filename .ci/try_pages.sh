@@ -78,8 +78,36 @@ ledger() { # of JSON: all but the numbers measured
     sed -E 's/"(value|remark)": ("[^"]*"|[^,]*), //; s/, "remark": "[^"]*"//'
 }
 
+measured() { # of stress: statements and bounds, but no number measured, nor those of a remark
+    sed -E -e '/^build: /d' -e 's/ +[0-9.]+(e-?[0-9]+)? +((<=|>=|=|[0-9.]+ \.\.) |- +stated)/  ~  \2/' |
+        awk 'match($0, / (holds|FAILS|stated)( |$)/) {
+            remark = substr($0, RSTART + RLENGTH); gsub(/[0-9]+(\.[0-9]+)?(e-?[0-9]+)?/, "~", remark)
+            if (remark ~ /rounding/) sub(/[a-zN ]+: ~/, "   ~", remark)
+            print substr($0, 1, RSTART + RLENGTH - 1) remark; next }
+            { print }'
+}
+
 shapes() { # of JSON: whole numbers and words, but no number measured
     sed -E 's/-?[0-9]\.[0-9]+E[+-][0-9]+/~/g'
+}
+
+refused() { # the answer to each line of .ci/refused_words.txt, and its exit status
+    local line words
+    while IFS= read -r line; do
+        eval "words=($line)"
+        echo "lagrangia $line"
+        "$program" "${words[@]}" </dev/null 2>&1 | sed 's/^/    /'
+        echo "    status ${PIPESTATUS[0]}"
+    done <.ci/refused_words.txt
+}
+
+graded() { # each line of .ci/graded_lines.txt, `SYSTEM: LINE`, as a sheet of its own
+    local line
+    while IFS= read -r line; do
+        printf 'system: %s\n%s\n' "${line%%: *}" "${line#*: }" >"$work/sheet.txt"
+        echo "$line"
+        "$program" grade "$work/sheet.txt" 2>&1 | sed -e "s,$work/,," -e 's/^/    /' -e '/: 1 statement about /d'
+    done <.ci/graded_lines.txt
 }
 
 systems=$("$program" list systems | awk '{ print $1 }')
@@ -138,6 +166,11 @@ page plain describe driven_pendulum --set driven_pendulum%amplitude=0
 } >"$work/long.nml"
 keep describe a long L < <("$program" describe "$work/long.nml" 2>&1 | plain)
 page plain manual
+for shell in bash zsh; do page plain completion $shell; done
+page plain describe scene
+page measured stress
+keep refused words < <(refused)
+keep graded lines < <(graded)
 page plain describe hanging_chain --set hanging_chain%n=1
 page plain describe spring_pendulum
 page plain describe sphere

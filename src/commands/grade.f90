@@ -121,7 +121,7 @@ contains
                 if (judgement%example /= "") call put_line("          "//judgement%example)
             end associate
         end do
-        call put_line(count_text(result))
+        if (count_text(result) /= "") call put_line(count_text(result))
         call put_first_mistake(homework, result)
         if (result%meaning /= "") call put_line(result%meaning)
         if (result%kept /= "") call put_line("not named, and therefore: "//result%kept)

@@ -85,7 +85,7 @@ contains
             q = samples%symbols%names(1 + i)
             k = samples%symbols%find("p_"//q)
             if (samples%ndof == 1) call put(all, n, samples, "p", "p_"//q, symbol(k))
-            call put(all, n, samples, "Q_"//q, "", whole(0))
+            call put(all, n, samples, "Q_"//q, "the generalised force", whole(0))
             call put(all, n, samples, trim(q)//"dot", "", symbol(1 + samples%ndof + i), &
                      always=.true.)
             call put(all, n, samples, trim(q)//"ddot", "", symbol(1 + 2*samples%ndof + i), &
