@@ -101,12 +101,13 @@ refused() { # the answer to each line of .ci/refused_words.txt, and its exit sta
     done <.ci/refused_words.txt
 }
 
-graded() { # each line of .ci/graded_lines.txt, `SYSTEM: LINE`, as a sheet of its own
-    local line
+graded() { # each line of .ci/graded_lines.txt, `SYSTEM: LINE ;; LINE...`, as a sheet of its own
+    local line lines
     while IFS= read -r line; do
-        printf 'system: %s\n%s\n' "${line%%: *}" "${line#*: }" >"$work/sheet.txt"
+        lines=${line#*: }
+        printf 'system: %s\n%s\n' "${line%%: *}" "${lines// ;; /$'\n'}" >"$work/sheet.txt"
         echo "$line"
-        "$program" grade "$work/sheet.txt" 2>&1 | sed -e "s,$work/,," -e 's/^/    /' -e '/: 1 statement about /d'
+        "$program" grade "$work/sheet.txt" 2>&1 | sed -e "s,$work/,," -e 's/^/    /' -e '/: [0-9]* statements\? about /d'
     done <.ci/graded_lines.txt
 }
 
@@ -209,6 +210,13 @@ files sweep flip_map --over theta1=0.5:3:6 --over theta2=-1:1:3 --json
 files sweep period_of_amplitude --over theta=0.5:3:6
 files sweep resonance --over drive_frequency=0.2:3:5 --format csv
 files sweep ueda --over f=5.5:13.5:3
+written '*' sweep basins --over x=-1:1:3 --over x_dot=-1:1:3
+written '*' sweep bifurcation --over W=0.6:0.7:3
+written '*' sweep section --over theta1=-0.3:0.3:3
+written '*' sweep lyapunov_map --over theta1=0.3:0.6:2 --over theta2=0.3:0.6:2
+written '*' sweep flip_map --over theta1=0.5:3:6:random --over theta2=-1:1:6:random
+"$program" bench precision --quick --problems oscillator,P1 --methods rk4,dop853 --output "$work/files" >/dev/null 2>&1
+keep the script of bench < <(sed -E 's/\[[0-9.e+-]+:[0-9.e+-]+\]/[~]/g' "$work/files/bench.gp")
 command -v gnuplot >/dev/null && files report pendulum_rotation hanging_chain
 for principle in $("$program" principle | awk '{ print $1 }'); do written '*' principle "$principle"; done
 if [ -n "$accept" ]; then

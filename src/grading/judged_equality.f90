@@ -16,8 +16,9 @@ module lagrangia_judged_equality
     use lagrangia_small_energies, only: is_constant_of_each_draw, is_energy, put_same_constant
     use lagrangia_small_judgement, only: judge_small
     use lagrangia_squared_statements, only: compare_squares, explain_squares
-    use lagrangia_statement_forms, only: has_velocities, is_branch, is_motion, is_value, &
-                                         read_as_tension, speaks_of_place, tensions
+    use lagrangia_statement_forms, only: has_velocities, is_branch, is_motion, &
+                                         read_as_tension, speaks_of_place, tensions, &
+                                         valued_parameter
     use lagrangia_term_search, only: library_t, part_text
     use lagrangia_verdict, only: is_right, is_unreadable, is_wrong, judgement_t, put_example
     implicit none (type, external)
@@ -131,10 +132,11 @@ contains
             judgement%verdict = is_unreadable
             judgement%remark = "a motion is not graded, only what holds at all times; write "// &
                 "its equation, or its frequency"
-        else if (is_value(left, right, samples)) then
+        else if (valued_parameter(left, right, samples) > 0) then
             judgement%verdict = is_unreadable
             judgement%remark = "graded for any value; a line 'set: "// &
-                trim(samples%symbols%names(left%nodes(1)%which))//" = ...' fixes one"
+                trim(samples%symbols%names(valued_parameter(left, right, samples)))// &
+                " = ...' fixes one"
         else if (.not. judged) then
             judgement%verdict = is_unreadable
             judgement%remark = "no number at the states that were tried: a root, a logarithm "// &

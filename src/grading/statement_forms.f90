@@ -17,7 +17,8 @@ module lagrangia_statement_forms
     public :: define_by_period, define_rates, period, speaks_of_place, without_number
     public :: drop_root_of_name, find_frequency, read_as_period, read_as_tension, read_new_name, &
               tensions
-    public :: has_velocities, is_branch, is_motion, is_slope, is_value, means_frequency
+    public :: has_velocities, is_branch, is_motion, is_slope, means_frequency, &
+              valued_parameter
 
 contains
 
@@ -315,17 +316,36 @@ contains
         end do
     end function is_motion
 
-    pure function is_value(left, right, samples) result(yes)
-        !! A parameter alone on the left, and a number on the right side.
+    pure function valued_parameter(left, right, samples) result(k)
+        !! Which parameter stands alone on the left, or what it is called, with a number on the right
+        !! side; 0: none, or a line 'set:' has fixed it.
         type(expression_t), intent(in) :: left, right   !! both sides
         type(samples_t), intent(in) :: samples          !! know the names
-        logical :: yes
+        integer :: k
+        integer :: i
 
-        yes = left%count == 1 .and. left%nodes(1)%kind == kind_symbol
-        if (yes) yes = samples%role(left%nodes(1)%which) == role_parameter .and. &
-                       index(samples%symbols%names(left%nodes(1)%which), "_dot") == 0 .and. &
-                       .not. any(right%nodes(:right%count)%kind == kind_symbol)
-    end function is_value
+        k = 0
+        if (any(right%nodes(:right%count)%kind == kind_symbol) .or. .not. is_name(left)) return
+        k = left%nodes(1)%which
+        do i = 1, size(samples%compiled)
+            associate (letter => samples%compiled(i))
+                if (letter%symbol /= left%nodes(1)%which) cycle
+                k = 0
+                if (is_name(letter%formula)) k = letter%formula%nodes(1)%which
+            end associate
+        end do
+        if (k == 0) return
+        if (samples%role(k) /= role_parameter .or. &
+            index(samples%symbols%names(k), "_dot") > 0 .or. &
+            minval(samples%values(:, k)) >= maxval(samples%values(:, k))) k = 0
+    contains
+        pure logical function is_name(side)
+            type(expression_t), intent(in) :: side
+
+            is_name = side%count == 1
+            if (is_name) is_name = side%nodes(1)%kind == kind_symbol
+        end function is_name
+    end function valued_parameter
 
     pure function is_fixed(samples, k) result(yes)
         !! A parameter, or a rate of decay.
