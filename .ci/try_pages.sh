@@ -96,7 +96,7 @@ refused() { # the answer to each line of .ci/refused_words.txt, and its exit sta
     while IFS= read -r line; do
         eval "words=($line)"
         echo "lagrangia $line"
-        "$program" "${words[@]}" </dev/null 2>&1 | sed 's/^/    /'
+        "$program" "${words[@]}" </dev/null 2>&1 | sed -e '/^build: /d' -e '/^processor: /d' -e 's/^/    /'
         echo "    status ${PIPESTATUS[0]}"
     done <.ci/refused_words.txt
 }
@@ -210,10 +210,10 @@ files sweep flip_map --over theta1=0.5:3:6 --over theta2=-1:1:3 --json
 files sweep period_of_amplitude --over theta=0.5:3:6
 files sweep resonance --over drive_frequency=0.2:3:5 --format csv
 files sweep ueda --over f=5.5:13.5:3
-written '*' sweep basins --over x=-1:1:3 --over x_dot=-1:1:3
+written '*' sweep basins --over theta=-1:1:3 --over theta_dot=-1:1:3
 written '*' sweep bifurcation --over W=0.6:0.7:3
 written '*' sweep section --over theta1=-0.3:0.3:3
-written '*' sweep lyapunov_map --over theta1=0.3:0.6:2 --over theta2=0.3:0.6:2
+written '*' sweep lyapunov_map --over theta=0.3:0.6:2 --over theta_dot=0.3:0.6:2
 written '*' sweep flip_map --over theta1=0.5:3:6:random --over theta2=-1:1:6:random
 "$program" bench precision --quick --problems oscillator,P1 --methods rk4,dop853 --output "$work/files" >/dev/null 2>&1
 keep the script of bench < <(sed -E 's/\[[0-9.e+-]+:[0-9.e+-]+\]/[~]/g' "$work/files/bench.gp")

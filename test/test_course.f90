@@ -7,6 +7,7 @@ module test_course
     use lagrangia_course_command, only: next_command
     use lagrangia_course_table, only: course_of_the_notes, statement_t
     use lagrangia_description, only: description_t
+    use lagrangia_errata_ledger, only: slip_t, slips_of_the_notes
     use lagrangia_errors, only: error_t
     use lagrangia_files, only: read_whole_file
     use lagrangia_principles, only: find_first_line, principle_names, principle_report
@@ -44,11 +45,36 @@ contains
         call suite%addTest(TestMethod("every_line_is_there", every_line_is_there))
         call suite%addTest(TestMethod("quotes_are_word_for_word", quotes_are_word_for_word))
         call suite%addTest(TestMethod("commands_can_be_typed", commands_can_be_typed))
+        call suite%addTest(TestMethod("errata_are_of_these_lines", errata_are_of_these_lines))
         call suite%addTest(TestMethod("what_is_not_shown", what_is_not_shown))
         call suite%addTest(TestMethod("pages_quote_their_lines", pages_quote_their_lines))
         call suite%addTest(TestMethod("in_the_lectures_order", in_the_lectures_order))
         call suite%addTest(TestMethod("systems_have_their_line", systems_have_their_line))
     end function course_suite
+
+    subroutine errata_are_of_these_lines()
+        !! A slip that a statement refers to is quoted from its lines.
+        type(statement_t), allocatable :: course(:)
+        type(slip_t), allocatable :: slips(:)
+        integer :: at, i, k, named
+
+        allocate (course, source=course_of_the_notes())
+        allocate (slips, source=slips_of_the_notes())
+        named = 0
+        do i = 1, size(course)
+            at = index(course(i)%shows, "errata E")
+            if (at == 0) cycle
+            named = named + 1
+            k = findloc(slips%id, course(i)%shows(at + 7:at + 9), 1)
+            call assertTrue(k > 0, course(i)%shows)
+            if (anyExceptions()) return
+            call assertTrue(any(slips(k)%quotes%scan == course(i)%scan .and. &
+                                slips(k)%quotes%line >= course(i)%line .and. &
+                                slips(k)%quotes%line <= course(i)%last), &
+                            course(i)%scan//", line "//to_text(course(i)%line)//": "//slips(k)%id)
+        end do
+        call assertTrue(named > 10, "named: "//to_text(named))
+    end subroutine errata_are_of_these_lines
 
     subroutine every_line_is_there()
         !! In order, and each in one statement or in several that begin on it.

@@ -13,7 +13,7 @@ module test_derivation_rest
     use lagrangia_random_draws, only: random_t
     use lagrangia_scene, only: scene_t
     use lagrangia_scene_reader, only: parse_scene
-    use lagrangia_small_oscillations, only: find_modes, likely_equilibrium, modes_t
+    use lagrangia_small_oscillations, only: find_modes, likely_equilibrium, modes_t, turns
     use lagrangia_system, only: system_t
     use lagrangia_text, only: word_t
     implicit none (type, external)
@@ -41,7 +41,71 @@ contains
         call suite%addTest(TestMethod("a_slip_is_seen", a_slip_is_seen))
         call suite%addTest(TestMethod("forces_of_places_count", forces_of_places_count))
         call suite%addTest(TestMethod("pi_stays_a_letter", pi_stays_a_letter))
+        call suite%addTest(TestMethod("constraints_of_coupled_masses", &
+                                      constraints_of_coupled_masses))
+        call suite%addTest(TestMethod("a_force_without_stiffness_has_no_place", &
+                                      a_force_without_stiffness_has_no_place))
+        call suite%addTest(TestMethod("what_turns_as_it_grows", what_turns_as_it_grows))
     end function derivation_rest_suite
+
+    subroutine constraints_of_coupled_masses()
+        !! The right sides of M q_ddot = f have the forces of constraint in them.
+        call holds(two//"T = 'm x_dot^2 + m/2 y_dot^2 + m/2 x_dot y_dot' V = '-k x' "// &
+                   "constraint = 'x = 2 y'", "M12 = m/2|f1 = k + lambda1|f2 = -2 lambda1")
+    end subroutine constraints_of_coupled_masses
+
+    subroutine a_force_without_stiffness_has_no_place()
+        !! On an incline; two masses on a spring that fall; a pulley beside a pendulum. The same
+        !! springs without such a force have their zero mode.
+        call places(two//"T = 'm/2 (x_dot^2 + y_dot^2)' V = 'k/2 y^2 - m b x'", .false.)
+        call places(two//"T = 'm/2 (x_dot^2 + y_dot^2)' V = 'k/2 (x - y)^2 + b (x + y)'", .false.)
+        call places(two//"T = 'm/2 (x_dot^2 + x^2 y_dot^2)' V = 'k x - b x cos(y)' "// &
+                    "equilibrium = '1', '0'", .false.)
+        call places(two//"T = 'm/2 (x_dot^2 + y_dot^2)' V = 'k/2 (x - y)^2 + b (x - y)'", .true.)
+        call places(two//"T = 'm/2 (x_dot^2 + y_dot^2)' V = 'k/2 (x - y)^2'", .true.)
+    contains
+        subroutine places(formulas, expected)
+            character(*), intent(in) :: formulas
+            logical, intent(in) :: expected
+            class(system_t), allocatable :: system
+            type(modes_t) :: modes
+            type(error_t), allocatable :: error
+            integer :: wanted
+
+            call make(formulas, system, error)
+            if (allocated(error)) return
+            do wanted = 0, 1
+                call find_modes(system, likely_equilibrium(system), wanted == 1, modes, error)
+                if (expected .and. wanted == 1) cycle  ! zero need not be the place
+                call assertTrue(expected .neqv. allocated(error), formulas)
+                if (expected .or. .not. allocated(error)) cycle
+                call assertTrue(index(error%message, "; none is near") > 0, error%message)
+            end do
+        end subroutine places
+    end subroutine a_force_without_stiffness_has_no_place
+
+    subroutine what_turns_as_it_grows()
+        !! A hill that rotates with w: \(\lambda = \pm\sqrt{k/m - w^2} \pm iw\), and
+        !! \(\omega^2\), which is complex then, is compared with no real number.
+        character(*), parameter :: hill = two//"T = 'm/2 (x_dot^2 + y_dot^2) + "// &
+            "m w (x y_dot - y x_dot)' V = '-k/2 (x^2 + y^2)'"
+        class(system_t), allocatable :: system
+        type(modes_t) :: modes
+        type(error_t), allocatable :: error
+        integer :: j
+
+        call holds(hill, "V = -k/2 (x^2 + y^2)")
+        call make(hill, system, error)
+        if (allocated(error)) return
+        call find_modes(system, [0.0_dp, 0.0_dp], .true., modes, error)
+        call assertFalse(allocated(error), "modes")
+        if (allocated(error)) return
+        do j = 1, 2
+            call assertTrue(turns(modes, j), "turns")
+            call assertEqual(0.4_dp, modes%turning(j), 1e-14_dp, "w")
+            call assertEqual(-(2.0_dp/1.3_dp - 0.16_dp), modes%omega2(j), 1e-13_dp, "growth")
+        end do
+    end subroutine what_turns_as_it_grows
 
     subroutine pi_stays_a_letter()
         !! Also where it is squared, and behind a sign.

@@ -1,6 +1,7 @@
 module lagrangia_modes_command
     !! `lagrangia modes SYSTEM`: small oscillations, LAPACK's answer beside the page's. A scene's
     !! name or path stands for its system.
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
     use lagrangia_changed_scene, only: make_own_name
     use lagrangia_command_line, only: command_line_t
     use lagrangia_console, only: note, put, put_line
@@ -23,7 +24,7 @@ module lagrangia_modes_command
     use lagrangia_progress, only: progress_t
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, &
-                                            likely_equilibrium, modes_t, twin_of
+                                            likely_equilibrium, modes_t, turns, twin_of
     use lagrangia_system, only: system_t
     use lagrangia_text, only: in_words, to_text
     implicit none (type, external)
@@ -171,6 +172,10 @@ contains
                 end associate
             else if (modes%label(j) == is_unstable) then
                 row(20:) = "growth rate "//number(sqrt(-modes%omega2(j)))//" 1/s"
+                if (turns(modes, j)) then
+                    row(:19) = "complex"
+                    row(50:) = "turns by "//trim(number(modes%turning(j)))//" rad/s"
+                end if
             end if
             if (allocated(modes%analytic%omega2)) then
                 row(77:) = number(modes%analytic%omega2(j))
@@ -341,12 +346,14 @@ contains
     subroutine put_json(name, system, modes)
         !! One object, but for its closing brace; shapes are rows, one a mode. An unstable mode has
         !! no omega: `null`. Where velocities bend the motion there are `G` and the shapes'
-        !! imaginary parts besides; with generalised forces beside L, `damped`: the exponents of
+        !! imaginary parts besides, and of modes that turn while they grow `turning`, rad/s, but no
+        !! omega2; with generalised forces beside L, `damped`: the exponents of
         !! \(e^{\lambda t}\), their decay rates and frequencies.
         character(*), intent(in) :: name
         class(system_t), intent(in) :: system
         type(modes_t), intent(in) :: modes
         complex(dp), allocatable :: lambda(:)
+        real(dp), allocatable :: omega2(:)
         type(error_t), allocatable :: error
         character(:), allocatable :: text
         integer :: j
@@ -359,7 +366,9 @@ contains
         do j = 1, size(modes%label)
             text = text//json_element(json_string(labels(modes%label(j))))
         end do
-        call put(json_item("omega2", json_list(modes%omega2))// &
+        omega2 = modes%omega2
+        where (turns(modes, [(j, j=1, size(omega2))])) omega2 = ieee_value(0.0_dp, ieee_quiet_nan)
+        call put(json_item("omega2", json_list(omega2))// &
                  json_item("omega", json_list(modes%omega))//json_item("label", json_array(text)))
         call put_rows("shapes", transpose(modes%shapes))
         text = "null"
@@ -377,6 +386,7 @@ contains
         if (.not. allocated(modes%quadrature)) return
         call put_rows("G", modes%gyroscopic)
         call put_rows("shapes_imaginary", transpose(modes%quadrature))
+        if (any(modes%turning > 0.0_dp)) call put(json_item("turning", json_list(modes%turning)))
     end subroutine put_json
 
     subroutine put_rows(key, a)

@@ -238,7 +238,6 @@ contains
         case (line_right_side)
             at_rest = s
             at_rest%a = 0.0_dp
-            at_rest%lambda = 0.0_dp
             value = -equation_value(system, at_rest, line%i)
         case (line_multiplier)
             value = s%lambda(line%i)

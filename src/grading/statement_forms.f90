@@ -330,11 +330,9 @@ contains
         do i = 1, size(samples%compiled)
             associate (letter => samples%compiled(i))
                 if (letter%symbol /= left%nodes(1)%which) cycle
-                k = 0
                 if (is_name(letter%formula)) k = letter%formula%nodes(1)%which
             end associate
         end do
-        if (k == 0) return
         if (samples%role(k) /= role_parameter .or. &
             index(samples%symbols%names(k), "_dot") > 0 .or. &
             minval(samples%values(:, k)) >= maxval(samples%values(:, k))) k = 0

@@ -151,8 +151,8 @@ contains
         self%y = self%y0
         self%t_new = self%t_old
         call fail(error, "no step is small enough at t = "//to_text(self%t_old)//" s for the "// &
-                  "tolerance "//to_text(self%tolerance)//": the motion is singular there, or "// &
-                  "the tolerance too small", status_numbers)
+                  "tolerance "//to_text(self%tolerance)//": the motion is singular there or "// &
+                  "grows beyond all numbers, or the tolerance is too small", status_numbers)
     end subroutine step
 
     pure subroutine keep(self, system, t)

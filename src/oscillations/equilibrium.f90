@@ -41,6 +41,8 @@ contains
             q = start
             call descend(system, usual, q)
             call approach(system, usual, q, found)
+            ! so far away the force may well be rounding: it fell without end
+            found = found .and. all(abs(q) <= 1e8_dp*max(usual, abs(start)))
         end if
         if (found .and. .not. wanted) return
         near = "none is near"
@@ -72,7 +74,9 @@ contains
 
     subroutine approach(system, usual, q, found)
         !! Newton's method, until \(|F_i| \le 8\epsilon(\sum_j|K_{ij}|\max(s_j, |q_j|)
-        !! + \sum_k|A_{ki}\lambda_k|)\) or the step is rounding.
+        !! + \sum_k|A_{ki}\lambda_k|)\) or the step is rounding. No step is made by a force along
+        !! which K has no stiffness, as on an incline: then \(|s_i F_i|\) is more than 1e-10 of the
+        !! largest of those sums times \(s_i\), and the place is none.
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: usual(:)  !! \(s_i\), typical sizes
         real(dp), intent(inout) :: q(:)
@@ -109,7 +113,9 @@ contains
             if (allocated(singular)) exit
             q = q + step
             found = maxval(abs(step)/usual) <= 4.0_dp*epsilon(q)*max(1.0_dp, maxval(abs(q)/usual))
-            if (found) return
+            if (.not. found) cycle
+            found = maxval(abs(usual*f)) <= 1e-10_dp*maxval(usual*rounding)
+            return
         end do
         found = .false.
     end subroutine approach

@@ -24,7 +24,7 @@ module lagrangia_small_oscillations
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: modes_t, find_modes, likely_equilibrium, stays, twin_of
+    public :: modes_t, find_modes, likely_equilibrium, stays, turns, twin_of
     public :: is_oscillation, is_zero_mode, is_unstable
 
     integer, parameter :: largest_expansion = 60  !! coordinates; beyond, L is not differentiated
@@ -38,6 +38,9 @@ module lagrangia_small_oscillations
         real(dp), allocatable :: basis(:, :)       !! directions that constraints leave, (n, modes)
         real(dp), allocatable :: multipliers(:)    !! of the constraints at the equilibrium
         real(dp), allocatable :: quadrature(:, :)  !! with \(G\): shape cos - quadrature sin
+        real(dp), allocatable :: turning(:)
+        !! with \(G\): rad/s of an unstable mode that turns while it grows, \(\omega^2\) being
+        !! complex and `omega2` less the square of the growth rate; 0 of all others
         real(dp) :: ratio = -1.0_dp                !! LAPACK's residual ratio
         character(40) :: method = ""
     contains
@@ -115,7 +118,10 @@ contains
         modes%method = free%method
         modes%ratio = free%ratio
         modes%shapes = matmul(tangent%basis, free%shapes)
-        if (allocated(free%quadrature)) modes%quadrature = matmul(tangent%basis, free%quadrature)
+        if (allocated(free%quadrature)) then
+            modes%quadrature = matmul(tangent%basis, free%quadrature)
+            modes%turning = free%turning
+        end if
         call move_alloc(tangent%basis, modes%basis)
     end subroutine solve_constrained
 
@@ -285,6 +291,8 @@ contains
         modes%omega2 = merge(aimag(lambda)**2, -real(lambda)**2, is_steady(lambda))
         modes%shapes = real(shapes, dp)
         modes%quadrature = aimag(shapes)
+        modes%turning = merge(0.0_dp, abs(aimag(lambda)), is_steady(lambda))
+        where (modes%turning <= sqrt(epsilon(1.0_dp))*abs(lambda)) modes%turning = 0.0_dp
     end subroutine solve_gyroscopic
 
     pure function twin_of(modes, j) result(k)
@@ -309,6 +317,16 @@ contains
         end if
         k = 0
     end function twin_of
+
+    elemental function turns(modes, j) result(yes)
+        !! Has the mode a complex \(\omega^2\)?
+        type(modes_t), intent(in) :: modes  !! solved
+        integer, intent(in) :: j            !! which
+        logical :: yes
+
+        yes = allocated(modes%turning)
+        if (yes) yes = modes%turning(j) > 0.0_dp
+    end function turns
 
     pure function stays(modes, j) result(yes)
         !! Is a zero mode at rest wherever it is, as a charge in a magnetic field? \(u\,t\) obeys

@@ -1393,7 +1393,8 @@ static const char *const files[][2] = {
     },
     {"data/scenes/symmetric_top.nml",
         "! A toy top of 0.1 kg, spun at 150 rad/s and let go at 60 degrees without precession: it falls, and its tip draws\n"
-        "! cusps. On the mean it goes round with m g s/(I3 omega_3); the nutation has I3 omega_3/I1.\n"
+        "! cusps. If it were very fast, it would go round with m g s/(I3 omega_3) = 4.9 rad/s on the mean, and nod with\n"
+        "! I3 omega_3/I1 = 50 rad/s; as it is, with 5.07 and 46.2 rad/s.\n"
         "&scene\n"
         "  title = 'Symmetric top: precession and nutation with cusps'\n"
         "  system = 'symmetric_top'\n"

@@ -82,7 +82,7 @@ contains
         call add(course, "I", 9, 13, &
                  "holonomic constraint: $x_i = x_i (\{q, f, t\}) = c_i$", &
                  "holonomic: f(x, t) = c, and one variable less for each of them", &
-                 "principle constraints; principle reactions; errata E24")
+                 "principle constraints; principle reactions; errata E28")
         call add(course, "I", 14, 14, &
                  "nonholonomic constraint -> more difficult case", &
                  "nonholonomic: a constraint on velocities, which takes away no coordinate", &
@@ -136,7 +136,7 @@ contains
                  "$\frac{d}{dt} (\frac{\partial T}{\partial q_j}) - \frac{\partial "// &
                  "(T-V)}{\partial q_j} = 0$", &
                  "Lagrange's equations with T - V, against the hand-derived ones", &
-                 "check; errata E25")
+                 "check; errata E27")
         call add(course, "I", 71, 71, &
                  "L=T-V= Lagrangian", &
                  "T, V and L of a system", &

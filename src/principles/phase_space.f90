@@ -45,8 +45,8 @@ contains
         if (.not. allocated(error)) call draw_clouds(report, error)
         call report%note("Cloud: the starts within 0.3 of theta = 1 rad, theta_dot/w0 = 0. "// &
                          "Area in J s.")
-        call report%note("Exponents from 100 s to 400 s; from 90 degrees, at rest. Without "// &
-                         "chaos neighbours")
+        call report%note("Exponents from 100 s to 400 s; the chaotic one from 90 degrees, at "// &
+                         "rest. Without chaos neighbours")
         call report%note("part as t, not as exp(t): what is left is of size ln(4)/(300 s) = "// &
                          "0.005/s.")
     end subroutine phase_space_principle
