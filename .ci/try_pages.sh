@@ -210,11 +210,11 @@ files sweep flip_map --over theta1=0.5:3:6 --over theta2=-1:1:3 --json
 files sweep period_of_amplitude --over theta=0.5:3:6
 files sweep resonance --over drive_frequency=0.2:3:5 --format csv
 files sweep ueda --over f=5.5:13.5:3
-written '*' sweep basins --over theta=-1:1:3 --over theta_dot=-1:1:3
-written '*' sweep bifurcation --over W=0.6:0.7:3
-written '*' sweep section --over theta1=-0.3:0.3:3
-written '*' sweep lyapunov_map --over theta=0.3:0.6:2 --over theta_dot=0.3:0.6:2
-written '*' sweep flip_map --over theta1=0.5:3:6:random --over theta2=-1:1:6:random
+written '*.gp' sweep basins --over theta=-1:1:3 --over theta_dot=-1:1:3
+written '*.gp' sweep bifurcation --over f=1:1.5:3
+written '*.gp' sweep section --over theta2_dot=-1:1:3
+written '*.gp' sweep lyapunov_map --over W=0.5:1:2 --over f=1:1.5:2
+written '*.gp' sweep flip_map --over theta1=0.5:3:6:random --over theta2=-1:1:6:random
 "$program" bench precision --quick --problems oscillator,P1 --methods rk4,dop853 --output "$work/files" >/dev/null 2>&1
 keep the script of bench < <(sed -E 's/\[[0-9.e+-]+:[0-9.e+-]+\]/[~]/g' "$work/files/bench.gp")
 command -v gnuplot >/dev/null && files report pendulum_rotation hanging_chain
