@@ -18,7 +18,7 @@ module lagrangia_judged_equality
     use lagrangia_squared_statements, only: compare_squares, explain_squares
     use lagrangia_statement_forms, only: has_velocities, is_branch, is_motion, &
                                          read_as_tension, speaks_of_place, tensions, &
-                                         valued_parameter
+                                         value_remark
     use lagrangia_term_search, only: library_t, part_text
     use lagrangia_verdict, only: is_right, is_unreadable, is_wrong, judgement_t, put_example
     implicit none (type, external)
@@ -132,11 +132,9 @@ contains
             judgement%verdict = is_unreadable
             judgement%remark = "a motion is not graded, only what holds at all times; write "// &
                 "its equation, or its frequency"
-        else if (valued_parameter(left, right, samples) > 0) then
+        else if (value_remark(left, right, samples) /= "") then
             judgement%verdict = is_unreadable
-            judgement%remark = "graded for any value; a line 'set: "// &
-                trim(samples%symbols%names(valued_parameter(left, right, samples)))// &
-                " = ...' fixes one"
+            judgement%remark = value_remark(left, right, samples)
         else if (.not. judged) then
             judgement%verdict = is_unreadable
             judgement%remark = "no number at the states that were tried: a root, a logarithm "// &

@@ -18,7 +18,7 @@ module lagrangia_statement_forms
     public :: drop_root_of_name, find_frequency, read_as_period, read_as_tension, read_new_name, &
               tensions
     public :: has_velocities, is_branch, is_motion, is_slope, means_frequency, &
-              valued_parameter
+              value_remark
 
 contains
 
@@ -316,26 +316,30 @@ contains
         end do
     end function is_motion
 
-    pure function valued_parameter(left, right, samples) result(k)
-        !! Which parameter stands alone on the left, or what it is called, with a number on the right
-        !! side; 0: none, or a line 'set:' has fixed it.
+    pure function value_remark(left, right, samples) result(remark)
+        !! What is said of a parameter or letter alone on the left and a number on the right side,
+        !! where no line 'set:' has fixed it; otherwise empty.
         type(expression_t), intent(in) :: left, right   !! both sides
         type(samples_t), intent(in) :: samples          !! know the names
-        integer :: k
-        integer :: i
+        character(:), allocatable :: remark
+        integer :: i, k
 
-        k = 0
-        if (any(right%nodes(:right%count)%kind == kind_symbol) .or. .not. is_name(left)) return
+        remark = ""
+        if (.not. is_name(left) .or. any(right%nodes(:right%count)%kind == kind_symbol)) return
         k = left%nodes(1)%which
+        if (samples%role(k) /= role_parameter) return
+        if (index(samples%symbols%names(k), "_dot") > 0) return
+        if (minval(samples%values(:, k)) >= maxval(samples%values(:, k))) return
+        remark = "graded for any value; a line 'set: "//trim(samples%symbols%names(k))// &
+                 " = ...' fixes one"
         do i = 1, size(samples%compiled)
             associate (letter => samples%compiled(i))
-                if (letter%symbol /= left%nodes(1)%which) cycle
-                if (is_name(letter%formula)) k = letter%formula%nodes(1)%which
+                if (letter%symbol /= k) cycle
+                remark = "graded for any value; lines 'set:' fix parameters that it follows from"
+                if (is_name(letter%formula)) remark = "graded for any value; a line 'set: "// &
+                    trim(samples%symbols%names(letter%formula%nodes(1)%which))//" = ...' fixes one"
             end associate
         end do
-        if (samples%role(k) /= role_parameter .or. &
-            index(samples%symbols%names(k), "_dot") > 0 .or. &
-            minval(samples%values(:, k)) >= maxval(samples%values(:, k))) k = 0
     contains
         pure logical function is_name(side)
             type(expression_t), intent(in) :: side
@@ -343,7 +347,7 @@ contains
             is_name = side%count == 1
             if (is_name) is_name = side%nodes(1)%kind == kind_symbol
         end function is_name
-    end function valued_parameter
+    end function value_remark
 
     pure function is_fixed(samples, k) result(yes)
         !! A parameter, or a rate of decay.
