@@ -75,7 +75,7 @@ contains
         if (.not. allocated(d%points)) allocate (d%points(0))
         if (.not. allocated(d%notes)) allocate (d%notes(0))
         if (.not. allocated(d%equations)) allocate (d%equations(0))
-        if (d%constraint == "") d%constraint = "in the choice of coordinates"
+        if (d%constraint == "") d%constraint = "in the choice of coordinates, if any"
         if (d%source == "") d%source = "your own"
         if (.not. allocated(self%p)) return
         first = 1
