@@ -52,8 +52,6 @@ contains
             x = findloc(series(i)%names, series(1)%names(panel%x), 1)
             do k = 1, panel%curves
                 y = findloc(series(i)%names, series(1)%names(panel%y(k)), 1)
-                if (i == 1) y = panel%y(k)
-                if (i == 1) x = panel%x
                 if (x == 0 .or. y == 0) cycle
                 n = n + 1
                 found(n) = trace_t(i, x, y)
