@@ -254,6 +254,9 @@ contains
                 text = text//brief(r(1))
             end associate
         end do
-        if (text /= "") explanation = explanation_t(text="the left side is "//text)
+        if (text == "") return
+        if (allocated(explanation%lacks)) deallocate (explanation%lacks)
+        explanation%text = "the left side is "//text
+        explanation%is_surplus = .false.
     end subroutine true_number
 end module lagrangia_rounded_numbers
