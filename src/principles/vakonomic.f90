@@ -42,8 +42,8 @@ contains
                          "phi_dot cos(theta)),")
         call report%note("'vakonomic'. x points down the incline of 0.1 rad. A disk of 1.3 kg, "// &
                          "R = 0.3 m,")
-        call report%note("that rolls with 4 rad/s and steers with 1.1 rad/s at first; mu1 = mu2 "// &
-                         "= 0 there.")
+        call report%note("that rolls with 4 rad/s and steers with 1.1 rad/s at first; "// &
+                         "mu1 = mu2 = 0 there.")
     end subroutine vakonomic_principle
 
     subroutine start_of(heading, steering, disk, inside, q0, v0, error)
