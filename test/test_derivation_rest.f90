@@ -46,6 +46,7 @@ contains
         call suite%addTest(TestMethod("a_force_without_stiffness_has_no_place", &
                                       a_force_without_stiffness_has_no_place))
         call suite%addTest(TestMethod("what_turns_as_it_grows", what_turns_as_it_grows))
+        call suite%addTest(TestMethod("what_is_far_away_counts", what_is_far_away_counts))
     end function derivation_rest_suite
 
     subroutine constraints_of_coupled_masses()
@@ -83,6 +84,27 @@ contains
             end do
         end subroutine places
     end subroutine a_force_without_stiffness_has_no_place
+
+    subroutine what_is_far_away_counts()
+        !! Rough ground and a wall that begin at 20 m, a kick after 30 s: near the origin and at
+        !! first there is no trace of them in a double.
+        character(*), parameter :: formulas(3) = [character(90) :: &
+            one//"T = 'm/2 x_dot^2' Q_x = '-b x_dot (1 + tanh(5 (x - 20)))/2'", &
+            one//"T = 'm/2 x_dot^2' V = 'k/8 (|x - 20| + x - 20)^2'", &
+            one//"T = 'm/2 x_dot^2' V = 'k/2 x^2' Q_x = 'b exp(-(t - 30)^2)'"]
+        class(system_t), allocatable :: system
+        type(error_t), allocatable :: error
+        integer :: i
+
+        do i = 1, size(formulas)
+            call make(trim(formulas(i))//" ", system, error)
+            if (allocated(error)) return
+            call assertEqual(0, system%cyclic, message=formulas(i))
+            call assertTrue(system%nonconservative .eqv. i /= 2, formulas(i))
+            call assertTrue(system%velocity_forces .eqv. i == 1, formulas(i))
+            call assertTrue(system%time_dependent .eqv. i == 3, formulas(i))
+        end do
+    end subroutine what_is_far_away_counts
 
     subroutine what_turns_as_it_grows()
         !! A hill that rotates with w: \(\lambda = \pm\sqrt{k/m - w^2} \pm iw\), and

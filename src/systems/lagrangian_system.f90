@@ -49,6 +49,8 @@ module lagrangia_lagrangian_system
         end subroutine outline_i
     end interface
 
+    integer, parameter :: near = 60, far = 8  !! states that show the structure
+
 contains
 
     pure function value(self, i, default)
@@ -111,8 +113,9 @@ contains
     pure subroutine find_structure(self)
         !! Whether accelerations depend on the velocities, whether L or a generalised force depends
         !! on the time, whether there is such a force, and which coordinates are cyclic, from up to
-        !! four states at which L is finite: of state \(k\), \(|q| \le 0.8^k\). Without any, L
-        !! counts as dependent on everything.
+        !! four states at which L is finite: of state \(k\), \(|q| \le 0.8^k\); and from those of
+        !! eight others, far away and late, for what is 0 near the origin or at first. Without any,
+        !! L counts as dependent on everything.
         class(lagrangian_system_t), intent(inout) :: self
         type(euler_lagrange_t) :: terms
         real(dp), dimension(self%ndof) :: q, v, a, b
@@ -128,7 +131,8 @@ contains
         cyclic = .true.
         moves = .false.
         used = 0
-        do k = 1, 60
+        do k = 1, near + far
+            if (used == 4 .and. k <= near) cycle
             call trial_state(k, t, q, v)
             call expand_lagrangian(self, t, q, v, terms)
             if (.not. all(ieee_is_finite([terms%l, terms%dl_dt, terms%dl_dq]))) cycle
@@ -149,7 +153,6 @@ contains
                 self%velocity_forces = self%velocity_forces .or. maxval(abs(a - b)) > 0.0_dp
             end if
             used = used + 1
-            if (used == 4) exit
         end do
         self%nonconservative = acted
         if (.not. moves) self%velocity_forces = .true.
@@ -163,7 +166,7 @@ contains
     end subroutine find_structure
 
     pure subroutine find_bonds(self, cyclic)
-        !! What the constraints change, from up to four states at which they are finite:
+        !! What the constraints change, from the states at which they are finite:
         !! accelerations depend on velocities, and a momentum is conserved only where they leave
         !! its coordinate alone. Without any such state they count as dependent on everything.
         class(lagrangian_system_t), intent(inout) :: self
@@ -177,7 +180,8 @@ contains
         self%velocity_forces = .true.
         self%constraints_work = .false.
         used = 0
-        do k = 1, 60
+        do k = 1, near + far
+            if (used == 4 .and. k <= near) cycle
             call trial_state(k, t, q, v)
             tt = hyperdual_t(re=t, d1=1.0_dp)
             qq = hyperdual_t()
@@ -198,7 +202,6 @@ contains
                     any(abs(drift%d1) > 0.0_dp)) cyclic(i) = .false.
             end do
             used = used + 1
-            if (used == 4) return
         end do
         if (used > 0) return
         self%time_dependent = .true.
@@ -207,13 +210,20 @@ contains
     end subroutine find_bonds
 
     pure subroutine trial_state(k, t, q, v)
-        !! One of many states, of which some will do for any Lagrangian: \(|q| \le 0.8^k\).
+        !! One of many states, of which some will do for any Lagrangian: \(|q| \le 0.8^k\); of the
+        !! last ones \(|q| \le 3\cdot 2^j\), j from 1 to `far`.
         integer, intent(in) :: k                   !! from 1
         real(dp), intent(out) :: t, q(:), v(:)     !! time, s; coordinates, velocities
+        real(dp) :: size_of_q
         integer :: i
 
         t = 0.4_dp*k
-        q = [(0.8_dp**k*sin(1.3_dp*i + 2.1_dp*k), i=1, size(q))]
+        size_of_q = 0.8_dp**k
+        if (k > near) then
+            t = 7.0_dp*(k - near)
+            size_of_q = 3.0_dp*2.0_dp**(k - near)
+        end if
+        q = [(size_of_q*sin(1.3_dp*i + 2.1_dp*k), i=1, size(q))]
         if (mod(k, 2) == 0) q = abs(q)  ! a radius is positive
         v = [(cos(0.7_dp*i + 1.7_dp*k), i=1, size(v))]
     end subroutine trial_state
