@@ -108,6 +108,7 @@ contains
         type(homework_t), intent(in) :: homework
         class(system_t), intent(in) :: system
         type(grade_t), intent(in) :: result
+        character(:), allocatable :: counts
         integer :: i
 
         call put_line(trim(short_source(homework%source))//": "// &
@@ -121,7 +122,8 @@ contains
                 if (judgement%example /= "") call put_line("          "//judgement%example)
             end associate
         end do
-        if (count_text(result) /= "") call put_line(count_text(result))
+        counts = count_text(result)
+        if (counts /= "") call put_line(counts)
         call put_first_mistake(homework, result)
         if (result%meaning /= "") call put_line(result%meaning)
         if (result%kept /= "") call put_line("not named, and therefore: "//result%kept)

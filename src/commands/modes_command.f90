@@ -24,7 +24,7 @@ module lagrangia_modes_command
     use lagrangia_progress, only: progress_t
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, &
-                                            likely_equilibrium, modes_t, turns, twin_of
+                                            likely_equilibrium, modes_t, twin_of
     use lagrangia_system, only: system_t
     use lagrangia_text, only: in_words, to_text
     implicit none (type, external)
@@ -172,7 +172,7 @@ contains
                 end associate
             else if (modes%label(j) == is_unstable) then
                 row(20:) = "growth rate "//number(sqrt(-modes%omega2(j)))//" 1/s"
-                if (turns(modes, j)) then
+                if (modes%turning(j) > 0.0_dp) then
                     row(:19) = "complex"
                     row(50:) = "turns by "//trim(number(modes%turning(j)))//" rad/s"
                 end if
@@ -367,7 +367,7 @@ contains
             text = text//json_element(json_string(labels(modes%label(j))))
         end do
         omega2 = modes%omega2
-        where (turns(modes, [(j, j=1, size(omega2))])) omega2 = ieee_value(0.0_dp, ieee_quiet_nan)
+        where (modes%turning > 0.0_dp) omega2 = ieee_value(0.0_dp, ieee_quiet_nan)
         call put(json_item("omega2", json_list(omega2))// &
                  json_item("omega", json_list(modes%omega))//json_item("label", json_array(text)))
         call put_rows("shapes", transpose(modes%shapes))

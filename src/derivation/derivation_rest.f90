@@ -12,7 +12,7 @@ module lagrangia_derivation_rest
                                     kind_symbol
     use lagrangia_formula_size, only: evaluate
     use lagrangia_kinds, only: dp
-    use lagrangia_small_oscillations, only: modes_t, turns
+    use lagrangia_small_oscillations, only: modes_t
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -89,7 +89,7 @@ contains
             call compare_rates(derivation, system, modes, values, line, c)
             return
         case (line_omega2)
-            c%known = .not. any(turns(modes, [(k, k=1, size(modes%omega2))]))  ! else it is complex
+            c%known = .not. any(modes%turning > 0.0_dp)  ! else it is complex
             if (.not. c%known) return
             c%program = paired(derivation, values, modes%omega2, line)
             c%noise = c%noise + root_noise(modes, line%i)
@@ -97,7 +97,7 @@ contains
             c%noise = huge(c%noise)
             c%formula = 0.0_dp
             do k = 1, size(modes%omega2)
-                if (turns(modes, k)) cycle
+                if (modes%turning(k) > 0.0_dp) cycle
                 values(derivation%omega()) = sqrt(abs(modes%omega2(k)))
                 if (modes%omega2(k) < 0.0_dp) then
                     call evaluate(imaginary(line%right, derivation%omega()), values, value, noise)

@@ -100,7 +100,6 @@ contains
         subroutine go_on()
             !! From `start` to `finish`, in steps of the method's own. The displacement has length 1
             !! again at the end, and on the way wherever it is not between `shortest` and `longest`.
-            integer(i8), parameter :: fine = 10_i8**15  ! parts of the time
             real(dp) :: length
             integer :: n
 
@@ -120,8 +119,7 @@ contains
                 call method%refuse_more(steps, t0, t_end, error)
                 if (interrupt_status() /= 0) call fail(error, "interrupted", interrupt_status())
                 if (allocated(error)) return
-                if (present(watcher)) call watcher%tick( &
-                    int(fine*((method%t_new - t0)/(t_end - t0)), i8), fine)
+                if (present(watcher)) call watcher%tick_share((method%t_new - t0)/(t_end - t0))
                 if (method%t_new < finish .and. length > shortest .and. length < longest) cycle
                 growth = growth + log(length)
                 q(n + 1:) = q(n + 1:)/length

@@ -13,6 +13,7 @@ module lagrangia_observer
     contains
         procedure(observe_i), deferred :: observe
         procedure :: tick => no_tick
+        procedure, non_overridable :: tick_share
         procedure :: follows => no
         procedure :: follows_samples => no
         procedure :: meet => no_meet
@@ -58,6 +59,15 @@ contains
         class(observer_t), intent(inout) :: self
         integer(i8), intent(in) :: done, steps  !! steps or samples so far, and in all
     end subroutine no_tick
+
+    subroutine tick_share(self, share)
+        !! `tick` with a share of the whole, in parts so fine that none of what ends is 0 of them.
+        class(observer_t), intent(inout) :: self
+        real(dp), intent(in) :: share  !! from 0; above 1 it counts as 1
+        integer(i8), parameter :: all = 10_i8**15
+
+        call self%tick(int(all*min(1.0_dp, share), i8), all)
+    end subroutine tick_share
 
     pure function no(self)
         !! Whether it wants to see every step, not only the samples, and inside a step the motion

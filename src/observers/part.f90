@@ -8,8 +8,6 @@ module lagrangia_part
     private
     public :: part_t
 
-    integer(i8), parameter :: fine = 10_i8**15  !! steps of the whole
-
     type, extends(observer_t) :: part_t
         class(observer_t), pointer :: whole => null()  !! is told; may be null
         real(dp) :: from = 0.0_dp, to = 1.0_dp         !! of the whole
@@ -36,6 +34,6 @@ contains
 
         if (.not. associated(self%whole)) return
         share = real(done, dp)/real(max(steps, 1_i8), dp)
-        call self%whole%tick(int(fine*(self%from + share*(self%to - self%from)), i8), fine)
+        call self%whole%tick_share(self%from + share*(self%to - self%from))
     end subroutine tick
 end module lagrangia_part

@@ -192,10 +192,8 @@ contains
     subroutine tell(self, t, t_end)
         !! Whoever watches that one of these runs has come to time `t`.
         class(second_run_t), intent(in) :: self
-        real(dp), intent(in) :: t, t_end              !! s
-        integer(i8), parameter :: fine = 10_i8**15  ! parts of the time
+        real(dp), intent(in) :: t, t_end  !! s
 
-        if (.not. associated(self%watcher)) return
-        call self%watcher%tick(int(fine*min(1.0_dp, (t - self%t0)/(t_end - self%t0)), i8), fine)
+        if (associated(self%watcher)) call self%watcher%tick_share((t - self%t0)/(t_end - self%t0))
     end subroutine tell
 end module lagrangia_second_run

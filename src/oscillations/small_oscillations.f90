@@ -24,7 +24,7 @@ module lagrangia_small_oscillations
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: modes_t, find_modes, likely_equilibrium, stays, turns, twin_of
+    public :: modes_t, find_modes, likely_equilibrium, stays, twin_of
     public :: is_oscillation, is_zero_mode, is_unstable
 
     integer, parameter :: largest_expansion = 60  !! coordinates; beyond, L is not differentiated
@@ -39,8 +39,8 @@ module lagrangia_small_oscillations
         real(dp), allocatable :: multipliers(:)    !! of the constraints at the equilibrium
         real(dp), allocatable :: quadrature(:, :)  !! with \(G\): shape cos - quadrature sin
         real(dp), allocatable :: turning(:)
-        !! with \(G\): rad/s of an unstable mode that turns while it grows, \(\omega^2\) being
-        !! complex and `omega2` less the square of the growth rate; 0 of all others
+        !! rad/s of an unstable mode that turns while it grows, as \(G\) may let it, \(\omega^2\)
+        !! being complex and `omega2` less the square of the growth rate; 0 of all others
         real(dp) :: ratio = -1.0_dp                !! LAPACK's residual ratio
         character(40) :: method = ""
     contains
@@ -118,10 +118,8 @@ contains
         modes%method = free%method
         modes%ratio = free%ratio
         modes%shapes = matmul(tangent%basis, free%shapes)
-        if (allocated(free%quadrature)) then
-            modes%quadrature = matmul(tangent%basis, free%quadrature)
-            modes%turning = free%turning
-        end if
+        modes%turning = free%turning
+        if (allocated(free%quadrature)) modes%quadrature = matmul(tangent%basis, free%quadrature)
         call move_alloc(tangent%basis, modes%basis)
     end subroutine solve_constrained
 
@@ -156,6 +154,7 @@ contains
         end if
         if (allocated(error)) return
         if (.not. allocated(modes%quadrature)) then
+            modes%turning = 0.0_dp*modes%omega2
             modes%ratio = residual_ratio(modes%stiffness, modes%mass, modes%omega2, modes%shapes)
         end if
         call label_modes(modes)
@@ -317,16 +316,6 @@ contains
         end if
         k = 0
     end function twin_of
-
-    elemental function turns(modes, j) result(yes)
-        !! Has the mode a complex \(\omega^2\)?
-        type(modes_t), intent(in) :: modes  !! solved
-        integer, intent(in) :: j            !! which
-        logical :: yes
-
-        yes = allocated(modes%turning)
-        if (yes) yes = modes%turning(j) > 0.0_dp
-    end function turns
 
     pure function stays(modes, j) result(yes)
         !! Is a zero mode at rest wherever it is, as a charge in a magnetic field? \(u\,t\) obeys

@@ -18,7 +18,6 @@ module lagrangia_dense_run
     public :: drive, run_dense
 
     integer, parameter :: most_at_once = 100  !! impacts at one time
-    integer(i8), parameter :: fine = 10_i8**15  !! parts of the time, as whose number it is told
 
 contains
 
@@ -196,15 +195,13 @@ contains
         subroutine look_around()
             !! Signals, and whoever watches the run go on.
             integer :: i
-            integer(i8) :: done
 
             if (interrupt_status() /= 0) then
                 call fail(error, "interrupted", interrupt_status())
                 return
             end if
-            done = int(fine*min(1.0_dp, (method%t_new - grid%t0)/grid%duration), i8)
             do i = 1, size(observers)
-                call observers(i)%item%tick(done, fine)
+                call observers(i)%item%tick_share((method%t_new - grid%t0)/grid%duration)
             end do
         end subroutine look_around
     end subroutine run_dense

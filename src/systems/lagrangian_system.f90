@@ -22,7 +22,7 @@ module lagrangia_lagrangian_system
     implicit none (type, external)
     private
     public :: lagrangian_system_t
-    public :: find_structure, trial_state
+    public :: find_structure, is_spare, near_states, trial_state
 
     type, abstract, extends(bound_system_t) :: lagrangian_system_t
         real(dp), allocatable :: p(:)  !! the parameters, in the order of `describe`
@@ -49,7 +49,8 @@ module lagrangia_lagrangian_system
         end subroutine outline_i
     end interface
 
-    integer, parameter :: near = 60, far = 8  !! states that show the structure
+    integer, parameter :: near_states = 60, enough = 4  !! states near the origin, and how many will do
+    integer, parameter :: last_state = near_states + 4  !! the others are far away and late
 
 contains
 
@@ -112,10 +113,9 @@ contains
 
     pure subroutine find_structure(self)
         !! Whether accelerations depend on the velocities, whether L or a generalised force depends
-        !! on the time, whether there is such a force, and which coordinates are cyclic, from up to
-        !! four states at which L is finite: of state \(k\), \(|q| \le 0.8^k\); and from those of
-        !! eight others, far away and late, for what is 0 near the origin or at first. Without any,
-        !! L counts as dependent on everything.
+        !! on the time, whether there is such a force, and which coordinates are cyclic, from the
+        !! states of `trial_state` at which L is finite. Without any, L counts as dependent on
+        !! everything.
         class(lagrangian_system_t), intent(inout) :: self
         type(euler_lagrange_t) :: terms
         real(dp), dimension(self%ndof) :: q, v, a, b
@@ -131,8 +131,8 @@ contains
         cyclic = .true.
         moves = .false.
         used = 0
-        do k = 1, near + far
-            if (used == 4 .and. k <= near) cycle
+        do k = 1, last_state
+            if (is_spare(k, used)) cycle
             call trial_state(k, t, q, v)
             call expand_lagrangian(self, t, q, v, terms)
             if (.not. all(ieee_is_finite([terms%l, terms%dl_dt, terms%dl_dq]))) cycle
@@ -145,14 +145,14 @@ contains
             cyclic = cyclic .and. abs(beside%re) <= 0.0_dp
             self%time_dependent = self%time_dependent .or. abs(terms%dl_dt) > 0.0_dp &
                                   .or. any(abs(beside%d1) > 0.0_dp)
+            used = used + 1
+            if (self%velocity_forces) cycle
             call self%accelerations(t, q, v, a)
             v = -0.5_dp*v  ! a friction that is always the same turns round, too
             call self%accelerations(t, q, v, b)
-            if (all(ieee_is_finite([a, b]))) then
-                moves = .true.
-                self%velocity_forces = self%velocity_forces .or. maxval(abs(a - b)) > 0.0_dp
-            end if
-            used = used + 1
+            if (.not. all(ieee_is_finite([a, b]))) cycle
+            moves = .true.
+            self%velocity_forces = maxval(abs(a - b)) > 0.0_dp
         end do
         self%nonconservative = acted
         if (.not. moves) self%velocity_forces = .true.
@@ -180,8 +180,8 @@ contains
         self%velocity_forces = .true.
         self%constraints_work = .false.
         used = 0
-        do k = 1, near + far
-            if (used == 4 .and. k <= near) cycle
+        do k = 1, last_state
+            if (is_spare(k, used)) cycle
             call trial_state(k, t, q, v)
             tt = hyperdual_t(re=t, d1=1.0_dp)
             qq = hyperdual_t()
@@ -209,19 +209,28 @@ contains
         cyclic = .false.
     end subroutine find_bonds
 
+    pure function is_spare(k, used) result(yes)
+        !! Need state `k` of `trial_state` not be tried, since others near the origin were of use?
+        integer, intent(in) :: k, used  !! from 1; how many were
+        logical :: yes
+
+        yes = k <= near_states .and. used >= enough
+    end function is_spare
+
     pure subroutine trial_state(k, t, q, v)
-        !! One of many states, of which some will do for any Lagrangian: \(|q| \le 0.8^k\); of the
-        !! last ones \(|q| \le 3\cdot 2^j\), j from 1 to `far`.
-        integer, intent(in) :: k                   !! from 1
+        !! One of many states, of which some will do for any Lagrangian: \(|q| \le 0.8^k\). Those
+        !! behind `near_states` are for what is 0 near the origin or at first, as a wall or a kick:
+        !! \(|q| \le 3\cdot 4^j\), \(t = 14j\) s.
+        integer, intent(in) :: k                   !! from 1 to `last_state`
         real(dp), intent(out) :: t, q(:), v(:)     !! time, s; coordinates, velocities
         real(dp) :: size_of_q
         integer :: i
 
         t = 0.4_dp*k
         size_of_q = 0.8_dp**k
-        if (k > near) then
-            t = 7.0_dp*(k - near)
-            size_of_q = 3.0_dp*2.0_dp**(k - near)
+        if (k > near_states) then
+            t = 14.0_dp*(k - near_states)
+            size_of_q = 3.0_dp*4.0_dp**(k - near_states)
         end if
         q = [(size_of_q*sin(1.3_dp*i + 2.1_dp*k), i=1, size(q))]
         if (mod(k, 2) == 0) q = abs(q)  ! a radius is positive

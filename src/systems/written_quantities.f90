@@ -11,7 +11,8 @@ module lagrangia_written_quantities
     use lagrangia_formula_program, only: formula_program_t
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
-    use lagrangia_lagrangian_system, only: lagrangian_system_t, trial_state
+    use lagrangia_lagrangian_system, only: is_spare, lagrangian_system_t, near_states, &
+                                          trial_state
     use lagrangia_symbols, only: symbols_t
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
@@ -54,12 +55,12 @@ contains
 
     pure subroutine find_conserved(system, program, conserved)
         !! A quantity is conserved if its rate is rounding beside the terms that add up to it, at
-        !! up to four states, with velocities that keep the constraints.
+        !! the first states of `trial_state`, with velocities that keep the constraints. Far away
+        !! the terms of a force may cancel, and the rest be no rounding of the rate's own terms.
         class(lagrangian_system_t), intent(in) :: system   !! whose motion it is
         type(formula_program_t), intent(in) :: program     !! the quantities, of t, q, q_dot
         logical, allocatable, intent(out) :: conserved(:)  !! each of them
         real(dp), parameter :: rounding = 1e-11_dp  !! of terms that may themselves cancel
-        integer, parameter :: states = 4
         real(dp), dimension(system%ndof) :: q, v, a
         real(dp), dimension(program%outputs) :: rate, terms
         real(dp) :: t
@@ -68,7 +69,8 @@ contains
         allocate (conserved(program%outputs), source=.true.)
         if (size(conserved) == 0) return
         used = 0
-        do k = 1, 60
+        do k = 1, near_states
+            if (is_spare(k, used)) cycle
             call trial_state(k, t, q, v)
             call keep_constraints(system, t, q, v)
             call system%accelerations(t, q, v, a)
@@ -76,7 +78,6 @@ contains
             if (.not. all(ieee_is_finite([a, rate, terms]))) cycle
             conserved = conserved .and. abs(rate) <= rounding*terms
             used = used + 1
-            if (used == states) return
         end do
         if (used == 0) conserved = .false.
     end subroutine find_conserved
