@@ -49,7 +49,7 @@ module lagrangia_lagrangian_system
         end subroutine outline_i
     end interface
 
-    integer, parameter :: near_states = 60, enough = 4  !! states near the origin, and how many will do
+    integer, parameter :: near_states = 60, enough = 4  !! near the origin; so many will do
     integer, parameter :: last_state = near_states + 4  !! the others are far away and late
 
 contains
