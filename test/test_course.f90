@@ -65,7 +65,9 @@ contains
             at = index(course(i)%shows, "errata E")
             if (at == 0) cycle
             named = named + 1
-            k = findloc(slips%id, course(i)%shows(at + 7:at + 9), 1)
+            do k = size(slips), 1, -1
+                if (slips(k)%id == course(i)%shows(at + 7:at + 9)) exit
+            end do
             call assertTrue(k > 0, course(i)%shows)
             if (anyExceptions()) return
             call assertTrue(any(slips(k)%quotes%scan == course(i)%scan .and. &
