@@ -72,9 +72,12 @@ contains
 
     subroutine letters_alone()
         !! No motion is another one then: the same but for a factor, of either sign, follows.
-        call sheet("pendulum", [character(50) :: "m = l", "l = m", "m^2 = l^2", "2 m = 2 l"], &
-                   [character(90) :: "'m' must be 'l'", "from line 2, which is wrong", &
-                    "'m' must be 'l' in 'm^2'", "from line 2, which is wrong"])
+        call sheet("oscillator", [character(50) :: "omega = k/m", "k/m = omega", &
+                                  "2 omega = 2 k/m", "m = k"], &
+                   [character(90) :: "'omega' must have the exponent 2", &
+                    "from line 2, which is wrong", &
+                    "from line 2, which is wrong", "a condition between parameters, which "// &
+                    "are tried at random; lines 'set:' fix them"])
     end subroutine letters_alone
 
     subroutine what_changes_and_why()

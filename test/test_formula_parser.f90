@@ -289,7 +289,7 @@ contains
         call is_refused("arctan(x)", "column 1: unknown function 'arctan'; did you mean 'atan'?")
         call is_refused("bessel(x)", "column 1: unknown function 'bessel'; there are abs, "// &
                         "atan, "// &
-                        "cos, cosh, exp, log, sin, sinh, sqrt, tan, tanh")
+                        "cos, cosh, exp, log, sin, sinh, sqrt, tan, tanh, acos, asin")
         call is_refused("X", "column 1: unknown name 'X'; did you mean 'x'?")
         call is_refused("m x_dot'", "column 8: a prime is no derivative; write x_ddot")
     end subroutine wrong_names_have_a_remedy

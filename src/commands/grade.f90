@@ -11,6 +11,7 @@ module lagrangia_grade
                               json_string
     use lagrangia_judgement, only: is_consequence, is_definition, is_right, is_unreadable, &
                                    is_wrong
+    use lagrangia_parameter_choice, only: find_parameter
     use lagrangia_printed_table, only: left
     use lagrangia_scene_reader, only: read_named_system
     use lagrangia_system, only: system_t
@@ -85,9 +86,15 @@ contains
         if (.not. allocated(error) .and. n > 0) then
             call system%describe(d)
             do i = 1, n
-                settings(i)%text = trim(d%name)//"%"//homework%settings(i)%text
+                line = homework%setting_lines(i)
+                call put_setting(homework%settings(i)%text, d, settings(i)%text, error)
+                if (allocated(error)) exit
             end do
-            call read_named_system(homework%system, settings, system, error)
+            if (.not. allocated(error)) then
+                call read_named_system(homework%system, settings, system, error)
+            else
+                n = 0
+            end if
             do i = n, 1, -1  ! the first line with which it fails
                 if (.not. allocated(error)) exit
                 line = homework%setting_lines(i)
@@ -100,8 +107,33 @@ contains
         option = "--set "//trim(d%name)//"%"
         if (index(error%message, option) == 1) error%message = "set: "// &
                                                               error%message(len(option) + 1:)
+        n = index(error%message, "another --set")
+        if (n > 0) error%message = error%message(:n - 1)//"another line 'set:'"// &
+                                   error%message(n + 13:)
         call error%add_context(trim(short_source(homework%source))//":"//to_text(line))
     end subroutine find_system
+
+    subroutine put_setting(said, d, setting, error)
+        !! `magnetic_y=1` is `charged_particle%magnetic(2)=1` to the reader.
+        character(*), intent(in) :: said                        !! `name=value`
+        type(description_t), intent(in) :: d                    !! of the system
+        character(:), allocatable, intent(out) :: setting       !! as behind `--set`
+        type(error_t), allocatable, intent(out) :: error        !! an element that is none
+        character(:), allocatable :: name
+        integer :: element, equals, parameter
+
+        equals = index(said, "=")
+        setting = trim(d%name)//"%"//said
+        call find_parameter(d, said(:equals - 1), parameter, element)
+        if (parameter == 0 .or. element == 0) return
+        associate (p => d%parameters(parameter))
+            if (p%count == 1) return
+            name = trim(p%name)
+            setting = trim(d%name)//"%"//name//"("//to_text(element)//")"//said(equals:)
+            if (element > p%count) call fail(error, "set: "//name//" has "// &
+                to_text(p%count)//" values, "//name//"(1) to "//name//"("//to_text(p%count)//")")
+        end associate
+    end subroutine put_setting
 
     subroutine print_sheet(homework, system, result)
         !! For the eye.

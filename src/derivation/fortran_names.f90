@@ -1,6 +1,6 @@
 module lagrangia_fortran_names
     !! Names for the symbols of a system in formulas where they become variables of Fortran.
-    use lagrangia_expression, only: function_names
+    use lagrangia_expression, only: is_function_name
     use lagrangia_text, only: lower, word_t
     implicit none (type, external)
     private
@@ -41,7 +41,7 @@ contains
         logical :: yes
         integer :: i, last
 
-        yes = any(always == lower(name)) .or. any(function_names == lower(name))
+        yes = any(always == lower(name)) .or. is_function_name(lower(name))
         if (verify(name, "0123456789", back=.true.) < len(name)) then  ! `mass1_2`, not `mass1_`
             last = verify(name, "0123456789_", back=.true.)
             yes = yes .or. any(numbered == lower(name(:last)))

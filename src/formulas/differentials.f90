@@ -1,7 +1,7 @@
 module lagrangia_differentials
     !! Quotients of differentials, `d theta/dt`, `dV/dtheta`, `d^2V/(dx dy)`, `d/dt`: what is
     !! differentiated, how often, and by what.
-    use lagrangia_expression, only: function_names, kind_symbol
+    use lagrangia_expression, only: is_function_name, kind_symbol
     use lagrangia_formula_reader, only: reader_t
     use lagrangia_formula_tokens, only: is_end, is_name
     use lagrangia_names, only: name_length
@@ -60,7 +60,7 @@ contains
             at = behind_bracket(at)
         end if
         quotient%operand = name
-        if (any(function_names == name)) then  ! d sin(theta)/dt
+        if (is_function_name(name)) then  ! d sin(theta)/dt
             at = begun
         else if (name /= "" .and. word(at) == "(") then
             at = behind_arguments(at)

@@ -13,7 +13,7 @@ module lagrangia_expression
     public :: kind_number, kind_symbol, kind_sum, kind_difference, kind_product, kind_quotient, &
               kind_power, kind_negation, kind_function
     public :: f_abs, f_atan, f_cos, f_cosh, f_exp, f_log, f_sin, f_sinh, f_sqrt, f_tan, f_tanh
-    public :: function_names, function_value
+    public :: function_names, function_value, is_function_name
 
     integer, parameter :: kind_number = 0, kind_symbol = 1
     integer, parameter :: kind_sum = 2, kind_difference = 3, kind_product = 4, kind_quotient = 5
@@ -72,6 +72,15 @@ module lagrangia_expression
     end interface operator(**)
 
 contains
+
+    pure function is_function_name(name) result(yes)
+        !! Of a function, or of one that is written out by others.
+        character(*), intent(in) :: name  !! as in a formula
+        logical :: yes
+
+        yes = any(function_names == name) .or. &
+              any(["acos  ", "arccos", "asin  ", "arcsin"] == name)
+    end function is_function_name
 
     pure function constant(value) result(e)
         !! A number as a formula.

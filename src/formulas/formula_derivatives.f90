@@ -4,8 +4,9 @@ submodule (lagrangia_formula_parser) lagrangia_formula_derivatives
     use lagrangia_derivative, only: derivative, time_derivative
     use lagrangia_differentials, only: coordinates, find_quotient, is_known, is_slope_of, &
                                        place_of, quotient_t, slope_name
-    use lagrangia_expression, only: kind_symbol, operator(*), operator(+), symbol
+    use lagrangia_expression, only: kind_symbol, operator(*), operator(+), operator(/), symbol
     use lagrangia_formula_reader, only: is_time_in_brackets, largest
+    use lagrangia_formula_text, only: typed_name
     use lagrangia_formula_tokens, only: prime_advice
     use lagrangia_substitution, only: substituted
     implicit none (type, external)
@@ -138,6 +139,7 @@ contains
         integer, intent(inout) :: node
 
         if (.not. is_slope_of(symbols, quotient)) return
+        if (symbols%along_motion .and. quotient%operand == "T") return  ! the work-energy theorem
         call add_named(reader, symbols, slope_name(symbols, quotient%operand, &
                                                    trim(quotient%by(1))), quotient%behind, node)
     end subroutine add_slope
@@ -164,6 +166,13 @@ contains
             call refuse(reader, "only L, T, V and H have derivatives by "//quoted(by), error)
             return
         end if
+        if (symbols%along_motion .and. place < 2 + n .and. .not. has_slopes()) then
+            call differentiate(reader, symbols, first, node, error)
+            if (allocated(error)) return
+            slope = reader%expression%pruned(node)/symbol(symbols%rates(place))
+            call append(reader, first, slope, node, error)
+            return
+        end if
         slope = derivative(operand, place)
         alone = operand%count == 1
         do i = 2 + 2*n, size(symbols%rates)
@@ -172,7 +181,8 @@ contains
             name = slope_name(symbols, trim(symbols%names(i)), by)
             if (name == "") then
                 reader%at = first
-                call refuse(reader, "the derivative of '"//trim(symbols%names(i))//"' by "// &
+                call refuse(reader, "the derivative of '"//typed_name(trim(symbols%names(i)))// &
+                            "' by "// &
                             quoted(by)//" is not known here; write the formula for it", error)
                 return
             end if
@@ -186,6 +196,18 @@ contains
             if (.not. alone) slope = slope + derivative(operand, i)*of_name
         end do
         call append(reader, first, slope, node, error)
+    contains
+        pure logical function has_slopes()
+            !! Is there a momentum or a derivative of L in it? They are differentiated as they are.
+            integer :: k
+
+            has_slopes = .false.
+            do k = 2 + 2*n, size(symbols%rates)
+                if (.not. operand%depends_on(k)) cycle
+                has_slopes = has_slopes .or. index(symbols%names(k), "p_") == 1 .or. &
+                             index(symbols%names(k), "d") == 1
+            end do
+        end function has_slopes
     end subroutine differentiate_by
 
     pure subroutine differentiate(reader, symbols, first, node, error)
@@ -202,8 +224,8 @@ contains
         do i = 1, size(symbols%rates)
             if (symbols%rates(i) >= 0 .or. .not. operand%depends_on(i)) cycle
             reader%at = first
-            call refuse(reader, "d/dt of '"//trim(symbols%names(i))//"' is not known here; "// &
-                        "write the formula for it", error)
+            call refuse(reader, "d/dt of '"//typed_name(trim(symbols%names(i)))// &
+                        "' is not known here; write the formula for it", error)
             return
         end do
         call append(reader, first, time_derivative(operand, symbols%rates, 1), node, error)

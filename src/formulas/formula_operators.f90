@@ -3,12 +3,13 @@ submodule (lagrangia_formula_parser) lagrangia_formula_operators
     use lagrangia_expression, only: f_exp
     use lagrangia_formula_reader, only: largest
     use lagrangia_indexed_names, only: open_sum, skip_body
+    use lagrangia_solved_place, only: arc_cosine, arc_sine
     implicit none (type, external)
 
 contains
 
     pure recursive module subroutine read_function(reader, symbols, which, node, error)
-        !! `sin(x)`, or `sin^2(x)` with a whole number.
+        !! `sin(x)`, or `sin^2(x)` with a whole number; `acos` and `asin` are written out.
         type(reader_t), intent(inout) :: reader
         type(symbols_t), intent(in) :: symbols
         integer, intent(in) :: which
@@ -19,7 +20,7 @@ contains
         integer :: argument, exponent
 
         node = 0
-        name = trim(function_names(which))
+        name = reader%tokens%word(reader%at)
         reader%at = reader%at + 1
         token = token_t()
         if (next_is(reader, "^")) then
@@ -44,7 +45,14 @@ contains
         end if
         call read_bracket(reader, symbols, argument, error)
         if (allocated(error)) return
-        call reader%expression%add_operation(kind_function, argument, 0, node, which)
+        select case (which)
+        case (arc_cosine_of)
+            call reader%expression%append(arc_cosine(reader%expression%pruned(argument)), node)
+        case (arc_sine_of)
+            call reader%expression%append(arc_sine(reader%expression%pruned(argument)), node)
+        case default
+            call reader%expression%add_operation(kind_function, argument, 0, node, which)
+        end select
         if (token%kind /= is_number) return
         argument = node
         call reader%expression%add_number(number_of(token%value), exponent)

@@ -7,9 +7,9 @@ module lagrangia_formula_parser
     !! abs(x). What has two readings, `a^b^c` or `a*-b`, is refused.
     use lagrangia_errors, only: error_t
     use lagrangia_exact_number, only: number_of, ratio
-    use lagrangia_expression, only: expression_t, f_abs, function_names, kind_difference, &
-                                    kind_function, kind_negation, kind_power, kind_product, &
-                                    kind_quotient, kind_sum
+    use lagrangia_expression, only: expression_t, f_abs, function_names, is_function_name, &
+                                    kind_difference, kind_function, kind_negation, kind_power, &
+                                    kind_product, kind_quotient, kind_sum
     use lagrangia_formula_reader, only: begins_factor, check_size, go_deeper, next_is, reader_t, &
                                         refuse, refuse_missing, refuse_unexpected, &
                                         refuse_unknown, skip_sign, start, typed_number
@@ -25,6 +25,7 @@ module lagrangia_formula_parser
     public :: add_named, read_bracket, read_factor, read_power, read_sum
 
     real(dp), parameter :: pi = acos(-1.0_dp)
+    integer, parameter :: arc_cosine_of = -1, arc_sine_of = -2  !! functions that are written out
 
     interface
         pure recursive module subroutine read_indexed_sum(reader, symbols, node, error)
@@ -226,7 +227,7 @@ contains
             .not. (begins_factor(reader) .or. &
                    reader%tokens%token(reader%at)%kind == is_number)) then
             call refuse(reader, "'^' lacks its exponent; write x^2, x^-1, x^(a + b)", error)
-        else if (any(function_names == reader%tokens%word(reader%at))) then
+        else if (is_function_name(reader%tokens%word(reader%at))) then
             call refuse(reader, "a function as an exponent needs brackets, x^("// &
                         reader%tokens%word(reader%at)//"(...))", error)
         end if
@@ -337,8 +338,8 @@ contains
         integer :: which
 
         node = 0
-        which = findloc(function_names == name, .true., 1)
-        if (which > 0) then
+        which = place_of_function(name)
+        if (which /= 0) then
             call read_function(reader, symbols, which, node, error)
             return
         end if
@@ -396,6 +397,16 @@ contains
         reader%at = reader%at + 1
         call read_behind(reader, symbols, name, node, error)
     end subroutine read_name
+
+    pure function place_of_function(name) result(which)
+        !! Among all functions, or that of `acos` or `asin`; 0: there is none.
+        character(*), intent(in) :: name
+        integer :: which
+
+        which = findloc(function_names == name, .true., 1)
+        if (name == "acos" .or. name == "arccos") which = arc_cosine_of
+        if (name == "asin" .or. name == "arcsin") which = arc_sine_of
+    end function place_of_function
 
     pure subroutine add_indexed(reader, symbols, name, indexed, node, error)
         !! A name whose indices have numbers.

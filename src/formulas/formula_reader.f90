@@ -246,7 +246,7 @@ contains
                         quoted(nearest)//", or the product "//quoted(factors)//"?", error)
         else if (applied .and. nearest == "") then
             call refuse(reader, "unknown function "//quoted(name)//"; there are "// &
-                        join(function_names, ", "), error)
+                        join(function_names, ", ")//", acos, asin", error)
         else if (nearest /= "") then
             call refuse(reader, "unknown name "//quoted(name)//"; did you mean "// &
                         quoted(nearest)//"?", error)
@@ -312,8 +312,6 @@ contains
             nearest = "1/cos"
         case ("csc", "cosec")
             nearest = "1/sin"
-        case ("asin", "arcsin", "acos", "arccos")
-            nearest = ""  ! there is only atan
         case default
             nearest = ""
             if (len(name) > 2) nearest = nearest_name(name, function_names)

@@ -10,7 +10,7 @@ module lagrangia_formula_text
     use lagrangia_text, only: to_text, word_t
     implicit none (type, external)
     private
-    public :: formula_text
+    public :: formula_text, typed_name
     public :: number_in_formula, rank_of, rank_factor, rank_power, rank_product, rank_sign, rank_sum
 
     integer, parameter :: rank_sum = 1      !! a + b
@@ -22,6 +22,31 @@ module lagrangia_formula_text
     real(dp), parameter :: pi = acos(-1.0_dp)
 
 contains
+
+    pure function typed_name(name) result(text)
+        !! `d/dt dL/dtheta_dot` for the symbol `d_dt_dL_dtheta_dot`, which formulas are read to.
+        character(*), intent(in) :: name  !! of a symbol
+        character(:), allocatable :: text
+
+        text = name
+        if (index(text, "d_dt_") == 1) then
+            text = "d/dt "//typed_name_of_slope(text(6:))
+        else
+            text = typed_name_of_slope(text)
+        end if
+    end function typed_name
+
+    pure function typed_name_of_slope(name) result(text)
+        !! `dV/dx` for `dV_dx`.
+        character(*), intent(in) :: name
+        character(:), allocatable :: text
+        integer :: at
+
+        text = name
+        at = index(name, "_d")
+        if (name(1:1) /= "d" .or. at /= 3 .or. len(name) < 5) return
+        if (scan(name(2:2), "LTVEH") == 1) text(at:at) = "/"
+    end function typed_name_of_slope
 
     pure function formula_text(expression, symbols) result(text)
         !! The formula in one line, `m2 l x_dot theta_dot cos(theta)`, with brackets where they are

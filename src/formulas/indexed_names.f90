@@ -2,7 +2,7 @@ module lagrangia_indexed_names
     !! Indices in a formula: `sum(i, 1, 4, k/2 (x_(i + 1) - x_i)^2)`. Within the sum `i` is a
     !! number, and `x_i`, `x_i_dot`, `x_(i + 1)_dot` are the names that it makes.
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: function_names
+    use lagrangia_expression, only: is_function_name
     use lagrangia_formula_reader, only: go_deeper, most_indices, next_is, reader_t, refuse
     use lagrangia_formula_tokens, only: is_end, is_name, is_number
     use lagrangia_kinds, only: dp
@@ -45,7 +45,7 @@ contains
         if (reader%tokens%token(reader%at)%kind /= is_name .or. index(name, "_") > 0) then
             call refuse(reader, "a sum begins with the name of its index; "//example, error)
         else if (symbols%find(name) > 0 .or. symbols%find_definition(name) > 0 .or. &
-                 name == "pi" .or. any(function_names == name) .or. &
+                 name == "pi" .or. is_function_name(name) .or. &
                  any(reader%index_names(:reader%indices) == name)) then
             call refuse(reader, quoted(name)//" has a meaning already; take another index", error)
         else if (reader%indices == most_indices) then

@@ -20,7 +20,7 @@ module lagrangia_latex_source
         "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi", "omega", "Gamma", "Delta", &
         "Theta", "Lambda", "Xi", "Pi", "Sigma", "Upsilon", "Phi", "Psi", "Omega"]
     character(*), parameter :: functions(*) = [character(6) :: "sin", "cos", "tan", "sinh", &
-        "cosh", "tanh", "exp", "ln", "log", "arctan"]
+        "cosh", "tanh", "exp", "ln", "log", "arctan", "arccos", "arcsin"]
     character(*), parameter :: upright(*) = [character(12) :: "text", "mathrm", "textrm", &
                                              "mathit", "operatorname", "mbox", "mathsf", &
                                              "mathcal", "mathscr", "textit"]

@@ -4,7 +4,7 @@ module lagrangia_symbols
     !! The values of the symbols travel as one array in this order: by convention the time first,
     !! then coordinates, velocities, accelerations where there are any, and parameters.
     use lagrangia_errors, only: error_t, fail
-    use lagrangia_expression, only: expression_t, function_names
+    use lagrangia_expression, only: expression_t, is_function_name
     use lagrangia_names, only: name_length
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
@@ -29,6 +29,8 @@ module lagrangia_symbols
         !! place of each symbol's time derivative, 0: it is constant, or the time; -1: not known.
         !! Without these a formula has no d/dt
         logical :: primes = .false.  !! `x'` is `x_dot` where these have rates
+        logical :: along_motion = .false.
+        !! `d(x_dot)/dx` is \(\ddot x/\dot x\), and no partial derivative
     contains
         procedure :: add
         procedure :: define
@@ -173,7 +175,7 @@ contains
                       to_text(name_length)//" characters; shorten it")
         else if (name == "pi") then
             call fail(error, "'pi' is the number 3.14159...; take another name")
-        else if (any(function_names == name)) then
+        else if (is_function_name(name)) then
             call fail(error, quoted(name)//" is a function; take another name")
         end if
     end subroutine check_name

@@ -2,43 +2,51 @@ module lagrangia_free_constants
     !! Statements with constants of integration: `theta_dot^2 = 2 g/l cos(theta) + h`, right if it
     !! goes on to hold on each motion on which it once does, whatever the constant is.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+    use lagrangia_declared_constants, only: keep_constant
     use lagrangia_derivative, only: derivative, time_derivative
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, operator(-), symbol, whole
     use lagrangia_formula_parser, only: parse_formula
+    use lagrangia_formula_text, only: typed_name
     use lagrangia_kinds, only: dp
+    use lagrangia_lapack, only: solve_linear
     use lagrangia_motion_values, only: values_of
     use lagrangia_names, only: name_length
     use lagrangia_sample_names, only: samples_t
     use lagrangia_slip_search, only: holds
+    use lagrangia_small_energies, only: is_constant_of_each_draw
     use lagrangia_substitution, only: substituted
     use lagrangia_symbols, only: symbols_t
     use lagrangia_unknown_names, only: add_unknown, unknown_names
     use lagrangia_verdict, only: is_right, is_unreadable, is_wrong, judgement_t
+    use lagrangia_written_out, only: in_coordinates
     implicit none (type, external)
     private
     public :: judge_with_constants
 
     integer, parameter :: steps = 60   !! of Newton, from each start
     integer, parameter :: enough = 4   !! states at which there is such a constant
+    integer, parameter :: most_constants = 3  !! of one statement that are not any number
 
 contains
 
     subroutine judge_with_constants(left_text, right_text, samples, is_one, judgement)
         !! A statement whose unknown names are constants: those of `constant:`, or values of
-        !! coordinates and velocities at the start, `theta_0`; else `is_one` is false.
+        !! coordinates and velocities at the start, t = 0, `theta_0`; else `is_one` is false. Of k
+        !! constants \(F=\dot F=\dots=F^{(k-1)}=0\) gives the values, and \(F^{(k)}=0\) says that
+        !! they stay. A declared one means the same in all lines behind the first.
         character(*), intent(in) :: left_text, right_text  !! both sides, in their columns
-        type(samples_t), intent(in) :: samples             !! know the names behind `constant:`
+        type(samples_t), intent(inout) :: samples          !! know the names behind `constant:`
         logical, intent(out) :: is_one                     !! all is said
         type(judgement_t), intent(inout) :: judgement      !! of it
         character(name_length), allocatable :: names(:)
-        type(expression_t) :: left, right, residual, rate
+        type(expression_t) :: left, right, residual
         type(symbols_t) :: symbols
         type(error_t), allocatable :: error
         real(dp), allocatable :: values(:, :)
-        integer, allocatable :: starts(:)
+        integer, allocatable :: starts(:), chosen(:)
         integer :: i, n
-        logical :: judged, yes
+        logical :: judged, open_end, yes
 
         is_one = .false.
         call unknown_names(left_text//" + "//right_text, samples%symbols, names)
@@ -59,49 +67,86 @@ contains
         if (.not. moves()) return
         is_one = .true.
         judgement%verdict = is_unreadable
-        do i = 1, n
-            if (residual%depends_on(i) .and. symbols%rates(i) < 0) then
-                judgement%remark = "d/dt of '"//trim(symbols%names(i))//"' is not known here; "// &
-                                   "write the formula for it"
-                return
-            end if
-        end do
-        if (.not. begins_there()) return
-        rate = time_derivative(residual, symbols%rates, 1)
-        do i = 1, size(names)
-            if (.not. residual%depends_on(n + i)) cycle
-            call solve_for(n + i)
-            call holds(rate, values, yes, judged)
-            if (judged) exit
-        end do
-        if (.not. judged) then
-            judgement%remark = "no value of '"//trim(names(1))//"' makes it true at the states "// &
-                               "that were tried"
+        call find_rates()
+        if (unknown_rate(residual) /= "") residual = in_coordinates(residual, samples)
+        if (unknown_rate(residual) /= "") then
+            judgement%remark = "d/dt of '"//typed_name(unknown_rate(residual))// &
+                               "' is not known here; write the formula for it"
             return
         end if
-        judgement%verdict = merge(is_right, is_wrong, yes)
-        judgement%remark = "with any "//trim(names(1))
-        if (.not. yes) judgement%remark = "no "//trim(names(1))//" stays constant with it: its "// &
-                                          "derivative by the time contradicts the motion"
+        if (.not. begins_there()) return
+        call find_constants()
+        if (yes) then
+            judgement%verdict = is_right
+            judgement%remark = "with any "//trim(names(1))
+            call keep_constants()
+        else if (open_end) then
+            judgement%remark = "its derivatives by the time are not known here; solve for one "// &
+                               "of its constants, or write its derivative"
+        else if (judged .and. residual%depends_on(1) .and. any(starts > 1) .and. &
+                 .not. any(starts > 1 + samples%ndof)) then
+            judgement%remark = "true of motions that begin at rest at most; name the velocity "// &
+                               "at the start, as in x = x_0 + x_dot_0 t"
+        else if (judged) then
+            judgement%verdict = is_wrong
+            judgement%remark = "no "//trim(names(1))//" stays constant with it: its derivative "// &
+                               "by the time contradicts the motion"
+        else
+            judgement%remark = "no value of '"//trim(names(1))//"' makes it true at the states "// &
+                               "that were tried"
+        end if
     contains
         logical function moves()
-            !! Is there a coordinate or a velocity in it?
+            !! Is there a coordinate or a velocity in it, or a constant of a line before?
             integer :: k
 
             moves = any([(residual%depends_on(k), k=2, 1 + 2*samples%ndof)]) .or. &
-                    any([(residual%depends_on(k) .and. symbols%rates(k) > 0, k=1, n)])
+                    any([(residual%depends_on(k) .and. symbols%rates(k) > 0, k=1, n)]) .or. &
+                    any([(residual%depends_on(samples%kept_constants(k)), &
+                          k=1, size(samples%kept_constants))])
         end function moves
+
+        subroutine find_rates()
+            !! Constant accelerations have one.
+            type(expression_t) :: acceleration
+            logical :: is_constant
+            integer :: k
+
+            do k = samples%first_acceleration, samples%first_acceleration + samples%ndof - 1
+                acceleration = symbol(k)
+                is_constant = is_constant_of_each_draw(acceleration, samples)
+                if (is_constant) symbols%rates(k) = 0
+            end do
+        end subroutine find_rates
+
+        function unknown_rate(of) result(name)
+            !! Of a symbol on which it depends; empty: all are known.
+            type(expression_t), intent(in) :: of
+            character(:), allocatable :: name
+            integer :: k
+
+            name = ""
+            do k = 1, n
+                if (.not. of%depends_on(k) .or. symbols%rates(k) >= 0) cycle
+                name = trim(symbols%names(k))
+                return
+            end do
+        end function unknown_rate
 
         logical function begins_there()
             !! It must be true at the start itself: at theta_0, and at rest if no velocity is named.
             type(expression_t) :: begun
             type(expression_t), allocatable :: put(:)
             integer, allocatable :: places(:)
+            logical :: known
             integer :: j, k
 
             begins_there = .true.
             if (.not. any(starts > 1)) return
-            allocate (places(0), put(2*samples%ndof))
+            begun = in_coordinates(residual, samples)
+            allocate (put(1 + 2*samples%ndof))
+            places = [1]
+            put(1) = whole(0)  ! t
             do k = 2, 1 + 2*samples%ndof
                 do j = 1, size(starts)
                     if (starts(j) /= k) cycle
@@ -110,17 +155,17 @@ contains
                 end do
                 if (any(places == k)) cycle
                 if (k <= 1 + samples%ndof) then
-                    if (residual%depends_on(k)) begins_there = .false.
+                    if (begun%depends_on(k)) begins_there = .false.
                 else
                     places = [places, k]
                     put(size(places)) = whole(0)
                 end if
             end do
             if (begins_there) then
-                begun = substituted(residual, places, put(:size(places)))
+                begun = substituted(begun, places, put(:size(places)))
                 allocate (values(size(samples%values, 1), n + size(names)))
-                call draw_constants()
-                call holds(begun, values, begins_there, judged)
+                call draw_constants(0.0_dp)
+                call holds(begun, values, begins_there, known)
                 deallocate (values)
             end if
             if (.not. begins_there) judgement%remark = "is '"//trim(names(1))//"' where the "// &
@@ -128,7 +173,56 @@ contains
                 "' makes it any constant"
         end function begins_there
 
-        subroutine draw_constants()
+        subroutine find_constants()
+            !! The fewest constants that can have values which stay, whatever the others are.
+            integer :: choice, k
+
+            judged = .false.
+            open_end = .false.
+            yes = .false.
+            do k = 1, min(size(names), most_constants)
+                do choice = 1, 2**min(size(names), 10) - 1
+                    if (popcnt(choice) /= k) cycle
+                    chosen = pack([(i, i=1, size(names))], [(btest(choice, i - 1), &
+                                                             i=1, size(names))])
+                    if (.not. all([(residual%depends_on(n + chosen(i)), i=1, k)])) cycle
+                    call try_constants()
+                    if (yes) return
+                end do
+            end do
+        end subroutine find_constants
+
+        subroutine try_constants()
+            !! Those that are chosen.
+            type(expression_t) :: rates(0:size(chosen))
+            logical :: known, stay
+            integer :: k
+
+            rates(0) = residual
+            do k = 1, size(chosen)
+                if (unknown_rate(rates(k - 1)) /= "") then
+                    if (k == size(chosen)) open_end = open_end .or. has_chosen(rates(k - 1))
+                    return
+                end if
+                rates(k) = time_derivative(rates(k - 1), symbols%rates, 1)
+                if (rates(k)%count == 0) rates(k) = whole(0)
+            end do
+            call solve_for(rates(:size(chosen) - 1))
+            call holds(rates(size(chosen)), values, stay, known)
+            judged = judged .or. known
+            yes = known .and. stay
+        end subroutine try_constants
+
+        logical function has_chosen(rate)
+            !! Is a constant that is chosen in it? Otherwise they have no values by it.
+            type(expression_t), intent(in) :: rate
+            integer :: k
+
+            has_chosen = any([(rate%depends_on(n + chosen(k)), k=1, size(chosen))])
+        end function has_chosen
+
+        subroutine draw_constants(start)
+            real(dp), intent(in) :: start  !! of those that are chosen, beyond what is drawn
             integer :: j, row
             real(dp), parameter :: golden = 0.6180339887498949_dp
 
@@ -138,41 +232,106 @@ contains
                     values(row, n + j) = 0.3_dp + 1.3_dp*modulo(golden*(7*j + row), 1.0_dp)
                 end do
             end do
+            if (allocated(chosen)) values(:, n + chosen) = values(:, n + chosen) + start
         end subroutine draw_constants
 
-        subroutine solve_for(place)
-            !! Newton for one constant at each state; NaN where it has no solution.
-            integer, intent(in) :: place
-            type(expression_t) :: slope
-            real(dp), dimension(size(samples%values, 1)) :: f, slopes, best, step
-            real(dp) :: start
-            integer :: begun, k
+        subroutine solve_for(equations)
+            !! Newton for the chosen constants at each state; NaN where it has no solution.
+            type(expression_t), intent(in) :: equations(:)
+            type(expression_t) :: slopes(size(chosen), size(chosen))
+            real(dp), dimension(size(samples%values, 1), size(chosen)) :: best, f, step
+            real(dp) :: jacobian(size(samples%values, 1), size(chosen), size(chosen))
+            integer :: begun, j, k, turn
 
             if (allocated(values)) deallocate (values)
             allocate (values(size(samples%values, 1), n + size(names)))
-            slope = derivative(residual, place)
             best = ieee_value(1.0_dp, ieee_quiet_nan)
-            do begun = 1, 4
-                call draw_constants()
-                start = real(begun, dp)*0.7_dp - 1.4_dp
-                values(:, place) = values(:, place) + start
-                do k = 1, steps
-                    f = values_of(residual, values)
-                    if (slope%count == 0) return
-                    slopes = values_of(slope, values)
-                    step = f/slopes
-                    values(:, place) = values(:, place) - step
-                    if (.not. any(abs(step) > 1e-15_dp*abs(values(:, place)))) exit
+            do j = 1, size(chosen)
+                do k = 1, size(chosen)
+                    slopes(j, k) = derivative(equations(j), n + chosen(k))
                 end do
-                where (.not. ieee_is_finite(best) .and. ieee_is_finite(values(:, place)) .and. &
-                       abs(step) <= 1e-13_dp*(abs(values(:, place)) + 1e-3_dp))
-                    best = values(:, place)
-                end where
-                if (count(ieee_is_finite(best)) >= enough) exit
             end do
-            values(:, place) = best
+            do begun = 1, 4
+                call draw_constants(real(begun, dp)*0.7_dp - 1.4_dp)
+                do turn = 1, steps
+                    jacobian = 0.0_dp
+                    do j = 1, size(chosen)
+                        f(:, j) = values_of(equations(j), values)
+                        do k = 1, size(chosen)
+                            if (slopes(j, k)%count == 0) cycle
+                            jacobian(:, j, k) = values_of(slopes(j, k), values)
+                        end do
+                    end do
+                    call find_step(jacobian, f, step)
+                    values(:, n + chosen) = values(:, n + chosen) - step
+                    if (.not. any(abs(step) > 1e-15_dp*abs(values(:, n + chosen)))) exit
+                end do
+                do j = 1, size(step, 1)
+                    if (all(ieee_is_finite(best(j, :)))) cycle
+                    if (.not. all(abs(step(j, :)) <= &
+                                  1e-13_dp*(abs(values(j, n + chosen)) + 1e-3_dp))) cycle
+                    best(j, :) = values(j, n + chosen)
+                end do
+                if (count(ieee_is_finite(best(:, 1))) >= enough) exit
+            end do
+            values(:, n + chosen) = best
         end subroutine solve_for
+
+        logical function has_energy(side)
+            type(expression_t), intent(in) :: side
+            integer :: k
+
+            has_energy = .false.
+            do k = 1, n
+                if (side%depends_on(k)) has_energy = has_energy .or. &
+                    any(symbols%names(k) == ["L", "V", "E"])
+            end do
+        end function has_energy
+
+        subroutine keep_constants()
+            !! A declared one that this line gives a value has it in the lines behind, and so has
+            !! its opposite where that makes the line true as well.
+            real(dp), allocatable :: opposite(:, :)
+            logical :: known, too
+            integer :: k, place
+
+            if (any([(residual%depends_on(n + i) .and. .not. any(chosen == i), &
+                      i=1, size(names))])) return
+            ! of L, V and E the zero is anybody's choice
+            if (has_energy(left) .or. has_energy(right)) return
+            do k = 1, size(chosen)
+                if (starts(chosen(k)) /= -1) cycle
+                place = n + chosen(k)
+                opposite = values
+                opposite(:, place) = -opposite(:, place)
+                call holds(residual, opposite, too, known)
+                call keep_constant(trim(names(chosen(k))), values(:, place), known .and. too, &
+                                   samples)
+            end do
+        end subroutine keep_constants
     end subroutine judge_with_constants
+
+    subroutine find_step(jacobian, f, step)
+        !! Newton's step at each state; NaN where the constants do not follow from the equations.
+        real(dp), intent(in) :: jacobian(:, :, :)   !! (states, equations, constants)
+        real(dp), intent(in) :: f(:, :)             !! (states, equations)
+        real(dp), intent(out) :: step(:, :)         !! (states, constants)
+        real(dp) :: x(size(f, 2))
+        type(error_t), allocatable :: error
+        integer :: row
+
+        do row = 1, size(f, 1)
+            if (size(f, 2) == 1) then
+                step(row, 1) = f(row, 1)/jacobian(row, 1, 1)
+                cycle
+            end if
+            step(row, :) = ieee_value(1.0_dp, ieee_quiet_nan)
+            if (.not. all(ieee_is_finite(jacobian(row, :, :)))) cycle
+            if (.not. all(ieee_is_finite(f(row, :)))) cycle
+            call solve_linear(jacobian(row, :, :), f(row, :), x, error)
+            if (.not. allocated(error)) step(row, :) = x
+        end do
+    end subroutine find_step
 
     pure function start_of(name, samples) result(place)
         !! The coordinate or velocity whose value at the start is called that; 0: none.

@@ -1,11 +1,11 @@
 module lagrangia_grading
     !! A whole sheet: every statement judged, and whether the right ones determine the motion.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_canonical_form, only: simplified
     use lagrangia_consequences, only: consequences_t
     use lagrangia_declared_constants, only: add_constant
     use lagrangia_derivative, only: derivative, time_derivative
     use lagrangia_description, only: description_t
+    use lagrangia_determined_accelerations, only: find_determined
     use lagrangia_errors, only: error_t, fail
     use lagrangia_expression, only: expression_t, kind_number
     use lagrangia_formula_characters, only: plain_letters
@@ -14,11 +14,10 @@ module lagrangia_grading
     use lagrangia_judged_sheet, only: judge_sheet
     use lagrangia_judgement, only: is_consequence, is_definition, is_right, is_wrong, judgement_t
     use lagrangia_kinds, only: dp
-    use lagrangia_lapack, only: matrix_rank
     use lagrangia_motion_samples, only: new_samples
     use lagrangia_parameter_choice, only: occurs
     use lagrangia_sample_names, only: samples_t
-    use lagrangia_sampled_formula, only: evaluate_nodes, summands
+    use lagrangia_sampled_formula, only: summands
     use lagrangia_symbols, only: check_name
     use lagrangia_system, only: system_t
     use lagrangia_term_search, only: library_t
@@ -81,7 +80,7 @@ contains
         end do
         result%kept = samples%kept
         call explain_rates(samples, said, result%meaning)
-        call find_determined(samples, result)
+        call find_determined(samples, result%of, result%equations, result%determined)
     end subroutine grade
 
     pure function is_better(attempt, result, i) result(yes)
@@ -239,71 +238,4 @@ contains
             call move_alloc(longer, library)
         end do
     end subroutine add_terms
-
-    subroutine find_determined(samples, result)
-        !! The accelerations that follow from the right statements: \(\partial R/\partial\ddot q\)
-        !! of their residuals has a unit vector among its combinations of rows.
-        type(samples_t), intent(in) :: samples
-        type(grade_t), intent(inout) :: result
-        real(dp), allocatable :: rows(:, :)
-        type(error_t), allocatable :: error
-        integer :: i, j, rank, with_unit
-        logical :: where_only
-
-        allocate (result%determined(samples%ndof), source=.false.)
-        allocate (rows(size(result%of) + 1, samples%ndof), source=0.0_dp)
-        do i = 1, size(result%of)
-            if (result%of(i)%verdict /= is_right .or. .not. result%of(i)%of_motion) cycle
-            associate (residual => result%of(i)%residual)
-                ! where the masses are is not how they move
-                where_only = any([(residual%depends_on(j), j=samples%first_point, &
-                                   samples%last_point)])
-                if (where_only) cycle
-                call differentiate(residual, samples, rows(i, :))
-                if (any(abs(rows(i, :)) > 0.0_dp)) then
-                    rows(i, :) = rows(i, :)/maxval(abs(rows(i, :)))
-                    result%equations = result%equations + 1
-                end if
-            end associate
-        end do
-        if (result%equations == 0) return
-        call matrix_rank(rows, rank, error)
-        if (allocated(error)) return
-        do j = 1, samples%ndof
-            rows(size(rows, 1), :) = 0.0_dp
-            rows(size(rows, 1), j) = 1.0_dp
-            call matrix_rank(rows, with_unit, error)
-            if (allocated(error)) return
-            result%determined(j) = with_unit == rank
-        end do
-    end subroutine find_determined
-
-    subroutine differentiate(residual, samples, row)
-        !! \(\partial R/\partial\ddot q\) from half the acceleration, or one that is not 0, at the
-        !! first sample where R has values: a root has none where its argument is negative. Zero
-        !! where there is none.
-        type(expression_t), intent(in) :: residual
-        type(samples_t), intent(in) :: samples
-        real(dp), intent(out) :: row(:)  !! (ndof)
-        real(dp), allocatable :: values(:, :), before(:, :), after(:, :)
-        real(dp) :: step
-        integer :: j, k, place
-
-        allocate (before(1, residual%count), after(1, residual%count))
-        do k = 1, size(samples%values, 1)
-            values = samples%values(k:k, :)
-            call evaluate_nodes(residual, values, before)
-            do j = 1, samples%ndof
-                values = samples%values(k:k, :)
-                place = samples%first_acceleration + j - 1
-                step = 0.5_dp*values(1, place)
-                if (.not. abs(step) > 0.0_dp) step = 1.0_dp
-                values(1, place) = values(1, place) - step
-                call evaluate_nodes(residual, values, after)
-                row(j) = (before(1, residual%count) - after(1, residual%count))/step
-            end do
-            if (all(ieee_is_finite(row))) return
-        end do
-        row = 0.0_dp
-    end subroutine differentiate
 end module lagrangia_grading

@@ -16,6 +16,7 @@ module lagrangia_judged_equality
     use lagrangia_small_energies, only: is_constant_of_each_draw, is_energy, put_same_constant
     use lagrangia_small_judgement, only: judge_small
     use lagrangia_squared_statements, only: compare_squares, explain_squares
+    use lagrangia_stated_equilibria, only: is_equilibrium
     use lagrangia_statement_forms, only: has_velocities, is_branch, is_motion, &
                                          read_as_tension, speaks_of_place, tensions, &
                                          value_remark
@@ -132,7 +133,7 @@ contains
             judgement%verdict = is_unreadable
             judgement%remark = "a motion is not graded, only what holds at all times; write "// &
                 "its equation, or its frequency"
-        else if (value_remark(left, right, samples) /= "") then
+        else if (value_remark(left, right, samples) /= "" .and. .not. right_one) then
             judgement%verdict = is_unreadable
             judgement%remark = value_remark(left, right, samples)
         else if (.not. judged) then
@@ -145,6 +146,8 @@ contains
             if (.not. judgement%of_motion) judgement%remark = "true of any motion"
         else if (is_up_to_constant(left, judgement%residual, samples)) then
             judgement%remark = "but for a constant"
+        else if (is_equilibrium(left, right, samples)) then
+            judgement%remark = "another equilibrium than that at or near zero"
         else if (is_other_lagrangian(left, right, samples)) then
             judgement%remark = "another L of the same motion"
         else

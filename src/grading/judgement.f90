@@ -5,6 +5,7 @@ module lagrangia_judgement
     use lagrangia_amplitude_ratios, only: judge_amplitudes
     use lagrangia_characters, only: characters
     use lagrangia_constancy, only: explain_change, read_constancy
+    use lagrangia_constants_of_motions, only: judge_on_motion
     use lagrangia_equality_signs, only: read_signs
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, whole
@@ -16,6 +17,7 @@ module lagrangia_judgement
     use lagrangia_initial_conditions, only: with_short_starts
     use lagrangia_judged_equality, only: judge_forms, put_unreadable
     use lagrangia_motion_statements, only: judge_motion
+    use lagrangia_motion_values, only: values_of
     use lagrangia_own_names, only: define
     use lagrangia_sample_names, only: samples_t
     use lagrangia_small_energies, only: is_energy
@@ -52,7 +54,17 @@ contains
         call put_partial("\frac{\partial L}{\partial t}", partial%text)
         call put_partial("\partial L/\partial t", partial%text)
         call judge_line(partial, samples, library, explain, judgement)
+        if (judgement%verdict == is_unreadable) call try_pairs(partial, samples, library, &
+                                                               explain, judgement)
+        do while (size(samples%kept_lines) < size(samples%kept_constants))
+            samples%kept_lines = [samples%kept_lines, statement%line]
+        end do
+        if (judgement%verdict == is_wrong) call try_reduced(partial, samples, library, judgement)
+        if (judgement%verdict == is_wrong) call try_opposites(partial, samples, library, judgement)
+        if (index(partial%text, "/d") + index(partial%text, "\frac") > 0) call try_along_motion( &
+            partial, samples, library, explain, judgement)
         if (judgement%verdict /= is_wrong .or. .not. explain) return
+        call say_constants(samples, judgement)
         ! dL/dt may be meant at rest, too
         total = index(partial%text//" ", "dL/dt ") > 0
         if (.not. total) return
@@ -61,6 +73,143 @@ contains
         call judge_line(partial, samples, library, .false., attempt)
         if (attempt%verdict == is_right) judgement = attempt
     end subroutine judge
+
+    subroutine try_pairs(statement, samples, library, explain, judgement)
+        !! `E = k A^2/2 = m omega^2 A^2/2` with constants: each side is compared with the next one.
+        type(statement_t), intent(in) :: statement      !! unreadable as a whole
+        type(samples_t), intent(inout) :: samples       !! know the constants
+        type(library_t), intent(in) :: library(:)       !! right terms
+        logical, intent(in) :: explain                  !! say what is wrong
+        type(judgement_t), intent(inout) :: judgement   !! of it
+        type(judgement_t) :: attempt
+        type(samples_t) :: after
+        type(statement_t) :: pair
+        integer, allocatable :: signs(:)
+        integer :: i
+
+        call read_equals(statement%text, signs)
+        if (size(signs) < 3 .or. statement%small) return
+        if (size(samples%declared) + size(samples%constants) == 0) return
+        after = samples
+        pair = statement
+        do i = 2, size(signs) - 1
+            pair%text = statement%text(signs(i - 1) + 1:signs(i + 1) - 1)
+            call judge_line(pair, after, library, explain, attempt)
+            if (attempt%verdict == is_unreadable) return
+            if (attempt%verdict == is_wrong) exit
+        end do
+        samples = after
+        judgement = attempt
+    end subroutine try_pairs
+
+    pure subroutine read_equals(text, signs)
+        !! Places of `=` outside of brackets, between 0 and one behind the end.
+        character(*), intent(in) :: text
+        integer, allocatable, intent(out) :: signs(:)
+        integer :: depth, i
+
+        signs = [0]
+        depth = 0
+        do i = 1, len(text)
+            if (scan(text(i:i), "({") == 1) depth = depth + 1
+            if (scan(text(i:i), ")}") == 1) depth = depth - 1
+            if (text(i:i) == "=" .and. depth == 0) signs = [signs, i]
+        end do
+        signs = [signs, len(text) + 1]
+    end subroutine read_equals
+
+    subroutine say_constants(samples, judgement)
+        !! Which line says what a constant is.
+        type(samples_t), intent(in) :: samples          !! know the constants
+        type(judgement_t), intent(inout) :: judgement   !! wrong
+        integer :: i
+
+        if (judgement%residual%count == 0) return
+        do i = 1, size(samples%kept_lines)
+            associate (place => samples%kept_constants(i))
+                if (.not. judgement%residual%depends_on(place)) cycle
+                judgement%remark = judgement%remark//"; "//trim(samples%symbols%names(place))// &
+                                   " is that of line "//to_text(samples%kept_lines(i))
+            end associate
+        end do
+    end subroutine say_constants
+
+    subroutine try_along_motion(statement, samples, library, explain, judgement)
+        !! `v dv/dx = a` differentiates along the motion; `dL/dx` keeps its meaning.
+        type(statement_t), intent(in) :: statement      !! as typed
+        type(samples_t), intent(inout) :: samples       !! get the names that it defines
+        type(library_t), intent(in) :: library(:)       !! right terms
+        logical, intent(in) :: explain                  !! say what is wrong
+        type(judgement_t), intent(inout) :: judgement   !! of it, as partial derivatives
+        type(judgement_t) :: attempt
+        type(samples_t) :: other
+
+        if (judgement%verdict /= is_wrong .and. judgement%verdict /= is_unreadable) return
+        other = samples
+        other%symbols%along_motion = .true.
+        call judge_line(statement, other, library, explain, attempt)
+        if (attempt%verdict == is_unreadable) return
+        if (attempt%verdict == is_wrong) then
+            if (judgement%verdict == is_wrong .and. attempt%is_unexplained) return
+            judgement = attempt
+            return
+        end if
+        other%symbols%along_motion = .false.
+        samples = other
+        judgement = attempt
+        if (judgement%remark == "") judgement%remark = "as a derivative along the motion"
+    end subroutine try_along_motion
+
+    subroutine try_reduced(statement, samples, library, judgement)
+        !! The momentum of a rolling disk may be that of L, or what the constraints make of it.
+        type(statement_t), intent(in) :: statement      !! wrong
+        type(samples_t), intent(in) :: samples          !! know both
+        type(library_t), intent(in) :: library(:)       !! right terms
+        type(judgement_t), intent(inout) :: judgement   !! of it
+        type(judgement_t) :: attempt
+        type(samples_t) :: other
+        integer :: i
+
+        if (judgement%residual%count == 0) return
+        do i = 1, size(samples%reduced)
+            associate (place => samples%reduced(i)%symbol)
+                if (.not. judgement%residual%depends_on(place)) cycle
+                other = samples
+                other%values(:, place) = values_of(samples%reduced(i)%formula, samples%values)
+                call judge_line(statement, other, library, .false., attempt)
+                if (attempt%verdict /= is_right) cycle
+                attempt%remark = trim(samples%symbols%names(place))//" as 'lagrangia describe' "// &
+                                 "has it, with the constraints"
+            end associate
+            judgement = attempt
+            return
+        end do
+    end subroutine try_reduced
+
+    subroutine try_opposites(statement, samples, library, judgement)
+        !! A constant whose opposite makes the line true that speaks of it first may be that one.
+        type(statement_t), intent(in) :: statement      !! wrong
+        type(samples_t), intent(in) :: samples          !! know the constants
+        type(library_t), intent(in) :: library(:)       !! right terms
+        type(judgement_t), intent(inout) :: judgement   !! of it
+        type(judgement_t) :: attempt
+        type(samples_t) :: other
+        integer :: i
+
+        if (.not. any(samples%two_signs) .or. judgement%residual%count == 0) return
+        do i = 1, size(samples%two_signs)
+            if (.not. samples%two_signs(i)) cycle
+            associate (place => samples%kept_constants(i))
+                if (.not. judgement%residual%depends_on(place)) cycle
+                other = samples
+                other%values(:, place) = -other%values(:, place)
+            end associate
+            call judge_line(statement, other, library, .false., attempt)
+            if (attempt%verdict /= is_right) cycle
+            judgement = attempt
+            return
+        end do
+    end subroutine try_opposites
 
     pure subroutine put_partial(written, text)
         !! The name of the derivative of L by the time alone.
@@ -100,7 +249,8 @@ contains
         side = plain_letters(as_in(text, 1, next - 1))
         call read_new_name(side, samples, name, squared)
         is_one = .false.
-        if (name /= "" .and. index(text(next + 1:), "=") == 0) call judge_unknown(.true.)
+        if (name /= "" .and. index(text(next + 1:), "=") == 0) call judge_unknown( &
+            .not. (any(samples%declared == name) .or. any(samples%constants == name)))
         if (is_one) return
         if (name /= "") then
             call define_here()
@@ -172,6 +322,9 @@ contains
             other = repeat(" ", characters(text(:next)))//as_in(text, next + 1, len(text))
             call judge_amplitudes(one, other, text, samples, is_one, judgement)
             if (is_one .or. only_amplitudes) return
+            call judge_on_motion(one, other, samples, library, explain, name /= "", is_one, &
+                                 judgement)
+            if (is_one) return
             call judge_with_constants(one, other, samples, is_one, judgement)
         end subroutine judge_unknown
 

@@ -5,6 +5,7 @@ module lagrangia_motion_samples
     use lagrangia_damped_rates, only: damping_matrix
     use lagrangia_description, only: default_values, description_t, name_length, value_names
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_followed_letters, only: follow_elsewhere, follow_letters
     use lagrangia_gauss_principle, only: masses_of, place_points
     use lagrangia_hyperdual, only: hyperdual, hyperdual_t
     use lagrangia_kinds, only: dp
@@ -13,9 +14,8 @@ module lagrangia_motion_samples
     use lagrangia_named_values, only: motion_state_t, path
     use lagrangia_parameter_choice, only: keep, spread_values
     use lagrangia_random_draws, only: random_t
-    use lagrangia_sample_names, only: axes, draws, follow_elsewhere, follow_letters, name_symbols, &
-                                      role_acceleration, role_frequency, role_known, samples_t, &
-                                      states
+    use lagrangia_sample_names, only: axes, draws, name_symbols, role_acceleration, &
+                                      role_frequency, role_known, samples_t, states
     use lagrangia_small_oscillations, only: find_modes, likely_equilibrium, modes_t
     use lagrangia_system, only: system_t
     use lagrangia_text, only: word_t

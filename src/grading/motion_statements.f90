@@ -4,7 +4,7 @@ module lagrangia_motion_statements
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_derivative, only: derivative, time_derivative
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: expression_t, function_names, operator(*), operator(+), &
+    use lagrangia_expression, only: expression_t, is_function_name, operator(*), operator(+), &
                                     operator(-), symbol, whole
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_formula_tokens, only: cut, is_name, tokens_t
@@ -46,7 +46,7 @@ contains
         real(dp), allocatable :: values(:, :)
         character(:), allocatable :: unknown
         integer :: coordinate, letter, order, which
-        logical :: judged, known, solved, starts
+        logical :: exact, judged, known, solved, starts
 
         which = index(side, "(0)")
         starts = which > 1
@@ -82,6 +82,7 @@ contains
         call put_exact_frequencies(typed, samples, f)
         call compare_exact(coordinate, order, f, samples, values, known, judgement)
         solved = known .and. judgement%verdict == is_right
+        exact = solved
         do which = 1, merge(2, 1, samples%ndof == 1)
             if (solved) exit
             call compare_linear(coordinate, order, f, samples, which == 2, values, judged, &
@@ -89,7 +90,10 @@ contains
             known = known .or. judged
             solved = judged .and. judgement%verdict == is_right
         end do
-        if (solved .and. order == 0) samples%motion(coordinate) = f
+        if (solved .and. order == 0) then
+            samples%motion(coordinate) = f
+            samples%exact_motion(coordinate) = exact
+        end if
         if (solved) judgement%example = ""
         unknown = ""
         if (.not. solved) unknown = unknown_rate(f, samples)
@@ -163,7 +167,7 @@ contains
             if (tokens%token(i)%kind /= is_name) cycle
             word = symbols%spelling(tokens%word(i))
             if (symbols%find(word) > 0 .or. symbols%find_definition(word) > 0) cycle
-            if (any(function_names == word) .or. word == "pi" .or. word == "e") cycle
+            if (is_function_name(word) .or. word == "pi" .or. word == "e") cycle
             if (any(samples%constants == word)) cycle
             if (index(word//" ", "_dot ") + index(word//" ", "_ddot ") > 0 .or. &
                 index(word, "p_") == 1) cycle

@@ -7,7 +7,7 @@ module lagrangia_parameter_choice
     use lagrangia_text, only: word_t
     implicit none (type, external)
     private
-    public :: keep, occurs, spread_values
+    public :: find_parameter, keep, occurs, spread_values
 
 contains
 
@@ -21,7 +21,8 @@ contains
         real(dp), allocatable, intent(out) :: given(:)    !! the values; NaN: the system's formula
         character(:), allocatable, intent(out) :: kept    !! `a_s = 0, ...`
         character(:), allocatable :: whole
-        integer :: first, i, k
+        integer :: is_set(size(settings))
+        integer :: element, first, from, i, k, last
         logical :: named
 
         whole = said
@@ -52,12 +53,16 @@ contains
                 end do
                 if (p%whole) fixed(first + 1) = .true.
                 do k = 1, size(settings)
-                    if (settings(k)%text(:index(settings(k)%text, "=") - 1) /= p%name) cycle
-                    fixed(first + 1:first + p%count) = .true.
-                    given(first + 1:first + p%count) = p%value(:p%count)
+                    call find_parameter(d, settings(k)%text(:index(settings(k)%text, "=") - 1), &
+                                        is_set(k), element)
+                    if (is_set(k) /= i .or. element > p%count) cycle
+                    from = max(1, element)
+                    last = merge(element, p%count, element > 0)
+                    fixed(first + from:first + last) = .true.
+                    given(first + from:first + last) = p%value(from:last)
                 end do
-                if (.not. named .and. p%computed == "" .and. p%count == 1 .and. &
-                    abs(p%value(1)) <= 0.0_dp) then
+                if (.not. (named .or. any(is_set == i)) .and. p%computed == "" .and. &
+                    p%count == 1 .and. abs(p%value(1)) <= 0.0_dp) then
                     if (kept /= "") kept = kept//", "
                     kept = kept//trim(p%name)//" = 0"
                 end if
@@ -71,6 +76,40 @@ contains
             is_named = occurs(whole, trim(name))
         end function is_named
     end subroutine keep
+
+    pure subroutine find_parameter(d, name, parameter, element)
+        !! Which one a line `set:` is about: `m`, `magnetic`, and of the latter one element,
+        !! `magnetic(2)` or `magnetic_y`.
+        type(description_t), intent(in) :: d       !! of the system
+        character(*), intent(in) :: name           !! as typed
+        integer, intent(out) :: parameter          !! its place; 0: there is none
+        integer, intent(out) :: element            !! 0: all
+        character(:), allocatable :: stem
+        integer :: opened, status
+
+        element = 0
+        stem = trim(name)
+        opened = index(stem, "(")
+        if (opened > 1) then
+            if (verify(stem(opened + 1:), " 0123456789)") > 0) opened = 0
+        end if
+        if (opened > 1) then
+            read (stem(opened + 1:len(stem) - 1), *, iostat=status) element
+            if (status /= 0) element = 0
+            stem = trim(stem(:opened - 1))
+        end if
+        do parameter = 1, size(d%parameters)
+            associate (p => d%parameters(parameter))
+                if (p%name == stem) return
+                if (p%count == 1 .or. opened > 0) cycle
+                if (stem(:len(stem) - 1) /= trim(p%name)//"_") cycle
+                element = index("xyz", stem(len(stem):))
+                if (element > 0 .and. element <= p%count) return
+                element = 0
+            end associate
+        end do
+        parameter = 0
+    end subroutine find_parameter
 
     pure function speaks_of_decay(text) result(yes)
         !! Has it gamma or beta, and not as a phase, cos(omega t + beta)?

@@ -5,9 +5,11 @@ module lagrangia_rounded_numbers
     use lagrangia_expression, only: constant, expression_t, kind_number, kind_symbol, &
                                     operator(-)
     use lagrangia_kinds, only: dp
+    use lagrangia_motion_values, only: values_of
     use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_sampled_formula, only: change_factor, change_t, evaluate_nodes
-    use lagrangia_verdict, only: brief
+    use lagrangia_statement_forms, only: speaks_of_place
+    use lagrangia_verdict, only: brief, telling_digits
     implicit none (type, external)
     private
     public :: holds_at, holds_to_digits, put_exact_frequencies, put_exact_number, true_number
@@ -236,22 +238,25 @@ contains
         type(expression_t), intent(in) :: left, right          !! both sides, which differ
         type(samples_t), intent(in) :: samples                 !! on the motion
         type(explanation_t), intent(inout) :: explanation      !! changes where it is so
-        real(dp), allocatable :: values(:, :), results(:, :)
+        real(dp), allocatable :: values(:, :), results(:, :), given(:)
         character(:), allocatable :: text
         integer :: mode
 
         if (any(right%nodes(:right%count)%kind == kind_symbol)) return
+        if (speaks_of_place(left, samples) .and. any(abs(samples%other_equilibrium - &
+                            samples%equilibrium) > 0.0_dp)) return  ! there are several
         text = ""
         allocate (results(size(samples%values, 1), left%count))
         do mode = 0, size(samples%omega2, 2)
             call choose(left, samples, mode, values)
             if (.not. allocated(values)) cycle
             call evaluate_nodes(left, values, results)
+            given = values_of(right, values(:1, :))
             associate (r => results(:, left%count))
                 if (.not. all(ieee_is_finite(r))) cycle
                 if (maxval(r) - minval(r) > 1e-9_dp*maxval(abs(r))) cycle
                 if (text /= "") text = text//" or "
-                text = text//brief(r(1))
+                text = text//brief(r(1), telling_digits(r(1), given(1)))
             end associate
         end do
         if (text == "") return

@@ -7,16 +7,14 @@ module lagrangia_sample_names
     use lagrangia_expression, only: expression_t
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_formula_program, only: formula_program_t, new_formula_program
-    use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_random_draws, only: random_t
-    use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_symbols, only: symbols_t
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
     public :: compiled_t, samples_t, usual_t
-    public :: follow_elsewhere, follow_letters, name_symbols
+    public :: name_symbols
     public :: axes, draws, states
     public :: role_time, role_coordinate, role_velocity, role_acceleration, role_parameter, &
               role_known, role_frequency
@@ -69,9 +67,12 @@ module lagrangia_sample_names
         !! place of gamma, or of Gamma, where one coordinate is damped; behind it that of `omega_0`,
         !! the frequency without the drag; 0: no drag
         character(:), allocatable :: kept          !! parameters that are zero: `a_s = 0`
+        integer, allocatable :: forces(:)  !! places of those that keep constraints, and of others
         integer, allocatable :: rate(:)
         !! place of the symbol's time derivative, or 0
         type(compiled_t), allocatable :: compiled(:)
+        type(compiled_t), allocatable :: reduced(:)
+        !! quantities that are called momenta and are none of L, as the constraints make them
         type(expression_t) :: lagrangian           !! as the page has it; empty: it has none
         real(dp), allocatable :: mass(:, :, :)
         !! \(\partial^2L/\partial\dot q_j\partial\dot q_k\), (ndof, ndof, draws*states);
@@ -89,8 +90,12 @@ module lagrangia_sample_names
         character(name_length), allocatable :: constants(:)
         !! of motions that are written out, `A` of A cos(omega t): symbols behind all others
         character(name_length), allocatable :: declared(:)  !! names behind `constant:`
+        integer, allocatable :: kept_constants(:)  !! places of those that a line gave their value
+        integer, allocatable :: kept_lines(:)      !! and of these lines
+        logical, allocatable :: two_signs(:)       !! of each of these: its opposite would do, too
         type(expression_t), allocatable :: motion(:)
         !! of each coordinate, as a line has it; empty: none
+        logical, allocatable :: exact_motion(:)  !! it is not that of small oscillations only
         type(random_t) :: random
     end type samples_t
 
@@ -117,7 +122,7 @@ contains
         integer :: i
 
         samples%ndof = system%ndof
-        allocate (samples%role(0))
+        allocate (samples%role(0), samples%forces(0))
         call add("t", role_time)
         call add_each("", "", role_coordinate)
         call add_each("", "_dot", role_velocity)
@@ -135,6 +140,7 @@ contains
         do i = 1, size(d%quantities)
             call add(trim(d%quantities(i)%name), role_known)
             call find_rates(d%quantities(i), has_rate, has_second_rate)
+            if (d%quantities(i)%unit == "N") samples%forces = [samples%forces, size(samples%role)]
             if (has_rate) call add(trim(d%quantities(i)%name)//"_dot", role_known)
             if (has_second_rate) call add(trim(d%quantities(i)%name)//"_ddot", role_known)
         end do
@@ -168,6 +174,8 @@ contains
             call add(trim(samples%symbols%names(samples%frequency))//"_0", role_known)
         end if
         allocate (samples%constants(0), samples%declared(0), samples%motion(samples%ndof))
+        allocate (samples%kept_constants(0), samples%two_signs(0), samples%kept_lines(0))
+        allocate (samples%exact_motion(samples%ndof), source=.false.)
         allocate (samples%place(samples%ndof))
         do i = 1, samples%ndof
             call add(trim(samples%symbols%names(1 + i))//"_eq", role_known)
@@ -340,6 +348,23 @@ contains
         if (allocated(d%kinetic_energy)) call add("T", d%kinetic_energy)
         if (allocated(d%potential_energy)) call add("V", d%potential_energy)
         samples%compiled = samples%compiled(:k)
+        allocate (samples%reduced(0))
+        do i = 1, size(d%quantities)
+            associate (quantity => d%quantities(i))
+                if (quantity%formula == "") cycle
+                if (.not. any([("p_"//d%coordinates(n)%name == quantity%name, &
+                                n=1, size(d%coordinates))])) cycle
+                call add_reduced(samples%symbols%find(trim(quantity%name)), trim(quantity%formula))
+            end associate
+        end do
+        do i = 1, k  ! letters for forces are forces
+            associate (letter => samples%compiled(i))
+                if (samples%role(letter%symbol) == role_known) cycle
+                if (.not. any([(letter%formula%depends_on(samples%forces(n)), &
+                                n=1, size(samples%forces))])) cycle
+                samples%forces = [samples%forces, letter%symbol]
+            end associate
+        end do
     contains
         subroutine add(name, formula)
             character(*), intent(in) :: name, formula
@@ -354,74 +379,25 @@ contains
             samples%compiled(k)%rate = time_derivative(expression(1), samples%rate, 1)
             call new_formula_program(samples%compiled(k)%program, expression, size(samples%role))
         end subroutine add
-    end subroutine compile_letters
 
-    subroutine follow_letters(samples, row)
-        !! The letters, quantities, T and V, with their rates, at a state whose other values are
-        !! known.
-        type(samples_t), intent(inout) :: samples  !! names, and values that change
-        integer, intent(in) :: row                 !! of the values
-        real(dp) :: values(size(samples%role))
+        subroutine add_reduced(symbol, formula)
+            integer, intent(in) :: symbol
+            character(*), intent(in) :: formula
+            type(compiled_t), allocatable :: longer(:)
+            type(expression_t) :: expression
+            type(error_t), allocatable :: error
+            integer :: j, m
 
-        values = samples%values(row, :)
-        call follow(samples, .false., values)
-        samples%values(row, :) = values
-    end subroutine follow_letters
-
-    subroutine follow_elsewhere(samples)
-        !! The letters with their rates where accelerations and known values are others.
-        type(samples_t), intent(inout) :: samples  !! names, and values elsewhere that change
-        real(dp) :: values(size(samples%role))
-        integer :: row
-
-        do row = 1, size(samples%elsewhere, 1)
-            values = samples%elsewhere(row, :)
-            call follow(samples, .true., values)
-            samples%elsewhere(row, :) = values
-        end do
-    end subroutine follow_elsewhere
-
-    subroutine follow(samples, only_letters, values)
-        type(samples_t), intent(in) :: samples
-        logical, intent(in) :: only_letters   !! quantities, T and V keep their values
-        real(dp), intent(inout) :: values(:)  !! of the symbols
-        type(hyperdual_t) :: inputs(size(samples%role)), result(1)
-        integer :: i, j, rate
-
-        do i = 1, size(samples%compiled)
-            if (only_letters .and. samples%role(samples%compiled(i)%symbol) == role_known) cycle
-            inputs = hyperdual_t()
-            inputs%re = values
-            inputs(1)%d1 = 1.0_dp
-            do j = 2, size(inputs)
-                rate = samples%rate(j)
-                if (rate == 0) cycle
-                inputs(j)%d1 = values(rate)
-                rate = samples%rate(rate)
-                if (rate > 0) inputs(j)%d12 = values(rate)
+            call parse_formula(formula, samples%symbols, expression, error)
+            if (allocated(error)) return
+            m = size(samples%reduced)
+            allocate (longer(m + 1))
+            do j = 1, m
+                longer(j) = samples%reduced(j)
             end do
-            inputs%d2 = inputs%d1
-            call samples%compiled(i)%program%evaluate(inputs, result)
-            j = samples%compiled(i)%symbol
-            values(j) = result(1)%re
-            rate = samples%rate(j)
-            if (rate == 0) cycle
-            values(rate) = result(1)%d1
-            if (is_rounding(samples%compiled(i)%rate, values)) values(rate) = 0.0_dp
-            rate = samples%rate(rate)
-            if (rate > 0) values(rate) = result(1)%d12
-        end do
-    end subroutine follow
-
-    function is_rounding(formula, values) result(yes)
-        !! Is its value no larger than the rounding errors of what is added up? What is conserved
-        !! has the rate 0.
-        type(expression_t), intent(in) :: formula
-        real(dp), intent(in) :: values(:)          !! of the symbols
-        logical :: yes
-        real(dp), dimension(1, formula%count) :: results, sizes
-
-        call evaluate_nodes(formula, reshape(values, [1, size(values)]), results, sizes=sizes)
-        yes = abs(results(1, formula%count)) <= 1e-13_dp*sizes(1, formula%count)
-    end function is_rounding
+            longer(m + 1)%symbol = symbol
+            longer(m + 1)%formula = expression
+            call move_alloc(longer, samples%reduced)
+        end subroutine add_reduced
+    end subroutine compile_letters
 end module lagrangia_sample_names

@@ -220,7 +220,7 @@ contains
         if (samples%role(letter) /= role_known .or. .not. formula%depends_on(letter)) letter = 0
         do k = 1, size(samples%role)
             if (letter == 0) return
-            if (k == letter .or. .not. formula%depends_on(k)) cycle
+            if (k == letter .or. any(samples%place == k) .or. .not. formula%depends_on(k)) cycle
             if (samples%role(k) /= role_frequency .and. .not. is_fixed(samples, k)) letter = 0
         end do
     end function period_letter
@@ -318,13 +318,15 @@ contains
 
     pure function value_remark(left, right, samples) result(remark)
         !! What is said of a parameter or letter alone on the left and a number on the right side,
-        !! where no line 'set:' has fixed it; otherwise empty.
+        !! where no line 'set:' has fixed it, or of parameters on both sides; otherwise empty.
         type(expression_t), intent(in) :: left, right   !! both sides
         type(samples_t), intent(in) :: samples          !! know the names
         character(:), allocatable :: remark
         integer :: i, k
 
         remark = ""
+        if (is_condition()) remark = "a condition between parameters, which are tried at "// &
+                                     "random; lines 'set:' fix them"
         if (.not. is_name(left) .or. any(right%nodes(:right%count)%kind == kind_symbol)) return
         k = left%nodes(1)%which
         if (samples%role(k) /= role_parameter) return
@@ -341,6 +343,31 @@ contains
             end associate
         end do
     contains
+        pure logical function is_condition()
+            !! A parameter alone, and on the other side others, and nothing else.
+            integer :: j, varying
+
+            varying = 0
+            is_condition = is_name(left)
+            do j = 1, size(samples%role)
+                if (.not. (left%depends_on(j) .or. right%depends_on(j))) cycle
+                is_condition = is_condition .and. is_parameter(j)
+                if (minval(samples%values(:, j)) >= maxval(samples%values(:, j))) cycle
+                varying = varying + 1
+            end do
+            is_condition = is_condition .and. varying > 1
+        end function is_condition
+
+        pure logical function is_parameter(which)
+            !! And no letter for a formula, nor a constant of a motion?
+            integer, intent(in) :: which
+
+            is_parameter = samples%role(which) == role_parameter .and. &
+                           samples%rate(which) == 0 .and. &
+                           .not. any(samples%kept_constants == which)
+            if (is_parameter) is_parameter = .not. any(samples%compiled%symbol == which)
+        end function is_parameter
+
         pure logical function is_name(side)
             type(expression_t), intent(in) :: side
 

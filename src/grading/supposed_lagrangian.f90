@@ -4,13 +4,14 @@ module lagrangia_supposed_lagrangian
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t
+    use lagrangia_followed_letters, only: follow_letters
     use lagrangia_formula_program, only: formula_program_t, new_formula_program
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
     use lagrangia_lapack_eigen, only: dgeev
     use lagrangia_same_motion, only: lagrange_terms
-    use lagrangia_sample_names, only: draws, follow_letters, role_known, samples_t, states
+    use lagrangia_sample_names, only: draws, role_known, samples_t, states
     implicit none (type, external)
     private
     public :: damped_rates, forget_quantities, place_letters, squared_frequencies, &

@@ -5,12 +5,12 @@ module lagrangia_supposed_statement
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t
+    use lagrangia_followed_letters, only: follow_letters
     use lagrangia_formula_program, only: formula_program_t, new_formula_program
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
-    use lagrangia_sample_names, only: draws, follow_letters, role_known, samples_t, &
-                                      states
+    use lagrangia_sample_names, only: draws, role_known, samples_t, states
     use lagrangia_sampled_formula, only: evaluate_nodes
     use lagrangia_supposed_lagrangian, only: damped_rates, forget_quantities, place_letters, &
                                              squared_frequencies

@@ -4,7 +4,7 @@ module lagrangia_term_search
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_canonical_form, only: simplified
     use lagrangia_expression, only: expression_t, kind_function, kind_symbol, operator(*)
-    use lagrangia_formula_text, only: formula_text
+    use lagrangia_formula_text, only: formula_text, typed_name
     use lagrangia_kinds, only: dp
     use lagrangia_letter_products, only: add_letters, collect_letters, find_product, letter_t
     use lagrangia_sample_names, only: draws, role_known, role_parameter, samples_t, states
@@ -36,7 +36,9 @@ contains
         type(expression_t) :: part
 
         part = expression%pruned(i)
-        text = "'"//formula_text(part, samples%symbols)//"'"
+        text = formula_text(part, samples%symbols)
+        if (part%count == 1) text = typed_name(text)
+        text = "'"//text//"'"
     end function part_text
 
     subroutine try_factors(expression, first, samples, values, library, remark, is_surplus, &
@@ -73,6 +75,7 @@ contains
             if (is_constant(needed)) then
                 is_surplus = abs(needed(1)) < equal
                 if (is_surplus) remark = text//" does not belong there"
+                if (is_surplus .and. is_alone(k)) remark = text//" is not 0"
                 if (is_simple(needed(1))) remark = text//" must be counted "// &
                                                    number_text(needed(1))//" times"
                 if (remark /= "") return
@@ -81,6 +84,7 @@ contains
                 do i = 1, size(samples%role)
                     if (samples%role(i) > role_parameter) cycle
                     if (expression%depends_on(i) .neqv. pass == 1) cycle
+                    if (makes_same_sides(i)) cycle
                     call try_letter(values(:, i), "'"//trim(samples%symbols%names(i))//"'")
                     if (remark == "") cycle
                     do m = 1, size(samples%compiled)
@@ -102,6 +106,24 @@ contains
             end do
         end do
     contains
+        logical function makes_same_sides(letter)
+            !! Of two terms, is one this letter alone? With it in the other, theta = theta.
+            integer, intent(in) :: letter
+
+            makes_same_sides = size(nodes) == 2 .and. &
+                any(expression%nodes(nodes)%kind == kind_symbol .and. &
+                    expression%nodes(nodes)%which == letter)
+        end function makes_same_sides
+
+        logical function is_alone(at)
+            !! Are all other summands 0?
+            integer, intent(in) :: at
+            integer :: j
+
+            is_alone = all([(j == at .or. all(.not. abs(results(:, nodes(j))) > 0.0_dp), &
+                             j=1, size(nodes))])
+        end function is_alone
+
         subroutine try_letter(letter, name)
             real(dp), intent(in) :: letter(:)
             character(*), intent(in) :: name

@@ -1,7 +1,7 @@
 module lagrangia_unknown_names
     !! Names of a statement that nobody has given a meaning.
     use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: function_names
+    use lagrangia_expression, only: is_function_name
     use lagrangia_formula_tokens, only: cut, is_name, tokens_t
     use lagrangia_names, only: name_length
     use lagrangia_symbols, only: symbols_t
@@ -32,7 +32,7 @@ contains
             if (tokens%token(i)%kind /= is_name) cycle
             word = symbols%spelling(tokens%word(i))
             if (symbols%find(word) > 0 .or. symbols%find_definition(word) > 0) cycle
-            if (any(function_names == word) .or. word == "pi" .or. word == "e") cycle
+            if (is_function_name(word) .or. word == "pi" .or. word == "e") cycle
             if (len(word) > name_length .or. any(names == word)) cycle
             names = [character(name_length) :: names, word]
         end do

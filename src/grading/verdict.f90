@@ -3,6 +3,7 @@ module lagrangia_verdict
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_explanation, only: explanation_t, explanation_text
     use lagrangia_expression, only: expression_t
+    use lagrangia_formula_text, only: typed_name
     use lagrangia_kinds, only: dp
     use lagrangia_number_text, only: scientific
     use lagrangia_sample_names, only: samples_t
@@ -11,7 +12,7 @@ module lagrangia_verdict
     implicit none (type, external)
     private
     public :: as_new_name, judgement_t
-    public :: brief, put_example
+    public :: brief, put_example, telling_digits
     public :: is_right, is_definition, is_wrong, is_unreadable, is_consequence
 
     integer, parameter :: is_right = 1, is_definition = 2, is_wrong = 3, is_unreadable = 4
@@ -56,7 +57,7 @@ contains
         character(:), allocatable, intent(out) :: text     !! one line
         real(dp), allocatable :: of_left(:, :), of_right(:, :), difference(:)
         character(:), allocatable :: before
-        integer :: i, worst
+        integer :: digits, i, worst
 
         allocate (of_left(size(values, 1), left%count), of_right(size(values, 1), right%count))
         call evaluate_nodes(left, values, of_left)
@@ -66,27 +67,42 @@ contains
             difference = abs(a - b)/(abs(a) + abs(b))
             worst = maxloc(difference, 1, ieee_is_finite(difference))
             if (worst == 0) worst = 1
-            text = "left "//brief(a(worst))//", right "//brief(b(worst))
+            digits = telling_digits(a(worst), b(worst))
+            text = "left "//brief(a(worst), digits)//", right "//brief(b(worst), digits)
         end associate
         before = " at "
         do i = 1, size(samples%role)
             if (.not. (left%depends_on(i) .or. right%depends_on(i))) cycle
-            text = text//before//trim(samples%symbols%names(i))//" = "//brief(values(worst, i))
+            text = text//before//typed_name(trim(samples%symbols%names(i)))//" = "// &
+                   brief(values(worst, i))
             before = ", "
         end do
     end subroutine put_example
 
-    pure function brief(value) result(text)
-        !! Four significant digits.
-        real(dp), intent(in) :: value  !! finite
-        character(:), allocatable :: text
+    pure function telling_digits(a, b) result(digits)
+        !! Four, or as many as are needed to see that the numbers differ, up to 12.
+        real(dp), intent(in) :: a, b  !! two numbers that differ
         integer :: digits
 
+        do digits = 4, 11
+            if (brief(a, digits) /= brief(b, digits)) return
+        end do
+    end function telling_digits
+
+    pure function brief(value, significant) result(text)
+        !! Four significant digits, or as many as are said.
+        real(dp), intent(in) :: value               !! finite
+        integer, intent(in), optional :: significant  !! digits
+        character(:), allocatable :: text
+        integer :: digits, n
+
+        n = 4
+        if (present(significant)) n = significant
         text = "0"
         if (abs(value) <= 0.0_dp) return
-        text = scientific(value, 4)
+        text = scientific(value, n)
         if (.not. (abs(value) > 1e-4_dp .and. abs(value) < 1e6_dp)) return
-        digits = 3 - floor(log10(abs(value)))
+        digits = n - 1 - floor(log10(abs(value)))
         if (digits >= 0) then
             text = to_text(anint(value*10.0_dp**digits)/10.0_dp**digits)
         else

@@ -7,7 +7,7 @@ module lagrangia_written_out
     use lagrangia_substitution, only: substituted
     implicit none (type, external)
     private
-    public :: energy_formulas, energy_places, written_out
+    public :: energy_formulas, energy_places, in_coordinates, written_out
 
 contains
 
@@ -53,6 +53,25 @@ contains
             end do
         end function needs_lagrangian
     end function written_out
+
+    function in_coordinates(expression, samples) result(e)
+        !! With the energies and the quantities written out as well.
+        type(expression_t), intent(in) :: expression  !! of the samples' symbols, not empty
+        type(samples_t), intent(in) :: samples        !! know the formulas
+        type(expression_t) :: e
+        type(expression_t), allocatable :: formulas(:)
+        integer :: i
+        integer :: places(4)
+
+        e = written_out(expression, samples)
+        places = energy_places(samples)
+        call energy_formulas(samples, formulas)
+        do i = 1, size(places)
+            if (places(i) == 0 .or. formulas(i)%count == 0) cycle
+            if (e%depends_on(places(i))) e = substituted(e, places(i:i), formulas(i:i))
+        end do
+        e = with_letters(e, samples, .true.)
+    end function in_coordinates
 
     pure function energy_places(samples) result(places)
         !! Of L, E, T and V; 0 where the system has none.

@@ -1,0 +1,113 @@
+module lagrangia_constants_of_motions
+    !! Statements with the constants of a motion that a line before writes out: `E = k A^2/2` behind
+    !! `x = A cos(omega t + phi)`. They are judged on that motion.
+    use lagrangia_errors, only: error_t
+    use lagrangia_expression, only: expression_t, operator(-)
+    use lagrangia_followed_letters, only: follow_letters
+    use lagrangia_formula_parser, only: parse_formula
+    use lagrangia_judged_equality, only: judge_forms
+    use lagrangia_kinds, only: dp
+    use lagrangia_motion_values, only: draw_values, rate_of, values_of
+    use lagrangia_names, only: name_length
+    use lagrangia_sample_names, only: role_parameter, samples_t
+    use lagrangia_term_search, only: library_t
+    use lagrangia_unknown_names, only: unknown_names
+    use lagrangia_verdict, only: is_unreadable, judgement_t
+    use lagrangia_written_out, only: in_coordinates
+    implicit none (type, external)
+    private
+    public :: judge_on_motion
+
+contains
+
+    subroutine judge_on_motion(left_text, right_text, samples, library, explain, names_one, &
+                               is_one, judgement)
+        !! A statement whose unknown names are constants of motions that were right; else `is_one`
+        !! is false. What only names a constant, `A = 0.1`, says nothing of the motion.
+        character(*), intent(in) :: left_text, right_text  !! both sides, in their columns
+        type(samples_t), intent(in) :: samples             !! know the motions
+        type(library_t), intent(in) :: library(:)          !! right terms
+        logical, intent(in) :: explain                     !! say what is wrong
+        logical, intent(in) :: names_one                   !! the left side is a name of no meaning
+        logical, intent(out) :: is_one                     !! all is said
+        type(judgement_t), intent(inout) :: judgement      !! of it
+        character(name_length), allocatable :: names(:)
+        type(samples_t) :: there
+        type(expression_t) :: left, right, residual
+        type(error_t), allocatable :: error
+        integer :: i, k, n
+        logical :: its_own, nearly
+
+        is_one = .false.
+        call unknown_names(left_text//" + "//right_text, samples%symbols, names)
+        if (size(names) == 0 .or. .not. any(samples%motion%count > 0)) return
+        if (.not. all([(any(samples%constants == names(i)), i=1, size(names))])) return
+        n = samples%ndof
+        its_own = .false.
+        do i = 1, size(samples%constants)
+            if (.not. any(names == samples%constants(i))) cycle
+            its_own = its_own .or. any([(samples%motion(k)%count > 0 .and. &
+                samples%motion(k)%depends_on(size(samples%role) + i), k=1, n)])
+        end do
+        if (.not. its_own) return
+        call put_on_motion(samples, there)
+        call parse_formula(left_text, there%symbols, left, error)
+        if (.not. allocated(error)) call parse_formula(right_text, there%symbols, right, error)
+        if (allocated(error)) return
+        left = in_coordinates(left, there)
+        right = in_coordinates(right, there)
+        residual = left - right
+        nearly = .false.
+        do k = 1, n
+            if (.not. any([(residual%depends_on(1 + k + i*n), i=0, 2)])) cycle
+            if (samples%motion(k)%count == 0) return
+            is_one = .true.
+            nearly = nearly .or. .not. samples%exact_motion(k)
+        end do
+        is_one = is_one .or. .not. names_one
+        if (.not. is_one) return
+        if (nearly) then
+            judgement%verdict = is_unreadable
+            judgement%remark = "the motion of the line before is that of small oscillations; "// &
+                "with its constants only what is exact is graded"
+            return
+        end if
+        call judge_forms(left, right, left_text//"="//right_text, .false., .false., there, &
+                         library, explain, judgement)
+    end subroutine judge_on_motion
+
+    subroutine put_on_motion(samples, there)
+        !! The states of the motions, with their constants as parameters.
+        type(samples_t), intent(in) :: samples   !! know the motions
+        type(samples_t), intent(out) :: there    !! at other times
+        real(dp), allocatable :: values(:, :), elsewhere(:, :)
+        type(expression_t) :: rate
+        integer :: i, k, n, order, place, row
+
+        there = samples
+        n = size(samples%role)
+        do i = 1, size(samples%constants)
+            call there%symbols%add(trim(samples%constants(i)))
+        end do
+        there%role = [samples%role, [(role_parameter, i=1, size(samples%constants))]]
+        there%rate = [samples%rate, [(0, i=1, size(samples%constants))]]
+        call draw_values(samples, size(there%role), values)
+        allocate (elsewhere(size(values, 1), size(values, 2)))
+        elsewhere(:, :n) = samples%elsewhere
+        elsewhere(:, n + 1:) = 1.3_dp*values(:, n + 1:)
+        do k = 1, samples%ndof
+            if (samples%motion(k)%count == 0) cycle
+            do order = 0, 2
+                place = 1 + k + order*samples%ndof
+                rate = rate_of(samples%motion(k), order)
+                values(:, place) = 0.0_dp
+                if (rate%count > 0) values(:, place) = values_of(rate, values)
+            end do
+        end do
+        call move_alloc(values, there%values)
+        call move_alloc(elsewhere, there%elsewhere)
+        do row = 1, size(there%values, 1)
+            call follow_letters(there, row)
+        end do
+    end subroutine put_on_motion
+end module lagrangia_constants_of_motions
