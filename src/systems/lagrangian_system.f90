@@ -22,7 +22,7 @@ module lagrangia_lagrangian_system
     implicit none (type, external)
     private
     public :: lagrangian_system_t
-    public :: find_structure, is_spare, near_states, trial_state
+    public :: find_structure, is_spare, last_state, near_states, trial_state
 
     type, abstract, extends(bound_system_t) :: lagrangian_system_t
         real(dp), allocatable :: p(:)  !! the parameters, in the order of `describe`

@@ -11,8 +11,8 @@ module lagrangia_written_quantities
     use lagrangia_formula_program, only: formula_program_t
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
-    use lagrangia_lagrangian_system, only: is_spare, lagrangian_system_t, near_states, &
-                                          trial_state
+    use lagrangia_lagrangian_system, only: is_spare, lagrangian_system_t, last_state, &
+                                          near_states, trial_state
     use lagrangia_symbols, only: symbols_t
     use lagrangia_text, only: quoted, to_text
     implicit none (type, external)
@@ -54,33 +54,63 @@ contains
     end subroutine read_quantities
 
     pure subroutine find_conserved(system, program, conserved)
-        !! A quantity is conserved if its rate is rounding beside the terms that add up to it, at
-        !! the first states of `trial_state`, with velocities that keep the constraints. Far away
-        !! the terms of a force may cancel, and the rest be no rounding of the rate's own terms.
+        !! A quantity is conserved if its rate is rounding at the states of `trial_state`, with
+        !! velocities that keep the constraints: beside the terms that add up to it, or, where the
+        !! terms of a force cancel, beside what rounding of the state makes of it. Constraints hold
+        !! near the origin at most.
         class(lagrangian_system_t), intent(in) :: system   !! whose motion it is
         type(formula_program_t), intent(in) :: program     !! the quantities, of t, q, q_dot
         logical, allocatable, intent(out) :: conserved(:)  !! each of them
         real(dp), parameter :: rounding = 1e-11_dp  !! of terms that may themselves cancel
         real(dp), dimension(system%ndof) :: q, v, a
-        real(dp), dimension(program%outputs) :: rate, terms
+        real(dp), parameter :: amplified = 1e4_dp   !! of changes by roundings of a state
+        real(dp), dimension(program%outputs) :: rate, terms, noise
         real(dp) :: t
         integer :: k, used
 
         allocate (conserved(program%outputs), source=.true.)
         if (size(conserved) == 0) return
         used = 0
-        do k = 1, near_states
+        do k = 1, merge(last_state, near_states, system%constraints == 0)
             if (is_spare(k, used)) cycle
             call trial_state(k, t, q, v)
             call keep_constraints(system, t, q, v)
             call system%accelerations(t, q, v, a)
             call rates(program, t, q, v, a, rate, terms)
             if (.not. all(ieee_is_finite([a, rate, terms]))) cycle
-            conserved = conserved .and. abs(rate) <= rounding*terms
             used = used + 1
+            if (k > near_states) then
+                call find_noise(system, program, t, q, v, rate, noise)
+                conserved = conserved .and. (abs(rate) <= rounding*terms .or. &
+                                             abs(rate) <= amplified*noise)
+            else
+                conserved = conserved .and. abs(rate) <= rounding*terms
+            end if
         end do
         if (used == 0) conserved = .false.
     end subroutine find_conserved
+
+    pure subroutine find_noise(system, program, t, q, v, rate, noise)
+        !! The changes of the rates where the state is another one by a few roundings.
+        class(lagrangian_system_t), intent(in) :: system   !! whose motion it is
+        type(formula_program_t), intent(in) :: program     !! the quantities, of t, q, q_dot
+        real(dp), intent(in) :: t, q(:), v(:)              !! the state
+        real(dp), intent(in) :: rate(:)                    !! of each quantity there
+        real(dp), intent(out) :: noise(:)                  !! of each of them
+        real(dp), parameter :: eps = epsilon(1.0_dp)
+        real(dp), dimension(system%ndof) :: q_near, v_near, a_near
+        real(dp), dimension(program%outputs) :: near, others
+        integer :: i
+
+        noise = 0.0_dp
+        do i = 1, 3
+            q_near = q*(1.0_dp + (2*i - 3)*eps)
+            v_near = v*(1.0_dp - (2*i - 5)*eps)
+            call system%accelerations(t, q_near, v_near, a_near)
+            call rates(program, t, q_near, v_near, a_near, near, others)
+            where (ieee_is_finite(near)) noise = max(noise, abs(near - rate))
+        end do
+    end subroutine find_noise
 
     pure subroutine keep_constraints(system, t, q, v)
         !! The velocities nearest to these that the constraints allow:
