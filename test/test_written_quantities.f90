@@ -120,8 +120,8 @@ contains
                  round_values, system, d)
         call assertFalse(d%quantities(3)%conserved, "a curl")
         call assertTrue(d%quantities(4)%conserved, "a number")
-        call own(plane//"Q_x = '-0.1 (|x - 5| + x - 5)' quantities = 'P = m x_dot', 'S = m y_dot'", &
-                 "m = 2 k = 0 c = 0", system, d)
+        call own(plane//"Q_x = '-0.1 (|x - 5| + x - 5)' quantities = "// &
+                 "'P = m x_dot', 'S = m y_dot'", "m = 2 k = 0 c = 0", system, d)
         call assertFalse(d%quantities(3)%conserved, "a wall far away")
         call assertTrue(d%quantities(4)%conserved, "beside the wall")
         call own(plane//"Q_x = '-x (x^2 + y^2)^2' Q_y = '-y (x^2 + y^2)^2' quantities = "//spin, &
