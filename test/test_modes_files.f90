@@ -7,7 +7,7 @@ module test_modes_files
     use lagrangia_errors, only: error_t, status_file
     use lagrangia_interrupt, only: catch_interrupts
     use lagrangia_kinds, only: dp
-    use lagrangia_modes_files, only: prepare_modes, write_mode
+    use lagrangia_modes_files, only: prepare_modes, size_of_modes, write_mode
     use lagrangia_small_oscillations, only: find_modes, is_oscillation, is_unstable, is_zero_mode, &
                                             modes_t
     use lagrangia_system, only: system_t
@@ -155,6 +155,7 @@ contains
         if (anyExceptions()) return
         text = text(n + 1:)
         text = text(index(text, newline) + 1:)
+        call assertEqual(real(system%ndof*len(text), dp), size_of_modes(system), 0.0_dp, "bytes")
         allocate (rows(1 + system%ndof, 201))
         do i = 1, 201
             read (text(:index(text, newline)), *, iostat=status) rows(:, i)

@@ -21,7 +21,7 @@ module lagrangia_modes_files
     use lagrangia_value_range, only: value_range_t
     implicit none (type, external)
     private
-    public :: prepare_modes, write_mode
+    public :: prepare_modes, size_of_modes, write_mode
 
     integer, parameter :: samples = 200
 
@@ -51,7 +51,7 @@ contains
 
     pure function size_of_modes(system) result(bytes)
         !! Of all data files together, without their headers.
-        class(system_t), intent(in) :: system
+        class(system_t), intent(in) :: system  !! of any size
         real(dp) :: bytes
 
         bytes = real(system%ndof, dp)*(samples + 1)*(1 + system%ndof)*(field_width + 1)
