@@ -263,11 +263,40 @@ contains
         which = symbols%find_definition(name)
         if (which > 0) meaning = symbols%definitions(which)%meaning
         call skip_arguments(reader, symbols, symbols%find(name), meaning)
+        if (is_value_at(reader, symbols, name)) then
+            call refuse(reader, quoted(name//"(...)")//" would be a product; write the formula "// &
+                        "with that place put in", error)
+            return
+        end if
         if (is_time_in_brackets(reader)) then
             call refuse(reader, quoted(name//"(t)")//" would be a product; write "// &
                         quoted(name)//", or "//quoted(name//" t")//" if one is meant", error)
         end if
     end subroutine read_behind
+
+    pure function is_value_at(reader, symbols, name) result(yes)
+        !! `V(0)`, `x_dot(0)`: energies, coordinates and velocities, and a number in brackets.
+        type(reader_t), intent(in) :: reader         !! behind the name
+        type(symbols_t), intent(in) :: symbols
+        character(*), intent(in) :: name             !! as the symbols have it
+        logical :: yes
+        integer :: at
+
+        yes = .false.
+        if (.not. allocated(symbols%rates)) return
+        if (.not. next_is(reader, "(") .or. .not. reader%tokens%token(reader%at)%glued) return
+        if (.not. (any(name == ["L", "T", "V", "U", "E", "H"]) .or. &
+                   (symbols%find(name) > 1 .and. symbols%find(name) < 2 + 2*coordinates(symbols)))) &
+            return
+        do at = reader%at + 1, size(reader%tokens%token) - 1
+            if (reader%tokens%word(at) == ")") then
+                yes = at > reader%at + 1
+                return
+            end if
+            if (reader%tokens%word(at) == "pi") cycle
+            if (verify(reader%tokens%word(at), "0123456789./-+") > 0) return
+        end do
+    end function is_value_at
 
     pure recursive subroutine read_primes(reader, symbols, name, node, error)
         !! `theta''` is theta_ddot, and `theta'` is theta_dot on a sheet that has `theta''` too;

@@ -41,7 +41,8 @@ contains
         yes = any(word == [character(8) :: "const", "const.", "constant", "konst", "konst.", &
                            "konstant", "C", "C1", "C_1", "C2", "C_2"])
         if (yes) yes = samples%symbols%find_definition(trim(word)) == 0 .and. &
-                       samples%symbols%find(trim(word)) == 0
+                       samples%symbols%find(trim(word)) == 0 .and. &
+                   .not. any(samples%declared == word)
     end function is_constant_word
 
     subroutine explain_change(text, samples, explanation, remark)

@@ -9,14 +9,14 @@ module lagrangia_constants_of_motions
     use lagrangia_kinds, only: dp
     use lagrangia_motion_values, only: draw_values, rate_of, values_of
     use lagrangia_names, only: name_length
-    use lagrangia_sample_names, only: role_parameter, samples_t
+    use lagrangia_sample_names, only: role_known, role_parameter, samples_t
     use lagrangia_term_search, only: library_t
     use lagrangia_unknown_names, only: unknown_names
     use lagrangia_verdict, only: is_unreadable, judgement_t
-    use lagrangia_written_out, only: in_coordinates
+    use lagrangia_written_out, only: energy_formulas, energy_places, in_coordinates
     implicit none (type, external)
     private
-    public :: judge_on_motion
+    public :: judge_on_motion, put_on_motion
 
 contains
 
@@ -64,6 +64,12 @@ contains
             is_one = .true.
             nearly = nearly .or. .not. samples%exact_motion(k)
         end do
+        ! where the masses are is not known there
+        do i = 1, size(samples%role)
+            if (samples%role(i) /= role_known .or. any(samples%place == i)) cycle
+            if (samples%decay > 0 .and. any(i == samples%decay + [0, 1])) cycle
+            if (residual%depends_on(i)) return
+        end do
         is_one = is_one .or. .not. names_one
         if (.not. is_one) return
         if (nearly) then
@@ -82,12 +88,17 @@ contains
         type(samples_t), intent(out) :: there    !! at other times
         real(dp), allocatable :: values(:, :), elsewhere(:, :)
         type(expression_t) :: rate
-        integer :: i, k, n, order, place, row
+        type(expression_t), allocatable :: formulas(:)
+        integer :: energies(4), i, k, n, order, place, row
 
         there = samples
         n = size(samples%role)
         do i = 1, size(samples%constants)
-            call there%symbols%add(trim(samples%constants(i)))
+            if (samples%symbols%find(trim(samples%constants(i))) > 0) then  ! a line gave its value
+                call there%symbols%add("_"//trim(samples%constants(i)))
+            else
+                call there%symbols%add(trim(samples%constants(i)))
+            end if
         end do
         there%role = [samples%role, [(role_parameter, i=1, size(samples%constants))]]
         there%rate = [samples%rate, [(0, i=1, size(samples%constants))]]
@@ -108,6 +119,12 @@ contains
         call move_alloc(elsewhere, there%elsewhere)
         do row = 1, size(there%values, 1)
             call follow_letters(there, row)
+        end do
+        ! E and L, which are none of these
+        call energy_formulas(there, formulas)
+        energies = energy_places(there)
+        do k = 1, 2
+            if (energies(k) > 0) there%values(:, energies(k)) = values_of(formulas(k), there%values)
         end do
     end subroutine put_on_motion
 end module lagrangia_constants_of_motions

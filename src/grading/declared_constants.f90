@@ -2,21 +2,22 @@ module lagrangia_declared_constants
     !! Names behind `constant:`. What a statement calls so is a constant of integration, whatever
     !! the motion makes of it, and the same one in all lines; in a definition, `y = l - x`, it is a
     !! number.
-    use lagrangia_expression, only: expression_t
     use lagrangia_kinds, only: dp
     use lagrangia_sample_names, only: draws, role_parameter, samples_t, states
     use lagrangia_symbols, only: symbols_t
     implicit none (type, external)
     private
-    public :: add_constant, keep_constant, settle_constants, show_constants, with_constants
+    public :: add_constant, has_place, keep_constant, place_of_constant, show_constants, &
+              with_constants
 
     character, parameter :: hidden = "!"  !! behind a name, so that no formula has it
 
 contains
 
-    subroutine add_constant(name, samples)
+    subroutine add_constant(name, declared, samples)
         !! One more, with a value for each draw of parameters.
         character(*), intent(in) :: name           !! that nobody has
+        logical, intent(in) :: declared            !! behind `constant:`, not of a motion
         type(samples_t), intent(inout) :: samples  !! with their states
         real(dp), allocatable :: values(:, :)
         real(dp) :: x
@@ -37,8 +38,27 @@ contains
         values(:, :n) = samples%elsewhere
         values(:, n + 1) = 1.3_dp*samples%values(:, n + 1)
         call move_alloc(values, samples%elsewhere)
-        samples%declared = [character(len(samples%declared)) :: samples%declared, name]
+        if (declared) samples%declared = [character(len(samples%declared)) :: samples%declared, &
+                                          name]
     end subroutine add_constant
+
+    pure function has_place(samples, name) result(yes)
+        !! Is it a constant that no line has given a value?
+        type(samples_t), intent(in) :: samples  !! of a sheet
+        character(*), intent(in) :: name        !! as typed
+        logical :: yes
+
+        yes = place_of_constant(samples, name) > 0
+    end function has_place
+
+    pure function place_of_constant(samples, name) result(place)
+        !! Of a constant that no line has given a value; 0: there is none.
+        type(samples_t), intent(in) :: samples  !! of a sheet
+        character(*), intent(in) :: name        !! as typed
+        integer :: place
+
+        place = samples%symbols%find(trim(name)//hidden)
+    end function place_of_constant
 
     pure subroutine keep_constant(name, values, two_signs, samples)
         !! What a line has made of it: a name as any other for the lines behind.
@@ -57,46 +77,29 @@ contains
         samples%two_signs = [samples%two_signs, two_signs]
     end subroutine keep_constant
 
-    pure subroutine settle_constants(meaning, samples)
-        !! What a definition has is a number from there on.
-        type(expression_t), intent(in) :: meaning  !! of a name
-        type(samples_t), intent(inout) :: samples  !! of a sheet
-        integer :: i, place
-
-        do i = 1, size(samples%declared)
-            place = samples%symbols%find(trim(samples%declared(i))//hidden)
-            if (place == 0) cycle
-            if (meaning%depends_on(place)) samples%symbols%names(place) = samples%declared(i)
-        end do
-    end subroutine settle_constants
-
     pure function with_constants(samples) result(symbols)
-        !! All symbols, with the names behind `constant:`.
+        !! All symbols, with the names of constants that no line has given a value.
         type(samples_t), intent(in) :: samples  !! of a sheet
         type(symbols_t) :: symbols
-        integer :: i, k
+        integer :: i, n
 
         symbols = samples%symbols
-        do i = 1, size(samples%declared)
-            k = symbols%find(trim(samples%declared(i))//hidden)
-            if (k > 0) symbols%names(k) = samples%declared(i)
+        do i = 1, size(symbols%names)
+            n = index(symbols%names(i), hidden)
+            if (n > 0) symbols%names(i) = symbols%names(i) (:n - 1)
         end do
     end function with_constants
 
-    pure subroutine show_constants(samples, text)
-        !! Take the marks off the names behind `constant:`: what a student reads has the name.
-        type(samples_t), intent(in) :: samples             !! of a sheet
+    pure subroutine show_constants(text)
+        !! Take the marks off the names of constants: what a student reads has the name.
         character(:), allocatable, intent(inout) :: text   !! a remark, or a state
-        integer :: at, i, n
+        integer :: at
 
         if (.not. allocated(text)) return
-        do i = 1, size(samples%declared)
-            n = len_trim(samples%declared(i))
-            do
-                at = index(text, trim(samples%declared(i))//hidden)
-                if (at == 0) exit
-                text = text(:at + n - 1)//text(at + n + 1:)
-            end do
+        do
+            at = index(text, hidden)
+            if (at == 0) exit
+            text = text(:at - 1)//text(at + 1:)
         end do
     end subroutine show_constants
 end module lagrangia_declared_constants

@@ -1,16 +1,14 @@
 module lagrangia_free_constants
     !! Statements with constants of integration: `theta_dot^2 = 2 g/l cos(theta) + h`, right if it
     !! goes on to hold on each motion on which it once does, whatever the constant is.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+    use lagrangia_constant_values, only: draw_constants, solve_constants
     use lagrangia_declared_constants, only: keep_constant
-    use lagrangia_derivative, only: derivative, time_derivative
+    use lagrangia_derivative, only: time_derivative
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: expression_t, operator(-), symbol, whole
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_formula_text, only: typed_name
     use lagrangia_kinds, only: dp
-    use lagrangia_lapack, only: solve_linear
-    use lagrangia_motion_values, only: values_of
     use lagrangia_names, only: name_length
     use lagrangia_sample_names, only: samples_t
     use lagrangia_slip_search, only: holds
@@ -24,8 +22,6 @@ module lagrangia_free_constants
     private
     public :: judge_with_constants
 
-    integer, parameter :: steps = 60   !! of Newton, from each start
-    integer, parameter :: enough = 4   !! states at which there is such a constant
     integer, parameter :: most_constants = 3  !! of one statement that are not any number
 
 contains
@@ -107,7 +103,7 @@ contains
         end function moves
 
         subroutine find_rates()
-            !! Constant accelerations have one.
+            !! Constant accelerations have one, and what is conserved has the rate 0.
             type(expression_t) :: acceleration
             logical :: is_constant
             integer :: k
@@ -116,6 +112,10 @@ contains
                 acceleration = symbol(k)
                 is_constant = is_constant_of_each_draw(acceleration, samples)
                 if (is_constant) symbols%rates(k) = 0
+            end do
+            do k = 2, n
+                if (symbols%rates(k) < 1) cycle
+                if (all(abs(samples%values(:, symbols%rates(k))) <= 0.0_dp)) symbols%rates(k) = 0
             end do
         end subroutine find_rates
 
@@ -163,10 +163,8 @@ contains
             end do
             if (begins_there) then
                 begun = substituted(begun, places, put(:size(places)))
-                allocate (values(size(samples%values, 1), n + size(names)))
-                call draw_constants(0.0_dp)
+                call draw_constants(samples, size(names), values)
                 call holds(begun, values, begins_there, known)
-                deallocate (values)
             end if
             if (.not. begins_there) judgement%remark = "is '"//trim(names(1))//"' where the "// &
                 "motion begins? It does not hold there; a line 'constant: "//trim(names(1))// &
@@ -195,7 +193,7 @@ contains
         subroutine try_constants()
             !! Those that are chosen.
             type(expression_t) :: rates(0:size(chosen))
-            logical :: known, stay
+            logical :: known, regular, stay
             integer :: k
 
             rates(0) = residual
@@ -207,10 +205,17 @@ contains
                 rates(k) = time_derivative(rates(k - 1), symbols%rates, 1)
                 if (rates(k)%count == 0) rates(k) = whole(0)
             end do
-            call solve_for(rates(:size(chosen) - 1))
+            call draw_constants(samples, size(names), values)
+            call solve_constants(rates(:size(chosen) - 1), n + chosen, values, regular)
             call holds(rates(size(chosen)), values, stay, known)
+            open_end = open_end .or. (regular .and. .not. known .and. size(chosen) > 1)
             judged = judged .or. known
             yes = known .and. stay
+            ! what it says of accelerations, without the constants
+            if (.not. yes) return
+            if (any([(rates(size(chosen))%depends_on(n + k), k=1, size(names))])) return
+            judgement%residual = rates(size(chosen))
+            judgement%of_motion = .true.
         end subroutine try_constants
 
         logical function has_chosen(rate)
@@ -220,62 +225,6 @@ contains
 
             has_chosen = any([(rate%depends_on(n + chosen(k)), k=1, size(chosen))])
         end function has_chosen
-
-        subroutine draw_constants(start)
-            real(dp), intent(in) :: start  !! of those that are chosen, beyond what is drawn
-            integer :: j, row
-            real(dp), parameter :: golden = 0.6180339887498949_dp
-
-            values(:, :n) = samples%values
-            do row = 1, size(values, 1)
-                do j = 1, size(names)
-                    values(row, n + j) = 0.3_dp + 1.3_dp*modulo(golden*(7*j + row), 1.0_dp)
-                end do
-            end do
-            if (allocated(chosen)) values(:, n + chosen) = values(:, n + chosen) + start
-        end subroutine draw_constants
-
-        subroutine solve_for(equations)
-            !! Newton for the chosen constants at each state; NaN where it has no solution.
-            type(expression_t), intent(in) :: equations(:)
-            type(expression_t) :: slopes(size(chosen), size(chosen))
-            real(dp), dimension(size(samples%values, 1), size(chosen)) :: best, f, step
-            real(dp) :: jacobian(size(samples%values, 1), size(chosen), size(chosen))
-            integer :: begun, j, k, turn
-
-            if (allocated(values)) deallocate (values)
-            allocate (values(size(samples%values, 1), n + size(names)))
-            best = ieee_value(1.0_dp, ieee_quiet_nan)
-            do j = 1, size(chosen)
-                do k = 1, size(chosen)
-                    slopes(j, k) = derivative(equations(j), n + chosen(k))
-                end do
-            end do
-            do begun = 1, 4
-                call draw_constants(real(begun, dp)*0.7_dp - 1.4_dp)
-                do turn = 1, steps
-                    jacobian = 0.0_dp
-                    do j = 1, size(chosen)
-                        f(:, j) = values_of(equations(j), values)
-                        do k = 1, size(chosen)
-                            if (slopes(j, k)%count == 0) cycle
-                            jacobian(:, j, k) = values_of(slopes(j, k), values)
-                        end do
-                    end do
-                    call find_step(jacobian, f, step)
-                    values(:, n + chosen) = values(:, n + chosen) - step
-                    if (.not. any(abs(step) > 1e-15_dp*abs(values(:, n + chosen)))) exit
-                end do
-                do j = 1, size(step, 1)
-                    if (all(ieee_is_finite(best(j, :)))) cycle
-                    if (.not. all(abs(step(j, :)) <= &
-                                  1e-13_dp*(abs(values(j, n + chosen)) + 1e-3_dp))) cycle
-                    best(j, :) = values(j, n + chosen)
-                end do
-                if (count(ieee_is_finite(best(:, 1))) >= enough) exit
-            end do
-            values(:, n + chosen) = best
-        end subroutine solve_for
 
         logical function has_energy(side)
             type(expression_t), intent(in) :: side
@@ -310,28 +259,6 @@ contains
             end do
         end subroutine keep_constants
     end subroutine judge_with_constants
-
-    subroutine find_step(jacobian, f, step)
-        !! Newton's step at each state; NaN where the constants do not follow from the equations.
-        real(dp), intent(in) :: jacobian(:, :, :)   !! (states, equations, constants)
-        real(dp), intent(in) :: f(:, :)             !! (states, equations)
-        real(dp), intent(out) :: step(:, :)         !! (states, constants)
-        real(dp) :: x(size(f, 2))
-        type(error_t), allocatable :: error
-        integer :: row
-
-        do row = 1, size(f, 1)
-            if (size(f, 2) == 1) then
-                step(row, 1) = f(row, 1)/jacobian(row, 1, 1)
-                cycle
-            end if
-            step(row, :) = ieee_value(1.0_dp, ieee_quiet_nan)
-            if (.not. all(ieee_is_finite(jacobian(row, :, :)))) cycle
-            if (.not. all(ieee_is_finite(f(row, :)))) cycle
-            call solve_linear(jacobian(row, :, :), f(row, :), x, error)
-            if (.not. allocated(error)) step(row, :) = x
-        end do
-    end subroutine find_step
 
     pure function start_of(name, samples) result(place)
         !! The coordinate or velocity whose value at the start is called that; 0: none.

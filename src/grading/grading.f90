@@ -2,7 +2,7 @@ module lagrangia_grading
     !! A whole sheet: every statement judged, and whether the right ones determine the motion.
     use lagrangia_canonical_form, only: simplified
     use lagrangia_consequences, only: consequences_t
-    use lagrangia_declared_constants, only: add_constant
+    use lagrangia_declared_constants, only: add_constant, has_place
     use lagrangia_derivative, only: derivative, time_derivative
     use lagrangia_description, only: description_t
     use lagrangia_determined_accelerations, only: find_determined
@@ -15,6 +15,7 @@ module lagrangia_grading
     use lagrangia_judgement, only: is_consequence, is_definition, is_right, is_wrong, judgement_t
     use lagrangia_kinds, only: dp
     use lagrangia_motion_samples, only: new_samples
+    use lagrangia_names, only: name_length
     use lagrangia_parameter_choice, only: occurs
     use lagrangia_sample_names, only: samples_t
     use lagrangia_sampled_formula, only: summands
@@ -22,12 +23,14 @@ module lagrangia_grading
     use lagrangia_system, only: system_t
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: append_word, quoted, short_source, to_text, word_t
+    use lagrangia_unknown_names, only: unknown_names
     implicit none (type, external)
     private
     public :: grade_t
     public :: grade
 
-    integer, parameter :: most_derived = 3  !! coordinates of which all momenta are written
+    integer, parameter :: most_derived = 3     !! coordinates of which all momenta are written
+    integer, parameter :: most_constants = 20  !! of motions that a sheet writes out
 
     type :: grade_t
         !! Of one sheet.
@@ -52,16 +55,25 @@ contains
         type(judgement_t), allocatable :: attempt(:)
         type(description_t) :: d
         type(word_t), allocatable :: insisted(:)
-        character(:), allocatable :: said
+        character(*), parameter :: inside = "abcdefghijklmnopqrstuvwxyz"// &
+            "ABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789"
+        character(:), allocatable :: plain, said
         integer :: i, k
 
         said = ""
         do i = 1, size(homework%statements)
-            said = said//" "//plain_letters(homework%statements(i)%text)
+            plain = plain_letters(homework%statements(i)%text)
+            k = index(plain, "=")
+            if (k > 1) then
+                if (adjustl(plain(k + 1:)) == "0" .and. verify(trim(adjustl(plain(:k - 1))), &
+                    inside) == 0) cycle  ! `b = 0`
+            end if
+            said = said//" "//plain
         end do
         call new_samples(system, said, homework%settings, samples, error, calls_it_omega(homework))
         if (.not. allocated(error)) call declare_constants(homework, samples, error)
         if (allocated(error)) return
+        call find_motion_constants(homework, samples)
         call system%describe(d)
         call collect_terms(system, samples, library)
         allocate (insisted(0))
@@ -121,10 +133,37 @@ contains
                                            to_text(homework%constant_lines(i))//": constant")
                     return
                 end if
-                call add_constant(name, samples)
+                call add_constant(name, .true., samples)
             end associate
         end do
     end subroutine declare_constants
+
+    subroutine find_motion_constants(homework, samples)
+        !! Names that nobody knows in lines that write out a motion or say how it begins.
+        type(homework_t), intent(in) :: homework
+        type(samples_t), intent(inout) :: samples
+        character(name_length), allocatable :: names(:)
+        character(:), allocatable :: side
+        integer :: equals, found, i, k, place
+
+        found = 0
+        do i = 1, size(homework%statements)
+            associate (text => homework%statements(i)%text)
+                equals = index(text, "=")
+                if (equals < 2) cycle
+                side = trim(adjustl(plain_letters(text(:equals - 1))))
+                if (index(side, "(") > 0) side = side(:index(side, "(") - 1)
+                place = samples%symbols%find(samples%symbols%spelling(side))
+                if (place < 2 .or. place > 1 + 2*samples%ndof) cycle
+                call unknown_names(text(equals + 1:), samples%symbols, names)
+            end associate
+            do k = 1, size(names)
+                if (has_place(samples, names(k)) .or. found == most_constants) cycle
+                call add_constant(trim(names(k)), .false., samples)
+                found = found + 1
+            end do
+        end do
+    end subroutine find_motion_constants
 
     pure function calls_it_omega(homework) result(yes)
         !! A line such as `omega = theta_dot` gives the name omega to what moves.

@@ -248,7 +248,7 @@ contains
                 if (index(text, "=") == 0) then
                     call refuse("'set:' needs a parameter and its value, say 'set: g = 9.81'")
                 else
-                    call add_setting(plainly(text(colon + 1:)))
+                    call add_settings(plainly(text(colon + 1:)))
                 end if
             case ("constant", "constants")
                 call add_names(plainly(text(colon + 1:)))
@@ -318,12 +318,42 @@ contains
             end do
         end subroutine add_names
 
+        subroutine add_settings(list)
+            !! `omega = 5, g = 9.81`: a comma before a name and `=` ends one.
+            character(*), intent(in) :: list
+            integer :: comma, first, next
+
+            first = 1
+            do
+                next = first
+                do
+                    comma = index(list(next:), ",")
+                    if (comma == 0) exit
+                    comma = next + comma - 1
+                    next = comma + 1
+                    if (index(list(next:), "=") == 0) comma = 0
+                    if (comma == 0) exit
+                    if (scan(list(next:next + index(list(next:), "=") - 2), ",") == 0 .and. &
+                        verify(list(next:next + index(list(next:), "=") - 2), " .0123456789") &
+                        > 0) exit
+                end do
+                if (comma == 0) exit
+                call add_setting(list(first:comma - 1))
+                first = comma + 1
+            end do
+            call add_setting(list(first:))
+        end subroutine add_settings
+
         subroutine add_setting(setting)
             !! Blanks stay between several values only, `electric = 0 0 1`.
             character(*), intent(in) :: setting
             integer :: equals
 
             equals = index(setting, "=")
+            if (index(setting(equals + 1:), "=") > 0) then
+                call refuse("a line 'set:' has one '=' for each parameter, 'set: m1 = 1, m2 = 1'")
+                return
+            end if
             call append_word(homework%settings, trim(adjustl(setting(:equals - 1)))//"="// &
                              trim(adjustl(setting(equals + 1:))))
             homework%setting_lines = [homework%setting_lines, number]

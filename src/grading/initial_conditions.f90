@@ -1,8 +1,9 @@
 module lagrangia_initial_conditions
     !! `theta(0) = theta_0`: how a motion begins.
+    use lagrangia_declared_constants, only: has_place, keep_constant
     use lagrangia_expression, only: expression_t, operator(-), whole
     use lagrangia_kinds, only: dp
-    use lagrangia_motion_values, only: draw_values, rate_of
+    use lagrangia_motion_values, only: draw_values, rate_of, values_of
     use lagrangia_sample_names, only: samples_t
     use lagrangia_slip_search, only: holds
     use lagrangia_substitution, only: substituted
@@ -33,7 +34,7 @@ contains
         integer, intent(in) :: coordinate           !! which begins
         integer, intent(in) :: order                !! of its derivative, 0 or 1
         type(expression_t), intent(in) :: f         !! the right side
-        type(samples_t), intent(in) :: samples      !! know the motion
+        type(samples_t), intent(inout) :: samples   !! know the motion
         integer, intent(in) :: names                !! with the constants
         logical, intent(out) :: is_one              !! the right side is a constant
         type(judgement_t), intent(inout) :: judgement   !! of the line
@@ -53,8 +54,12 @@ contains
         call holds(begun - f, values, yes, judged)
         if (.not. judged) return
         k = size(samples%symbols%names)
-        associate (ours => [(begun%depends_on(i), i=k + 1, names)], &
-                   theirs => [(f%depends_on(i), i=k + 1, names)])
+        ! x_0 is where the motion of the line before begins
+        call keep_start(f, begun, k, samples)
+        associate (ours => [(begun%depends_on(i) .and. (i > k .or. &
+                             any(samples%kept_constants == i)), i=1, names)], &
+                   theirs => [(f%depends_on(i) .and. (i > k .or. &
+                               any(samples%kept_constants == i)), i=1, names)])
             ! theta_0 or 1.0 says what A is, as nothing else does
             if (.not. yes .and. any(ours) .and. .not. any(ours .and. theirs)) return
         end associate
@@ -62,4 +67,22 @@ contains
         judgement%remark = ""
         if (.not. yes) judgement%remark = "the motion of the line before begins elsewhere"
     end subroutine judge_start
+
+    subroutine keep_start(f, begun, known, samples)
+        !! A name of no value alone on the right side has the value of the motion at the start.
+        type(expression_t), intent(in) :: f, begun       !! the right side, and that value
+        integer, intent(in) :: known                     !! symbols before the constants
+        type(samples_t), intent(inout) :: samples        !! know the constants
+        integer :: i
+
+        if (f%count /= 1 .or. begun%count == 0) return
+        do i = 1, size(samples%constants)
+            if (begun%depends_on(known + i)) return
+        end do
+        do i = 1, size(samples%constants)
+            if (.not. f%depends_on(known + i)) cycle
+            if (has_place(samples, samples%constants(i))) call keep_constant( &
+                trim(samples%constants(i)), values_of(begun, samples%values), .false., samples)
+        end do
+    end subroutine keep_start
 end module lagrangia_initial_conditions

@@ -16,7 +16,7 @@ module lagrangia_judged_equality
     use lagrangia_small_energies, only: is_constant_of_each_draw, is_energy, put_same_constant
     use lagrangia_small_judgement, only: judge_small
     use lagrangia_squared_statements, only: compare_squares, explain_squares
-    use lagrangia_stated_equilibria, only: is_equilibrium
+    use lagrangia_stated_equilibria, only: another_equilibrium, is_equilibrium
     use lagrangia_statement_forms, only: has_velocities, is_branch, is_motion, &
                                          read_as_tension, speaks_of_place, tensions, &
                                          value_remark
@@ -61,6 +61,8 @@ contains
         if (judgement%verdict /= is_wrong) return
         if (holds_to_digits(left, right, text, samples)) then
             judgement%remark = "to the digits given"
+        else if (holds_elsewhere()) then
+            judgement%remark = "to the digits given"
         else if (is_branch(left, right, samples)) then
             judgement%remark = "where the sign of the root is that of the other side"
         else if (small) then
@@ -78,6 +80,17 @@ contains
         end if
         judgement%verdict = is_right
         judgement%example = ""
+    contains
+        logical function holds_elsewhere()
+            !! At the other equilibrium?
+            type(samples_t) :: there
+
+            holds_elsewhere = speaks_of_place(left - right, samples)
+            if (.not. holds_elsewhere) return
+            there = samples
+            call put_places(samples, samples%other_equilibrium, there%values)
+            holds_elsewhere = holds_to_digits(left, right, text, there)
+        end function holds_elsewhere
     end subroutine judge_forms
 
     pure subroutine put_unreadable(error, judgement)
@@ -89,12 +102,27 @@ contains
 
         judgement%verdict = is_unreadable
         judgement%remark = error%message
+        call drop_same_name(judgement%remark)
         first = index(error%message, unknown) + len(unknown)
         length = index(error%message(first:), "'") - 1
         if (first == len(unknown) .or. length > 3) return
         judgement%remark = judgement%remark//"; if it is a constant, write a line 'constant: "// &
             error%message(first:first + length - 1)//"'"
     end subroutine put_unreadable
+
+    pure subroutine drop_same_name(remark)
+        !! A constant that no line has given a value is near itself.
+        character(:), allocatable, intent(inout) :: remark
+        character(*), parameter :: unknown = "unknown name '", near = "; did you mean '"
+        integer :: at, first, length
+
+        first = index(remark, unknown) + len(unknown)
+        at = index(remark, near)
+        if (first == len(unknown) .or. at == 0) return
+        length = index(remark(first:), "'") - 1
+        if (index(remark(at + len(near):), remark(first:first + length - 1)//"!") == 1) &
+            remark = remark(:at - 1)
+    end subroutine drop_same_name
 
     subroutine judge_pair(left, right, chained, samples, library, explain, judgement)
         !! One equality.
@@ -147,7 +175,7 @@ contains
         else if (is_up_to_constant(left, judgement%residual, samples)) then
             judgement%remark = "but for a constant"
         else if (is_equilibrium(left, right, samples)) then
-            judgement%remark = "another equilibrium than that at or near zero"
+            judgement%remark = another_equilibrium
         else if (is_other_lagrangian(left, right, samples)) then
             judgement%remark = "another L of the same motion"
         else

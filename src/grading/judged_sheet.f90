@@ -62,11 +62,16 @@ contains
                     if (.not. waits(k)) again = .true.
                 end do
             end do
+            if (result(i)%verdict /= is_right) cycle
+            do k = 1, i - 1  ! how the motion of this line begins
+                if (result(k)%verdict /= is_definition) cycle
+                if (index(plain(k)%text, "(0)") > 0) call judge_one(k)
+            end do
         end do
         call compare_siblings(result)
         do i = 1, n
-            call show_constants(samples, result(i)%remark)
-            call show_constants(samples, result(i)%example)
+            call show_constants(result(i)%remark)
+            call show_constants(result(i)%example)
         end do
     contains
         subroutine judge_one(at)

@@ -2,32 +2,21 @@ module lagrangia_judgement
     !! Is this statement right? Both sides are evaluated on the motion, at states and with
     !! parameters at random: any equivalent form is right, whatever it was multiplied by or mixed
     !! with.
-    use lagrangia_amplitude_ratios, only: judge_amplitudes
-    use lagrangia_characters, only: characters
-    use lagrangia_constancy, only: explain_change, read_constancy
-    use lagrangia_constants_of_motions, only: judge_on_motion
-    use lagrangia_equality_signs, only: read_signs
-    use lagrangia_errors, only: error_t
-    use lagrangia_expression, only: expression_t, whole
-    use lagrangia_formula_characters, only: plain_formula, plain_letters
-    use lagrangia_formula_parser, only: parse_formula
-    use lagrangia_free_constants, only: judge_with_constants
-    use lagrangia_frequency_squares, only: with_squares
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use lagrangia_constants_of_motions, only: put_on_motion
+    use lagrangia_derivative, only: time_derivative
+    use lagrangia_expression, only: expression_t
     use lagrangia_homework, only: statement_t
-    use lagrangia_initial_conditions, only: with_short_starts
-    use lagrangia_judged_equality, only: judge_forms, put_unreadable
-    use lagrangia_motion_statements, only: judge_motion
+    use lagrangia_judged_line, only: judge_line, read_equals
+    use lagrangia_kinds, only: dp
     use lagrangia_motion_values, only: values_of
-    use lagrangia_own_names, only: define
-    use lagrangia_sample_names, only: samples_t
-    use lagrangia_small_energies, only: is_energy
-    use lagrangia_small_judgement, only: judge_small
-    use lagrangia_solved_constraints, only: solve_constraint
-    use lagrangia_statement_forms, only: drop_root_of_name, is_slope, read_as_period, read_new_name
+    use lagrangia_parameter_choice, only: occurs
+    use lagrangia_sample_names, only: role_parameter, samples_t
+    use lagrangia_stated_equilibria, only: another_equilibrium, keep_equilibrium
     use lagrangia_term_search, only: library_t
     use lagrangia_text, only: to_text
-    use lagrangia_verdict, only: is_consequence, is_definition, is_right, is_unreadable, is_wrong, &
-                                 judgement_t
+    use lagrangia_verdict, only: is_consequence, is_definition, is_right, is_unreadable, &
+                                 is_wrong, judgement_t
     implicit none (type, external)
     private
     public :: judgement_t
@@ -54,11 +43,16 @@ contains
         call put_partial("\frac{\partial L}{\partial t}", partial%text)
         call put_partial("\partial L/\partial t", partial%text)
         call judge_line(partial, samples, library, explain, judgement)
+        if (judgement%verdict == is_right .and. judgement%remark == another_equilibrium) &
+            call keep_equilibrium(judgement%residual, samples)
         if (judgement%verdict == is_unreadable) call try_pairs(partial, samples, library, &
                                                                explain, judgement)
         do while (size(samples%kept_lines) < size(samples%kept_constants))
             samples%kept_lines = [samples%kept_lines, statement%line]
         end do
+        if (judgement%verdict == is_wrong) call try_fixed_motion(partial, samples, library, &
+                                                                 judgement)
+        if (judgement%verdict == is_wrong) call try_positive(partial, samples, library, judgement)
         if (judgement%verdict == is_wrong) call try_reduced(partial, samples, library, judgement)
         if (judgement%verdict == is_wrong) call try_opposites(partial, samples, library, judgement)
         if (index(partial%text, "/d") + index(partial%text, "\frac") > 0) call try_along_motion( &
@@ -102,22 +96,6 @@ contains
         judgement = attempt
     end subroutine try_pairs
 
-    pure subroutine read_equals(text, signs)
-        !! Places of `=` outside of brackets, between 0 and one behind the end.
-        character(*), intent(in) :: text
-        integer, allocatable, intent(out) :: signs(:)
-        integer :: depth, i
-
-        signs = [0]
-        depth = 0
-        do i = 1, len(text)
-            if (scan(text(i:i), "({") == 1) depth = depth + 1
-            if (scan(text(i:i), ")}") == 1) depth = depth - 1
-            if (text(i:i) == "=" .and. depth == 0) signs = [signs, i]
-        end do
-        signs = [signs, len(text) + 1]
-    end subroutine read_equals
-
     subroutine say_constants(samples, judgement)
         !! Which line says what a constant is.
         type(samples_t), intent(in) :: samples          !! know the constants
@@ -160,6 +138,60 @@ contains
         if (judgement%remark == "") judgement%remark = "as a derivative along the motion"
     end subroutine try_along_motion
 
+    subroutine try_fixed_motion(statement, samples, library, judgement)
+        !! Behind `x = 0.1 cos(20 t)` is `E = 1` about this motion.
+        type(statement_t), intent(in) :: statement      !! wrong of any motion
+        type(samples_t), intent(in) :: samples          !! know the motion
+        type(library_t), intent(in) :: library(:)       !! right terms
+        type(judgement_t), intent(inout) :: judgement   !! of it
+        type(judgement_t) :: attempt
+        type(samples_t) :: there
+        integer :: i, k
+
+        do k = 1, samples%ndof
+            if (samples%motion(k)%count == 0 .or. .not. samples%exact_motion(k)) return
+            do i = 2, size(samples%role) + size(samples%constants)
+                if (.not. samples%motion(k)%depends_on(i)) cycle
+                if (i > size(samples%role)) return
+                if (samples%role(i) /= role_parameter .or. any(samples%kept_constants == i)) return
+                if (minval(samples%values(:, i)) < maxval(samples%values(:, i))) return
+            end do
+        end do
+        call put_on_motion(samples, there)
+        call judge_line(statement, there, library, .false., attempt)
+        if (attempt%verdict /= is_right .or. attempt%remark == "but for a constant") return
+        judgement = attempt
+        judgement%remark = "of the motion of the line before"
+    end subroutine try_fixed_motion
+
+    subroutine try_positive(statement, samples, library, judgement)
+        !! v may be the velocity where that is positive, `m dv/dt = -k x`, and not the speed.
+        type(statement_t), intent(in) :: statement      !! wrong
+        type(samples_t), intent(in) :: samples          !! know the speed
+        type(library_t), intent(in) :: library(:)       !! right terms
+        type(judgement_t), intent(inout) :: judgement   !! of it
+        type(judgement_t) :: attempt
+        type(samples_t) :: other
+        integer :: row
+
+        if (samples%ndof /= 1) return
+        if (.not. (occurs(statement%text, "v") .or. occurs(statement%text, "dv"))) return
+        if (.not. any(samples%usual%name == "v")) return
+        other = samples
+        do row = 1, size(other%values, 1)
+            if (other%values(row, 3) < 0.0_dp) other%values(row, :) = &
+                ieee_value(1.0_dp, ieee_quiet_nan)
+        end do
+        call judge_line(statement, other, library, .false., attempt)
+        if (attempt%verdict == is_wrong .and. index(statement%text, "/d") > 0) then
+            other%symbols%along_motion = .true.
+            call judge_line(statement, other, library, .false., attempt)
+        end if
+        if (attempt%verdict /= is_right) return
+        judgement = attempt
+        if (judgement%remark == "") judgement%remark = "where v is positive"
+    end subroutine try_positive
+
     subroutine try_reduced(statement, samples, library, judgement)
         !! The momentum of a rolling disk may be that of L, or what the constraints make of it.
         type(statement_t), intent(in) :: statement      !! wrong
@@ -168,14 +200,18 @@ contains
         type(judgement_t), intent(inout) :: judgement   !! of it
         type(judgement_t) :: attempt
         type(samples_t) :: other
+        type(expression_t) :: rate
         integer :: i
 
         if (judgement%residual%count == 0) return
         do i = 1, size(samples%reduced)
             associate (place => samples%reduced(i)%symbol)
-                if (.not. judgement%residual%depends_on(place)) cycle
+                if (.not. (judgement%residual%depends_on(place) .or. &
+                           judgement%residual%depends_on(samples%rate(place)))) cycle
                 other = samples
                 other%values(:, place) = values_of(samples%reduced(i)%formula, samples%values)
+                rate = time_derivative(samples%reduced(i)%formula, samples%rate, 1)
+                other%values(:, samples%rate(place)) = values_of(rate, samples%values)
                 call judge_line(statement, other, library, .false., attempt)
                 if (attempt%verdict /= is_right) cycle
                 attempt%remark = trim(samples%symbols%names(place))//" as 'lagrangia describe' "// &
@@ -220,202 +256,4 @@ contains
         at = index(text, written)
         if (at > 0) text = text(:at - 1)//"dL_dt "//text(at + len(written):)
     end subroutine put_partial
-
-    subroutine judge_line(statement, samples, library, explain, judgement)
-        !! One reading of a statement.
-        type(statement_t), intent(in) :: statement
-        type(samples_t), intent(inout) :: samples
-        type(library_t), intent(in) :: library(:)
-        logical, intent(in) :: explain
-        type(judgement_t), intent(out) :: judgement
-        type(error_t), allocatable :: error
-        type(expression_t) :: left, right
-        character(:), allocatable :: name, side, side_and, text
-        integer :: begun, first, next, last
-        logical, allocatable :: nearly(:)
-        logical :: chained, constancy, is_one, small, squared
-
-        chained = .false.
-        small = statement%small
-        begun = 1
-        judgement%remark = ""
-        judgement%example = ""
-        call read_signs(statement%text, text, nearly)
-        if (statement%small) text(:index(text, ":")) = ""
-        text = with_short_starts(without_full_stop(text))
-        next = index(text, "=")
-        call find_empty_side(text, judgement)
-        if (judgement%verdict == is_unreadable) return
-        side = plain_letters(as_in(text, 1, next - 1))
-        call read_new_name(side, samples, name, squared)
-        is_one = .false.
-        if (name /= "" .and. index(text(next + 1:), "=") == 0) call judge_unknown( &
-            .not. (any(samples%declared == name) .or. any(samples%constants == name)))
-        if (is_one) return
-        if (name /= "") then
-            call define_here()
-            if (next == 0) return
-        else if (index(text(next + 1:), "=") == 0) then
-            call judge_motion(side, repeat(" ", characters(text(:next)))// &
-                              as_in(text, next + 1, len(text)), text, samples, is_one, judgement)
-            if (is_one) return
-            call judge_unknown(.false.)
-            if (is_one) return
-        end if
-        call parse_formula(repeat(" ", characters(text(:begun - 1)))// &
-                           as_in(text, begun, next - 1), samples%symbols, left, error)
-        if (allocated(error)) then
-            call solve_or_refuse()
-            return
-        end if
-        chained = is_slope(side) .or. begun > 1
-        do
-            first = next + 1
-            small = small .or. nearly(next)
-            last = index(text(first:), "=")
-            next = merge(len(text) + 1, first + last - 1, last == 0)
-            ! blanks in front keep the columns of what went before
-            call parse_formula(repeat(" ", characters(text(:first - 1)))// &
-                               as_in(text, first, next - 1), samples%symbols, right, error)
-            if (.not. allocated(error)) call read_as_period(left, right, samples, chained)
-            call read_constancy(plain_letters(as_in(text, first, next - 1)), samples, side_and, &
-                                constancy)
-            if (constancy) then
-                call parse_formula("d/dt("//as_in(text, begun, first - 2)//side_and//")", &
-                                   samples%symbols, left, error)
-                right = whole(0)
-            end if
-            if (allocated(error)) then
-                call solve_or_refuse()
-                return
-            end if
-            call drop_root_of_name(side, left, right, samples)
-            left = with_squares(left, samples%frequency)
-            right = with_squares(right, samples%frequency)
-            if (statement%small) then
-                call judge_small(left, right, chained, samples, library, explain, judgement)
-            else
-                call judge_forms(left, right, text(begun:next - 1), chained, small, samples, &
-                                 library, explain, judgement)
-                if (constancy .and. explain .and. judgement%verdict == is_wrong) then
-                    call explain_change(text(begun:first - 2), samples, judgement%explanation, &
-                                        judgement%remark)
-                end if
-            end if
-            if (judgement%verdict /= is_right) return
-            if (next > len(text)) then
-                if (judgement%contradicts) judgement%verdict = is_definition
-                return
-            end if
-            ! of L, V and E = a = b each side may have a constant of its own
-            if (.not. is_energy(left, samples)) left = right
-            begun = first
-            chained = .true.
-        end do
-    contains
-        subroutine judge_unknown(only_amplitudes)
-            !! Names that nobody knows may be amplitudes of a mode, or constants of integration.
-            logical, intent(in) :: only_amplitudes
-            character(:), allocatable :: one, other
-
-            one = as_in(text, 1, next - 1)
-            other = repeat(" ", characters(text(:next)))//as_in(text, next + 1, len(text))
-            call judge_amplitudes(one, other, text, samples, is_one, judgement)
-            if (is_one .or. only_amplitudes) return
-            call judge_on_motion(one, other, samples, library, explain, name /= "", is_one, &
-                                 judgement)
-            if (is_one) return
-            call judge_with_constants(one, other, samples, is_one, judgement)
-        end subroutine judge_unknown
-
-        subroutine solve_or_refuse()
-            !! A constraint defines the place that it brings in.
-            call put_unreadable(error, judgement)
-            call solve_here()
-        end subroutine solve_or_refuse
-
-        subroutine solve_here()
-            character(:), allocatable :: formula
-
-            if (statement%small) return
-            call solve_constraint(text, samples, name, formula)
-            if (name == "") return
-            judgement%remark = ""
-            call define(name, .false., formula, text, statement%used, samples, library, judgement)
-        end subroutine solve_here
-
-        subroutine define_here()
-            !! By the second of all sides; `next` is 0 if that is all, or else the sign behind it.
-            integer :: sign
-
-            sign = next
-            next = index(text(sign + 1:), "=")
-            if (next > 0) next = sign + next
-            last = merge(len(text), next - 1, next == 0)
-            call define(name, squared, repeat(" ", characters(text(:sign)))// &
-                        as_in(text, sign + 1, last), text(:last), statement%used, samples, &
-                        library, judgement)
-            if (judgement%verdict == is_unreadable) call solve_here()
-            if (judgement%verdict == is_unreadable .or. judgement%verdict == is_wrong) next = 0
-            begun = sign + 1
-            if (next > 0) judgement%verdict = is_right
-        end subroutine define_here
-    end subroutine judge_line
-
-    pure function as_in(text, first, last) result(side)
-        !! One side of a statement; in LaTeX, `mgl` is a product on both of them.
-        character(*), intent(in) :: text
-        integer, intent(in) :: first, last
-        character(:), allocatable :: side
-
-        side = text(first:last)
-        if (index(text, "\") > 0 .and. index(side, "\") == 0) side = side//"\ "
-    end function as_in
-
-    pure function without_full_stop(text) result(formula)
-        !! What ends a sentence is no part of its formula.
-        character(*), intent(in) :: text
-        character(:), allocatable :: formula
-        integer :: last
-
-        formula = text
-        last = len_trim(text)
-        if (last < 2) return
-        if (scan(text(last:last), ",;.") == 1) formula(last:last) = " "
-    end function without_full_stop
-
-    pure subroutine find_empty_side(text, judgement)
-        !! `a =`, `= b`, `a == b`, and a line without `=`, perhaps with another sign in its place.
-        character(*), intent(in) :: text
-        type(judgement_t), intent(inout) :: judgement
-        type(error_t), allocatable :: error
-        character(:), allocatable :: plain
-        integer, allocatable :: columns(:)
-        integer :: first, last
-
-        if (index(text, "=") == 0) then
-            call plain_formula(text, plain, columns, error)
-            judgement%verdict = is_unreadable
-            if (allocated(error)) then
-                judgement%remark = error%message
-            else
-                judgement%remark = "column "//to_text(characters(text) + 1)//": no '='; write "// &
-                    "'left = right', or '#' in front of a remark"
-            end if
-            return
-        end if
-
-        first = 1
-        do
-            last = index(text(first:), "=")
-            last = merge(len(text) + 1, first + last - 1, last == 0)
-            if (text(first:last - 1) == "") exit
-            if (last > len(text)) return
-            first = last + 1
-        end do
-        judgement%verdict = is_unreadable
-        judgement%remark = "column "//to_text(characters(text(:first - 1)) + 1)// &
-            ": one side of '=' is empty; write 'left = right'"
-    end subroutine find_empty_side
-
 end module lagrangia_judgement

@@ -9,6 +9,8 @@ module lagrangia_motion_statements
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_formula_tokens, only: cut, is_name, tokens_t
     use lagrangia_initial_conditions, only: judge_start
+    use lagrangia_joint_motions, only: go_together
+    use lagrangia_kept_motions, only: keep_motion
     use lagrangia_kinds, only: dp
     use lagrangia_mode_samples, only: put_places
     use lagrangia_motion_values, only: draw_values, put_frequencies, rate_of, unknown_rate, &
@@ -21,6 +23,7 @@ module lagrangia_motion_statements
     use lagrangia_substitution, only: substituted
     use lagrangia_symbols, only: symbols_t
     use lagrangia_verdict, only: is_right, is_unreadable, is_wrong, judgement_t
+    use lagrangia_written_out, only: energy_formulas
     implicit none (type, external)
     private
     public :: judge_motion
@@ -90,6 +93,14 @@ contains
             known = known .or. judged
             solved = judged .and. judgement%verdict == is_right
         end do
+        if (solved .and. .not. exact .and. order == 0 .and. samples%ndof > 1) then
+            if (.not. go_together(coordinate, f, samples, values)) then
+                judgement%verdict = is_wrong
+                judgement%remark = "it does not go with the motion of another coordinate"
+                return
+            end if
+        end if
+        if (exact .and. order < 2) call keep_motion(coordinate, order, f, samples)
         if (solved .and. order == 0) then
             samples%motion(coordinate) = f
             samples%exact_motion(coordinate) = exact
@@ -175,8 +186,9 @@ contains
             samples%constants = [character(len(samples%constants)) :: samples%constants, word]
         end do
         do i = 1, size(samples%constants)
-            ! a definition of this name came between two lines
-            if (symbols%find_definition(trim(samples%constants(i))) > 0) then
+            ! a definition of this name came between two lines, or its value
+            if (symbols%find_definition(trim(samples%constants(i))) > 0 .or. &
+                symbols%find(trim(samples%constants(i))) > 0) then
                 call symbols%add("_"//trim(samples%constants(i)))
             else
                 call symbols%add(trim(samples%constants(i)))
@@ -252,6 +264,7 @@ contains
         logical, intent(out) :: is_one
         type(judgement_t), intent(inout) :: judgement
         type(expression_t) :: equation, put(3)
+        type(expression_t), allocatable :: formulas(:)  ! of L, with all letters written out
         integer :: force, j, k, n, places(3)
         logical :: judged, yes
 
@@ -271,12 +284,9 @@ contains
             return
         end if
         if (order > 0 .or. samples%lagrangian%count == 0 .or. .not. allocated(samples%mass)) return
-        do k = 1, size(samples%role)  ! letters that hide coordinates
-            if (samples%role(k) == role_parameter .and. samples%rate(k) > 0 .and. &
-                samples%lagrangian%depends_on(k)) return
-        end do
-        equation = time_derivative(derivative(samples%lagrangian, 1 + n + coordinate), &
-                                   samples%rate, 1) - derivative(samples%lagrangian, 1 + coordinate)
+        call energy_formulas(samples, formulas)
+        equation = time_derivative(derivative(formulas(1), 1 + n + coordinate), &
+                                   samples%rate, 1) - derivative(formulas(1), 1 + coordinate)
         force = samples%symbols%find_definition("Q_"//trim(samples%symbols%names(1 + coordinate)))
         if (force > 0) equation = equation - samples%symbols%definitions(force)%meaning
         call holds(equation, samples%values, yes, judged)

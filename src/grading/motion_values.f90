@@ -8,7 +8,7 @@ module lagrangia_motion_values
     use lagrangia_statement_forms, only: without_number
     implicit none (type, external)
     private
-    public :: draw_values, put_frequencies, rate_of, unknown_rate, values_of
+    public :: draw_values, is_frequency_name, put_frequencies, rate_of, unknown_rate, values_of
 
 contains
 
@@ -59,6 +59,17 @@ contains
             end do
         end do
     end subroutine put_frequencies
+
+    pure function is_frequency_name(name, samples) result(yes)
+        !! `omega_1`, `w2`: of a mode.
+        character(*), intent(in) :: name             !! of a constant
+        type(samples_t), intent(in) :: samples       !! know the modes
+        logical :: yes
+        character(:), allocatable :: stem
+
+        stem = without_number(trim(name))
+        yes = stem == "w" .or. stem == samples%symbols%names(samples%frequency)
+    end function is_frequency_name
 
     pure function unknown_rate(f, samples) result(name)
         !! A constant that nobody has defined, w of cos(w t) or a of a t^2, on which it depends

@@ -1,7 +1,7 @@
 module lagrangia_own_names
     !! Names that a student gives: what they stand for, and whether that is what everybody means by
     !! them.
-    use lagrangia_declared_constants, only: settle_constants, with_constants
+    use lagrangia_declared_constants, only: with_constants
     use lagrangia_errors, only: error_t
     use lagrangia_expression, only: apply, expression_t, f_sqrt
     use lagrangia_formula_parser, only: parse_formula
@@ -56,7 +56,6 @@ contains
             call put_unreadable(error, judgement)
             return
         end if
-        call settle_constants(meaning, samples)
         call define_rates(name, meaning, samples)
         call compare_usual(name, meaning, samples, judgement)
         if (name == "T" .or. name == "V") judgement%remark = as_new_name// &

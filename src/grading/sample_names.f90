@@ -235,20 +235,25 @@ contains
             character(*), intent(in) :: letter, formula
             type(expression_t) :: expression
             type(error_t), allocatable :: error
-            logical :: moves
+            logical :: has_second, moves
             integer :: j
 
             call parse_formula(formula, samples%symbols, expression, error)
             moves = .false.
+            has_second = .true.
             do j = 1, size(samples%role)
                 if (.not. expression%depends_on(j)) cycle
-                moves = moves .or. samples%role(j) < role_parameter .or. &
-                        samples%symbols%find(trim(samples%symbols%names(j))//"_dot") > 0
+                if (samples%role(j) == role_velocity) has_second = .false.
+                if (samples%role(j) < role_parameter) moves = .true.
+                if (samples%symbols%find(trim(samples%symbols%names(j))//"_dot") == 0) cycle
+                moves = .true.
+                if (samples%symbols%find(trim(samples%symbols%names(j))//"_ddot") == 0) &
+                    has_second = .false.
             end do
             call add(letter, role_parameter)
             if (.not. moves) return
             call add(letter//"_dot", role_parameter)
-            call add(letter//"_ddot", role_parameter)
+            if (has_second) call add(letter//"_ddot", role_parameter)
         end subroutine add_letter
 
         subroutine find_rates(quantity, yes, second)
@@ -319,7 +324,7 @@ contains
             if (any(samples%place == i)) cycle
             name = samples%symbols%names(i)
             if (samples%role(i) == role_acceleration .or. samples%role(i) == role_known .or. &
-                index(name, "_ddot") > 0) samples%symbols%rates(i) = -1
+                index(name, "_ddot") + index(name, "_dot") > 0) samples%symbols%rates(i) = -1
         end do
     end subroutine name_rates
 

@@ -4,12 +4,15 @@ module lagrangia_stated_equilibria
     use lagrangia_expression, only: expression_t, kind_symbol, operator(+)
     use lagrangia_kinds, only: dp
     use lagrangia_motion_values, only: values_of
-    use lagrangia_sample_names, only: samples_t
+    use lagrangia_sample_names, only: draws, samples_t, states
     use lagrangia_slip_search, only: holds
     use lagrangia_written_out, only: energy_formulas, in_coordinates
     implicit none (type, external)
     private
-    public :: is_equilibrium
+    public :: another_equilibrium, is_equilibrium, keep_equilibrium
+
+    character(*), parameter :: another_equilibrium = "another equilibrium than that at or near zero"
+    !! what is said of one
 
 contains
 
@@ -55,4 +58,37 @@ contains
             if (.not. yes) return
         end do
     end function is_equilibrium
+
+    subroutine keep_equilibrium(residual, samples)
+        !! Where there is one coordinate, the oscillations about the equilibrium that a line has
+        !! stated: \(M=\partial^2L/\partial\dot q^2\), \(K=-\partial^2L/\partial q^2\).
+        type(expression_t), intent(in) :: residual  !! the place less its value
+        type(samples_t), intent(inout) :: samples   !! get it as the other one
+        type(expression_t), allocatable :: formulas(:)
+        type(expression_t) :: inertia, stiffness
+        real(dp), allocatable :: values(:, :), m(:), k(:)
+        integer :: draw, row
+
+        if (samples%ndof /= 1) return
+        call energy_formulas(samples, formulas)
+        inertia = derivative(derivative(formulas(1), 3), 3)
+        stiffness = derivative(derivative(formulas(1), 2), 2)
+        if (inertia%count == 0 .or. stiffness%count == 0) return
+        values = samples%values
+        values(:, samples%place(1)) = 0.0_dp
+        values(:, 2) = -values_of(residual, values)
+        values(:, 3) = 0.0_dp
+        m = values_of(inertia, values)
+        k = -values_of(stiffness, values)
+        do draw = 1, draws
+            row = (draw - 1)*states + 1
+            samples%other_equilibrium(1, draw) = values(row, 2)
+            samples%other_inertia(1, 1, draw) = m(row)
+            samples%other_stiffness(1, 1, draw) = k(row)
+            samples%other_turning(1, 1, draw) = samples%turning(1, 1, draw)
+            samples%omega2(draw, 2) = k(row)/m(row)
+            if (samples%decay > 0) samples%omega2(draw, 2) = samples%omega2(draw, 2) - &
+                (samples%turning(1, 1, draw)/(2.0_dp*m(row)))**2
+        end do
+    end subroutine keep_equilibrium
 end module lagrangia_stated_equilibria

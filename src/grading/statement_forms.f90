@@ -329,7 +329,7 @@ contains
                                      "random; lines 'set:' fix them"
         if (.not. is_name(left) .or. any(right%nodes(:right%count)%kind == kind_symbol)) return
         k = left%nodes(1)%which
-        if (samples%role(k) /= role_parameter) return
+        if (samples%role(k) /= role_parameter .or. any(samples%kept_constants == k)) return
         if (index(samples%symbols%names(k), "_dot") > 0) return
         if (minval(samples%values(:, k)) >= maxval(samples%values(:, k))) return
         remark = "graded for any value; a line 'set: "//trim(samples%symbols%names(k))// &

@@ -32,7 +32,9 @@ contains
             if (tokens%token(i)%kind /= is_name) cycle
             word = symbols%spelling(tokens%word(i))
             if (symbols%find(word) > 0 .or. symbols%find_definition(word) > 0) cycle
-            if (is_function_name(word) .or. word == "pi" .or. word == "e") cycle
+            if (is_function_name(word) .or. word == "pi") cycle
+            if (word == "e" .and. tokens%word(min(i + 1, size(tokens%token))) == "^" .and. &
+                symbols%find("e!") == 0) cycle  ! no eccentricity behind `constant:`
             if (len(word) > name_length .or. any(names == word)) cycle
             names = [character(name_length) :: names, word]
         end do

@@ -9,6 +9,7 @@ module lagrangia_usual_meanings
     use lagrangia_sample_names, only: samples_t, states, usual_t
     use lagrangia_substitution, only: substituted
     use lagrangia_text, only: to_text
+    use lagrangia_written_out, only: energy_formulas
     implicit none (type, external)
     private
     public :: collect_meanings
@@ -177,12 +178,14 @@ contains
         character(*), parameter :: others(*) = [character(7) :: "N", "F_N", "F_Zwang", "F_Z", "Z", &
                                              "lambda", "F"]
         type(expression_t) :: still(1), effective
+        type(expression_t), allocatable :: formulas(:)
         integer :: i
 
         if (samples%ndof == 1 .and. samples%lagrangian%count > 0 .and. &
             .not. samples%lagrangian%depends_on(1)) then
             still(1) = whole(0)
-            effective = -substituted(samples%lagrangian, [3], still)
+            call energy_formulas(samples, formulas)  ! L may be printed as T - V
+            effective = -substituted(formulas(1), [3], still)
             call put(all, n, samples, "V_eff", "- L at rest", effective, any_zero=.true.)
             call put(all, n, samples, "U_eff", "- L at rest", effective, any_zero=.true.)
         end if

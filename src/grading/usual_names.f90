@@ -49,6 +49,7 @@ contains
                 if (all(i)%only_compared) cycle
                 if (.not. all(i)%always .and. any(given == bare_name(all(i)%name))) cycle
             end if
+            if (any(samples%declared == all(i)%name)) cycle
             call samples%symbols%define(trim(all(i)%name), all(i)%meaning, error)
             if (allocated(error)) cycle
             call define_rates(trim(all(i)%name), all(i)%meaning, samples)
