@@ -56,6 +56,7 @@ module suites
     use test_driven_pendulum, only: driven_pendulum_suite
     use test_echo, only: echo_suite
     use test_elliptic, only: elliptic_suite
+    use test_ends_of_constraints, only: ends_of_constraints_suite
     use test_errata, only: errata_suite
     use test_errata_ledger, only: errata_ledger_suite
     use test_errors, only: errors_suite
@@ -286,6 +287,7 @@ contains
         call suite%addTest(all_paths_suite())
         call suite%addTest(which_forces_suite())
         call suite%addTest(phase_space_suite())
+        call suite%addTest(ends_of_constraints_suite())
         call suite%addTest(errata_suite())
         call suite%addTest(errata_ledger_suite())
         call suite%addTest(errors_suite())

@@ -2,6 +2,7 @@ module lagrangia_state_check
     !! What a run needs before its first step: a system with its parameters, a state of its size,
     !! equations of motion there.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_description, only: line_length
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
@@ -36,8 +37,9 @@ contains
 
     pure subroutine blame_mass_matrix(system, t, h, q, v, error)
         !! Name, in the message of a run that failed in a step from this state on, the mass matrix
-        !! of a Lagrangian where it is not positive definite in that step or soon after it. With
-        !! accelerations by hand, or another reason, the message stays.
+        !! of a Lagrangian where it is not positive definite in that step or soon after it, or the
+        !! constraints where a free flight from there shows that they end. With accelerations by
+        !! hand, or another reason, the message stays.
         class(system_t), intent(in) :: system  !! whose motion it is
         real(dp), intent(in) :: t         !! of the last state that is finite, s
         real(dp), intent(in) :: h         !! length of the step, s
@@ -46,7 +48,8 @@ contains
         integer, parameter :: places = 16, ahead = 4  !! places a step; steps
         type(error_t), allocatable :: cause
         type(euler_lagrange_t) :: terms
-        real(dp) :: s
+        real(dp) :: s, there(size(q)), v_there(size(q))
+        character(line_length) :: reason
         integer :: k
 
         select type (system)
@@ -60,6 +63,17 @@ contains
                 if (.not. allocated(cause)) cycle
                 error%message = error%message//"; at t = "//to_text(t + s)//", q = "// &
                                 list_of(q + s*v)//", v = "//list_of(v)//": "//cause%message
+                return
+            end do
+            if (.not. system%is_projected .or. index(error%message, "constraints") > 0) return
+            reason = ""
+            do k = 1, ahead
+                there = q + k*h*v
+                v_there = v
+                call system%end_step(t, q, v, t + k*h, there, v_there, reason)
+                if (reason == "") cycle
+                error%message = error%message//"; a flight from t = "//to_text(t)//" to "// &
+                                to_text(t + k*h)//" s: "//trim(reason)
                 return
             end do
         end select
