@@ -113,6 +113,7 @@ module suites
     use test_mirror, only: mirror_suite
     use test_mode_picture, only: mode_picture_suite
     use test_modes_files, only: modes_files_suite
+    use test_moduli, only: moduli_suite
     use test_motion_statements, only: motion_statements_suite
     use test_namelist, only: namelist_suite
     use test_namelist_limits, only: namelist_limits_suite
@@ -359,6 +360,7 @@ contains
         call suite%addTest(pasted_characters_suite())
         call suite%addTest(pasted_latex_suite())
         call suite%addTest(differentials_suite())
+        call suite%addTest(moduli_suite())
         call suite%addTest(motion_statements_suite())
         call suite%addTest(pendulum_suite())
         call suite%addTest(period_suite())

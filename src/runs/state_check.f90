@@ -2,14 +2,19 @@ module lagrangia_state_check
     !! What a run needs before its first step: a system with its parameters, a state of its size,
     !! equations of motion there.
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+    use lagrangia_derivative, only: derivative
     use lagrangia_description, only: line_length
     use lagrangia_errors, only: error_t, fail, status_numbers
+    use lagrangia_expression, only: expression_t, f_abs, kind_function
+    use lagrangia_formula_program, only: formula_program_t, new_formula_program
     use lagrangia_kinds, only: dp
     use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
     use lagrangia_lagrangian_system, only: lagrangian_system_t
+    use lagrangia_magnitude, only: magnitude
     use lagrangia_mass_matrix, only: check_mass_matrix, list_of
     use lagrangia_system, only: check_state, system_t
     use lagrangia_text, only: to_text
+    use lagrangia_written_system, only: written_system_t
     implicit none (type, external)
     private
     public :: blame_mass_matrix, check_start
@@ -96,5 +101,44 @@ contains
         if (allocated(error)) return
         call system%accelerations(t, q, v, a)
         if (.not. all(ieee_is_finite(a))) call check_mass_matrix(terms%mass, error)
+        if (allocated(error)) return
+        select type (system)
+        class is (written_system_t)
+            call check_kink(system, t, q, v, terms, error)
+        end select
     end subroutine check_lagrangian
+
+    pure subroutine check_kink(system, t, q, v, terms, error)
+        !! Fails (status 3) where L has a kink: of \(|u|\) the formulas' derivative at \(u = 0\) is
+        !! 0, that of hyper-dual numbers is that of one side. Where L is smooth they agree.
+        class(written_system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(:), v(:)
+        type(euler_lagrange_t), intent(in) :: terms
+        type(error_t), allocatable, intent(out) :: error
+        real(dp), parameter :: rounding = 1e-6_dp
+        type(formula_program_t) :: program
+        type(expression_t) :: slopes(4*system%ndof)
+        real(dp) :: slope(4*system%ndof), exact(2*system%ndof)
+        integer :: i, n
+
+        associate (e => system%expressions)
+            if (.not. any(e%lagrangian%nodes(:e%lagrangian%count)%kind == kind_function .and. &
+                          e%lagrangian%nodes(:e%lagrangian%count)%which == f_abs)) return
+            n = 2*system%ndof
+            do i = 1, n
+                slopes(i) = derivative(e%lagrangian, 1 + i)
+                slopes(n + i) = magnitude(slopes(i))
+            end do
+            call new_formula_program(program, slopes, size(e%symbols%names))
+            call program%evaluate([t, q, v, system%p], slope)
+        end associate
+        exact = [terms%dl_dq, terms%dl_dv]
+        do i = 1, n
+            if (abs(slope(i) - exact(i)) <= rounding*max(slope(n + i), tiny(t))) cycle
+            call fail(error, "the Lagrangian has a kink there: its derivative by "// &
+                      trim(system%expressions%symbols%names(1 + i))//" jumps; start elsewhere", &
+                      status_numbers)
+            return
+        end do
+    end subroutine check_kink
 end module lagrangia_state_check
