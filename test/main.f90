@@ -7,6 +7,7 @@ module suites
     use test_amplitude, only: amplitude_suite
     use test_audit, only: audit_suite
     use test_audit_formulas, only: audit_formulas_suite
+    use test_audit_states, only: audit_states_suite
     use test_auto, only: auto_suite
     use test_bench, only: bench_suite
     use test_bench_files, only: bench_files_suite
@@ -232,6 +233,7 @@ contains
         call suite%addTest(amplitude_suite())
         call suite%addTest(audit_suite())
         call suite%addTest(audit_formulas_suite())
+        call suite%addTest(audit_states_suite())
         call suite%addTest(auto_suite())
         call suite%addTest(bench_suite())
         call suite%addTest(bench_files_suite())
