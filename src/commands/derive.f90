@@ -220,7 +220,7 @@ contains
             associate (this => derivation%lines(i))
                 if (this%heading /= "") then
                     call close_align()
-                    call put_line("\paragraph{"//this%heading//"}")
+                    call put_line("\paragraph{"//this%heading_latex//"}")
                 end if
                 if (this%hidden) cycle
                 if (this%kind == line_words) then
