@@ -7,7 +7,6 @@ module suites
     use test_amplitude, only: amplitude_suite
     use test_audit, only: audit_suite
     use test_audit_formulas, only: audit_formulas_suite
-    use test_audit_states, only: audit_states_suite
     use test_auto, only: auto_suite
     use test_bench, only: bench_suite
     use test_bench_files, only: bench_files_suite
@@ -57,7 +56,6 @@ module suites
     use test_driven_pendulum, only: driven_pendulum_suite
     use test_echo, only: echo_suite
     use test_elliptic, only: elliptic_suite
-    use test_ends_of_constraints, only: ends_of_constraints_suite
     use test_errata, only: errata_suite
     use test_errata_ledger, only: errata_ledger_suite
     use test_errors, only: errors_suite
@@ -114,7 +112,6 @@ module suites
     use test_mirror, only: mirror_suite
     use test_mode_picture, only: mode_picture_suite
     use test_modes_files, only: modes_files_suite
-    use test_moduli, only: moduli_suite
     use test_motion_statements, only: motion_statements_suite
     use test_namelist, only: namelist_suite
     use test_namelist_limits, only: namelist_limits_suite
@@ -233,7 +230,6 @@ contains
         call suite%addTest(amplitude_suite())
         call suite%addTest(audit_suite())
         call suite%addTest(audit_formulas_suite())
-        call suite%addTest(audit_states_suite())
         call suite%addTest(auto_suite())
         call suite%addTest(bench_suite())
         call suite%addTest(bench_files_suite())
@@ -290,7 +286,6 @@ contains
         call suite%addTest(all_paths_suite())
         call suite%addTest(which_forces_suite())
         call suite%addTest(phase_space_suite())
-        call suite%addTest(ends_of_constraints_suite())
         call suite%addTest(errata_suite())
         call suite%addTest(errata_ledger_suite())
         call suite%addTest(errors_suite())
@@ -362,7 +357,6 @@ contains
         call suite%addTest(pasted_characters_suite())
         call suite%addTest(pasted_latex_suite())
         call suite%addTest(differentials_suite())
-        call suite%addTest(moduli_suite())
         call suite%addTest(motion_statements_suite())
         call suite%addTest(pendulum_suite())
         call suite%addTest(period_suite())

@@ -7,7 +7,7 @@ module test_ends_of_constraints
     use lagrangia_outcome, only: outcome_t
     use lagrangia_run_plan, only: parse_run_plan, run_plan_t
     use lagrangia_scene_run, only: run_scene
-    use lagrangia_step_turn, only: is_turned
+    use lagrangia_step_ends, only: is_turned
     use lagrangia_text, only: word_t
     implicit none (type, external)
     private
@@ -93,7 +93,8 @@ contains
         do i = 1, size(methods)
             call run(cusp//", duration = 0.75, "//methods(i), cusp_group, status, message, t)
             call assertEqual(0, status, "cusp: "//trim(methods(i))//message)
-            call run(crossing//", duration = 1.25, "//methods(i), crossing_group, status, message, t)
+            call run(crossing//", duration = 1.25, "//methods(i), crossing_group, status, &
+                     message, t)
             call assertEqual(0, status, "crossing: "//trim(methods(i))//message)
             call run("q = 2.0, 0.0, v = 0.0, 3.0, duration = 20.0, "//methods(i), circle, status, &
                      message, t)

@@ -4,7 +4,6 @@ module lagrangia_derivation
     use lagrangia_description, only: description_t, value_names
     use lagrangia_errors, only: error_t, fail
     use lagrangia_expression, only: expression_t
-    use lagrangia_formula_latex, only: latex_name
     use lagrangia_formula_parser, only: parse_formula
     use lagrangia_formula_text, only: formula_text
     use lagrangia_names, only: name_length
@@ -63,7 +62,6 @@ module lagrangia_derivation
         character(:), allocatable :: left         !! as text; the words of a line without equality
         character(:), allocatable :: left_latex
         character(:), allocatable :: heading      !! not empty: a new step begins here
-        character(:), allocatable :: heading_latex !! the same, names as formulas
         type(expression_t) :: right               !! of the derivation's symbols
         type(expression_t) :: factor              !! of a divided equation: what it was divided by
         logical :: is_zero = .false.              !! `right = 0`
@@ -85,7 +83,6 @@ module lagrangia_derivation
         type(polynomial_t), allocatable :: equations(:)    !! zero, (n)
         type(polynomial_t), allocatable :: constrained(:)  !! zero, (constraints), of velocities
         character(:), allocatable :: next_heading
-        character(:), allocatable :: next_name     !! of the coordinate that ends the heading, or ""
         logical :: elsewhere = .false.                     !! lines to come are
     contains
         procedure :: begin
@@ -118,7 +115,6 @@ contains
         self%n = size(d%coordinates)
         self%constraints = constraints
         self%next_heading = ""
-        self%next_name = ""
         allocate (self%lines(32))
         allocate (names, source=value_names(d))
         self%parameters = size(names)
@@ -448,13 +444,6 @@ contains
         self%count = self%count + 1
         self%lines(self%count) = line
         self%lines(self%count)%heading = self%next_heading
-        self%lines(self%count)%heading_latex = self%next_heading
-        if (self%next_name /= "") then
-            self%lines(self%count)%heading = self%next_heading//" "//self%next_name
-            self%lines(self%count)%heading_latex = self%next_heading//" $"// &
-                                                   latex_name(self%next_name)//"$"
-        end if
-        self%next_name = ""
         self%lines(self%count)%elsewhere = self%elsewhere
         self%next_heading = ""
     end subroutine append

@@ -2,9 +2,9 @@ module lagrangia_derivative
     !! Derivatives of formulas, exact and unsimplified: by a symbol, and by the time along a motion.
     use lagrangia_exact_number, only: number_of, number_t, operator(-), ratio
     use lagrangia_expression, only: expression_t, f_abs, f_atan, f_cos, f_cosh, f_exp, f_log, &
-                                    f_sgn, f_sin, f_sinh, f_sqrt, f_tan, kind_difference, kind_function, &
-                                    kind_negation, kind_number, kind_power, kind_product, &
-                                    kind_quotient, kind_sum, kind_symbol
+                                    f_sgn, f_sin, f_sinh, f_sqrt, f_tan, kind_difference, &
+                                    kind_function, kind_negation, kind_number, kind_power, &
+                                    kind_product, kind_quotient, kind_sum, kind_symbol
     use lagrangia_kinds, only: dp, i8
     implicit none (type, external)
     private

@@ -10,6 +10,7 @@ module lagrangia_dop853
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_step_ends, only: end_step
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -169,7 +170,7 @@ contains
 
         if (.not. system%is_projected) return
         associate (n => system%ndof)
-            call system%end_step(t_old, self%y0(:n), self%y0(n + 1:), t, self%y(:n), &
+            call end_step(system, t_old, self%y0(:n), self%y0(n + 1:), t, self%y(:n), &
                                  self%y(n + 1:), self%failure_reason)
         end associate
     end subroutine keep

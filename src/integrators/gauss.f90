@@ -10,6 +10,7 @@ module lagrangia_gauss
     use lagrangia_gauss_tables, only: stages
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_step_ends, only: end_step
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -106,7 +107,7 @@ contains
             call self%s%reach(fully=.true.)
             call self%s%finish()
             if (.not. good) exit
-            if (system%is_projected) call system%end_step(t0 + k*dt, q_old, v_old, &
+            if (system%is_projected) call end_step(system, t0 + k*dt, q_old, v_old, &
                                                           t0 + (k + 1)*dt, self%s%q, self%s%v, &
                                                           self%failure_reason)
         end do

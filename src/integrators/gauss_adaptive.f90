@@ -15,6 +15,7 @@ module lagrangia_gauss_adaptive
     use lagrangia_gauss_tables, only: stages
     use lagrangia_integrator, only: dense_integrator_t, not_started
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_step_ends, only: end_step
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -234,7 +235,7 @@ contains
         v_old = self%s%v
         call self%s%finish()
         if (system%is_projected) then
-            call system%end_step(self%t_new, q_old, v_old, to, self%s%q, self%s%v, &
+            call end_step(system, self%t_new, q_old, v_old, to, self%s%q, self%s%v, &
                                  self%failure_reason)
             good = all(ieee_is_finite(self%s%q))
             if (.not. good) then

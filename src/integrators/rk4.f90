@@ -7,6 +7,7 @@ module lagrangia_rk4
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_step_ends, only: end_step
     use lagrangia_summation, only: add, add_pair
     use lagrangia_system, only: system_t
     implicit none (type, external)
@@ -176,7 +177,7 @@ contains
             call stages(self, system, t0 + k*dt, dt, q, v)
             call finish(system%ndof, dt/6.0_dp, v, self%v2, self%v3, self%v4, q)
             call finish(system%ndof, dt/6.0_dp, self%a1, self%a2, self%a3, self%a4, v)
-            if (system%is_projected) call system%end_step(t0 + k*dt, q_old, v_old, &
+            if (system%is_projected) call end_step(system, t0 + k*dt, q_old, v_old, &
                                                           t0 + (k + 1)*dt, q, v, &
                                                           self%failure_reason)
         end do
@@ -205,7 +206,7 @@ contains
             call add_pair(q, self%q_low, dt/6.0_dp*(v + 2.0_dp*(self%v2 + self%v3) + self%v4), &
                           dt*self%v_low)
             call add(v, self%v_low, dt/6.0_dp*(self%a1 + 2.0_dp*(self%a2 + self%a3) + self%a4))
-            if (system%is_projected) call system%end_step(t0 + k*dt, q_old, v_old, &
+            if (system%is_projected) call end_step(system, t0 + k*dt, q_old, v_old, &
                                                           t0 + (k + 1)*dt, q, v, &
                                                           self%failure_reason)
         end do

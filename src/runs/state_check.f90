@@ -12,6 +12,7 @@ module lagrangia_state_check
     use lagrangia_lagrangian_system, only: lagrangian_system_t
     use lagrangia_magnitude, only: magnitude
     use lagrangia_mass_matrix, only: check_mass_matrix, list_of
+    use lagrangia_step_ends, only: end_step
     use lagrangia_system, only: check_state, system_t
     use lagrangia_text, only: to_text
     use lagrangia_written_system, only: written_system_t
@@ -75,7 +76,7 @@ contains
             do k = 1, ahead
                 there = q + k*h*v
                 v_there = v
-                call system%end_step(t, q, v, t + k*h, there, v_there, reason)
+                call end_step(system, t, q, v, t + k*h, there, v_there, reason)
                 if (reason == "") cycle
                 error%message = error%message//"; a flight from t = "//to_text(t)//" to "// &
                                 to_text(t + k*h)//" s: "//trim(reason)

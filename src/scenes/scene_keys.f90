@@ -25,8 +25,8 @@ module lagrangia_scene_keys
         "samples", "q", "v", "columns", "plot", "event", "event_columns", "event_plot", &
         "figure", "period_of", "modes", "error_estimate", "output"]
     character(*), parameter :: good_names = "letters, digits, . _ - / and blanks, not "// &
-        "absolute, without '..', no - in front, not ending in .gp, .html, .nml, .pdf, .png, .svg "// &
-        "or .partial"
+        "absolute, without '..', no - in front, not ending in .gp, .html, .nml, .pdf, .png, "// &
+        ".svg or .partial"
     integer, parameter :: key_length = name_length + len("expect_")
     integer, parameter :: most = 10000  !! values of one key
 

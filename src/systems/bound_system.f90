@@ -2,7 +2,7 @@ module lagrangia_bound_system
     !! Constraints beside L, holonomic, \(f(t, q) = 0\), or in the velocities,
     !! \(A(t, q)\,\dot q + b(t, q) = 0\): who has some gives `constraint_rows`, and, of holonomic
     !! ones, `constraint_values`; how a state is put onto them follows.
-    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_description, only: description_t, velocity_names
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
@@ -11,7 +11,6 @@ module lagrangia_bound_system
                                   expand_lagrangian
     use lagrangia_lapack, only: matrix_rank, solve_linear
     use lagrangia_mass_matrix, only: list_of
-    use lagrangia_step_turn, only: is_turned
     use lagrangia_system, only: all_velocities, system_t
     use lagrangia_text, only: join, to_text
     implicit none (type, external)
@@ -33,7 +32,6 @@ module lagrangia_bound_system
         procedure :: free_velocities
         procedure :: check_places
         procedure :: keep_constraints
-        procedure :: end_step
     end type bound_system_t
 
 contains
@@ -248,94 +246,6 @@ contains
             v = v + change
         end do
     end subroutine keep_constraints
-
-    pure subroutine end_step(self, t_old, q_old, v_old, t, q, v, reason)
-        !! See `system_t`. Where the constraints' derivatives \(A\) vanish, or depend on each other,
-        !! \(\det(A M^{-1} A'^\top)\) of a place before and one behind is negative: so it is then
-        !! within a small part of the step, whose path is a cubic here. Near a cusp nothing small
-        !! enough is left of the path; there the step ends far from the constraints.
-        class(bound_system_t), intent(in) :: self
-        real(dp), intent(in) :: t_old, q_old(self%ndof), v_old(self%ndof), t
-        real(dp), intent(inout) :: q(self%ndof), v(self%ndof)
-        character(*), intent(inout) :: reason
-        integer, parameter :: halvings = 3
-        real(dp), parameter :: far = 0.25_dp, slight = 1e-6_dp
-        real(dp), dimension(self%ndof) :: q_new, v_new, q_middle, weights
-        real(dp), dimension(self%constraints, self%ndof) :: left, middle, right
-        real(dp) :: h, s, mass(self%ndof, self%ndof), part
-        integer :: i, k
-
-        q_new = q
-        v_new = v
-        call self%keep_constraints(t, q, v)
-        if (.not. (all(ieee_is_finite(q)) .and. all(ieee_is_finite(v)))) return
-        h = t - t_old
-        call self%mass_matrix(t, q, v, mass)
-        weights = [(abs(mass(i, i)), i=1, self%ndof)]
-        if (length(q - q_new) + abs(h)*length(v - v_new) > far*(length(q - q_old) &
-            + abs(h)*max(length(v_old), length(v))) + slight*length(q)) then
-            reason = "its end is far from the constraints: the step is too long, or they end there"
-            q = ieee_value(q, ieee_quiet_nan)
-            return
-        end if
-        where (weights > 0.0_dp)
-            weights = 1.0_dp/weights
-        else where
-            weights = 1.0_dp
-        end where
-        call rows_at(self, t_old, q_old, left)
-        call rows_at(self, t, q, right)
-        if (.not. is_turned(left, right, weights)) return
-        s = 0.0_dp
-        part = 1.0_dp
-        do k = 1, halvings
-            part = 0.5_dp*part
-            call cubic(s + part, q_middle)
-            call rows_at(self, t_old + (s + part)*h, q_middle, middle)
-            if (is_turned(left, middle, weights)) then
-                right = middle
-            else if (is_turned(middle, right, weights)) then
-                left = middle
-                s = s + part
-            else
-                return
-            end if
-        end do
-        reason = "there the constraints' derivatives vanish or depend on each other, and do not "// &
-                 "say how it goes on; end before it"
-        q = ieee_value(q, ieee_quiet_nan)
-
-    contains
-
-        pure function length(x)
-            !! In a metric like that of T.
-            real(dp), intent(in) :: x(:)
-            real(dp) :: length
-
-            length = sqrt(sum(weights*x**2))
-        end function length
-
-        pure subroutine cubic(s, q_there)
-            !! The coordinates at a part of the step, from its ends.
-            real(dp), intent(in) :: s
-            real(dp), intent(out) :: q_there(:)
-
-            q_there = q_old + s**2*(3.0_dp - 2.0_dp*s)*(q - q_old) &
-                      + s*(1.0_dp - s)*h*((1.0_dp - s)*v_old - s*v)
-        end subroutine cubic
-    end subroutine end_step
-
-    pure subroutine rows_at(self, t, q, rows)
-        !! \(A\) alone.
-        class(bound_system_t), intent(in) :: self
-        real(dp), intent(in) :: t, q(:)
-        real(dp), intent(out) :: rows(:, :)
-        type(hyperdual_t) :: a(self%constraints, self%ndof), b(self%constraints), qq(self%ndof)
-
-        qq%re = q
-        call self%constraint_rows(hyperdual_t(re=t), qq, a, b)
-        rows = a%re
-    end subroutine rows_at
 
     pure subroutine find_change(self, t, q, v, left, change, found)
         !! \(\delta\) of least \(\delta^\top M\delta\) with \(A\delta = -\) `left`:

@@ -26,7 +26,7 @@ module lagrangia_system
         logical :: time_dependent = .false.  !! L, a generalised force or a constraint has t in it
         logical :: nonconservative = .false. !! there are `generalised_forces`
         integer :: constraints = 0           !! rows of non-holonomic constraints
-        logical :: is_projected = .false.    !! steps end with `end_step`
+        logical :: is_projected = .false.    !! steps end with `end_step`, on them
         logical :: constraints_work = .false.  !! one of \(A\dot q + b = 0\) has a \(b\) that is not
         !! zero, so that its reaction does work
         integer :: cyclic = 0                !! index of a coordinate that is neither in L nor has
@@ -52,7 +52,6 @@ module lagrangia_system
         procedure :: free_velocities => all_free
         procedure :: check_places => any_place
         procedure :: keep_constraints => nothing_to_keep
-        procedure :: end_step => nothing_to_end
         procedure :: linearise => nothing_by_hand
         procedure :: angles => no_angles
         procedure :: newton => no_newton
@@ -334,25 +333,13 @@ contains
     end subroutine any_place
 
     pure subroutine nothing_to_keep(self, t, q, v)
-        !! Put a state onto the constraints beside L, the shortest way in the metric of T. Here
-        !! nothing is done.
+        !! Put a state that a step has made back onto the constraints beside L, the shortest way in
+        !! the metric of T: methods do it after each step and keep their order (Hairer, Lubich &
+        !! Wanner, sec. IV.4). Whoever has this sets `is_projected`. Here nothing is done.
         class(system_t), intent(in) :: self
         real(dp), intent(in) :: t                              !! s
         real(dp), intent(inout) :: q(self%ndof), v(self%ndof)  !! coordinates, velocities
     end subroutine nothing_to_keep
-
-    pure subroutine nothing_to_end(self, t_old, q_old, v_old, t, q, v, reason)
-        !! `keep_constraints` of a state that a step has made: methods do it after each step and
-        !! keep their order (Hairer, Lubich & Wanner, sec. IV.4). Where the step went through a
-        !! place at which the constraints do not say how the motion goes on, the state becomes
-        !! NaN. Whoever has this sets `is_projected`. Here nothing is done.
-        class(system_t), intent(in) :: self
-        real(dp), intent(in) :: t_old                              !! where the step began, s
-        real(dp), intent(in) :: q_old(self%ndof), v_old(self%ndof) !! the state there
-        real(dp), intent(in) :: t                                  !! where it ended, s
-        real(dp), intent(inout) :: q(self%ndof), v(self%ndof)      !! the state there
-        character(*), intent(inout) :: reason                      !! says why the state is NaN
-    end subroutine nothing_to_end
 
     pure subroutine no_angles(self, t, q, phi)
         !! The angles, rad, of the rotors in the description: here none.
