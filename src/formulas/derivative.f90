@@ -222,16 +222,18 @@ contains
         type(expression_t), intent(inout) :: all
         integer, intent(in) :: i, inner  !! the power; u', not 0
         integer, intent(out) :: node
-        integer :: a, less, slope
+        integer :: a, b, factor, less, power, slope
         type(number_t) :: exponent
 
         a = all%nodes(i)%left
-        call product(all, all%nodes(i)%right, all%nodes(a)%left, slope)
-        exponent = all%nodes(all%nodes(i)%right)%number - number_of(2.0_dp)
+        b = all%nodes(i)%right
+        call product(all, b, all%nodes(a)%left, factor)
+        exponent = all%nodes(b)%number - number_of(2.0_dp)
+        slope = factor
         if (exponent%value > 0.0_dp) then
             call all%add_number(exponent, less)
-            call all%add_operation(kind_power, a, less, less)
-            call product(all, less, slope, slope)
+            call all%add_operation(kind_power, a, less, power)
+            call product(all, power, factor, slope)
         end if
         call product(all, slope, inner, node)
     end subroutine power_of_modulus

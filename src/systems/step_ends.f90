@@ -74,8 +74,8 @@ contains
                 return
             end if
         end do
-        reason = "there the constraints' derivatives vanish or depend on each other, and do not "// &
-                 "say how it goes on; end before it"
+        reason = "there the constraints' derivatives vanish or depend on each other, and do "// &
+                 "not say how it goes on; end before it"
         q = ieee_value(q, ieee_quiet_nan)
 
     contains
