@@ -74,7 +74,6 @@ contains
         call audited("T = 'x_dot^2/2', V = 'k/2 x^2', Q_x = '-0.2 tanh(100 x_dot)'", audit)
         call audited("T = 'x_dot^2/2', V = 'k/2 x^2', Q_x = '-0.2 tanh(1e6 x_dot)'", audit)
         call audited("T = 'x_dot^2/2', V = 'k/2 x^2', Q_x = '-0.2 exp(-1000 x_dot^2)'", audit)
-        call audited("T = 'x_dot^2/2', V = 'k/2 x^2', Q_x = 'exp(-(100 x)^4)'", audit)
         call audited("T = 'x_dot^2/2', V = 'k/2 x^2', Q_x = 'exp(-(9 (t - 42))^4)'", audit)
     end subroutine forces_that_are_narrow
 end module test_audit_states

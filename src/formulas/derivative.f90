@@ -232,7 +232,8 @@ contains
         slope = factor
         if (exponent%value > 0.0_dp) then
             call all%add_number(exponent, less)
-            call all%add_operation(kind_power, a, less, power)
+            power = a
+            if (.not. is_one(all, less)) call all%add_operation(kind_power, a, less, power)
             call product(all, power, factor, slope)
         end if
         call product(all, slope, inner, node)

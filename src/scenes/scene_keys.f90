@@ -25,8 +25,7 @@ module lagrangia_scene_keys
         "samples", "q", "v", "columns", "plot", "event", "event_columns", "event_plot", &
         "figure", "period_of", "modes", "error_estimate", "output"]
     character(*), parameter :: good_names = "letters, digits, . _ - / and blanks, not "// &
-        "absolute, without '..', no - in front, not ending in .gp, .html, .nml, .pdf, .png, "// &
-        ".svg or .partial"
+        "absolute, without '..', not ending in .gp, .html, .nml, .pdf, .png, .svg or .partial"
     integer, parameter :: key_length = name_length + len("expect_")
     integer, parameter :: most = 10000  !! values of one key
 
@@ -232,7 +231,7 @@ contains
         else
             call fail(error, printable(trim(scene%name))//": the data files of a scene have "// &
                       "its name, and this one is none for them: "//good_names// &
-                      "; give the scene an output, or its file another name")
+                      ", no - in front; give the scene an output, or its file another name")
         end if
     end subroutine read_columns
 
@@ -245,7 +244,6 @@ contains
         real(dp), parameter :: most_steps = 1e15_dp
         real(dp), parameter :: far = 1e9_dp     !! s: thirty years
         real(dp) :: count
-        character(8) :: key
 
         count = scene%duration/scene%dt
         if (count < 1.0_dp) then
@@ -257,17 +255,17 @@ contains
                                   "duration = "//to_text(scene%duration), error)
             end if
         else if (count > most_steps) then
-            key = "dt"
-            if (blamed("duration", scene%duration > far)) key = "duration"
-            call refuse_value(tree, "scene", trim(key), "a run of "//to_text(scene%duration)// &
-                              " s in steps of "//to_text(scene%dt)//" s takes more than "// &
-                              "10^15 of them, too many to count", error)
-        else if (abs(scene%t0) + scene%dt <= abs(scene%t0)) then
-            key = "dt"
-            if (blamed("t0", abs(scene%t0) > far)) key = "t0"
-            call refuse_value(tree, "scene", trim(key), "a step of "//to_text(scene%dt)// &
-                              " s is too short to move the time near t = "// &
-                              to_text(scene%t0)//" s", error)
+            if (blamed("duration", scene%duration > far)) then
+                call refuse_value(tree, "scene", "duration", "in steps of dt = "// &
+                                  to_text(scene%dt)//" s takes "//to_text(count)// &
+                                  " of them, too many to count", error)
+            else
+                call refuse_value(tree, "scene", "dt", "duration/dt = "//to_text(count)// &
+                                  " steps are too many to count", error)
+            end if
+        else if (abs(scene%t0) + scene%dt <= abs(scene%t0) .and. blamed("t0", .false.)) then
+            call refuse_value(tree, "scene", "t0", "a step of dt = "//to_text(scene%dt)// &
+                              " s is too small to move the time there", error)
         end if
     contains
         logical function blamed(other, unusual)
