@@ -9,15 +9,25 @@ usage: try_latex.py PROGRAM
 """
 import json
 import math
+import os
 import random
 import re
 import subprocess
 import sys
+import tempfile
 
 TOKEN = re.compile(r"\\(?:left|right)?[|()]|\\[A-Za-z]+|\d+\.?\d*(?:e[-+]?\d+)?|[A-Za-z][A-Za-z0-9_]*|\S")
 FUNCTIONS = {"sin": math.sin, "cos": math.cos, "tan": math.tan, "exp": math.exp, "sqrt": math.sqrt,
              "log": math.log, "ln": math.log, "abs": abs, "atan": math.atan, "arctan": math.atan,
-             "sinh": math.sinh, "cosh": math.cosh, "tanh": math.tanh}
+             "sinh": math.sinh, "cosh": math.cosh, "tanh": math.tanh,
+             "sgn": lambda x: math.copysign(1.0, x)}
+# names with an index in coordinates, parameters and headings; |x| and its derivative
+INDEXED = """&scene system = 'indexed', title = 'y_1 & y_2', dt = 0.1, duration = 1.0, q = 0.3, 0.2, 0.1 /
+&lagrangian coordinates = 'y_1 .. y_2', 'x_long_name', parameters = 'm_1', 'k_a', 'c'
+  T = 'm_1/2 sum(i, 1, 2, y_i_dot^2) + m_1/2 x_long_name_dot^2', Q_y_1 = '-c sgn(y_1_dot)'
+  V = 'k_a/2 |y_1|^3 + k_a/2 (|y_2 - 1| - y_2)^2' /
+&indexed m_1 = 1.0, k_a = 2.0, c = 0.5 /
+"""
 
 
 class Reader:
@@ -160,6 +170,15 @@ class Latex(Reader):
             value = self.bracket("\\left(", "\\right)")
         elif token == "\\left|":
             value = abs(self.bracket("\\left|", "\\right|"))
+        elif token == "\\operatorname":
+            self.place += 1
+            for part in "{sgn}":
+                self.take(part)
+            exponent = 1.0
+            if self.next() == "^":
+                self.place += 1
+                exponent = self.group()
+            return FUNCTIONS["sgn"](self.bracket("\\left(", "\\right)")) ** exponent
         elif token == "\\mathrm" and self.tokens[self.place + 1:self.place + 5] == ["{", "e", "}", "^"]:
             self.place += 5
             return math.exp(self.group())
@@ -290,6 +309,17 @@ def slipped(latex):
     return latex + " + 1"
 
 
+def bare(document):
+    """Lines with a character that means something else in a text, outside of formulas and comments."""
+    formula = False
+    for line in document.splitlines():
+        formula = formula or line.startswith("\\begin{align*}")
+        text = re.sub(r"\$[^$]*\$", "", re.sub(r"^%.*", "", line))
+        if not formula and re.search(r"(?<!\\)[_^&#%]", text):
+            yield line
+        formula = formula and not line.startswith("\\end{align*}")
+
+
 def run(program, *words):
     """What it prints."""
     return subprocess.run([program, *words], capture_output=True, text=True, check=True).stdout
@@ -301,14 +331,21 @@ def main():
     systems = [line.split()[0] for line in run(program, "list", "systems").splitlines() if line.strip()]
     scenes = [line.split()[0] for line in run(program, "list", "scenes").splitlines() if line.strip()]
     failed = formulas = planted = 0
-    for name in systems + scenes:
+    folder = tempfile.TemporaryDirectory()
+    indexed = os.path.join(folder.name, "indexed.nml")
+    with open(indexed, "w") as file:
+        file.write(INDEXED)
+    for name in systems + scenes + [indexed]:
         told = subprocess.run([program, "derive", name, "--json"], capture_output=True, text=True)
         if told.returncode != 0:
-            if name in systems and "no formula for L" not in told.stderr:
+            if name == indexed or name in systems and "no formula for L" not in told.stderr:
                 print(f"FAILED  derive {name} --json: {told.stderr.strip()}")
                 failed += 1
             continue
         document = re.sub(r" \\\\\n    & \\quad\{\}", "", run(program, "derive", name, "--latex"))
+        for line in bare(document):
+            failed += 1
+            print(f"FAILED  derive {name} --latex: '{line}' is no LaTeX")
         caught = tried = 0
         for line in json.loads(told.stdout)["lines"]:
             latex = line.get("latex")

@@ -175,6 +175,7 @@ keep graded lines < <(graded)
 page plain describe hanging_chain --set hanging_chain%n=1
 page plain describe spring_pendulum
 page plain describe sphere
+page plain describe symmetric_top
 page plain modes oscillator --set oscillator%b=0.3
 page plain modes rotating_hoop --set rotating_hoop%r=0.5 --set rotating_hoop%omega=7
 page plain modes charged_particle --set charged_particle%trap=3 --set charged_particle%magnetic=0,0,2

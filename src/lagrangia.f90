@@ -41,7 +41,7 @@ module lagrangia
     use lagrangia_hyperdual, only: abs, assignment(=), atan, cos, cosh, dot_product, exp, &
                                    hyperdual, hyperdual_t, log, operator(*), operator(**), &
                                    operator(+), operator(-), operator(/), operator(<), &
-                                   operator(>), sin, sinh, sqrt, sum, tan, tanh
+                                   operator(>), sgn, sin, sinh, sqrt, sum, tan, tanh
     use lagrangia_integrator, only: dense_integrator_t, integrator_t
     use lagrangia_kinds, only: dp, i8, lanes
     use lagrangia_lagrange, only: accelerations_from_lagrangian, energy_from_lagrangian, &

@@ -3,12 +3,12 @@ module random_formulas
     !! of its rounding.
     use lagrangia_exact_number, only: number_of, ratio
     use lagrangia_expression, only: expression_t, f_abs, f_atan, f_cos, f_cosh, f_exp, f_log, &
-                                    f_sin, f_sinh, f_sqrt, f_tan, kind_difference, &
+                                    f_sgn, f_sin, f_sinh, f_sqrt, f_tan, kind_difference, &
                                     kind_function, kind_negation, kind_number, kind_power, &
                                     kind_product, kind_quotient, kind_sum, kind_symbol
     use lagrangia_hyperdual, only: abs, assignment(=), atan, cos, cosh, exp, hyperdual_t, log, &
                                    operator(*), operator(**), operator(+), operator(-), &
-                                   operator(/), sin, sinh, sqrt, tan, tanh
+                                   operator(/), sgn, sin, sinh, sqrt, tan, tanh
     use lagrangia_kinds, only: dp, i8
     use random_states, only: uniform
     implicit none (type, external)
@@ -151,6 +151,7 @@ contains
         case (f_cosh); y = cosh(x)
         case (f_exp); y = exp(x)
         case (f_log); y = log(x)
+        case (f_sgn); y = sgn(x)
         case (f_sin); y = sin(x)
         case (f_sinh); y = sinh(x)
         case (f_sqrt); y = sqrt(x)

@@ -16,6 +16,7 @@ module test_audit
     use lagrangia_system, only: system_t
     use liars, only: liars_known, new_liar
     use mutants, only: mutants_known, new_mutant
+    use test_audit_states, only: audit_states_suite
     use turned_flags, only: new_turned
     implicit none (type, external)
     private
@@ -42,6 +43,7 @@ contains
         call suite%addTest(TestMethod("given_parameters_stay", given_parameters_stay))
         call suite%addTest(TestMethod("findings_keep_the_worst", findings_keep_the_worst))
         call suite%addTest(TestMethod("reactions_are_said_by_name", reactions_are_said_by_name))
+        call suite%addTest(audit_states_suite())
     end function audit_suite
 
     subroutine wrong_equations_are_named()

@@ -113,6 +113,9 @@ contains
         call becomes("2 (a + b) x - 4 a x - 4 b x", "-2 (a + b) x")
         call becomes("cos(theta2 - theta1) + sin(theta2 - theta1)", &
                      "-sin(theta1 - theta2) + cos(theta1 - theta2)")
+        call becomes("x sgn(x) + x^2 sgn(x) + |x| sgn(x) + sgn(-x)^3 + sgn(x)^2", &
+                     "x + x abs(x) + 1 + abs(x) - sgn(x)")
+        call becomes("|x - r| sgn(x - r) x + sgn(-3) + sgn(0)", "x^2 - x r - 1")
         call becomes("tanh(-x) + |-x| + atan(-2 x) + cosh(-x) + sinh(-x) + tan(-x)", &
                      "abs(x) - tan(x) - sinh(x) + cosh(x) - tanh(x) - atan(2 x)")
         call becomes("m g (x + r)/(m + m1) - m g x/(m + m1)", "m g/(m + m1) r")

@@ -37,6 +37,7 @@ contains
         call suite%addTest(TestMethod("drag_of_two_rods", drag_of_two_rods))
         call suite%addTest(TestMethod("found_from_near_by", found_from_near_by))
         call suite%addTest(TestMethod("found_from_far", found_from_far))
+        call suite%addTest(TestMethod("forces_that_cancel", forces_that_cancel))
         call suite%addTest(TestMethod("constraints_that_integrate", constraints_that_integrate))
         call suite%addTest(TestMethod("refusals", refusals))
     end function constrained_modes_suite
@@ -168,6 +169,33 @@ contains
         call find_modes(system, [0.1_dp], .false., modes, error)
         call assert_refused(error, "not an equilibrium of own: the force on x is -17.307")
     end subroutine found_from_far
+
+    subroutine forces_that_cancel()
+        !! 0.1 + 0.2 - 0.3 of doubles is 5.6e-17: where nothing is stiff, rounding is no force.
+        !! Drag that is felt by one of two bodies leaves the other's oscillation as it is.
+        character(*), parameter :: bodies = "coordinates = 'x', 'y', parameters = 'm', 'a', "// &
+            "'b', 'c', T = 'm/2 (x_dot^2 + y_dot^2)', "
+        class(system_t), allocatable :: system
+        type(modes_t) :: modes
+        type(error_t), allocatable :: error
+        complex(dp), allocatable :: lambda(:)
+
+        call typed_modes(bodies//"V = '(a + b - c) x + y^2'", "m = 1.0, a = 0.1, b = 0.2, "// &
+                         "c = 0.3", [0.0_dp, 0.0_dp], .true., system, modes)
+        if (anyExceptions()) return
+        call assertEqual([0.0_dp, 2.0_dp], modes%omega2, 1e-15_dp)
+        call read_typed(bodies//"V = '(a + b - c) x + y^2'", "m = 1.0, a = 0.1, b = 0.2, "// &
+                        "c = 0.30000001", "0.0, 0.0", system, error)
+        call assertFalse(allocated(error), "read")
+        call find_modes(system, [0.0_dp, 0.0_dp], .false., modes, error)
+        call assert_refused(error, "not an equilibrium of own: the force on x is ")
+        call typed_modes(bodies//"V = '3 (x - y)^2 + 5 (x + y)^2', Q_y = 'a x_dot - b x_dot'", &
+                         "m = 1.0, a = 0.1, b = 0.1, c = 0.0", [0.0_dp, 0.0_dp], .true., system, &
+                         modes)
+        if (anyExceptions()) return
+        call damped_rates(system, modes, lambda, error)
+        call assertEqual([0.0_dp, 0.0_dp], real(lambda), 0.0_dp)
+    end subroutine forces_that_cancel
 
     subroutine constraints_that_integrate()
         !! A wheel that rolls along a line is holonomic though its constraint is in velocities, and

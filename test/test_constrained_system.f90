@@ -19,6 +19,7 @@ module test_constrained_system
     use lagrangia_scene_run, only: run_scene
     use lagrangia_system, only: system_t
     use lagrangia_text, only: word_t
+    use test_ends_of_constraints, only: ends_of_constraints_suite
     implicit none (type, external)
     private
     public :: constrained_system_suite
@@ -54,6 +55,7 @@ contains
         call suite%addTest(TestMethod("refusals", refusals))
         call suite%addTest(TestMethod("nonsense_is_refused_in_one_line", &
                                       nonsense_is_refused_in_one_line))
+        call suite%addTest(ends_of_constraints_suite())
     end function constrained_system_suite
 
     subroutine read_system(keys, group, system, scene, error)

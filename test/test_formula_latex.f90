@@ -33,6 +33,8 @@ contains
                 "\left|x\right| \ln x \arctan x")
         call is("(x + l)^2/(2 m)", "\frac{\left(x + \ell\right)^{2}}{2 m}")
         call is("(g/l)^2 x", "\left(\frac{g}{\ell}\right)^{2} x")
+        call is("sgn(x)^2 + sgn(x - 1)", "\operatorname{sgn}^{2}\left(x\right) + "// &
+                "\operatorname{sgn}\left(x - 1\right)")
         call is("exp(x)^2 |x|^2", "\left(\mathrm{e}^{x}\right)^{2} \left(\left|x\right|\right)^{2}")
         call is("exp(x)^2 m", "\left(\mathrm{e}^{x}\right)^{2} m")
         call is("sqrt(x)^2 m", "\left(\sqrt{x}\right)^{2} m")

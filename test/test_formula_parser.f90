@@ -139,6 +139,7 @@ contains
         call is("|(x_dot) m| (|x_dot|)", x_dot**2*m)
         call is("abs(x_dot) + atan(x) + cos(x) + cosh(x)", -x_dot + atan(x) + cos(x) + cosh(x))
         call is("exp(x) + log(x) + sin(x) + sinh(x)", exp(x) + log(x) + sin(x) + sinh(x))
+        call is("3 + sgn(x) + sgn(-x)", 3.0_dp)
         call is("sqrt(x) + tan(x) + tanh(x)", sqrt(x) + tan(x) + tanh(x))
         call is("pi/4 + cos(pi)", pi/4.0_dp - 1.0_dp)
         call is("1.5e-3 + .5 + 5. + 2E2", 205.5015_dp)
@@ -289,7 +290,7 @@ contains
         call is_refused("arctan(x)", "column 1: unknown function 'arctan'; did you mean 'atan'?")
         call is_refused("bessel(x)", "column 1: unknown function 'bessel'; there are abs, "// &
                         "atan, "// &
-                        "cos, cosh, exp, log, sin, sinh, sqrt, tan, tanh, acos, asin")
+                        "cos, cosh, exp, log, sgn, sin, sinh, sqrt, tan, tanh, acos, asin")
         call is_refused("X", "column 1: unknown name 'X'; did you mean 'x'?")
         call is_refused("m x_dot'", "column 8: a prime is no derivative; write x_ddot")
     end subroutine wrong_names_have_a_remedy

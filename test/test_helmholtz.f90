@@ -86,6 +86,8 @@ contains
                      "dQ_x/dy_dot = 1.0")
         call has_not("Q_x = '-b (x_dot + |x_dot|)'", "dQ_x/dx_dot = -1.0, not 0")
         call has_not("Q_x = '-b (x_dot - |x_dot|)'", "dQ_x/dx_dot = -1.0, not 0")
+        call has_not("Q_x = '-b tanh(1e5 x_dot)'", " as x_dot turns round")
+        call has_not("Q_y = '-b sgn(y_dot)'", " as y_dot turns round")
         call has_not("Q_z = 'x'", "dQ_x/dz - dQ_z/dx = -1.0, not 0")
     contains
         subroutine has_not(forces, expected)

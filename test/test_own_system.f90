@@ -15,6 +15,7 @@ module test_own_system
     use lagrangia_system, only: default_values, system_t
     use own_systems, only: own_double_t, own_pendulum_t, own_pivot_t, own_skin_t, own_slope_t
     use random_states, only: draw_parameters, draw_state, restart_random
+    use test_moduli, only: moduli_suite
     implicit none (type, external)
     private
     public :: own_system_suite
@@ -38,6 +39,7 @@ contains
         call suite%addTest(TestMethod("descriptions_are_complete", descriptions_are_complete))
         call suite%addTest(TestMethod("audits_hold", audits_hold))
         call suite%addTest(TestMethod("modes_are_found", modes_are_found))
+        call suite%addTest(moduli_suite())
     end function own_system_suite
 
     subroutine pendulum_moves_as_by_hand()

@@ -134,6 +134,9 @@ contains
                      "event = 'theta = 1/0 rising': "//behind//"'1/0' is no number")
         call refused(scene//"event = 'theta = pi/2 risng'", "event = 'theta = pi/2 risng': "// &
                      "'risng' is none of rising, falling, stop; an event looks like "//looks)
+        call refused(scene//"event = 'theta = 0 rising falling'", &
+                     "event = 'theta = 0 rising falling': rising or falling, not both: without "// &
+                     "these words an event is found both ways")
         call refused(scene//"event = 'theta upwards'", "event = 'theta upwards': 'upwards' is "// &
                      "none of rising, falling, stop; an event looks like "//looks)
         call refused(scene//"event = 'energy_drift'", &

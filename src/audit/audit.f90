@@ -11,7 +11,8 @@ module lagrangia_audit
                                          claim_accelerations
     use lagrangia_audit_formulas, only: audit_formulas
     use lagrangia_audit_newton, only: audit_gauss, audit_inertia, say_reactions
-    use lagrangia_audit_structure, only: audit_cyclic, audit_flags, audit_mass, say_potential
+    use lagrangia_audit_structure, only: audit_cyclic, audit_flags, audit_mass, claim_mass, &
+                                         say_potential
     use lagrangia_description, only: description_t, name_length, value_names
     use lagrangia_diagnosis, only: diagnose
     use lagrangia_errors, only: error_t
@@ -73,9 +74,22 @@ contains
             call diagnose(system, remark)
             call audit%say(claim_accelerations, remark)
         end if
+        if (random%left_out > 0) call say_left_out(audit, random%left_out)
         call show_reactions(system, values, d, audit, given)
         call say_potential(audit, system)
     end subroutine audit_system
+
+    subroutine say_left_out(audit, states)
+        !! The audit keeps to where the masses are positive, and says so.
+        type(ledger_t), intent(inout) :: audit
+        integer, intent(in) :: states
+        integer :: row
+
+        row = audit%row_of(claim_mass)
+        if (row == 0) return
+        if (audit%rows(row)%holds) call audit%say(claim_mass, &
+            "of the states drawn "//to_text(states)//" were left out, at which it is not")
+    end subroutine say_left_out
 
     pure function stated_parameters(d, values) result(text)
         !! `; with l = 0.0, g = 9.81`: perhaps the domain should exclude them.

@@ -12,9 +12,13 @@ module lagrangia_audit_structure
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
-    public :: audit_flags, audit_cyclic, audit_mass, say_potential
+    public :: audit_flags, audit_cyclic, audit_mass, claim_mass, say_potential
+
+    character(*), parameter :: claim_mass = "mass matrix is positive definite"
 
     real(dp), parameter :: yes = 0.0_dp, no = 1.0_dp
+    integer, parameter :: scales = 24          !! halvings of a velocity or a coordinate
+    real(dp), parameter :: later = 14.0_dp     !! s, from one time to the next
 
 contains
 
@@ -42,7 +46,8 @@ contains
             call verdict(by_velocity <= 0.0_dp, "velocity_forces", &
                          "velocity_forces is false, yet the accelerations depend on velocities")
         else if (generic .and. .not. bound) then
-            call verdict(by_velocity > 0.0_dp, "velocity_forces", &
+            call verdict(by_velocity > 0.0_dp .or. counts_when_slow(system, t, q, v), &
+                         "velocity_forces", &
                          "velocity_forces is true, yet no acceleration depends on a velocity")
         end if
         call expand_lagrangian(system, t, q, v, terms)
@@ -58,7 +63,7 @@ contains
             if (any(abs(now%re) > 0.0_dp)) call verdict(.false., "nonconservative", &
                 "nonconservative is false, yet there are generalised forces")
         else
-            call verdict(any(abs(now%re) > 0.0_dp), "nonconservative", &
+            call verdict(acts_somewhere(system, t, q, v), "nonconservative", &
                          "nonconservative is true, yet no generalised force acts")
         end if
         if (.not. system%time_dependent) then
@@ -91,6 +96,45 @@ contains
         if (.not. system%nonconservative) return
         call audit%say("nonconservative says what is true", potential_text(system))
     end subroutine say_potential
+
+    function acts_somewhere(system, t, q, v) result(yes)
+        !! Is there a generalised force at this state, or nearer to the origin and slower, or later?
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(:), v(:)
+        logical :: yes
+        type(hyperdual_t), dimension(size(q)) :: qq, vv, force
+        integer :: k
+
+        do k = 0, scales
+            qq%re = q
+            vv%re = v*0.5_dp**k
+            call system%generalised_forces(hyperdual_t(re=t), qq, vv, force)
+            yes = any(abs(force%re) > 0.0_dp)
+            if (yes) return
+            qq%re = q*0.5_dp**k
+            call system%generalised_forces(hyperdual_t(re=t), qq, vv, force)
+            yes = any(abs(force%re) > 0.0_dp)
+            if (yes) return
+            qq%re = q
+            call system%generalised_forces(hyperdual_t(re=later*k), qq, vv, force)
+            yes = any(abs(force%re) > 0.0_dp)
+            if (yes) return
+        end do
+    end function acts_somewhere
+
+    function counts_when_slow(system, t, q, v) result(yes)
+        !! Do the accelerations depend on velocities that are smaller, before they saturate?
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(:), v(:)
+        logical :: yes
+        integer :: k
+
+        do k = 1, scales
+            yes = change(system, t, q, v*0.5_dp**k, t, -v*0.5_dp**k) > 0.0_dp .or. &
+                  change(system, t, q, v*0.5_dp**k, t, v*0.25_dp**k) > 0.0_dp
+            if (yes) return
+        end do
+    end function counts_when_slow
 
     function change(system, t, q, v, other_t, other_v) result(difference)
         !! Of the accelerations between two times and velocities.
@@ -141,7 +185,6 @@ contains
         type(ledger_t), intent(inout) :: audit  !! gets the rows
         class(system_t), intent(in) :: system  !! with its parameters
         real(dp), intent(in) :: t, q(:), v(:)  !! s; coordinates and velocities, (ndof)
-        character(*), parameter :: claim = "mass matrix is positive definite"
         type(euler_lagrange_t) :: terms
         type(hyperdual_t) :: place(size(q)), rows(system%constraints, size(q))
         type(hyperdual_t) :: b(system%constraints)
@@ -165,10 +208,10 @@ contains
             end do
         end do
         lack = 1.0_dp - smallest_pivot(matrix)
-        call audit%try(claim, lack, 1.0_dp - 100.0_dp*epsilon(lack), 1.0_dp)
+        call audit%try(claim_mass, lack, 1.0_dp - 100.0_dp*epsilon(lack), 1.0_dp)
         if (lack < 1.0_dp) return
         call check_mass_matrix(matrix, error)
         if (.not. allocated(error)) call fail(error, "a pivot is zero or negative")
-        call audit%say(claim, "at q = "//list_of(q)//", v = "//list_of(v)//": "//error%message)
+        call audit%say(claim_mass, "at q = "//list_of(q)//", v = "//list_of(v)//": "//error%message)
     end subroutine audit_mass
 end module lagrangia_audit_structure

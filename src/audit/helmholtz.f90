@@ -10,7 +10,8 @@ module lagrangia_helmholtz
     !!
     !! by exact derivatives, at states at random: what fails there fails, what holds at all of them
     !! holds but for chance. The first one makes Q linear in the velocities: second derivatives
-    !! would be symmetric in two of three indices and antisymmetric in two.
+    !! would be symmetric in two of three indices and antisymmetric in two. A force that is steep
+    !! somewhere else, as dry friction is, shows by what it becomes as its velocity turns round.
     !!
     !! Source: Santilli, *Foundations of Theoretical Mechanics I* (1978), sec. 2.2; H. v. Helmholtz,
     !! J. reine angew. Math. 100 (1887) 137.
@@ -63,8 +64,10 @@ contains
             has_one = .true.
             call compare(system, slopes, remark)
             has_one = remark == ""
-            if (.not. has_one) return
+            if (.not. has_one) exit
         end do
+        if (ieee_is_finite(slopes%scale)) call turn_round(system, t, q, v, slopes, remark)
+        has_one = has_one .and. remark == ""
     end subroutine test_potential
 
     function potential_text(system) result(text)
@@ -114,6 +117,35 @@ contains
             vv%re = v
         end subroutine at_state
     end subroutine differentiate
+
+    subroutine turn_round(system, t, q, v, slopes, remark)
+        !! \(\partial Q_i/\partial\dot q_i = 0\), by the difference between \(\dot q_i\) and
+        !! \(-\dot q_i\), where it is far more than the slope of the state makes of it.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(:), v(:)
+        type(slopes_t), intent(in) :: slopes
+        character(:), allocatable, intent(inout) :: remark
+        real(dp), parameter :: far = 1e6_dp, noise = 1e-9_dp
+        type(hyperdual_t), dimension(size(q)) :: qq, vv, here, there
+        type(description_t) :: d
+        integer :: i
+
+        qq%re = q
+        vv%re = v
+        call system%generalised_forces(hyperdual_t(re=t), qq, vv, here)
+        do i = 1, size(q)
+            vv(i)%re = -v(i)
+            call system%generalised_forces(hyperdual_t(re=t), qq, vv, there)
+            vv(i)%re = v(i)
+            if (.not. abs(there(i)%re - here(i)%re) > max(noise*abs(here(i)%re), &
+                                                         far*abs(slopes%v(i, i)*v(i)))) cycle
+            call system%describe(d)
+            remark = "Q_"//trim(d%coordinates(i)%name)//" = "//to_text(here(i)%re)// &
+                     " becomes "//to_text(there(i)%re)//" as "// &
+                     trim(d%coordinates(i)%name)//"_dot turns round"
+            return
+        end do
+    end subroutine turn_round
 
     subroutine compare(system, slopes, remark)
         !! The first condition that fails.

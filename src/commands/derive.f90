@@ -12,7 +12,7 @@ module lagrangia_derive
     use lagrangia_describe, only: best_break
     use lagrangia_description, only: description_t
     use lagrangia_errors, only: error_t, fail, status_not_held
-    use lagrangia_formula_latex, only: latex
+    use lagrangia_formula_latex, only: latex, latex_name
     use lagrangia_formula_text, only: formula_text
     use lagrangia_fortran_module, only: write_fortran_module
     use lagrangia_fortran_statements, only: fortran_lines_t
@@ -220,7 +220,7 @@ contains
             associate (this => derivation%lines(i))
                 if (this%heading /= "") then
                     call close_align()
-                    call put_line("\paragraph{"//this%heading//"}")
+                    call put_line("\paragraph{"//in_latex(this%heading)//"}")
                 end if
                 if (this%hidden) cycle
                 if (this%kind == line_words) then
@@ -249,6 +249,18 @@ contains
         end do
         call close_align()
     contains
+        function in_latex(heading) result(text)
+            ! with the coordinate at its end, if there is one, as a formula
+            character(*), intent(in) :: heading
+            character(:), allocatable :: text
+            integer :: last
+
+            text = heading
+            last = index(heading, " ", back=.true.)
+            if (any(derivation%d%coordinates%name == heading(last + 1:))) text = &
+                heading(:last)//"$"//latex_name(heading(last + 1:))//"$"
+        end function in_latex
+
         subroutine close_align()
             if (open) call put_line("\end{align*}")
             open = .false.

@@ -9,6 +9,7 @@ module lagrangia_describe
     use lagrangia_errors, only: error_t, fail
     use lagrangia_helmholtz, only: potential_text
     use lagrangia_kinds, only: dp
+    use lagrangia_lagrangian_system, only: lagrangian_system_t
     use lagrangia_methods, only: auto, workhorse
     use lagrangia_printed_table, only: left
     use lagrangia_random_draws, only: random_t
@@ -309,6 +310,11 @@ contains
         text = "  "//left(item%name, 22)//left("["//trim(item%unit)//"]", 12)
         if (item%formula == "") then
             call put_line(trim(text//item%meaning))
+        else if (item%meaning == "" .and. len(text) + len_trim(item%formula) <= 98) then
+            call put_line(text//trim(item%formula))
+        else if (item%meaning == "") then
+            call put_line(trim(text))
+            call put_wrapped("  = "//trim(item%formula))
         else if (len(text) + len_trim(item%formula) + len_trim(item%meaning) <= 98) then
             call put_line(text//trim(item%formula)//": "//trim(item%meaning))
         else
@@ -322,6 +328,8 @@ contains
         class(system_t), intent(in) :: system
         character(:), allocatable :: text
         type(description_t) :: d
+        logical :: cyclic(system%ndof)
+        integer :: i
 
         call system%describe(d)
         text = to_text(system%ndof - system%constraints)//" degree"// &
@@ -333,8 +341,13 @@ contains
             text = text//"positions only"
         end if
         if (system%time_dependent) text = text//" and on the time"
-        if (system%cyclic > 0) then
-            text = text//"; "//trim(d%coordinates(system%cyclic)%name)//" is cyclic"
-        end if
+        cyclic = [(i == system%cyclic, i=1, system%ndof)]
+        select type (system)
+        class is (lagrangian_system_t)
+            if (allocated(system%cyclic_coordinates)) cyclic = system%cyclic_coordinates
+        end select
+        if (.not. any(cyclic)) return
+        text = text//"; "//join(pack(d%coordinates%name, cyclic), ", ")// &
+               trim(merge(" is cyclic ", " are cyclic", count(cyclic) == 1))
     end function structure
 end module lagrangia_describe

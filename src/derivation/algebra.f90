@@ -3,7 +3,7 @@ module lagrangia_algebra
     !! such a sum, or a sum that is divided by or raised to a power.
     use lagrangia_exact_number, only: number_t, operator(/), operator(==), power, ratio
     use lagrangia_expression, only: expression_t, f_abs, f_atan, f_cos, f_cosh, f_exp, f_log, &
-                                    f_sin, f_sinh, f_sqrt, f_tan, f_tanh, kind_difference, &
+                                    f_sgn, f_sin, f_sinh, f_sqrt, f_tan, f_tanh, kind_difference, &
                                     kind_function, kind_negation, kind_number, kind_power, &
                                     kind_product, kind_quotient, kind_sum, kind_symbol
     use lagrangia_kinds, only: dp, i8
@@ -213,7 +213,7 @@ contains
         logical :: odd, even
         integer :: atom
 
-        odd = any(which == [f_sin, f_tan, f_sinh, f_tanh, f_atan])
+        odd = any(which == [f_sgn, f_sin, f_tan, f_sinh, f_tanh, f_atan])
         even = any(which == [f_cos, f_cosh, f_abs])
         if (argument%terms == 0 .and. (odd .or. any(which == [f_abs, f_sqrt]))) return
         if (argument%terms == 0 .and. any(which == [f_cos, f_cosh, f_exp])) then
@@ -238,7 +238,7 @@ contains
         type(polynomial_t), intent(in) :: p          !! any
         integer, intent(in) :: name                  !! number of a symbol
         type(polynomial_t), intent(out) :: dp_dname  !! the derivative
-        type(polynomial_t) :: inner, term
+        type(polynomial_t) :: inner, slope, term
         integer :: i, k, last
 
         last = self%count
@@ -249,10 +249,25 @@ contains
             do i = 1, p%terms
                 if (p%power(k, i) == 0) cycle
                 term = term_of(p, i)*whole_polynomial(p%power(k, i))*atom_power(k, -1)
-                dp_dname = dp_dname + term*inner
+                if (is_function(self%atoms(k), f_abs) .and. p%power(k, i) > 1) then
+                    ! (|u|^n)' = n |u|^(n - 2) u u'
+                    call self%derivative(self%atoms(k)%argument, name, slope)
+                    dp_dname = dp_dname + term*atom_power(k, -1)*self%atoms(k)%argument*slope
+                else
+                    dp_dname = dp_dname + term*inner
+                end if
             end do
         end do
     end subroutine derivative
+
+    pure function is_function(atom, which) result(yes)
+        !! Is it this function of something?
+        type(atom_t), intent(in) :: atom
+        integer, intent(in) :: which  !! `f_abs`, ...
+        logical :: yes
+
+        yes = atom%kind == atom_function .and. atom%which == which
+    end function is_function
 
     pure recursive subroutine atom_derivative(self, atom, name, d)
         !! Of one atom.
@@ -278,7 +293,8 @@ contains
             outer = number_polynomial(self%atoms(atom)%exponent)*atom_power(atom, 1)*other
         case default
             select case (self%atoms(atom)%which)
-            case (f_abs); outer = argument*atom_power(atom, -1)
+            case (f_abs); call self%function_of(f_sgn, argument, outer)
+            case (f_sgn); return  ! 0 but at the jump
             case (f_atan); call self%inverse(whole_polynomial(1) + argument*argument, outer)
             case (f_cos)
                 call self%function_of(f_sin, argument, outer)
@@ -298,8 +314,8 @@ contains
     end subroutine atom_derivative
 
     pure recursive subroutine substitute(self, p, names, values, q)
-        !! `values` in place of names, in functions, too. What divides by zero marks the algebra
-        !! as full.
+        !! `values` in place of names, in functions, too. What divides by zero, or jumps there,
+        !! marks the algebra as full.
         class(algebra_t), intent(inout) :: self
         type(polynomial_t), intent(in) :: p          !! any
         integer, intent(in) :: names(:)              !! symbols
@@ -307,9 +323,11 @@ contains
         type(polynomial_t), intent(out) :: q         !! without these names
         type(polynomial_t) :: factor, many, term
         integer :: i, k, powers(most_atoms)
+        logical :: jumps
 
         do i = 1, p%terms
             powers = 0
+            jumps = .false.
             term = whole_polynomial(1)
             do k = 1, most_atoms
                 if (p%power(k, i) == 0) cycle
@@ -318,10 +336,15 @@ contains
                     cycle
                 end if
                 call self%replaced(k, names, values, factor)
+                if (factor%terms == 0 .and. is_function(self%atoms(k), f_sgn)) then
+                    jumps = .true.
+                    cycle
+                end if
                 call self%raised(factor, p%power(k, i), many)
                 term = term*many
             end do
-            q = q + term%shifted(p%coefficient(i), powers)
+            if (jumps .and. term%terms > 0) self%full = .true.
+            if (.not. jumps) q = q + term%shifted(p%coefficient(i), powers)
         end do
     end subroutine substitute
 

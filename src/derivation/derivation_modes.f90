@@ -105,8 +105,8 @@ contains
         end if
         call linearise(self, at, resting, mass, gyroscopic, stiffness, of_position)
         if (self%algebra%full) then
-            call self%add_words("not linearised: a derivative divides by zero at rest, or has "// &
-                                "too many terms")
+            call self%add_words("not linearised: a derivative jumps or divides by zero at "// &
+                                "rest, or has too many terms")
             return
         end if
         away = any(abs(modes%at) > 0.0_dp) .and. .not. any_place(at)

@@ -79,8 +79,8 @@ contains
                        "constraint_length, coordinate, cos, cosh, description_t, dp, exp, "// &
                        "formula_length, hyperdual_t, lagrangian_system_t, lanes, letter_t, "// &
                        "log, mass_point, nonnegative, operator(*), operator(**), operator(+), "// &
-                       "operator(-), operator(/), positive, quantity, real_number, sin, "// &
-                       "sine_cosine, sinh, sqrt, tan, tanh")
+                       "operator(-), operator(/), positive, quantity, real_number, sgn, "// &
+                       "sin, sine_cosine, sinh, sqrt, tan, tanh")
         call lines%add(4, "implicit none (type, external)")
         call lines%add(4, "private")
         call lines%add(4, "public :: "//name//"_t")

@@ -1,8 +1,8 @@
 module lagrangia_atoms
     use lagrangia_exact_number, only: number_of
     !! What products consist of, each once, in the order in which factors stand on the page.
-    use lagrangia_expression, only: f_abs, f_atan, f_cos, f_cosh, f_exp, f_log, f_sin, f_sinh, &
-                                    f_sqrt, f_tan, f_tanh
+    use lagrangia_expression, only: f_abs, f_atan, f_cos, f_cosh, f_exp, f_log, f_sgn, f_sin, &
+                                    f_sinh, f_sqrt, f_tan, f_tanh
     use lagrangia_kinds, only: dp
     use lagrangia_monomials, only: atom_function, atom_number_pi, atom_power, atom_sum, &
                                    atom_symbol, atom_t, class_acceleration, class_coordinate, &
@@ -24,8 +24,8 @@ module lagrangia_atoms
         integer, allocatable :: rank(:)      !! within its class: masses, g and k, others
     end type table_t
 
-    integer, parameter :: preferred(11) = [f_abs, f_sqrt, f_exp, f_log, f_sin, f_cos, f_tan, &
-        f_sinh, f_cosh, f_tanh, f_atan]  !! the order of functions in a product
+    integer, parameter :: preferred(12) = [f_abs, f_sgn, f_sqrt, f_exp, f_log, f_sin, f_cos, &
+        f_tan, f_sinh, f_cosh, f_tanh, f_atan]  !! the order of functions in a product
 
 contains
 

@@ -2,9 +2,9 @@ module lagrangia_derivative
     !! Derivatives of formulas, exact and unsimplified: by a symbol, and by the time along a motion.
     use lagrangia_exact_number, only: number_of, number_t, operator(-), ratio
     use lagrangia_expression, only: expression_t, f_abs, f_atan, f_cos, f_cosh, f_exp, f_log, &
-                                    f_sin, f_sinh, f_sqrt, f_tan, kind_difference, kind_function, &
-                                    kind_negation, kind_number, kind_power, kind_product, &
-                                    kind_quotient, kind_sum, kind_symbol
+                                    f_sgn, f_sin, f_sinh, f_sqrt, f_tan, kind_difference, &
+                                    kind_function, kind_negation, kind_number, kind_power, &
+                                    kind_product, kind_quotient, kind_sum, kind_symbol
     use lagrangia_kinds, only: dp, i8
     implicit none (type, external)
     private
@@ -63,6 +63,8 @@ contains
                 else if (of(node%left) > 0 .or. of(node%right) > 0) then
                     if (node%kind == kind_function) then
                         call chain(all, i, of(node%left), of(i))
+                    else if (is_power_of_modulus(expression, i)) then
+                        call power_of_modulus(all, i, of(expression%nodes(node%left)%left), of(i))
                     else if (node%kind == kind_power) then
                         call power(all, i, of(node%left), of(node%right), of(i))
                     else
@@ -200,6 +202,43 @@ contains
         call join(all, kind_sum, first, second, node)
     end subroutine power
 
+    pure function is_power_of_modulus(all, i) result(yes)
+        !! Is the node \(|u|^n\) with a number \(n \ge 2\)?
+        type(expression_t), intent(in) :: all
+        integer, intent(in) :: i
+        logical :: yes
+
+        yes = all%nodes(i)%kind == kind_power
+        if (.not. yes) return
+        associate (base => all%nodes(all%nodes(i)%left), exponent => all%nodes(all%nodes(i)%right))
+            yes = base%kind == kind_function .and. base%which == f_abs .and. &
+                  exponent%kind == kind_number
+            if (yes) yes = exponent%number%value >= 2.0_dp
+        end associate
+    end function is_power_of_modulus
+
+    pure subroutine power_of_modulus(all, i, inner, node)
+        !! \((|u|^n)' = n |u|^{n-2} u u'\): smooth at \(u = 0\), where no sign is asked for.
+        type(expression_t), intent(inout) :: all
+        integer, intent(in) :: i, inner  !! the power; u', not 0
+        integer, intent(out) :: node
+        integer :: a, b, factor, less, power, slope
+        type(number_t) :: exponent
+
+        a = all%nodes(i)%left
+        b = all%nodes(i)%right
+        call product(all, b, all%nodes(a)%left, factor)
+        exponent = all%nodes(b)%number - number_of(2.0_dp)
+        slope = factor
+        if (exponent%value > 0.0_dp) then
+            call all%add_number(exponent, less)
+            power = a
+            if (.not. is_one(all, less)) call all%add_operation(kind_power, a, less, power)
+            call product(all, power, factor, slope)
+        end if
+        call product(all, slope, inner, node)
+    end subroutine power_of_modulus
+
     pure subroutine chain(all, i, inner, node)
         !! \(f(a)' = f'(a)\,a'\).
         type(expression_t), intent(inout) :: all
@@ -227,8 +266,10 @@ contains
         case (f_log)
             call all%add_operation(kind_quotient, inner, a, node)
         case (f_abs)
-            call all%add_operation(kind_quotient, a, i, outer)
+            call all%add_operation(kind_function, a, 0, outer, f_sgn)
             call product(all, outer, inner, node)
+        case (f_sgn)
+            node = 0  ! but at the jump
         case (f_sqrt)
             call whole(all, 2, two)
             call all%add_operation(kind_product, two, i, denominator)

@@ -2,8 +2,8 @@ module lagrangia_elementary
     !! Functions of sums: odd and even ones of what begins with a plus, plain values as numbers.
     use lagrangia_atoms, only: find_atom, single_factor, table_t
     use lagrangia_exact_number, only: number_of, number_t, operator(*), ratio
-    use lagrangia_expression, only: f_abs, f_atan, f_cos, f_cosh, f_exp, f_sin, f_sinh, f_sqrt, &
-                                    f_tan, f_tanh
+    use lagrangia_expression, only: f_abs, f_atan, f_cos, f_cosh, f_exp, f_sgn, f_sin, f_sinh, &
+                                    f_sqrt, f_tan, f_tanh
     use lagrangia_kinds, only: dp, i8
     use lagrangia_monomials, only: atom_function, sum_t
     use lagrangia_sums, only: constant_sum, is_constant, scaled
@@ -28,7 +28,7 @@ contains
         positive = argument
         if (argument%count == 0) then
             select case (which)
-            case (f_abs, f_sin, f_sinh, f_tan, f_tanh, f_atan, f_sqrt)
+            case (f_abs, f_sgn, f_sin, f_sinh, f_tan, f_tanh, f_atan, f_sqrt)
                 f = constant_sum(number_t())
                 return
             case (f_cos, f_cosh, f_exp)
@@ -39,7 +39,7 @@ contains
             end select
         else if (argument%terms(1)%coefficient%value < 0.0_dp) then
             select case (which)
-            case (f_sin, f_sinh, f_tan, f_tanh, f_atan)
+            case (f_sgn, f_sin, f_sinh, f_tan, f_tanh, f_atan)
                 sign_of = -1.0_dp
                 positive = scaled(argument, number_of(-1.0_dp))
             case (f_abs, f_cos, f_cosh)
@@ -52,6 +52,9 @@ contains
             associate (c => positive%terms(1)%coefficient)
                 if (which == f_abs) then
                     f = positive
+                    return
+                else if (which == f_sgn) then
+                    f = constant_sum(number_of(sign_of))
                     return
                 else if (which == f_sqrt .and. c%is_exact() .and. c%value > 0.0_dp) then
                     root = ratio(nint(sqrt(real(c%numerator, dp)), i8), &

@@ -4,6 +4,7 @@ module lagrangia_expression
     !! Nodes may be shared, so that a derivative grows no faster than its formula. Symbols are
     !! numbers, the places of their names in a `symbols_t`.
     use lagrangia_exact_number, only: number_of, number_t, ratio
+    use lagrangia_hyperdual, only: sgn
     use lagrangia_kinds, only: dp, i8
     implicit none (type, external)
     private
@@ -12,7 +13,8 @@ module lagrangia_expression
     public :: operator(+), operator(-), operator(*), operator(/), operator(**)
     public :: kind_number, kind_symbol, kind_sum, kind_difference, kind_product, kind_quotient, &
               kind_power, kind_negation, kind_function
-    public :: f_abs, f_atan, f_cos, f_cosh, f_exp, f_log, f_sin, f_sinh, f_sqrt, f_tan, f_tanh
+    public :: f_abs, f_atan, f_cos, f_cosh, f_exp, f_log, f_sgn, f_sin, f_sinh, f_sqrt, f_tan, &
+        f_tanh
     public :: function_names, function_value, is_function_name
 
     integer, parameter :: kind_number = 0, kind_symbol = 1
@@ -22,9 +24,9 @@ module lagrangia_expression
     integer, parameter :: kind_function = 8   !! of `left`
 
     integer, parameter :: f_abs = 1, f_atan = 2, f_cos = 3, f_cosh = 4, f_exp = 5, f_log = 6, &
-                          f_sin = 7, f_sinh = 8, f_sqrt = 9, f_tan = 10, f_tanh = 11
-    character(4), parameter :: function_names(11) = [character(4) :: &
-        "abs", "atan", "cos", "cosh", "exp", "log", "sin", "sinh", "sqrt", "tan", "tanh"]
+                          f_sgn = 7, f_sin = 8, f_sinh = 9, f_sqrt = 10, f_tan = 11, f_tanh = 12
+    character(4), parameter :: function_names(12) = [character(4) :: "abs", "atan", "cos", "cosh", &
+        "exp", "log", "sgn", "sin", "sinh", "sqrt", "tan", "tanh"]
     !! in the order of their numbers
 
     type :: node_t
@@ -137,6 +139,7 @@ contains
         case (f_cosh); y = cosh(x)
         case (f_exp); y = exp(x)
         case (f_log); y = log(x)
+        case (f_sgn); y = sgn(x)
         case (f_sin); y = sin(x)
         case (f_sinh); y = sinh(x)
         case (f_sqrt); y = sqrt(x)

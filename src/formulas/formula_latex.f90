@@ -1,7 +1,7 @@
 module lagrangia_formula_latex
     !! Formulas in LaTeX, for slides: `\frac{m}{2} \ell^{2} \dot{\theta}_{1}^{2} + m g \cos\theta`.
-    use lagrangia_expression, only: expression_t, f_abs, f_atan, f_exp, f_log, f_sqrt, &
-                                    function_names, kind_difference, kind_function, &
+    use lagrangia_expression, only: expression_t, f_abs, f_atan, f_exp, f_log, f_sgn, &
+                                    f_sqrt, function_names, kind_difference, kind_function, &
                                     kind_negation, kind_number, kind_power, kind_product, &
                                     kind_quotient, kind_sum, kind_symbol
     use lagrangia_formula_text, only: number_in_formula, rank_factor, rank_of, rank_power, &
@@ -104,7 +104,8 @@ contains
                 shown = "\"//trim(function_names(which))
                 if (which == f_log) shown = "\ln"
                 if (which == f_atan) shown = "\arctan"
-                if (expression%nodes(argument)%kind == kind_symbol) then
+                if (which == f_sgn) shown = "\operatorname{sgn}"
+                if (expression%nodes(argument)%kind == kind_symbol .and. which /= f_sgn) then
                     shown = shown//power//" "//texts(argument)%text
                 else
                     shown = shown//power//bracketed(texts(argument)%text)

@@ -4,7 +4,7 @@ module lagrangia_formula_program
     !! Evaluation is a loop over instructions; it allocates nothing as long as the formulas need no
     !! more registers than there is room for on the stack.
     use lagrangia_expression, only: expression_t, f_abs, f_atan, f_cos, f_cosh, f_exp, f_log, &
-                                    f_sin, f_sinh, f_sqrt, f_tan
+                                    f_sgn, f_sin, f_sinh, f_sqrt, f_tan
     use lagrangia_formula_code, only: code_t, op_add, op_divide, op_function, op_multiply, &
                                       op_multiply_add, op_multiply_subtract, op_negate, op_power, &
                                       op_product, op_sin_cos, op_subtract, op_subtract_product, &
@@ -12,7 +12,7 @@ module lagrangia_formula_program
     use lagrangia_formula_compiler, only: compile
     use lagrangia_hyperdual, only: abs, assignment(=), atan, cos, cosh, exp, hyperdual_t, log, &
                                    operator(*), operator(**), operator(+), operator(-), &
-                                   operator(/), sin, sinh, sqrt, tan, tanh
+                                   operator(/), sgn, sin, sinh, sqrt, tan, tanh
     use lagrangia_kinds, only: dp, lanes
     use lagrangia_sine_cosine, only: sine_cosine
     implicit none (type, external)
@@ -138,6 +138,7 @@ contains
                 case (op_function + f_cosh); r(step%target) = cosh(r(step%a))
                 case (op_function + f_exp); r(step%target) = exp(r(step%a))
                 case (op_function + f_log); r(step%target) = log(r(step%a))
+                case (op_function + f_sgn); r(step%target) = sgn(r(step%a))
                 case (op_function + f_sin); r(step%target) = sin(r(step%a))
                 case (op_function + f_sinh); r(step%target) = sinh(r(step%a))
                 case (op_function + f_sqrt); r(step%target) = sqrt(r(step%a))
@@ -209,6 +210,7 @@ contains
                 case (op_function + f_cosh); r(step%target) = cosh(r(step%a))
                 case (op_function + f_exp); r(step%target) = exp(r(step%a))
                 case (op_function + f_log); r(step%target) = log(r(step%a))
+                case (op_function + f_sgn); r(step%target) = sgn(r(step%a))
                 case (op_function + f_sin); r(step%target) = sin(r(step%a))
                 case (op_function + f_sinh); r(step%target) = sinh(r(step%a))
                 case (op_function + f_sqrt); r(step%target) = sqrt(r(step%a))
@@ -284,6 +286,7 @@ contains
                 case (op_function + f_cosh); x = cosh(r(:, step%a))
                 case (op_function + f_exp); x = exp(r(:, step%a))
                 case (op_function + f_log); x = log(r(:, step%a))
+                case (op_function + f_sgn); x = sgn(r(:, step%a))
                 case (op_function + f_sin); call sine_cosine(r(:, step%a), x, y)
                 case (op_function + f_sinh); x = sinh(r(:, step%a))
                 case (op_function + f_sqrt); x = sqrt(r(:, step%a))

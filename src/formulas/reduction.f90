@@ -8,6 +8,7 @@ module lagrangia_reduction
     use lagrangia_kinds, only: dp
     use lagrangia_monomials, only: atom_function, atom_sum, inverse, multiply, power_of, sum_t, &
                                    term_t, without
+    use lagrangia_signs, only: join_signs
     use lagrangia_sums, only: add_term, common_factor, constant_sum, divide_exactly, equal_sums, &
                               plus, raise, times
     implicit none (type, external)
@@ -118,6 +119,9 @@ contains
 
         if (.not. allocated(s%terms)) allocate (s%terms(1))
         do trial = 1, most
+            call join_signs(table, s, changed, fits)
+            if (.not. fits) return
+            if (changed) cycle
             call multiply_out(table, s, changed, fits)
             if (.not. fits) return
             if (changed) cycle

@@ -4,12 +4,13 @@ module lagrangia_dop853
     !!
     !! Source: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.:
     !! secs. II.4 (starting step, PI step control), II.6 (dense output), II.10 (error estimate).
-    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_dop853_control, only: first_step, least_error, next_step
     use lagrangia_dop853_stages, only: extra_stages, inside_step, scaled_error, slope, stages
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_integrator, only: dense_integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_step_ends, only: end_step
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -81,7 +82,7 @@ contains
             self%y0 = self%y
             call slope(system, system%ndof, t0 + i*dt, self%y0, self%k(:, 1))
             call stages(system, system%ndof, t0 + i*dt, dt, self%y0, self%k, self%y)
-            call keep(self, system, t0 + (i + 1)*dt)
+            call keep(self, system, t0 + i*dt, t0 + (i + 1)*dt)
         end do
         self%evaluations = self%evaluations + 12*steps
         q = self%y(:system%ndof)
@@ -138,8 +139,9 @@ contains
             if (retry) next = min(next, self%h)
             self%h = next
             if (scaled <= 1.0_dp) then
+                call keep(self, system, self%t_old, self%t_old + h)
+                if (.not. all(ieee_is_finite(self%y))) exit
                 self%accepted = self%accepted + 1
-                call keep(self, system, self%t_old + h)
                 call finish(self, system, h)
                 self%t_new = self%t_old + h
                 if (last) self%t_new = self%t_end
@@ -150,19 +152,27 @@ contains
         end do
         self%y = self%y0
         self%t_new = self%t_old
+        if (self%failure_reason /= "") then
+            call fail(error, "no step goes on from t = "//to_text(self%t_old)//" s: "// &
+                      trim(self%failure_reason), status_numbers)
+            return
+        end if
         call fail(error, "no step is small enough at t = "//to_text(self%t_old)//" s for the "// &
                   "tolerance "//to_text(self%tolerance)//": the motion is singular there or "// &
                   "grows beyond all numbers, or the tolerance is too small", status_numbers)
     end subroutine step
 
-    pure subroutine keep(self, system, t)
-        !! The end of a step back onto the constraints.
+    pure subroutine keep(self, system, t_old, t)
+        !! The end of a step back onto the constraints; NaN where they do not say how it goes on.
         class(dop853_t), intent(inout) :: self
         class(system_t), intent(in) :: system
-        real(dp), intent(in) :: t
+        real(dp), intent(in) :: t_old, t
 
         if (.not. system%is_projected) return
-        call system%keep_constraints(t, self%y(:system%ndof), self%y(system%ndof + 1:))
+        associate (n => system%ndof)
+            call end_step(system, t_old, self%y0(:n), self%y0(n + 1:), t, self%y(:n), &
+                                 self%y(n + 1:), self%failure_reason)
+        end associate
     end subroutine keep
 
     pure subroutine finish(self, system, h)

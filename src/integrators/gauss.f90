@@ -10,6 +10,7 @@ module lagrangia_gauss
     use lagrangia_gauss_tables, only: stages
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_step_ends, only: end_step
     use lagrangia_system, only: system_t
     implicit none (type, external)
     private
@@ -82,6 +83,7 @@ contains
         real(dp), intent(in) :: t0, dt
         integer(i8), intent(in) :: first, steps
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+        real(dp), dimension(system%ndof) :: q_old, v_old
         integer(i8) :: k
         integer :: sweeps
         logical :: good
@@ -92,6 +94,10 @@ contains
         self%s%q(:) = q
         self%s%v(:) = v
         do k = first, first + steps - 1
+            if (system%is_projected) then
+                q_old = self%s%q
+                v_old = self%s%v
+            end if
             call self%s%guess(t0 + k*dt, dt)
             call solve(self%s, system, self%unmeasured, self%weight, sweeps, good)
             self%evaluations = self%evaluations + stages*min(sweeps, most_sweeps)
@@ -101,8 +107,9 @@ contains
             call self%s%reach(fully=.true.)
             call self%s%finish()
             if (.not. good) exit
-            if (system%is_projected) call system%keep_constraints(t0 + (k + 1)*dt, self%s%q, &
-                                                                     self%s%v)
+            if (system%is_projected) call end_step(system, t0 + k*dt, q_old, v_old, &
+                                                          t0 + (k + 1)*dt, self%s%q, self%s%v, &
+                                                          self%failure_reason)
         end do
         q = self%s%q
         v = self%s%v

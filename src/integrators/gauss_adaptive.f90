@@ -7,7 +7,7 @@ module lagrangia_gauss_adaptive
     !! - *Steps* are as long as the error allows, but not so long that sweeps would converge
     !!   slowly: a sweep wins a factor of about \((h/h_0)^2\), and \((1/h)/\log(h_0/h)\) sweeps a
     !!   second are fewest where that factor is \(e^{-2}\). Where sweeps diverge the step is halved.
-    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
     use lagrangia_errors, only: error_t, fail, status_numbers
     use lagrangia_gauss_control, only: longer, seen_whole, weigh
     use lagrangia_gauss_dense, only: gauss_dense_t
@@ -15,6 +15,7 @@ module lagrangia_gauss_adaptive
     use lagrangia_gauss_tables, only: stages
     use lagrangia_integrator, only: dense_integrator_t, not_started
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_step_ends, only: end_step
     use lagrangia_system, only: system_t
     use lagrangia_text, only: to_text
     implicit none (type, external)
@@ -141,8 +142,14 @@ contains
         call self%refuse_system(system, refused, error=error)
         if (refused) return
         call take_whole_step(self, system, good)
-        if (.not. good) call fail(error, "no step is small enough at t = "//to_text(self%t_new)// &
-                  " s: the motion diverges or is not smooth there (try dop853)", status_numbers)
+        if (good) return
+        if (self%failure_reason /= "") then
+            call fail(error, "no step goes on from t = "//to_text(self%t_new)//" s: "// &
+                      trim(self%failure_reason), status_numbers)
+        else
+            call fail(error, "no step is small enough at t = "//to_text(self%t_new)// &
+                      " s: the motion diverges or is not smooth there (try dop853)", status_numbers)
+        end if
     end subroutine step
 
     pure subroutine take_whole_step(self, system, good)
@@ -189,6 +196,7 @@ contains
         class(gauss_adaptive_t), intent(inout) :: self
         class(system_t), intent(in) :: system
         logical, intent(out) :: good
+        real(dp), dimension(self%s%n) :: q_old, v_old
         real(dp) :: h, to, ratio, grow
         integer :: sweeps
         logical :: cut
@@ -223,9 +231,18 @@ contains
                 self%evaluations = self%evaluations + 1
             end if
         end do
+        q_old = self%s%q
+        v_old = self%s%v
         call self%s%finish()
         if (system%is_projected) then
-            call system%keep_constraints(to, self%s%q, self%s%v)
+            call end_step(system, self%t_new, q_old, v_old, to, self%s%q, self%s%v, &
+                                 self%failure_reason)
+            good = all(ieee_is_finite(self%s%q))
+            if (.not. good) then
+                call self%s%place(system, self%t_new, q_old, v_old)
+                self%evaluations = self%evaluations + 1
+                return
+            end if
             call system%accelerations(to, self%s%q, self%s%v, self%s%end)
             self%evaluations = self%evaluations + 1
         end if

@@ -7,6 +7,7 @@ module lagrangia_rk4
     use lagrangia_errors, only: error_t
     use lagrangia_integrator, only: integrator_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_step_ends, only: end_step
     use lagrangia_summation, only: add, add_pair
     use lagrangia_system, only: system_t
     implicit none (type, external)
@@ -162,16 +163,23 @@ contains
         real(dp), intent(in) :: t0, dt
         integer(i8), intent(in) :: first, steps
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+        real(dp), dimension(system%ndof) :: q_old, v_old
         integer(i8) :: k
         logical :: refused
 
         call self%refuse_system(system, refused, q, v)
         if (refused) return
         do k = first, first + steps - 1
+            if (system%is_projected) then
+                q_old = q
+                v_old = v
+            end if
             call stages(self, system, t0 + k*dt, dt, q, v)
             call finish(system%ndof, dt/6.0_dp, v, self%v2, self%v3, self%v4, q)
             call finish(system%ndof, dt/6.0_dp, self%a1, self%a2, self%a3, self%a4, v)
-            if (system%is_projected) call system%keep_constraints(t0 + (k + 1)*dt, q, v)
+            if (system%is_projected) call end_step(system, t0 + k*dt, q_old, v_old, &
+                                                          t0 + (k + 1)*dt, q, v, &
+                                                          self%failure_reason)
         end do
         self%evaluations = self%evaluations + 4*steps
     end subroutine advance
@@ -183,17 +191,24 @@ contains
         real(dp), intent(in) :: t0, dt
         integer(i8), intent(in) :: first, steps
         real(dp), intent(inout) :: q(system%ndof), v(system%ndof)
+        real(dp), dimension(system%ndof) :: q_old, v_old
         integer(i8) :: k
         logical :: refused
 
         call self%refuse_system(system, refused, q, v)
         if (refused) return
         do k = first, first + steps - 1
+            if (system%is_projected) then
+                q_old = q
+                v_old = v
+            end if
             call stages(self, system, t0 + k*dt, dt, q, v)
             call add_pair(q, self%q_low, dt/6.0_dp*(v + 2.0_dp*(self%v2 + self%v3) + self%v4), &
                           dt*self%v_low)
             call add(v, self%v_low, dt/6.0_dp*(self%a1 + 2.0_dp*(self%a2 + self%a3) + self%a4))
-            if (system%is_projected) call system%keep_constraints(t0 + (k + 1)*dt, q, v)
+            if (system%is_projected) call end_step(system, t0 + k*dt, q_old, v_old, &
+                                                          t0 + (k + 1)*dt, q, v, &
+                                                          self%failure_reason)
         end do
         self%evaluations = self%evaluations + 4*steps
     end subroutine advance_compensated

@@ -8,7 +8,7 @@ module lagrangia_eigen
     use lagrangia_text, only: to_text
     implicit none (type, external)
     private
-    public :: norm1, normal_modes, modes_from_factors, residual_ratio
+    public :: norm1, normal_modes, modes_from_factors, out_of_range, residual_ratio
 
     integer, parameter :: small = 32  !! up to here dsygv is the faster one
     real(dp), parameter :: graded = 1.0_dp/16.0_dp
@@ -212,7 +212,7 @@ contains
 
     pure subroutine out_of_range(error)
         !! Where products of what is given overflow.
-        type(error_t), allocatable, intent(out) :: error
+        type(error_t), allocatable, intent(out) :: error  !! status 4
 
         call fail(error, "M or K, or omega^2, is beyond the range of doubles: other units are "// &
                   "needed", status_library)

@@ -14,7 +14,8 @@ module lagrangia_hyperdual
     public :: hyperdual_t, hyperdual, assignment(=)
     public :: operator(+), operator(-), operator(*), operator(/), operator(**)
     public :: operator(<), operator(>)
-    public :: abs, atan, cos, cosh, dot_product, exp, log, sin, sinh, sqrt, sum, tan, tanh
+    public :: abs, atan, cos, cosh, dot_product, exp, log, sgn, sin, sinh, sqrt, sum, tan, &
+              tanh
 
     interface operator(**)
         module procedure power_hi, power_hr, power_hh, power_rh, power_ih
@@ -47,6 +48,10 @@ module lagrangia_hyperdual
     interface log
         module procedure log_h
     end interface log
+
+    interface sgn
+        module procedure sgn_h, sgn_r
+    end interface sgn
 
     interface sin
         module procedure sin_h
@@ -190,6 +195,23 @@ contains
 
         r = chain(x, log(x%re), 1.0_dp/x%re, -1.0_dp/x%re**2)
     end function log_h
+
+    elemental function sgn_h(x) result(r)
+        !! Without a derivative, also at 0, where it jumps.
+        type(hyperdual_t), intent(in) :: x  !! any
+        type(hyperdual_t) :: r
+
+        r = sgn_r(x%re)
+    end function sgn_h
+
+    elemental function sgn_r(x) result(r)
+        !! \(x/|x|\), and 0 at 0.
+        real(dp), intent(in) :: x  !! any
+        real(dp) :: r
+
+        r = x
+        if (abs(x) > 0.0_dp) r = sign(1.0_dp, x)
+    end function sgn_r
 
     elemental function sin_h(x) result(r)
         type(hyperdual_t), intent(in) :: x  !! rad

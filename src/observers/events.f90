@@ -128,6 +128,11 @@ contains
             self%place = "where "//trim(words(1))//" ="//level
         end if
         do i = i, count
+            if (self%direction /= 0 .and. any(words(i) == ["rising ", "falling"])) then
+                call fail(error, "rising or falling, not both: without these words an event is "// &
+                          "found both ways")
+                return
+            end if
             select case (words(i))
             case ("rising"); self%direction = 1
             case ("falling"); self%direction = -1

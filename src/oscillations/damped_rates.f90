@@ -49,6 +49,7 @@ contains
         real(dp), dimension(size(modes%omega2)) :: column
         real(dp) :: none(1, 1), nothing(1, 1), work(40*size(modes%omega2) + 100)
         logical :: left(2*size(modes%omega2))
+        real(dp) :: noise
         integer :: j, n, info
 
         n = size(modes%omega2)
@@ -74,6 +75,9 @@ contains
                       status_library)
             return
         end if
+        noise = 16*n*epsilon(noise)*maxval(hypot(re, im))
+        where (abs(re) <= noise) re = 0.0_dp
+        where (abs(im) <= noise) im = 0.0_dp
         left = im >= 0.0_dp
         allocate (lambda(0))
         do while (any(left))

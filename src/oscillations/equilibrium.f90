@@ -1,14 +1,19 @@
 module lagrangia_equilibrium
     !! Places where a system can rest, and L to second order about them.
+    use lagrangia_derivative, only: derivative
     use lagrangia_description, only: description_t, sizes_of_places
     use lagrangia_errors, only: error_t, fail
+    use lagrangia_expression, only: expression_t, operator(+)
+    use lagrangia_formula_program, only: formula_program_t, new_formula_program
     use lagrangia_generalised_forces, only: add_generalised_forces
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_lapack, only: solve_linear
+    use lagrangia_magnitude, only: magnitude
     use lagrangia_system, only: system_t
     use lagrangia_tangent_space, only: find_tangent, tangent_t, within
     use lagrangia_text, only: to_text
+    use lagrangia_written_system, only: written_system_t
     implicit none (type, external)
     private
     public :: expand_at_rest, force_at_rest, settle, stiffness_beside
@@ -76,7 +81,8 @@ contains
         !! Newton's method, until \(|F_i| \le 8\epsilon(\sum_j|K_{ij}|\max(s_j, |q_j|)
         !! + \sum_k|A_{ki}\lambda_k|)\) or the step is rounding. No step is made by a force along
         !! which K has no stiffness, as on an incline: then \(|s_i F_i|\) is more than 1e-10 of the
-        !! largest of those sums times \(s_i\), and the place is none.
+        !! largest of those sums times \(s_i\), and the place is none. Where K has no stiffness at
+        !! all, the sum is that of the sizes of the forces, which may cancel.
         class(system_t), intent(in) :: system
         real(dp), intent(in) :: usual(:)  !! \(s_i\), typical sizes
         real(dp), intent(inout) :: q(:)
@@ -84,9 +90,10 @@ contains
         type(error_t), allocatable :: singular
         type(tangent_t) :: tangent
         real(dp), dimension(size(q), size(q)) :: m, k, g
-        real(dp), dimension(size(q)) :: f, step, onto, rounding
+        real(dp), dimension(size(q)) :: constant, f, step, onto, rounding
         integer :: i
 
+        constant = terms_at_rest(system, q)
         onto = 0.0_dp
         do i = 1, 50
             call expand_at_rest(system, q, m, k, g)
@@ -94,6 +101,7 @@ contains
             k = k + m
             f = force_at_rest(system, q)
             rounding = matmul(abs(k), max(usual, abs(q)))
+            where (rounding <= 0.0_dp) rounding = constant
             if (system%constraints > 0) then
                 call constrain(system, q, f, k, rounding, onto, tangent, singular)
                 if (allocated(singular)) exit
@@ -225,6 +233,29 @@ contains
         call system%keep_constraints(0.0_dp, there, at_rest)
         onto = there - q
     end subroutine constrain
+
+    pure function terms_at_rest(system, q) result(sizes)
+        !! The sizes of the terms that add up to the forces, as far as formulas tell: else zeros.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: q(:)
+        real(dp) :: sizes(size(q))
+        type(formula_program_t) :: program
+        type(expression_t) :: terms(size(q))
+        integer :: i
+
+        sizes = 0.0_dp
+        select type (system)
+        class is (written_system_t)
+            associate (e => system%expressions)
+                do i = 1, size(q)
+                    terms(i) = magnitude(derivative(e%lagrangian, 1 + i)) &
+                               + magnitude(e%forces(i))
+                end do
+                call new_formula_program(program, terms, size(e%symbols%names))
+                call program%evaluate([0.0_dp, q, 0.0_dp*q, system%p], sizes)
+            end associate
+        end select
+    end function terms_at_rest
 
     pure function force_at_rest(system, q) result(f)
         !! \(\partial L/\partial q + Q\) at rest.

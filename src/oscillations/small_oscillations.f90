@@ -7,7 +7,7 @@ module lagrangia_small_oscillations
     use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
     use lagrangia_counted, only: counted
     use lagrangia_description, only: description_t, name_length
-    use lagrangia_eigen, only: modes_from_factors, residual_ratio
+    use lagrangia_eigen, only: modes_from_factors, out_of_range, residual_ratio
     use lagrangia_equilibrium, only: expand_at_rest, force_at_rest, settle
     use lagrangia_errors, only: error_t, fail
     use lagrangia_gyroscopic, only: gyroscopic_modes, gyroscopic_ratio, is_steady
@@ -141,11 +141,16 @@ contains
         !! The eigenproblem of M, G and K.
         type(modes_t), intent(inout) :: modes
         type(error_t), allocatable, intent(out) :: error
+        integer :: i
 
         if (any(abs(modes%gyroscopic) > 0.0_dp)) then
             call solve_gyroscopic(modes, error)
         else if (allocated(modes%analytic%root)) then
             modes%method = "dgejsv on the factors of K and M"
+            if (any([(modes%mass(i, i) < tiny(1.0_dp), i=1, size(modes%mass, 1))])) then
+                call out_of_range(error)  ! m l^2 is none, though the factors of M are numbers
+                return
+            end if
             call modes_from_factors(modes%analytic%root, modes%analytic%inverse, modes%omega2, &
                                     modes%shapes, error)
         else

@@ -6,6 +6,7 @@ module lagrangia_measures
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp
     use lagrangia_ledger, only: claim_t
+    use lagrangia_mass_matrix, only: list_of
     use lagrangia_outcome, only: outcome_t
     use lagrangia_period, only: period_t
     use lagrangia_record, only: sample_record_t
@@ -101,7 +102,10 @@ contains
 
         if (.not. scene%modes) return
         call find_modes(system, likely_equilibrium(system), .false., modes, error)
-        if (allocated(error)) return
+        if (allocated(error)) then
+            outcome%no_omega = error%message
+            return
+        end if
         do j = 1, size(modes%omega2)
             if (modes%label(j) /= is_oscillation) cycle
             if (outcome%omega <= 0.0_dp) then
@@ -113,5 +117,7 @@ contains
             outcome%omega_error = max(outcome%omega_error, &
                                       abs(sqrt(modes%analytic%omega2(j)/modes%omega2(j)) - 1.0_dp))
         end do
+        if (outcome%omega <= 0.0_dp) outcome%no_omega = "nothing "// &
+            "oscillates about q = "//list_of(modes%at)
     end subroutine take_modes
 end module lagrangia_measures

@@ -117,6 +117,8 @@ contains
             if (allocated(self%omega_formula)) call add(self%omega_formula, 12)
             if (self%omega_error >= 0.0_dp) call add("all frequencies: LAPACK and closed forms "// &
                 "differ by at most "//short(self%omega_error, 2), 12)
+        else if (allocated(self%no_omega)) then
+            call add("no frequencies: "//self%no_omega)
         end if
     contains
         subroutine judge(measure)

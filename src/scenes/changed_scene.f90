@@ -14,6 +14,8 @@ module lagrangia_changed_scene
     character(*), parameter :: same_motion(*) = [character(14) :: same_sweep, "every", "samples", &
         "period_of"]
     !! those that leave the motion as it is
+    character(*), parameter :: shown_only(*) = [character(11) :: "quantities", "equilibrium"]
+    !! keys of `&lagrangian` that do: columns, and where small oscillations are looked for
     integer, parameter :: longest = 120  !! bytes of what a file's name gets
 
 contains
@@ -146,13 +148,26 @@ contains
             if (group == "scene") then
                 given = given//key//" "
                 if (.not. present(same)) cycle
-                if (any(same == key) .or. index(key, "expect_") == 1) cycle
+                if (any(same == without_index(key)) .or. index(key, "expect_") == 1) cycle
+            else if (group == "lagrangian" .and. present(same)) then
+                if (any(shown_only == key(:index(key//"(", "(") - 1))) cycle
             else
                 key = as_described(key, names)
             end if
             call add(changes, key//"="//value)
         end do
     end subroutine read_changes
+
+    pure function without_index(key) result(name)
+        !! `columns` of `columns_2`, as `split` writes an element.
+        character(*), intent(in) :: key
+        character(:), allocatable :: name
+        integer :: last
+
+        last = index(key, "_", back=.true.)
+        name = key
+        if (last > 1 .and. verify(key(last + 1:), "0123456789:,") == 0) name = key(:last - 1)
+    end function without_index
 
     pure subroutine rename_output(scene, changes)
         !! The changes go before the ending of its file's name.

@@ -104,7 +104,13 @@ contains
         if (steps == every) return
         call apply_override(tree, group//"%every="//to_text(steps), error)
         if (remark /= "") remark = remark//"; "
-        remark = remark//"every = "//to_text(steps)//" leaves the rows as far apart as the file's"
+        if (steps*now > 1.5_dp*every*before) then
+            remark = remark//"every = "//to_text(steps)//": a row each "//to_text(now)// &
+                     " s, where the file has one each "//to_text(every*before)//" s"
+        else
+            remark = remark//"every = "//to_text(steps)//" leaves the rows as far apart as the "// &
+                     "file's"
+        end if
     end subroutine fit_rows
 
     subroutine fit_columns(tree, system, original, unchanged, remark, error)

@@ -1,9 +1,10 @@
 module lagrangia_scene_keys
     !! The keys of the group `&scene`, each checked as far as it can be by itself.
+    use lagrangia_characters, only: printable
     use lagrangia_columns, only: column_names, why_energy_changes
     use lagrangia_counted, only: counted
     use lagrangia_description, only: description_t, name_length
-    use lagrangia_errors, only: error_t
+    use lagrangia_errors, only: error_t, fail
     use lagrangia_kinds, only: dp, i8
     use lagrangia_namelist, only: get_integer, get_logical, get_real, get_reals, get_string, &
                                   get_strings, has_key, is_overridden, namelist_t, point_advice, &
@@ -23,6 +24,8 @@ module lagrangia_scene_keys
         "title", "system", "method", "compensated", "t0", "dt", "tolerance", "duration", "every", &
         "samples", "q", "v", "columns", "plot", "event", "event_columns", "event_plot", &
         "figure", "period_of", "modes", "error_estimate", "output"]
+    character(*), parameter :: good_names = "letters, digits, . _ - / and blanks, not "// &
+        "absolute, without '..', not ending in .gp, .html, .nml, .pdf, .png, .svg or .partial"
     integer, parameter :: key_length = name_length + len("expect_")
     integer, parameter :: most = 10000  !! values of one key
 
@@ -49,11 +52,8 @@ contains
         if (allocated(error)) return
         call get_positive("duration", scene%duration)
         if (allocated(error) .or. scene%tolerance > 0.0_dp) return
-        if (scene%dt > scene%duration) then
-            call refuse_value(tree, "scene", "dt", "is longer than the whole run, duration = "// &
-                              to_text(scene%duration), error)
-            return
-        end if
+        call check_steps(tree, scene, error)
+        if (allocated(error)) return
         steps = nint(min(scene%duration/scene%dt, 1e15_dp), i8)
         scene%every = max(1_i8, steps/1000)
         call get_count("every", scene%every)
@@ -224,11 +224,60 @@ contains
         scene%output = scene%name
         call get_string(tree, "scene", "output", scene%output, error)
         if (allocated(error)) return
-        if (bad_output(trim(scene%output))) call refuse_value(tree, "scene", "output", &
-            "a file name below the output folder is needed: letters, digits, . _ - / and "// &
-            "blanks, not absolute, without '..', not ending in .gp, .html, .nml, .pdf, .png, "// &
-            ".svg or .partial", error)
+        if (.not. bad_output(trim(scene%output))) return
+        if (has_key(tree, "scene", "output")) then
+            call refuse_value(tree, "scene", "output", "a file name below the output folder "// &
+                              "is needed: "//good_names, error)
+        else
+            call fail(error, printable(trim(scene%name))//": the data files of a scene have "// &
+                      "its name, and this one is none for them: "//good_names// &
+                      ", no - in front; give the scene an output, or its file another name")
+        end if
     end subroutine read_columns
+
+    subroutine check_steps(tree, scene, error)
+        !! Steps that are at most as long as the run, that can be counted, and that move the time.
+        !! To blame is what is set, and of what the file says the number that is out of the way.
+        type(namelist_t), intent(in) :: tree
+        type(scene_t), intent(in) :: scene
+        type(error_t), allocatable, intent(out) :: error
+        real(dp), parameter :: most_steps = 1e15_dp
+        real(dp), parameter :: far = 1e9_dp     !! s: thirty years
+        real(dp) :: count
+
+        count = scene%duration/scene%dt
+        if (count < 1.0_dp) then
+            if (blamed("duration", scene%duration < 1.0_dp/far)) then
+                call refuse_value(tree, "scene", "duration", "is shorter than a step, dt = "// &
+                                  to_text(scene%dt), error)
+            else
+                call refuse_value(tree, "scene", "dt", "is longer than the whole run, "// &
+                                  "duration = "//to_text(scene%duration), error)
+            end if
+        else if (count > most_steps) then
+            if (blamed("duration", scene%duration > far)) then
+                call refuse_value(tree, "scene", "duration", "in steps of dt = "// &
+                                  to_text(scene%dt)//" s takes "//to_text(count)// &
+                                  " of them, too many to count", error)
+            else
+                call refuse_value(tree, "scene", "dt", "duration/dt = "//to_text(count)// &
+                                  " steps are too many to count", error)
+            end if
+        else if (abs(scene%t0) + scene%dt <= abs(scene%t0) .and. blamed("t0", .false.)) then
+            call refuse_value(tree, "scene", "t0", "a step of dt = "//to_text(scene%dt)// &
+                              " s is too small to move the time there", error)
+        end if
+    contains
+        logical function blamed(other, unusual)
+            ! rather than dt
+            character(*), intent(in) :: other
+            logical, intent(in) :: unusual
+
+            blamed = is_overridden(tree, "scene", other) .or. unusual
+            if (is_overridden(tree, "scene", "dt")) blamed = .false.
+            blamed = blamed .and. has_key(tree, "scene", other)
+        end function blamed
+    end subroutine check_steps
 
     subroutine read_figure(tree, system, scene, error)
         !! How the scene is drawn, if it says so.

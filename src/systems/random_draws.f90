@@ -5,6 +5,8 @@ module lagrangia_random_draws
     use lagrangia_errors, only: error_t, fail
     use lagrangia_hyperdual, only: hyperdual_t
     use lagrangia_kinds, only: dp, i8
+    use lagrangia_lagrange, only: euler_lagrange_t, expand_lagrangian
+    use lagrangia_lapack, only: smallest_pivot
     use lagrangia_mass_matrix, only: list_of
     use lagrangia_system, only: default_values, system_t
     use lagrangia_text, only: to_text
@@ -18,6 +20,7 @@ module lagrangia_random_draws
     type :: random_t
         !! A sequence of numbers.
         integer(i8), private :: seed = first_seed
+        integer :: left_out = 0  !! states at which a mass matrix was not positive definite
     contains
         procedure :: start
         procedure :: uniform
@@ -107,7 +110,8 @@ contains
     subroutine state(self, system, t, q, v, error)
         !! A time, coordinates and velocities that the constraints beside L allow, in the typical
         !! sizes of the system. Where L is not finite at \(q\) and at \(1.2q\), other coordinates
-        !! are drawn, from a range 0.8 times as wide.
+        !! are drawn, from a range 0.8 times as wide; where the mass matrix is not positive
+        !! definite, from the same range, and if that is so everywhere such a state is what it is.
         class(random_t), intent(inout) :: self
         class(system_t), intent(in) :: system             !! configured
         real(dp), intent(out) :: t                        !! -2 to 3 typical times, s
@@ -142,7 +146,11 @@ contains
             end if
             call system%keep_constraints(t, q, v)
             call system%check_places(t, q, outside)
-            if (is_inside(system, t, q, v) .and. .not. allocated(outside)) return
+            if (is_inside(system, t, q, v) .and. .not. allocated(outside)) then
+                if (k > tries/2 .or. has_inertia(system, t, q, v)) return
+                self%left_out = self%left_out + 1
+                cycle
+            end if
             widest = 0.8_dp*widest
         end do
         if (allocated(outside)) then
@@ -168,4 +176,17 @@ contains
         outside = system%lagrangian(tt, qq, vv)
         yes = ieee_is_finite(here%re) .and. ieee_is_finite(outside%re)
     end function is_inside
+
+    pure function has_inertia(system, t, q, v) result(yes)
+        !! Is the mass matrix positive definite? With constraints it need not be.
+        class(system_t), intent(in) :: system
+        real(dp), intent(in) :: t, q(:), v(:)
+        logical :: yes
+        type(euler_lagrange_t) :: terms
+
+        yes = .true.
+        if (system%constraints > 0) return
+        call expand_lagrangian(system, t, q, v, terms)
+        yes = smallest_pivot(terms%mass) > 0.0_dp
+    end function has_inertia
 end module lagrangia_random_draws

@@ -26,7 +26,7 @@ module lagrangia_system
         logical :: time_dependent = .false.  !! L, a generalised force or a constraint has t in it
         logical :: nonconservative = .false. !! there are `generalised_forces`
         integer :: constraints = 0           !! rows of non-holonomic constraints
-        logical :: is_projected = .false.    !! steps end with `keep_constraints`
+        logical :: is_projected = .false.    !! steps end with `end_step`, on them
         logical :: constraints_work = .false.  !! one of \(A\dot q + b = 0\) has a \(b\) that is not
         !! zero, so that its reaction does work
         integer :: cyclic = 0                !! index of a coordinate that is neither in L nor has

@@ -1,0 +1,79 @@
+module test_audit_states
+    !! The states of the audit: where masses are positive, and what acts only somewhere else.
+    use funit, only: TestMethod, TestSuite, assertEqual, assertFalse, assertTrue
+    use lagrangia_audit, only: audit_system
+    use lagrangia_description, only: description_t
+    use lagrangia_errors, only: error_t
+    use lagrangia_kinds, only: dp
+    use lagrangia_ledger, only: ledger_t
+    use lagrangia_scene, only: scene_t
+    use lagrangia_scene_reader, only: parse_scene
+    use lagrangia_system, only: default_values, system_t
+    use lagrangia_text, only: word_t
+    implicit none (type, external)
+    private
+    public :: audit_states_suite
+
+contains
+
+    function audit_states_suite() result(suite)
+        !! The tests of this module.
+        type(TestSuite) :: suite
+
+        suite = TestSuite("audit_states")
+        call suite%addTest(TestMethod("masses_that_are_negative_elsewhere", &
+                                      masses_that_are_negative_elsewhere))
+        call suite%addTest(TestMethod("forces_that_are_narrow", forces_that_are_narrow))
+    end function audit_states_suite
+
+    subroutine audited(formulas, audit)
+        !! The audit of a system in formulas, as `check` does it with a scene.
+        character(*), intent(in) :: formulas
+        type(ledger_t), intent(out) :: audit
+        class(system_t), allocatable :: system
+        type(scene_t) :: scene
+        type(error_t), allocatable :: error
+        type(description_t) :: d
+        type(word_t) :: none(0)
+        logical, allocatable :: fixed(:)
+        integer :: i
+
+        call parse_scene("&scene system = 'own', dt = 0.1, duration = 1.0, q = 0.3, v = 0.2 /"// &
+                         new_line("a")//"&lagrangian coordinates = 'x', parameters = 'k', "// &
+                         formulas//" /"//new_line("a")//"&own k = 1.5 /", "scene", none, scene, &
+                         system, error)
+        call assertFalse(allocated(error), formulas)
+        if (allocated(error)) return
+        call system%describe(d)
+        allocate (fixed(size(default_values(d))), source=.true.)
+        call audit_system(system, audit, fixed, default_values(d))
+        do i = 1, size(audit%rows)
+            call assertTrue(audit%rows(i)%holds, formulas//": "//trim(audit%rows(i)%name)//": "// &
+                            audit%rows(i)%remark)
+        end do
+    end subroutine audited
+
+    subroutine masses_that_are_negative_elsewhere()
+        !! Such states are drawn again, and the audit says how many there were; where no state has
+        !! a positive mass the claim does not hold.
+        type(ledger_t) :: audit
+        character(*), parameter :: claim = "mass matrix is positive definite"
+
+        call audited("T = '(1 - x) x_dot^2/2', V = 'k/2 x^2'", audit)
+        call assertTrue(index(audit%rows(audit%row_of(claim))%remark, &
+                              "of the states drawn ") == 1, "how many")
+        call audited("T = '(1/4 - x^2) x_dot^2/2', V = 'k/2 x^2'", audit)
+        call audited("T = '(1 + x^2) x_dot^2/2', V = 'k/2 x^2'", audit)
+        call assertEqual("", trim(audit%rows(audit%row_of(claim))%remark), "none")
+    end subroutine masses_that_are_negative_elsewhere
+
+    subroutine forces_that_are_narrow()
+        !! Zero at the states that are drawn, or the same for all velocities there.
+        type(ledger_t) :: audit
+
+        call audited("T = 'x_dot^2/2', V = 'k/2 x^2', Q_x = '-0.2 tanh(100 x_dot)'", audit)
+        call audited("T = 'x_dot^2/2', V = 'k/2 x^2', Q_x = '-0.2 tanh(1e6 x_dot)'", audit)
+        call audited("T = 'x_dot^2/2', V = 'k/2 x^2', Q_x = '-0.2 exp(-1000 x_dot^2)'", audit)
+        call audited("T = 'x_dot^2/2', V = 'k/2 x^2', Q_x = 'exp(-(9 (t - 42))^4)'", audit)
+    end subroutine forces_that_are_narrow
+end module test_audit_states
